@@ -1,0 +1,16 @@
+#pragma once
+/// A named, documented column (or three, or four) of the results.
+
+#include <string>
+
+namespace hydrodae {
+
+struct Channel {
+  std::string path;        ///< "bodies/flap1/velocity": group path and dataset name in the results
+  int width = 1;           ///< 1 scalar, 3 vector, 4 quaternion (w, x, y, z)
+  std::string unit;        ///< "m/s", "rad", "-", ...
+  std::string frame;       ///< "world", "marker A of hinge1", "-"
+  std::string description; ///< one sentence
+};
+
+} // namespace hydrodae

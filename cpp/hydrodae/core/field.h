@@ -1,0 +1,51 @@
+#pragma once
+/// Field descriptors: each key of a case table is declared once, next to the struct that it fills.
+/// The case reader, the JSON schema and the documentation all read these declarations.
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "hydrodae/core/types.h"
+
+namespace hydrodae {
+
+/// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool open_min = false;
+};
+inline constexpr Range any_value{};
+constexpr Range at_least(double x) { return {x, std::numeric_limits<double>::infinity(), false}; }
+constexpr Range more_than(double x) { return {x, std::numeric_limits<double>::infinity(), true}; }
+constexpr Range between(double a, double b) { return {a, b, false}; }
+
+/// No restriction of the words of a string. (A named constant: g++ 12 crashes on `= {}` below.)
+inline const std::vector<std::string_view> any_word;
+
+/// A member of `T` of one of the types that a case file can hold. A `std::vector<std::string>` also
+/// accepts one bare string; a `Matrix6` also accepts six numbers (its diagonal).
+template <class T>
+using Member =
+    std::variant<double T::*, bool T::*, int T::*, std::string T::*, std::vector<std::string> T::*,
+                 Vector3 T::*, Vector6 T::*, Matrix6 T::*, std::optional<double> T::*,
+                 std::optional<Vector3> T::*, std::optional<std::string> T::*>;
+
+/// One key of a case table.
+template <class T> struct Field {
+  std::string_view key;  ///< name in the file; a key that ends in `_deg` is stored in radians
+  Member<T> member;      ///< where the value goes
+  std::string_view unit; ///< unit in the file, "-" for none; "deg" is converted to radians
+  std::string_view doc;  ///< one sentence of meaning
+  bool required = false;
+  Range range = any_value; ///< applies to every number of the value, in the unit of the file
+  std::vector<std::string_view> choices = any_word; ///< allowed words of a string; empty: any
+};
+
+template <class T> using Fields = std::vector<Field<T>>;
+
+} // namespace hydrodae

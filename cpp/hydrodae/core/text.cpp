@@ -1,0 +1,68 @@
+#include "hydrodae/core/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace hydrodae {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// Edits (insert, delete, replace, swap neighbours) that turn a into b; optimal string alignment.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const std::size_t n = b.size() + 1;
+  std::vector<std::size_t> before(n), last(n), row(n);
+  for (std::size_t j = 0; j < n; ++j)
+    last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j < n; ++j) {
+      const std::size_t replace = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[n - 1];
+}
+
+} // namespace
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(1, (wanted.size() + 1) / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(lower(wanted), lower(name));
+    if (distance < best_distance && distance < name.size()) {
+      best = name;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view wanted, const std::vector<std::string>& names) {
+  if (names.empty())
+    return "; there is none";
+  const std::string near = nearest_name(wanted, names);
+  return (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?") +
+         std::string(near.empty() ? "; " : " (") + "valid: " + joined(names) +
+         (near.empty() ? "" : ")");
+}
+
+} // namespace hydrodae

@@ -1,0 +1,32 @@
+#pragma once
+/// Words for messages.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hydrodae {
+
+inline std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+/// "a, b, c"
+template <class Range> std::string joined(const Range& items) {
+  std::string text;
+  for (const auto& item : items) {
+    if (!text.empty())
+      text += ", ";
+    text += item;
+  }
+  return text;
+}
+
+/// Shortest decimal form of a number that is enough for a message: 9.81, 1e-06.
+std::string number_text(double value);
+
+/// The name in `names` nearest to `wanted` by edit distance, or "" if none is near.
+std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names);
+
+/// "; did you mean 'x'? (valid: ...)", or "; there is none" without names.
+std::string suggestion(std::string_view wanted, const std::vector<std::string>& names);
+
+} // namespace hydrodae

@@ -1,0 +1,49 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::force {
+
+/// Linear power take-off along the free motion of a joint.
+///
+///   f = -k (s - s0) - c s'      [N], or [N m] if the motion is a rotation
+///
+/// s is the joint coordinate [m or rad]. Absorbed power P = c s'^2 >= 0 [W].
+struct PtoLinear {
+  static constexpr std::string_view type = "pto_linear";
+  std::string name;
+  std::string joint;
+  double damping = 0.0;
+  double stiffness = 0.0;
+  double neutral = 0.0;
+
+  /// The law that the system evaluates: this struct itself.
+  const PtoLinear& law() const { return *this; }
+
+  /// f(s, s') [N or N m].
+  template <class S> S apply(const S& s, const S& s_dot) const {
+    return S(-stiffness) * (s - S(neutral)) - S(damping) * s_dot;
+  }
+
+  /// df/ds and df/ds'.
+  std::pair<double, double> gradient(double, double) const { return {-stiffness, -damping}; }
+
+  /// Energy stored in the spring [J].
+  double potential(double s) const { return 0.5 * stiffness * (s - neutral) * (s - neutral); }
+
+  static Fields<PtoLinear> fields() {
+    using P = PtoLinear;
+    return {
+        {"name", &P::name, "-", "Name of this force in the results.", true},
+        {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"damping", &P::damping, "N s/m or N m s/rad", "Damping c.", false, at_least(0)},
+        {"stiffness", &P::stiffness, "N/m or N m/rad", "Stiffness k.", false, at_least(0)},
+        {"neutral", &P::neutral, "m or rad", "Joint coordinate s0 at which the spring is slack."},
+    };
+  }
+};
+
+} // namespace hydrodae::force

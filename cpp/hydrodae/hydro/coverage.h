@@ -1,0 +1,28 @@
+#pragma once
+/// Does the database hold what the coordinates that move need?
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hydrodae/hydro/database.h"
+
+namespace hydrodae::hydro {
+
+const DatabaseBody* find_body(const Database& database, std::string_view name); ///< or null
+const MemoryFit* find_fit(const Database& database, std::string_view name);     ///< or null
+
+/// Those of `labels` that are not coordinates of the database.
+std::vector<std::string> missing_coordinates(const Database& database,
+                                             const std::vector<std::string>& labels);
+
+/// Those of `labels` whose motion the fit does not answer to.
+std::vector<std::string> missing_inputs(const MemoryFit& fit,
+                                        const std::vector<std::string>& labels);
+
+/// The fit with the fewest states whose inputs include all `labels` (the first by name among
+/// equals), or null.
+const MemoryFit* smallest_covering_fit(const Database& database,
+                                       const std::vector<std::string>& labels);
+
+} // namespace hydrodae::hydro

@@ -1,0 +1,54 @@
+#pragma once
+/// The prepared hydrodynamic database as the simulation needs it: plain data read from `hydro.h5`.
+/// Phasors are x(t) = Re(X e^{+i w t}); rows are forces, columns are motions; SI units.
+
+#include <complex>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/types.h"
+
+namespace hydrodae::hydro {
+
+/// Linear hydrostatics of one body about its reference point, buoyancy only.
+struct Hydrostatics {
+  double displaced_volume = 0.0;                ///< V [m3]
+  Vector3 center_of_buoyancy = Vector3::Zero(); ///< world, in the reference pose [m]
+  Matrix6 stiffness = Matrix6::Zero();          ///< C_hs [N/m, N, N m]
+};
+
+struct DatabaseBody {
+  std::string name;
+  Vector3 reference_point = Vector3::Zero(); ///< world point about which A, B and F are given [m]
+  std::optional<Hydrostatics> hydrostatics;  ///< absent when the source does not hold it
+};
+
+/// Exponential radiation memory: z' = p z + B U, f_rad = -Re(C z); the complex poles have Im > 0
+/// and stand for the conjugate pair (the factor 2 is inside C), the real ones have Im = 0.
+struct MemoryFit {
+  std::string name;
+  std::vector<std::string> inputs;  ///< coordinates that move, "<body>.<dof>"
+  std::vector<std::string> outputs; ///< coordinates that are loaded, includes the inputs
+  Eigen::VectorXcd poles;           ///< (n_blocks,) [1/s]
+  Eigen::MatrixXcd input_matrix;    ///< B (n_blocks, n_inputs)
+  Eigen::MatrixXcd output_matrix;   ///< C (n_outputs, n_blocks)
+  MatrixX added_mass_inf;           ///< (n_outputs, n_inputs), the one fitted together with B, C
+  int states = 0;                   ///< one for a real pole, two for a pair
+  bool passive = false;
+};
+
+struct Database {
+  std::string path;
+  std::string sha256;                   ///< of the file
+  double rho = 0.0;                     ///< [kg/m3]
+  double gravity = 0.0;                 ///< [m/s2]
+  double water_depth = 0.0;             ///< [m], may be infinite
+  std::vector<std::string> coordinates; ///< labels "<body>.<dof>" of the rows and columns
+  std::vector<DatabaseBody> bodies;
+  MatrixX added_mass_inf; ///< (n, n), estimate from the frequency data, used without memory
+  std::vector<MemoryFit> fits;
+};
+
+} // namespace hydrodae::hydro

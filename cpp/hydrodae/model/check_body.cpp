@@ -1,0 +1,77 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/check.h"
+#include "hydrodae/model/motion.h"
+
+namespace hydrodae::model {
+namespace {
+
+[[noreturn]] void refuse(const Body& body, const std::string& key, const std::string& message) {
+  throw ModelError("body." + body.name + "." + key,
+                   "body " + in_quotes(body.name) + ": " + message);
+}
+
+/// A rigid body turning freely: the inertia tensor is positive definite and its principal moments
+/// satisfy I1 + I2 >= I3 (moments of a mass distribution).
+void check_tensor(const Body& body) {
+  const Vector3 &d = body.inertia, &o = body.products_of_inertia;
+  Matrix3 tensor;
+  tensor << d[0], o[0], o[2], o[0], d[1], o[1], o[2], o[1], d[2];
+  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
+  const std::string text = "principal moments " + number_text(moments[0]) + ", " +
+                           number_text(moments[1]) + ", " + number_text(moments[2]) + " kg m2";
+  if (moments[0] <= 0.0)
+    refuse(body, "inertia", "the inertia tensor must be positive definite to turn freely; " + text);
+  if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6))
+    refuse(body, "inertia",
+           "no mass distribution has this inertia: the largest principal moment "
+           "exceeds the sum of the other two; " +
+               text);
+}
+
+void check_inertia(const Body& body, const std::array<bool, 6>& free) {
+  static constexpr std::array<const char*, 3> symbols = {"Ixx", "Iyy", "Izz"};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (free[3 + i] && !(body.inertia[static_cast<Eigen::Index>(i)] > 0.0))
+      refuse(body, "inertia",
+             std::string(symbols[i]) + " must be > 0 kg m2, because the body is free in " +
+                 std::string(coordinate_names[3 + i]));
+  if (free[3] && free[4] && free[5])
+    check_tensor(body);
+}
+
+/// A locked coordinate keeps its start for ever, so it has no velocity; a body with one free
+/// rotation turns about that axis only.
+void check_initial(const Body& body, const std::array<bool, 6>& free) {
+  const bool turns = free[3] || free[4] || free[5];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto c = static_cast<Eigen::Index>(i);
+    const auto locked_in = [&](std::size_t k) {
+      return " along " + std::string(coordinate_names[k]) + ", which is locked";
+    };
+    if (!free[i] && body.initial.velocity[c] != 0.0)
+      refuse(body, "initial.velocity", "initial velocity" + locked_in(i));
+    if (!free[3 + i] && body.initial.angular_velocity[c] != 0.0)
+      refuse(body, "initial.angular_velocity", "initial angular velocity" + locked_in(3 + i));
+    if (turns && !free[3 + i] && body.initial.rotation[c] != 0.0)
+      refuse(body, "initial.rotation_deg",
+             "initial rotation" + locked_in(3 + i) + " while another rotation is free");
+  }
+}
+
+} // namespace
+
+void check_body(const Scene& scene, const Body& body) {
+  const std::array<bool, 6> free = free_coordinates(body);
+  if (moves(body) && !(body.mass > 0.0))
+    refuse(body, "mass",
+           "a body that moves needs a mass > 0 kg, this one has " + number_text(body.mass) + " kg");
+  check_inertia(body, free);
+  check_initial(body, free);
+  if (body.hydro && !scene.hydro)
+    refuse(body, "hydro", "key 'hydro' needs a table [hydro] with a database");
+}
+
+} // namespace hydrodae::model

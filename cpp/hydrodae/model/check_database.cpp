@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/model/check.h"
+#include "hydrodae/model/motion.h"
+
+namespace hydrodae::model {
+namespace {
+
+[[noreturn]] void refuse(const Body& body, const std::string& message) {
+  throw ModelError("body." + body.name + ".hydro", "body " + in_quotes(body.name) + ": " + message);
+}
+
+std::string point_text(const Vector3& point, const char* separator) {
+  return number_text(point[0]) + separator + number_text(point[1]) + separator +
+         number_text(point[2]);
+}
+
+/// A, B, F and C_hs act at the centre of gravity, so the database must be about it.
+void check_reference_point(const Body& body, const hydro::DatabaseBody& entry) {
+  if ((entry.reference_point - body.center_of_gravity).cwiseAbs().maxCoeff() > 1e-6)
+    refuse(body, "the database is about the point [" + point_text(entry.reference_point, ", ") +
+                     "] m, but the center_of_gravity is [" +
+                     point_text(body.center_of_gravity, ", ") +
+                     "] m; make the database for it with: hydrodae hdb import ... --cog " +
+                     entry.name + "=" + point_text(body.center_of_gravity, ","));
+}
+
+void check_wet_body(const hydro::Database& database, const Body& body) {
+  const hydro::DatabaseBody* entry = hydro::find_body(database, *body.hydro);
+  if (!entry) {
+    std::vector<std::string> names;
+    for (const hydro::DatabaseBody& b : database.bodies)
+      names.push_back(b.name);
+    refuse(body, "hydro = " + in_quotes(*body.hydro) + " is no body of " + database.path +
+                     suggestion(*body.hydro, names));
+  }
+  check_reference_point(body, *entry);
+  if (moves(body) && !entry->hydrostatics)
+    refuse(body, database.path + " holds no hydrostatics of " + in_quotes(*body.hydro) +
+                     ", and a body that moves needs them");
+}
+
+} // namespace
+
+void check_database(const Scene& scene) {
+  const hydro::Database& database = *scene.database;
+  const double gravity = scene.environment.gravity;
+  if (std::abs(gravity - database.gravity) > 1e-6 * database.gravity)
+    throw ModelError("environment.gravity", "gravity is " + number_text(gravity) +
+                                                " m/s2, but the database " + database.path +
+                                                " was made with " + number_text(database.gravity) +
+                                                " m/s2");
+  std::vector<std::string> used;
+  for (const Body& body : scene.bodies) {
+    if (!body.hydro)
+      continue;
+    check_wet_body(database, body);
+    if (std::find(used.begin(), used.end(), *body.hydro) != used.end())
+      refuse(body, "hydro = " + in_quotes(*body.hydro) + " already belongs to another body");
+    used.push_back(*body.hydro);
+  }
+  if (used.empty())
+    throw ModelError("hydro", "[hydro] is given, but no [[body]] has the key 'hydro'");
+
+  const std::vector<std::string> missing =
+      hydro::missing_coordinates(database, moving_coordinates(scene));
+  if (!missing.empty())
+    throw ModelError("hydro.database",
+                     database.path + " lacks coordinates that move: " + joined(missing));
+  memory_fit(scene);
+}
+
+} // namespace hydrodae::model

@@ -1,0 +1,36 @@
+#include "hydrodae/model/scene.h"
+
+#include "hydrodae/joint/types.h"
+
+namespace hydrodae::model {
+
+Fields<Joint> Joint::fields() {
+  using J = Joint;
+  return {
+      {"name", &J::name, "-", "Name of the joint.", true},
+      {"type", &J::type, "-", "Kind of joint.", true, any_value, joint::joint_type_names()},
+      {"body_a", &J::body_a, "-", "Body that carries the first marker, or ground.", true},
+      {"body_b", &J::body_b, "-", "Body that carries the second marker, or ground.", true},
+      {"point", &J::point, "m", "Where the joint is in the reference pose, world axes.", true},
+      {"axis", &J::axis, "-",
+       "Direction of the axis in the reference pose, world axes: z of both markers."},
+      {"axis_x", &J::axis_x, "-",
+       "Direction across the axis that is x of both markers (made perpendicular to the axis)."},
+  };
+}
+
+std::string located(const Scene& scene, const ModelError& error) {
+  std::string key = error.key;
+  while (true) {
+    const auto found = scene.positions.find(key);
+    if (found != scene.positions.end())
+      return found->second + ": " + error.what();
+    const std::size_t dot = key.rfind('.');
+    if (dot == std::string::npos)
+      break;
+    key.resize(dot);
+  }
+  return (scene.path.empty() ? "" : scene.path + ": ") + error.what();
+}
+
+} // namespace hydrodae::model

@@ -1,0 +1,223 @@
+#pragma once
+/// The scene: everything that a case file says, as plain structs with names. Built by the case
+/// reader, checked by `check`, then immutable.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/field.h"
+#include "hydrodae/force/mooring_matrix.h"
+#include "hydrodae/force/pto_linear.h"
+#include "hydrodae/hydro/database.h"
+
+namespace hydrodae::model {
+
+/// Table [environment].
+struct Environment {
+  double gravity = 9.81;
+
+  static Fields<Environment> fields() {
+    return {{"gravity", &Environment::gravity, "m/s2", "Acceleration of gravity, along -z.", false,
+             at_least(0)}};
+  }
+};
+
+/// Table [hydro]: the database and the rungs of the radiation ladder.
+struct HydroOptions {
+  std::string database;
+  std::string axes = "body";
+  std::string radiation = "exponential";
+  std::optional<std::string> fit;
+
+  static Fields<HydroOptions> fields() {
+    using H = HydroOptions;
+    return {
+        {"database", &H::database, "-", "Path of hydro.h5, relative to the case file.", true},
+        {"axes",
+         &H::axes,
+         "-",
+         "Axes in which added mass and radiation act: carried by each body, or the earth axes of "
+         "the reference pose (mean).",
+         false,
+         any_value,
+         {"body", "mean"}},
+        {"radiation",
+         &H::radiation,
+         "-",
+         "Radiation memory: none (added mass only) or the fitted exponential memory.",
+         false,
+         any_value,
+         {"none", "exponential"}},
+        {"fit", &H::fit, "-",
+         "Name of the exponential fit; by default the one with the fewest states that covers the "
+         "coordinates that move."},
+    };
+  }
+};
+
+/// Start of a body, relative to its reference pose.
+struct BodyInitial {
+  Vector3 displacement = Vector3::Zero();
+  Vector3 rotation = Vector3::Zero();
+  Vector3 velocity = Vector3::Zero();
+  Vector3 angular_velocity = Vector3::Zero();
+
+  static Fields<BodyInitial> fields() {
+    using B = BodyInitial;
+    return {
+        {"displacement", &B::displacement, "m", "Of the centre of gravity, world axes."},
+        {"rotation_deg", &B::rotation, "deg", "Rotation vector, world axes."},
+        {"velocity", &B::velocity, "m/s", "Of the centre of gravity, world axes."},
+        {"angular_velocity", &B::angular_velocity, "rad/s", "World axes."},
+    };
+  }
+};
+
+/// Table [[body]].
+struct Body {
+  std::string name;
+  std::vector<std::string> motion = {"rigid"};
+  double mass = 0.0;
+  Vector3 center_of_gravity = Vector3::Zero();
+  Vector3 inertia = Vector3::Zero();
+  Vector3 products_of_inertia = Vector3::Zero();
+  std::optional<std::string> hydro;
+  BodyInitial initial;
+
+  static Fields<Body> fields() {
+    using B = Body;
+    return {
+        {"name", &B::name, "-", "Name of the body.", true},
+        {"motion",
+         &B::motion,
+         "-",
+         "What the body can do: fixed, heave, planar (surge, heave, pitch), point (3 "
+         "translations), rigid (6), or a list of free coordinates.",
+         false,
+         any_value,
+         {"fixed", "planar", "point", "rigid", "surge", "sway", "heave", "roll", "pitch", "yaw"}},
+        {"mass", &B::mass, "kg", "Mass.", true, at_least(0)},
+        {"center_of_gravity", &B::center_of_gravity, "m",
+         "Centre of gravity in the reference pose, world axes.", true},
+        {"inertia", &B::inertia, "kg m2",
+         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity.", false, at_least(0)},
+        {"products_of_inertia", &B::products_of_inertia, "kg m2",
+         "Ixy, Iyz, Izx as entries of the inertia tensor (Ixy = -sum m x y)."},
+        {"hydro", &B::hydro, "-",
+         "Name of this body in the hydrodynamic database; without it the body is dry."},
+    };
+  }
+};
+
+/// Start of a joint, in its own coordinate. Body B (and what hangs on it) is moved.
+struct JointInitial {
+  std::optional<double> angle;
+  std::optional<double> angle_rate;
+  std::optional<double> displacement;
+  std::optional<double> displacement_rate;
+
+  static Fields<JointInitial> fields() {
+    using J = JointInitial;
+    return {
+        {"angle_deg", &J::angle, "deg", "Angle of a joint that turns."},
+        {"angle_rate", &J::angle_rate, "rad/s", "Rate of the angle."},
+        {"displacement", &J::displacement, "m", "Displacement of a joint that slides."},
+        {"displacement_rate", &J::displacement_rate, "m/s", "Rate of the displacement."},
+    };
+  }
+};
+
+/// Table [[joint]]. Markers are made from `point`, `axis` (their z) and `axis_x` in the reference
+/// pose of both bodies.
+struct Joint {
+  std::string name;
+  std::string type;
+  std::string body_a;
+  std::string body_b;
+  Vector3 point = Vector3::Zero();
+  std::optional<Vector3> axis;
+  std::optional<Vector3> axis_x;
+  JointInitial initial;
+
+  static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
+};
+
+/// Table [solver].
+struct SolverOptions {
+  std::string method = "ida";
+  double end_time = 0.0;
+  double rtol = 1e-5;
+  double max_step = 0.0;
+  int max_order = 5;
+  std::optional<double> length_scale;
+  std::optional<double> time_scale;
+
+  static Fields<SolverOptions> fields() {
+    using O = SolverOptions;
+    return {
+        {"method", &O::method, "-", "Integrator.", false, any_value, {"ida"}},
+        {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
+        {"rtol", &O::rtol, "-",
+         "Local error tolerance relative to the scales of the scene (see length_scale, "
+         "time_scale).",
+         false, Range{1e-13, 1e-1, false}},
+        {"max_step", &O::max_step, "s", "Longest step; 0: no limit.", false, at_least(0)},
+        {"max_order", &O::max_order, "-", "Highest order of the BDF method.", false, between(1, 5)},
+        {"length_scale", &O::length_scale, "m",
+         "Length that the tolerance of positions refers to; default: from the bodies and joints.",
+         false, more_than(0)},
+        {"time_scale", &O::time_scale, "s",
+         "Time that turns the position scale into the velocity scale; default: from gravity.",
+         false, more_than(0)},
+    };
+  }
+};
+
+/// Table [output].
+struct OutputOptions {
+  double step = 0.1;
+
+  static Fields<OutputOptions> fields() {
+    return {{"step", &OutputOptions::step, "s", "Time between two samples of the results.", false,
+             more_than(0)}};
+  }
+};
+
+/// Every kind of force, in the order in which the case reader and the system visit them. A new kind
+/// is one header in force/ and one entry here.
+using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>>;
+
+struct Scene {
+  std::string title;
+  Environment environment;
+  std::optional<HydroOptions> hydro;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  Forces forces;
+  SolverOptions solver;
+  OutputOptions output;
+  std::shared_ptr<const hydro::Database> database; ///< null without [hydro]
+
+  std::string text; ///< the case file as read, with the overrides that were applied noted below
+  std::string path; ///< "" when it was parsed from a string
+  std::vector<std::string> overrides;           ///< "key = value" as given on the command line
+  std::map<std::string, std::string> positions; ///< key path -> "file:line:column", for messages
+};
+
+/// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are
+/// physical, the database covers the scene. Throws ModelError with the key path of the culprit.
+void check(const Scene& scene);
+
+/// The scene as a short tree for people.
+std::string summary(const Scene& scene);
+
+/// What a ModelError says, with the place in the case file in front where it is known:
+/// "case.toml:12:3: joint 'hinge1': ...".
+std::string located(const Scene& scene, const ModelError& error);
+
+} // namespace hydrodae::model

@@ -1,0 +1,88 @@
+#include <sstream>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/motion.h"
+
+namespace hydrodae::model {
+namespace {
+
+void write_body(std::ostream& out, const Body& body) {
+  out << "    " << body.name << ": " << joined(body.motion);
+  if (moves(body))
+    out << ", " << number_text(body.mass) << " kg";
+  if (body.hydro)
+    out << ", hydro " << in_quotes(*body.hydro);
+  out << '\n';
+}
+
+void write_start(std::ostream& out, const char* what, const std::optional<double>& value,
+                 double factor, const char* unit) {
+  if (value)
+    out << ", starts at " << what << ' ' << number_text(*value * factor) << ' ' << unit;
+}
+
+void write_joint(std::ostream& out, const Joint& joint) {
+  out << "    " << joint.name << ": " << joint.type << ", " << joint.body_a << " - "
+      << joint.body_b;
+  write_start(out, "angle", joint.initial.angle, 180.0 / pi, "deg");
+  write_start(out, "angle rate", joint.initial.angle_rate, 1.0, "rad/s");
+  write_start(out, "displacement", joint.initial.displacement, 1.0, "m");
+  write_start(out, "displacement rate", joint.initial.displacement_rate, 1.0, "m/s");
+  out << '\n';
+}
+
+template <class Force> void write_force(std::ostream& out, const Force& force) {
+  out << "    " << force.name << ": " << Force::type;
+  if constexpr (requires { force.body; })
+    out << " on body " << force.body;
+  if constexpr (requires { force.joint; })
+    out << " on joint " << force.joint;
+  out << '\n';
+}
+
+void write_hydro(std::ostream& out, const Scene& scene) {
+  const hydro::Database& database = *scene.database;
+  out << "  hydro: " << database.path << '\n'
+      << "    " << database.coordinates.size() << " coordinates, "
+      << moving_coordinates(scene).size() << " move, " << scene.hydro->axes << " axes\n";
+  out << "    radiation: " << scene.hydro->radiation;
+  if (const hydro::MemoryFit* fit = memory_fit(scene))
+    out << ", fit " << in_quotes(fit->name) << " with " << fit->states << " states for "
+        << fit->inputs.size() << " coordinates" << (fit->passive ? ", passive" : ", not passive");
+  out << '\n';
+}
+
+void write_solver(std::ostream& out, const Scene& scene) {
+  const SolverOptions& solver = scene.solver;
+  out << "  solver: " << solver.method << ", " << number_text(solver.end_time) << " s, rtol "
+      << number_text(solver.rtol) << ", output every " << number_text(scene.output.step) << " s\n";
+}
+
+} // namespace
+
+std::string summary(const Scene& scene) {
+  std::ostringstream out;
+  out << (scene.title.empty() ? "(no title)" : scene.title) << '\n';
+  out << "  bodies:\n";
+  for (const Body& body : scene.bodies)
+    write_body(out, body);
+  if (!scene.joints.empty())
+    out << "  joints:\n";
+  for (const Joint& joint : scene.joints)
+    write_joint(out, joint);
+  bool any_force = false;
+  const auto write_list = [&](const auto& list) {
+    if (!list.empty() && !any_force)
+      out << "  forces:\n";
+    any_force = any_force || !list.empty();
+    for (const auto& force : list)
+      write_force(out, force);
+  };
+  std::apply([&](const auto&... list) { (write_list(list), ...); }, scene.forces);
+  if (scene.hydro && scene.database)
+    write_hydro(out, scene);
+  write_solver(out, scene);
+  return out.str();
+}
+
+} // namespace hydrodae::model
