@@ -1,0 +1,165 @@
+#include "hydrodae/simulation.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/io/results_file.h"
+#include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/ida.h"
+#include "hydrodae/system/recorder.h"
+
+namespace hydrodae {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+io::Attributes header(const model::Scene& scene) {
+  std::string overrides;
+  for (const std::string& line : scene.overrides)
+    overrides += line + "\n";
+  return {{"title", scene.title},
+          {"case_text", scene.text},
+          {"case_path", scene.path},
+          {"case_overrides", overrides},
+          {"hydro_sha256", scene.database ? scene.database->sha256 : std::string()},
+          {"version", std::string(version)}};
+}
+
+io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
+  return {{"steps", std::int64_t{s.steps}},
+          {"residual_calls", std::int64_t{s.residual_calls}},
+          {"jacobian_calls", std::int64_t{s.jacobian_calls}},
+          {"newton_iterations", std::int64_t{s.newton_iterations}},
+          {"error_test_failures", std::int64_t{s.error_test_failures}},
+          {"convergence_failures", std::int64_t{s.convergence_failures}},
+          {"unknowns", std::int64_t{s.unknowns}},
+          {"nonzeros", std::int64_t{s.nonzeros}},
+          {"setup_time", s.setup_time},
+          {"solver_time", s.solver_time},
+          {"wall_time", s.wall_time},
+          {"end_time", s.end_time},
+          {"relative_balance_error", balance_error},
+          {"method", scene.solver.method},
+          {"rtol", scene.solver.rtol}};
+}
+
+void take(const solve::Statistics& from, RunStatistics& to) {
+  to.steps = from.steps;
+  to.residual_calls = from.residual_calls;
+  to.jacobian_calls = from.jacobian_calls;
+  to.newton_iterations = from.newton_iterations;
+  to.error_test_failures = from.error_test_failures;
+  to.convergence_failures = from.convergence_failures;
+}
+
+/// The columns that belong to the solver rather than to the scene.
+const std::vector<Channel> solver_channels = {
+    {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
+    {"solver/order", 1, "-", "-", "Order of that step."}};
+
+/// One run from the start to the end: the integrator makes steps, the recorder turns them into
+/// rows.
+class Run {
+public:
+  Run(const model::Scene& scene, const std::string& output_path, const Progress& progress)
+      : scene_(scene), progress_(progress), started_(Clock::now()), system_(system::build(scene)),
+        pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
+    solve::consistent_start(system_, pattern_, y_, yp_);
+    ida_ = std::make_unique<solve::Ida>(system_, pattern_,
+                                        solve::IdaOptions{scene.solver.rtol, scene.solver.end_time,
+                                                          scene.solver.max_step,
+                                                          scene.solver.max_order},
+                                        0.0, y_, yp_);
+    recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
+    std::vector<Channel> channels = recorder_->channels();
+    channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
+    row_.resize(recorder_->width() + solver_channels.size());
+    if (!output_path.empty())
+      file_ = std::make_unique<io::ResultsFile>(output_path, channels, header(scene));
+    statistics_.unknowns = system_.n;
+    statistics_.nonzeros = pattern_.nonzeros();
+    statistics_.setup_time = seconds_since(started_);
+  }
+
+  RunStatistics operator()() {
+    try {
+      statistics_.status = march() ? "completed" : "interrupted";
+      close(statistics_.status == "completed" ? "" : "stopped on request");
+    } catch (const std::exception& error) {
+      statistics_.status = "failed";
+      close(error.what());
+      throw;
+    }
+    return statistics_;
+  }
+
+private:
+  /// Steps until the end; false when the progress callback asked to stop.
+  bool march() {
+    const double end = scene_.solver.end_time, dt = scene_.output.step;
+    const auto samples = static_cast<long>(std::floor(end / dt * (1.0 + 1e-12)));
+    if (!sample(0.0))
+      return false;
+    long next = 1;
+    while (t_ < end) {
+      const Clock::time_point before = Clock::now();
+      t_ = ida_->step();
+      statistics_.solver_time += seconds_since(before);
+      take(ida_->statistics(), statistics_);
+      for (; next <= samples && static_cast<double>(next) * dt <= t_ * (1.0 + 1e-14); ++next)
+        if (!sample(std::min(static_cast<double>(next) * dt, t_)))
+          return false;
+      recorder_->accept(t_, at_);
+    }
+    return true;
+  }
+
+  bool sample(double t) {
+    recorder_->sample(t, at_, row_);
+    const solve::Statistics s = ida_->statistics();
+    row_[row_.size() - 2] = s.last_step;
+    row_[row_.size() - 1] = s.last_order;
+    if (file_)
+      file_->append(t, row_);
+    statistics_.end_time = t;
+    return !progress_ || progress_(t, scene_.solver.end_time);
+  }
+
+  void close(const std::string& message) {
+    statistics_.wall_time = seconds_since(started_);
+    if (file_)
+      file_->close(statistics_.status, message,
+                   attributes(statistics_, scene_, recorder_->relative_balance_error()));
+  }
+
+  const model::Scene& scene_;
+  const Progress& progress_;
+  Clock::time_point started_;
+  system::System system_;
+  system::Pattern pattern_;
+  VectorX y_, yp_;
+  std::unique_ptr<solve::Ida> ida_;
+  std::unique_ptr<system::Recorder> recorder_;
+  std::unique_ptr<io::ResultsFile> file_;
+  std::vector<double> row_;
+  RunStatistics statistics_;
+  double t_ = 0.0;
+  system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
+    ida_->interpolate(t, y, yp);
+  };
+};
+
+} // namespace
+
+RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
+                       const Progress& progress) {
+  return Run(scene, output_path, progress)();
+}
+
+} // namespace hydrodae

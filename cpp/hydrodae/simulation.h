@@ -1,0 +1,40 @@
+#pragma once
+/// The one public entry point: a scene in, a results file out.
+
+#include <functional>
+#include <string>
+
+#include "hydrodae/io/case_reader.h"
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae {
+
+inline constexpr const char* version = HYDRODAE_VERSION;
+
+/// Called after every output sample with the time reached and the end time [s]; returns false to
+/// stop the run (what was computed is kept).
+using Progress = std::function<bool(double time, double end_time)>;
+
+struct RunStatistics {
+  std::string status; ///< "completed" or "interrupted"
+  long steps = 0;
+  long residual_calls = 0;
+  long jacobian_calls = 0;
+  long newton_iterations = 0;
+  long error_test_failures = 0;
+  long convergence_failures = 0;
+  double end_time = 0.0;    ///< time reached [s]
+  double setup_time = 0.0;  ///< wall time before the first step [s]
+  double solver_time = 0.0; ///< wall time inside the integrator and the residual [s]
+  double wall_time = 0.0;   ///< wall time of the whole run with output [s]
+  long unknowns = 0;
+  long nonzeros = 0;
+};
+
+/// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty).
+/// Throws ModelError when the scene cannot start, SolverError when the integration fails (the file
+/// then has status "failed" and keeps what was computed).
+RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
+                       const Progress& progress = {});
+
+} // namespace hydrodae

@@ -1,0 +1,17 @@
+#pragma once
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::solve {
+
+/// Completes the start: y (positions, velocities, memory given) gets its multipliers and y' all its
+/// rates from one solve of the saddle-point system
+///
+///   [ M  -G^T ] [ u'     ]   [ f               ]
+///   [ G   0   ] [ lambda ] = [ -(dG/dt) u      ]
+///
+/// Throws ModelError naming the joint and its gap when the joints are not closed at the start, or
+/// the velocities part them; SolverError when the matrix is singular.
+void consistent_start(const system::System& system, const system::Pattern& pattern, VectorX& y,
+                      VectorX& yp);
+
+} // namespace hydrodae::solve

@@ -1,0 +1,164 @@
+/// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
+
+#include <algorithm>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/model/motion.h"
+#include "hydrodae/system/build_parts.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+int label_index(const std::vector<std::string>& labels, const std::string& label) {
+  const auto found = std::find(labels.begin(), labels.end(), label);
+  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
+}
+
+std::string label(const model::Scene& scene, const HydroBody& hb, int c) {
+  return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
+}
+
+/// Buoyancy and linear hydrostatics about the centre of gravity:
+///   force (0, 0, rho g V), moment (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
+force::LinearWrench hydrostatic_law(const hydro::Database& db, const hydro::DatabaseBody& body) {
+  const hydro::Hydrostatics& h = *body.hydrostatics;
+  const Vector3 lift(0.0, 0.0, db.rho * db.gravity * h.displaced_volume);
+  force::LinearWrench law;
+  law.constant << lift, (h.center_of_buoyancy - body.reference_point).cross(lift);
+  law.stiffness = h.stiffness;
+  return law;
+}
+
+/// U: which coordinates of which body.
+void number_coordinates(const model::Scene& scene, System& s) {
+  HydroData& h = s.hydro;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].hydro)
+      continue;
+    HydroBody hb;
+    hb.body = static_cast<int>(i);
+    hb.moving.fill(-1);
+    const std::array<bool, 6> moving = model::moving_axes(scene.bodies[i]);
+    for (int c = 0; c < 6; ++c) {
+      if (!moving[c])
+        continue;
+      hb.moving[c] = h.n_moving++;
+      hb.moves = true;
+      h.coordinates.push_back({static_cast<int>(h.bodies.size()), c});
+    }
+    h.bodies.push_back(hb);
+  }
+}
+
+/// Rows for all six coordinates of all bodies (zero where the source gives none) and columns for U.
+MatrixX cut(const model::Scene& scene, const HydroData& h, const std::vector<std::string>& rows,
+            const std::vector<std::string>& columns, const MatrixX& source) {
+  MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i)
+    for (int c = 0; c < 6; ++c) {
+      const int row = label_index(rows, label(scene, h.bodies[i], c));
+      if (row < 0)
+        continue;
+      for (int u = 0; u < h.n_moving; ++u) {
+        const HydroData::Coordinate& k = h.coordinates[u];
+        const int column = label_index(columns, label(scene, h.bodies[k.hydro_body], k.component));
+        out(6 * static_cast<Eigen::Index>(i) + c, u) = source(row, column);
+      }
+    }
+  return out;
+}
+
+/// The rows of `all` (6 per body) that belong to U.
+MatrixX moving_rows(const HydroData& h, const MatrixX& all) {
+  MatrixX out(h.n_moving, all.cols());
+  for (int u = 0; u < h.n_moving; ++u)
+    out.row(u) = all.row(6 * h.coordinates[u].hydro_body + h.coordinates[u].component);
+  return out;
+}
+
+/// Loads on coordinates that stay, but that nothing in the fit speaks of.
+void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs, System& s) {
+  for (const HydroBody& hb : s.hydro.bodies)
+    for (int c = 0; c < 6; ++c)
+      if (label_index(outputs, label(scene, hb, c)) < 0)
+        s.hydro.uncovered.push_back(label(scene, hb, c));
+}
+
+/// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
+/// that nothing drives are left out.
+void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& s) {
+  HydroData& h = s.hydro;
+  std::vector<int> input(h.n_moving);
+  for (int u = 0; u < h.n_moving; ++u) {
+    const HydroData::Coordinate& k = h.coordinates[u];
+    input[u] = label_index(fit.inputs, label(scene, h.bodies[k.hydro_body], k.component));
+  }
+  std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
+  for (int k = 0; k < fit.poles.size(); ++k) {
+    const bool pair = fit.poles[k].imag() != 0.0;
+    const int state = h.n_states;
+    bool driven = false;
+    for (int u = 0; u < h.n_moving; ++u) {
+      const std::complex<double> b = fit.input_matrix(k, input[u]);
+      if (b.real() != 0.0)
+        h.inputs.push_back({state, u, b.real()});
+      if (pair && b.imag() != 0.0)
+        h.inputs.push_back({state + 1, u, b.imag()});
+      driven = driven || b != 0.0;
+    }
+    if (!driven)
+      continue;
+    h.blocks.push_back({state, fit.poles[k].real(), fit.poles[k].imag(), pair});
+    h.n_states += pair ? 2 : 1;
+    for (int n = 0; n < (pair ? 2 : 1); ++n)
+      column.push_back(k);
+  }
+  h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i)
+    for (int c = 0; c < 6; ++c) {
+      const int row = label_index(fit.outputs, label(scene, h.bodies[i], c));
+      if (row < 0)
+        continue;
+      for (const HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
+        const std::complex<double> C = fit.output_matrix(row, column[b.state]);
+        const Eigen::Index r = 6 * static_cast<Eigen::Index>(i) + c;
+        h.output_all(r, b.state) = C.real();
+        if (b.pair)
+          h.output_all(r, b.state + 1) = -C.imag();
+      }
+    }
+  h.output = moving_rows(h, h.output_all);
+}
+
+} // namespace
+
+void add_hydro(const model::Scene& scene, System& s) {
+  if (!scene.hydro || !scene.database)
+    return;
+  const hydro::Database& db = *scene.database;
+  HydroData& h = s.hydro;
+  h.body_axes = scene.hydro->axes == "body";
+  number_coordinates(scene, s);
+  for (const HydroBody& hb : h.bodies) {
+    const hydro::DatabaseBody* body = hydro::find_body(db, *scene.bodies[hb.body].hydro);
+    if (body->hydrostatics)
+      std::get<0>(s.body_forces).push_back({"hydrostatic", hb.body, hydrostatic_law(db, *body)});
+  }
+  if (h.n_moving == 0)
+    return;
+  if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
+    h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
+    add_memory(scene, *fit, s);
+    note_uncovered(scene, fit->outputs, s);
+  } else {
+    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates, db.added_mass_inf);
+    h.output = MatrixX::Zero(h.n_moving, 0);
+    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
+    note_uncovered(scene, db.coordinates, s);
+  }
+  h.added_mass = moving_rows(h, h.added_mass_all);
+}
+
+} // namespace hydrodae::system

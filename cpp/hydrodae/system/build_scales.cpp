@@ -1,0 +1,113 @@
+/// What one unit of tolerance means for each unknown. Global coordinates say nothing about the size
+/// of a motion, so positions are measured against a length of the body itself.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/system/build_parts.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+/// The arm at which the body feels its rotation: radius of gyration, farthest joint, or size of the
+/// displaced volume [m].
+double lever(const System& s, const model::Scene& scene, int body) {
+  const BodyData& b = s.bodies[body];
+  double arm = 0.0;
+  const double gyration = b.inertia.diagonal().maxCoeff();
+  if (b.mass > 0.0)
+    arm = std::sqrt(gyration / b.mass);
+  for (const JointData& j : s.joints) {
+    if (j.A.body == body)
+      arm = std::max(arm, j.A.point.norm());
+    if (j.B.body == body)
+      arm = std::max(arm, j.B.point.norm());
+  }
+  const std::optional<std::string>& wet = scene.bodies[body].hydro;
+  if (arm == 0.0 && wet && scene.database)
+    for (const hydro::DatabaseBody& d : scene.database->bodies)
+      if (d.name == *wet && d.hydrostatics)
+        arm = std::cbrt(d.hydrostatics->displaced_volume);
+  return arm > 0.0 ? arm : 1.0;
+}
+
+} // namespace
+
+void set_body_scales(const model::Scene& scene, System& s) {
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
+    BodyData& b = s.bodies[i];
+    b.lever = lever(s, scene, i);
+    b.length_scale = scene.solver.length_scale.value_or(0.1 * b.lever);
+    b.time_scale =
+        scene.solver.time_scale.value_or(s.gravity > 0.0 ? std::sqrt(b.lever / s.gravity) : 1.0);
+  }
+}
+
+void set_scales(System& s) {
+  s.scale = s.relative = s.row_scale = VectorX::Ones(s.n);
+  s.relative.head(s.u0).setZero();
+  s.relative.tail(s.n - s.mu0).setZero();
+  for (const BodyData& b : s.bodies) {
+    const double length = b.length_scale, angle = length / b.lever;
+    const double weight =
+        b.mass * (s.gravity > 0.0 ? s.gravity : length / (b.time_scale * b.time_scale));
+    for (int k = 0; k < b.n_active; ++k) {
+      const bool turns = b.active[k] >= 3;
+      s.scale[b.u0 + k] = (turns ? angle : length) / b.time_scale;
+      s.row_scale[b.u0 + k] = turns ? weight * b.lever : weight;
+    }
+    for (int k = 0; k < b.n_position; ++k) {
+      const bool turns = k >= b.n_translations;
+      const double scale = !turns                                   ? length
+                           : b.rotation == BodyData::Rotation::free ? 0.5 * angle
+                                                                    : angle;
+      s.scale[b.q0 + k] = scale;
+      s.row_scale[b.q0 + k] = scale / b.time_scale;
+    }
+    if (b.sigma >= 0)
+      s.scale[b.sigma] = 0.5 * angle / b.time_scale;
+  }
+  for (JointData& j : s.joints) {
+    // The lighter of the two bodies feels an error of the multiplier most.
+    double force = 0.0, length = 0.0, angle = 0.0, time = 1.0;
+    for (int body : {j.A.body, j.B.body}) {
+      if (body < 0 || s.bodies[body].n_active == 0)
+        continue;
+      const BodyData& b = s.bodies[body];
+      const double weight =
+          b.mass * (s.gravity > 0.0 ? s.gravity : b.length_scale / (b.time_scale * b.time_scale));
+      if (force > 0.0 && weight >= force)
+        continue;
+      force = weight;
+      length = b.length_scale;
+      angle = length / b.lever;
+      time = b.time_scale;
+    }
+    for (const RowData& row : j.rows) {
+      const bool turns = row.kind.kind == joint::BasicRow::Kind::perp;
+      s.scale[row.lambda] = turns ? force * length / angle : force;
+      s.scale[row.mu] = (turns ? angle : length) / time;
+      s.row_scale[row.lambda] = (turns ? angle : length) / time;
+      s.row_scale[row.mu] = turns ? angle : length;
+    }
+  }
+  // A state z' = p z + B U follows U / |p|.
+  const HydroData& h = s.hydro;
+  VectorX drive = VectorX::Zero(h.n_states);
+  for (const HydroData::Input& in : h.inputs) {
+    const HydroData::Coordinate& u = h.coordinates[in.coordinate];
+    const BodyData& b = s.bodies[h.bodies[u.hydro_body].body];
+    const double velocity = b.length_scale / b.time_scale / (u.component < 3 ? 1.0 : b.lever);
+    drive[in.state] += std::abs(in.value) * velocity;
+  }
+  for (const HydroData::Block& b : h.blocks) {
+    const double both = b.pair ? drive[b.state] + drive[b.state + 1] : drive[b.state];
+    for (int k = 0; k < (b.pair ? 2 : 1); ++k) {
+      s.scale[h.z0 + b.state + k] = both / std::hypot(b.a, b.b);
+      s.row_scale[h.z0 + b.state + k] = both;
+    }
+  }
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,125 @@
+#pragma once
+/// Added mass at infinite frequency and radiation memory as loads on the bodies.
+///
+/// In axes carried by the bodies, with U = (R^T v, w), P = A_inf U = (p, h) and y = C z, the fluid
+/// takes from body i the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p + R y (Kirchhoff;
+/// Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when y = 0. In mean axes U = (v, R w) and
+/// the load is A_inf U' + y.
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+/// out = m x without temporaries; a plain loop for scalars that Eigen does not vectorise.
+template <class S> void multiply(const MatrixX& m, const S* x, VecX<S>& out) {
+  if constexpr (std::is_same_v<S, double>) {
+    out.noalias() = m * Eigen::Map<const VectorX>(x, m.cols());
+  } else {
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+      S sum(0);
+      for (Eigen::Index j = 0; j < m.cols(); ++j)
+        sum += S(m(i, j)) * x[j];
+      out[i] = sum;
+    }
+  }
+}
+
+/// Six velocities of a body in the hydrodynamic axes.
+template <class S> Vec6<S> hydro_velocity(bool body_axes, const BodyState<S>& state) {
+  Vec6<S> U;
+  if (body_axes)
+    U << state.R.transpose() * state.v, state.w;
+  else
+    U << state.v, state.R * state.w;
+  return U;
+}
+
+/// Their rates: (R^T v)' = R^T v' - w x R^T v.
+template <class S> Vec6<S> hydro_acceleration(bool body_axes, const BodyState<S>& state) {
+  Vec6<S> a;
+  if (body_axes) {
+    const Vec3<S> V = state.R.transpose() * state.v;
+    a << state.R.transpose() * state.v_dot - cross<S>(state.w, V), state.w_dot;
+  } else {
+    a << state.v_dot, state.R * state.w_dot;
+  }
+  return a;
+}
+
+/// U and U' of all coordinates that move.
+template <class S> void hydro_motion(const System& s, Workspace<S>& ws) {
+  for (const HydroBody& hb : s.hydro.bodies) {
+    if (!hb.moves)
+      continue;
+    const BodyState<S>& state = ws.bodies[hb.body];
+    const Vec6<S> U = hydro_velocity<S>(s.hydro.body_axes, state);
+    const Vec6<S> U_dot = hydro_acceleration<S>(s.hydro.body_axes, state);
+    for (int c = 0; c < 6; ++c) {
+      if (hb.moving[c] < 0)
+        continue;
+      ws.U[hb.moving[c]] = U[c];
+      ws.U_dot[hb.moving[c]] = U_dot[c];
+    }
+  }
+}
+
+/// What the fluid takes from one body (world force, body-axes moment), given its six components of
+/// A_inf U' + C z (`rate`) and of A_inf U (`momentum`).
+template <class S>
+Vec6<S> hydro_load(bool body_axes, const BodyState<S>& state, const Vec6<S>& rate,
+                   const Vec6<S>& momentum) {
+  Vec6<S> load;
+  if (body_axes) {
+    const Vec3<S> p = momentum.template head<3>(), h = momentum.template tail<3>();
+    const Vec3<S> V = state.R.transpose() * state.v;
+    const Vec3<S> force = rate.template head<3>() + cross<S>(state.w, p);
+    load << state.R * force, rate.template tail<3>() + cross<S>(state.w, h) + cross<S>(V, p);
+  } else {
+    load << rate.template head<3>(), state.R.transpose() * rate.template tail<3>();
+  }
+  return load;
+}
+
+/// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
+/// z' - A_r z - B_r U = 0. Only coordinates that move are visited.
+template <class S>
+void add_hydrodynamics(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
+  const HydroData& h = s.hydro;
+  if (h.n_moving == 0)
+    return;
+  hydro_motion(s, ws);
+  multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
+  multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
+  const S* z = y + h.z0;
+  if (h.n_states > 0) {
+    multiply<S>(h.output, z, ws.U_dot); // U' is no longer needed
+    ws.inertia_force += ws.U_dot;
+  }
+  for (const HydroBody& hb : h.bodies) {
+    if (!hb.moves)
+      continue;
+    Vec6<S> rate = Vec6<S>::Zero(), momentum = Vec6<S>::Zero();
+    for (int c = 0; c < 6; ++c) {
+      if (hb.moving[c] < 0)
+        continue;
+      rate[c] = ws.inertia_force[hb.moving[c]];
+      momentum[c] = ws.momentum[hb.moving[c]];
+    }
+    ws.loads[hb.body] -= hydro_load<S>(h.body_axes, ws.bodies[hb.body], rate, momentum);
+  }
+  const S* z_dot = yp + h.z0;
+  S* r = residual + h.z0;
+  for (const HydroData::Block& b : h.blocks) {
+    const int k = b.state;
+    if (b.pair) {
+      r[k] = z_dot[k] - S(b.a) * z[k] + S(b.b) * z[k + 1];
+      r[k + 1] = z_dot[k + 1] - S(b.a) * z[k + 1] - S(b.b) * z[k];
+    } else {
+      r[k] = z_dot[k] - S(b.a) * z[k];
+    }
+  }
+  for (const HydroData::Input& in : h.inputs)
+    r[in.state] -= S(in.value) * ws.U[in.coordinate];
+}
+
+} // namespace hydrodae::system

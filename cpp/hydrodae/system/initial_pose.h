@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae::system {
+
+/// Start of one body: centre of gravity, quaternion, velocity and angular velocity in world axes.
+struct Pose {
+  Vector3 r = Vector3::Zero();
+  Vector4 p{1, 0, 0, 0};
+  Vector3 v = Vector3::Zero();
+  Vector3 w = Vector3::Zero();
+};
+
+/// Start of all bodies: the reference pose, displaced by `body.initial`, then moved joint by joint
+/// by `joint.initial`. A joint moves its body B and all that hangs on it; where the ground or a
+/// fixed body hangs there, it moves the other side the opposite way. Throws ModelError where
+/// neither side is free to move (a closed loop) or the start moves a locked coordinate.
+std::vector<Pose> initial_poses(const model::Scene& scene);
+
+/// Index of a body in the scene, -1 for "ground".
+int body_index(const model::Scene& scene, const std::string& name);
+
+/// Marker axes of a joint in the reference pose (columns x, y, z; z along the axis), world axes.
+Matrix3 marker_axes(const model::Joint& joint);
+
+} // namespace hydrodae::system

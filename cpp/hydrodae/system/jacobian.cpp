@@ -1,0 +1,460 @@
+#include "hydrodae/system/jacobian.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+using Rotation = BodyData::Rotation;
+using joint::Matrix12;
+using joint::Vector12;
+using RowVector3 = Eigen::Matrix<double, 1, 3>;
+using RowVector6 = Eigen::Matrix<double, 1, 6>;
+using Matrix63 = Eigen::Matrix<double, 6, 3>;
+
+/// Collects the places that the assembly visits.
+struct PatternSink {
+  std::vector<std::pair<Index, Index>> visits; ///< (column, row)
+  void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
+  void by_yp(Index row, Index column, double) { visits.emplace_back(column, row); }
+};
+
+/// Adds the values into the slots found before.
+struct ValueSink {
+  const Index* slot;
+  JacobianParts& out;
+  void by_y(Index, Index, double value) { out.by_y[*slot++] += value; }
+  void by_yp(Index, Index, double value) { out.by_yp[*slot++] += value; }
+};
+
+/// The assembly, written once for both sinks. "Tangent" columns are virtual displacements
+/// (translations in world axes, rotations in body axes); they become columns of position unknowns
+/// through `tangent` of the body.
+template <class Sink> struct Assembly {
+  const System& s;
+  JacobianWorkspace& ws;
+  const double* y;
+  const double* yp;
+  Sink& sink;
+
+  const BodyState<double>& state(int body) const { return ws.state.bodies[body]; }
+
+  /// Row `row`, derivative `d` with respect to the virtual displacement of `body`.
+  void displacement_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_translations; ++k)
+      sink.by_y(row, b.q0 + k, d[b.active[k]]);
+    rotation_columns(row, body, d.tail<3>());
+  }
+
+  /// The same for a derivative `d` with respect to the virtual rotation alone.
+  void rotation_columns(Index row, int body, const RowVector3& d) {
+    const BodyData& b = s.bodies[body];
+    const Index q = b.q0 + b.n_translations;
+    if (b.rotation == Rotation::about_axis)
+      sink.by_y(row, q, d[b.axis]);
+    if (b.rotation == Rotation::free)
+      for (int k = 0; k < 4; ++k)
+        sink.by_y(row, q + k, d.dot(ws.rotation[body].col(k)));
+  }
+
+  void velocity_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(row, b.u0 + k, d[b.active[k]]);
+  }
+
+  void acceleration_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_yp(row, b.u0 + k, d[b.active[k]]);
+  }
+
+  /// Momentum rows of `body` lose a load whose derivative is `d` (tangent rows).
+  void load_by_displacement(int body, int other, const Matrix6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      displacement_columns(b.u0 + k, other, -d.row(b.active[k]));
+  }
+  void load_by_velocity(int body, int other, const Matrix6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      velocity_columns(b.u0 + k, other, -d.row(b.active[k]));
+  }
+
+  /// Position rows of `body` lose E(q) d for a change d of the tangent velocity, column by column:
+  /// `emit(row, weights)` with weights (1, 6) of the tangent rows.
+  template <class Emit> void position_rows(int body, Emit&& emit) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      if (b.active[k] < 3 || b.rotation == Rotation::about_axis) {
+        RowVector6 weights = RowVector6::Zero();
+        weights[b.active[k]] = -1.0;
+        emit(b.q0 + k, weights);
+      }
+    if (b.rotation != Rotation::free)
+      return;
+    const Eigen::Matrix<double, 4, 3> l = quaternion_rate_matrix<double>(state(body).p);
+    for (int k = 0; k < 4; ++k) {
+      RowVector6 weights = RowVector6::Zero();
+      weights.tail<3>() = -0.5 * l.row(k);
+      emit(b.q0 + b.n_translations + k, weights);
+    }
+  }
+
+  void joints();
+  void body_rows();
+  void hydrodynamics();
+  void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
+  void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
+  void memory_columns(const HydroBody& i, const Matrix6& L);
+  void memory_rows();
+  template <class Law> void force(const BodyForce<Law>& f);
+  template <class Law> void force(const MotionForce<Law>& f);
+
+  void run() {
+    joints();
+    for_each_element(s.body_forces, [&](const auto& f) { force(f); });
+    for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
+    hydrodynamics();
+    body_rows();
+  }
+};
+
+template <class Sink> void Assembly<Sink>::joints() {
+  for (const JointData& j : s.joints) {
+    const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
+    const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
+    Matrix12 by_lambda = Matrix12::Zero(), by_mu = Matrix12::Zero();
+    Vector12 shift = Vector12::Zero();
+    const std::array<int, 2> body{j.A.body, j.B.body};
+    for (const RowData& row : j.rows) {
+      const Vector12 gradient = joint::basic_row<double>(row.kind, j.A, j.B, g).gradient;
+      const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, g);
+      const Vector12 rate_gradient = curvature.transpose() * u;
+      by_lambda += y[row.lambda] * curvature;
+      by_mu += y[row.mu] * curvature;
+      shift += y[row.mu] * gradient;
+      for (int side = 0; side < 2; ++side) {
+        const int b = body[side];
+        if (b < 0 || s.bodies[b].n_active == 0)
+          continue;
+        const RowVector6 G = gradient.segment<6>(6 * side).transpose();
+        displacement_columns(row.mu, b, G);
+        velocity_columns(row.lambda, b, G);
+        displacement_columns(row.lambda, b, rate_gradient.segment<6>(6 * side).transpose());
+        for (int k = 0; k < s.bodies[b].n_active; ++k)
+          sink.by_y(s.bodies[b].u0 + k, row.lambda, -G[s.bodies[b].active[k]]);
+        position_rows(
+            b, [&](Index r, const RowVector6& weights) { sink.by_y(r, row.mu, weights.dot(G)); });
+      }
+    }
+    for (int m = 0; m < 2; ++m)
+      for (int n = 0; n < 2; ++n) {
+        if (body[m] < 0 || body[n] < 0)
+          continue;
+        const Matrix6 d_load = by_lambda.block<6, 6>(6 * m, 6 * n);
+        const Matrix6 d_shift = by_mu.block<6, 6>(6 * m, 6 * n);
+        load_by_displacement(body[m], body[n], d_load);
+        position_rows(body[m], [&](Index r, const RowVector6& weights) {
+          displacement_columns(r, body[n], weights * d_shift);
+        });
+      }
+    for (int side = 0; side < 2; ++side)
+      if (body[side] >= 0)
+        ws.state.shifts[body[side]] += shift.segment<6>(6 * side);
+  }
+}
+
+// Wrench W(xi, twist) in earth axes; load = (W_f, R^T W_m):
+//   d xi = (dr, J dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T dm.
+template <class Sink> template <class Law> void Assembly<Sink>::force(const BodyForce<Law>& f) {
+  const BodyState<double>& b = state(f.body);
+  const Vector6 xi = system::displacement<double>(s.bodies[f.body], b, y);
+  const Vector6 velocity = twist<double>(b);
+  Matrix6 by_xi, by_twist;
+  f.law.gradient(xi, velocity, by_xi, by_twist);
+  const Vector6 wrench = f.law.template apply<double>(xi, velocity);
+  Matrix6 xi_map = Matrix6::Identity(), velocity_map = Matrix6::Identity();
+  xi_map.bottomRightCorner<3, 3>() = rotation_vector_gradient(xi.tail<3>());
+  velocity_map.bottomRightCorner<3, 3>() = b.R;
+  Matrix6 d = by_xi * xi_map;
+  d.rightCols<3>() -= by_twist.rightCols<3>() * (b.R * skew<double>(b.w));
+  Matrix6 d_velocity = by_twist * velocity_map;
+  d.bottomRows<3>() = (b.R.transpose() * d.bottomRows<3>()).eval();
+  d_velocity.bottomRows<3>() = (b.R.transpose() * d_velocity.bottomRows<3>()).eval();
+  d.bottomRightCorner<3, 3>() += skew<double>(b.R.transpose() * wrench.tail<3>());
+  load_by_displacement(f.body, f.body, d);
+  load_by_velocity(f.body, f.body, d_velocity);
+}
+
+// load = f(s, s') W, s' = W.u: d load = f T + W (f_s W + f_s' T^T u)^T, by velocity W f_s' W^T.
+template <class Sink> template <class Law> void Assembly<Sink>::force(const MotionForce<Law>& f) {
+  const JointData& j = s.joints[f.joint];
+  const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
+  const joint::Row<double> w = joint::motion_row<double>(f.motion, j.A, j.B, g);
+  const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
+  const double rate = w.gradient.dot(u);
+  const auto [by_s, by_rate] = f.law.gradient(w.value, rate);
+  const Matrix12 curvature = joint::motion_curvature(f.motion, j.A, j.B, g);
+  const Matrix12 d =
+      f.law.template apply<double>(w.value, rate) * curvature +
+      w.gradient * (by_s * w.gradient + by_rate * curvature.transpose() * u).transpose();
+  const Matrix12 d_velocity = by_rate * w.gradient * w.gradient.transpose();
+  const std::array<int, 2> body{j.A.body, j.B.body};
+  for (int m = 0; m < 2; ++m)
+    for (int n = 0; n < 2; ++n) {
+      if (body[m] < 0 || body[n] < 0)
+        continue;
+      load_by_displacement(body[m], body[n], d.block<6, 6>(6 * m, 6 * n));
+      load_by_velocity(body[m], body[n], d_velocity.block<6, 6>(6 * m, 6 * n));
+    }
+}
+
+// Rigid inertia M u' + gyroscopic moment, and the position rows q' - E(q) (u + G^T mu) - sigma p.
+template <class Sink> void Assembly<Sink>::body_rows() {
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
+    const BodyData& b = s.bodies[i];
+    if (b.n_active == 0)
+      continue;
+    const BodyState<double>& body = state(i);
+    Matrix6 mass = Matrix6::Zero(), gyroscopic = Matrix6::Zero();
+    mass.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
+    mass.bottomRightCorner<3, 3>() = b.inertia;
+    gyroscopic.bottomRightCorner<3, 3>() =
+        skew<double>(body.w) * b.inertia - skew<double>(b.inertia * body.w);
+    for (int k = 0; k < b.n_active; ++k) {
+      acceleration_columns(b.u0 + k, i, mass.row(b.active[k]));
+      velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
+    }
+    position_rows(i, [&](Index row, const RowVector6& weights) {
+      sink.by_yp(row, row, 1.0);
+      velocity_columns(row, i, weights);
+    });
+    if (b.rotation != Rotation::free)
+      continue;
+    const Index q = b.q0 + b.n_translations;
+    const Eigen::Matrix4d rate =
+        0.5 * quaternion_right_matrix(body.w + ws.state.shifts[i].tail<3>());
+    for (int k = 0; k < 4; ++k) {
+      for (int m = 0; m < 4; ++m)
+        sink.by_y(q + k, q + m, -rate(k, m) - (k == m ? y[b.sigma] : 0.0));
+      sink.by_y(q + k, b.sigma, -body.p[k]);
+      sink.by_y(b.sigma, q + k, body.p[k]);
+    }
+  }
+}
+
+/// The block of A_inf between two hydrodynamic bodies, zero where a coordinate does not move.
+Matrix6 added_mass_block(const HydroData& h, const HydroBody& i, const HydroBody& j) {
+  Matrix6 block = Matrix6::Zero();
+  for (int m = 0; m < 6; ++m)
+    for (int n = 0; n < 6; ++n)
+      if (i.moving[m] >= 0 && j.moving[n] >= 0)
+        block(m, n) = h.added_mass(i.moving[m], j.moving[n]);
+  return block;
+}
+
+/// dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc d(v', w').
+struct HydroMotionGradient {
+  Matrix63 U_phi = Matrix63::Zero(), U_v = Matrix63::Zero(), U_w = Matrix63::Zero();
+  Matrix63 a_phi = Matrix63::Zero(), a_v = Matrix63::Zero(), a_w = Matrix63::Zero();
+  Matrix6 a_acc = Matrix6::Zero();
+};
+
+HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState<double>& b) {
+  HydroMotionGradient d;
+  const Matrix3 wx = skew<double>(b.w), R_T = b.R.transpose();
+  if (body_axes) {
+    const Matrix3 Vx = skew<double>(R_T * b.v);
+    d.U_phi.topRows<3>() = Vx;
+    d.U_v.topRows<3>() = R_T;
+    d.U_w.bottomRows<3>().setIdentity();
+    d.a_phi.topRows<3>() = skew<double>(R_T * b.v_dot) - wx * Vx;
+    d.a_v.topRows<3>() = -wx * R_T;
+    d.a_w.topRows<3>() = Vx;
+    d.a_acc.topLeftCorner<3, 3>() = R_T;
+    d.a_acc.bottomRightCorner<3, 3>().setIdentity();
+  } else {
+    d.U_phi.bottomRows<3>() = -b.R * wx;
+    d.U_v.topRows<3>().setIdentity();
+    d.U_w.bottomRows<3>() = b.R;
+    d.a_phi.bottomRows<3>() = -b.R * skew<double>(b.w_dot);
+    d.a_acc.topLeftCorner<3, 3>().setIdentity();
+    d.a_acc.bottomRightCorner<3, 3>() = b.R;
+  }
+  return d;
+}
+
+template <class Sink>
+void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
+                                const Matrix6& Q) {
+  const Matrix6 A = added_mass_block(s.hydro, i, j);
+  const Matrix6 LA = L * A, QA = Q * A;
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.body_axes, state(j.body));
+  Matrix6 by_velocity;
+  by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
+  const Matrix6 by_acceleration = LA * d.a_acc;
+  const Matrix63 by_rotation = LA * d.a_phi + QA * d.U_phi;
+  const BodyData& b = s.bodies[i.body];
+  for (int k = 0; k < b.n_active; ++k) {
+    const Index row = b.u0 + k;
+    const int c = b.active[k];
+    rotation_columns(row, j.body, by_rotation.row(c));
+    velocity_columns(row, j.body, by_velocity.row(c));
+    acceleration_columns(row, j.body, by_acceleration.row(c));
+  }
+}
+
+template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, const Matrix6& L) {
+  const BodyData& b = s.bodies[i.body];
+  for (int z = 0; z < s.hydro.n_states; ++z) {
+    Vector6 column = Vector6::Zero();
+    for (int c = 0; c < 6; ++c)
+      if (i.moving[c] >= 0)
+        column[c] = s.hydro.output(i.moving[c], z);
+    if (column.isZero(0.0))
+      continue; // constant data: the same entries at every call
+    const Vector6 load = L * column;
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
+  }
+}
+
+// load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
+template <class Sink>
+void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
+  const BodyState<double>& b = state(i.body);
+  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
+  Matrix63 by_rotation = Matrix63::Zero();
+  if (s.hydro.body_axes) {
+    const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
+    const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
+    L.topLeftCorner<3, 3>() = b.R;
+    Q << b.R * wx, Matrix3::Zero(), Vx, wx;
+    const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
+    by_rotation << -b.R * skew<double>(force), -px * Vx;
+    by_velocity << Matrix3::Zero(), -b.R * px, -px * R_T, -hx;
+  } else {
+    L.bottomRightCorner<3, 3>() = b.R.transpose();
+    by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
+  }
+  const BodyData& data = s.bodies[i.body];
+  for (int k = 0; k < data.n_active; ++k) {
+    rotation_columns(data.u0 + k, i.body, by_rotation.row(data.active[k]));
+    velocity_columns(data.u0 + k, i.body, by_velocity.row(data.active[k]));
+  }
+  for (const HydroBody& j : s.hydro.bodies)
+    if (j.moves)
+      hydro_pair(i, j, L, Q);
+  memory_columns(i, L);
+}
+
+template <class Sink> void Assembly<Sink>::memory_rows() {
+  const HydroData& h = s.hydro;
+  for (const HydroData::Block& b : h.blocks) {
+    const Index k = h.z0 + b.state;
+    sink.by_yp(k, k, 1.0);
+    sink.by_y(k, k, -b.a);
+    if (!b.pair)
+      continue;
+    sink.by_yp(k + 1, k + 1, 1.0);
+    sink.by_y(k + 1, k + 1, -b.a);
+    sink.by_y(k, k + 1, b.b);
+    sink.by_y(k + 1, k, -b.b);
+  }
+  for (const HydroData::Input& in : h.inputs) {
+    const HydroData::Coordinate& u = h.coordinates[in.coordinate];
+    const int body = h.bodies[u.hydro_body].body, c = u.component;
+    const HydroMotionGradient d = hydro_motion_gradient(h.body_axes, state(body));
+    const Index row = h.z0 + in.state;
+    RowVector6 by_velocity;
+    by_velocity << d.U_v.row(c), d.U_w.row(c);
+    if ((c < 3) == h.body_axes)
+      rotation_columns(row, body, -in.value * d.U_phi.row(c));
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      if ((b.active[k] < 3) == (c < 3))
+        sink.by_y(row, b.u0 + k, -in.value * by_velocity[b.active[k]]);
+  }
+}
+
+template <class Sink> void Assembly<Sink>::hydrodynamics() {
+  const HydroData& h = s.hydro;
+  if (h.n_moving == 0)
+    return;
+  Workspace<double>& w = ws.state;
+  hydro_motion(s, w);
+  w.momentum.noalias() = h.added_mass * w.U;
+  w.inertia_force.noalias() = h.added_mass * w.U_dot;
+  w.inertia_force.noalias() += h.output * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  for (const HydroBody& i : h.bodies) {
+    if (!i.moves)
+      continue;
+    Vector6 rate = Vector6::Zero(), momentum = Vector6::Zero();
+    for (int c = 0; c < 6; ++c) {
+      if (i.moving[c] < 0)
+        continue;
+      rate[c] = w.inertia_force[i.moving[c]];
+      momentum[c] = w.momentum[i.moving[c]];
+    }
+    hydro_body(i, rate, momentum);
+  }
+  memory_rows();
+}
+
+/// Kinematics and tangent maps at (y, y'): d phi = 2 L(p)^T dp / |p|^2.
+void prepare(const System& s, JacobianWorkspace& ws, const double* y, const double* yp) {
+  unpack<double>(s, y, yp, ws.state.bodies);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    ws.state.shifts[i].setZero();
+    const Vector4& p = ws.state.bodies[i].p;
+    if (s.bodies[i].rotation == Rotation::free)
+      ws.rotation[i] = 2.0 / p.squaredNorm() * quaternion_rate_matrix<double>(p).transpose();
+  }
+}
+
+} // namespace
+
+JacobianWorkspace::JacobianWorkspace(const System& system)
+    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {}
+
+Pattern find_pattern(const System& system) {
+  JacobianWorkspace ws(system);
+  const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
+  prepare(system, ws, y.data(), yp.data());
+  PatternSink sink;
+  Assembly<PatternSink>{system, ws, y.data(), yp.data(), sink}.run();
+
+  std::vector<std::pair<Index, Index>> entries = sink.visits;
+  std::sort(entries.begin(), entries.end());
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+  Pattern pattern;
+  pattern.n = system.n;
+  pattern.column_start.assign(system.n + 1, 0);
+  for (const auto& [column, row] : entries) {
+    ++pattern.column_start[column + 1];
+    pattern.row.push_back(row);
+  }
+  for (Index c = 0; c < system.n; ++c)
+    pattern.column_start[c + 1] += pattern.column_start[c];
+  for (const auto& visit : sink.visits)
+    pattern.slots.push_back(std::lower_bound(entries.begin(), entries.end(), visit) -
+                            entries.begin());
+  return pattern;
+}
+
+void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double /*t*/,
+              const double* y, const double* yp, JacobianParts& out) {
+  std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
+  std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);
+  prepare(system, ws, y, yp);
+  ValueSink sink{pattern.slots.data(), out};
+  Assembly<ValueSink>{system, ws, y, yp, sink}.run();
+}
+
+} // namespace hydrodae::system

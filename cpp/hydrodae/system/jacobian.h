@@ -1,0 +1,41 @@
+#pragma once
+/// The Jacobian dF/dy + alpha dF/dy' on a pattern that is fixed when the system is built.
+
+#include <vector>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+/// Compressed columns of the Jacobian. The assembly always visits the same entries in the same
+/// order; `slots[k]` is the place of the k-th visit in the values array.
+struct Pattern {
+  Index n = 0;
+  std::vector<Index> column_start; ///< (n + 1,)
+  std::vector<Index> row;          ///< (nonzeros,) ascending in each column
+  std::vector<Index> slots;
+  Index nonzeros() const { return static_cast<Index>(row.size()); }
+};
+
+/// Runs the assembly once without values to find the pattern.
+Pattern find_pattern(const System& system);
+
+/// The two parts of the Jacobian, kept apart so that any real or complex alpha can join them.
+struct JacobianParts {
+  std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
+  explicit JacobianParts(const Pattern& pattern)
+      : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
+};
+
+/// Scratch of the Jacobian: the kinematics of the residual and the tangent maps.
+struct JacobianWorkspace {
+  explicit JacobianWorkspace(const System& system);
+  Workspace<double> state;
+  std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
+};
+
+/// dF/dy and dF/dy' at (t, y, y'). Pure apart from the scratch; no allocation.
+void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
+              const double* y, const double* yp, JacobianParts& out);
+
+} // namespace hydrodae::system

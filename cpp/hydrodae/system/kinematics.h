@@ -1,0 +1,109 @@
+#pragma once
+/// From the unknowns to the poses and velocities of the bodies.
+
+#include <vector>
+
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::system {
+
+/// Pose and motion of one body: r, v in world axes, w in body axes.
+template <class S> struct BodyState {
+  Vec3<S> r, v, w, v_dot, w_dot;
+  Vec4<S> p;
+  Mat3<S> R;
+};
+
+/// Scratch memory of one evaluation; sized once, holds nothing between calls.
+template <class S> struct Workspace {
+  std::vector<BodyState<S>> bodies;
+  std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
+  std::vector<Vec6<S>> shifts; ///< G^T mu
+  VecX<S> U, U_dot, momentum, inertia_force;
+
+  explicit Workspace(const System& s)
+      : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
+        U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const BodyData& body = s.bodies[i];
+      BodyState<S>& state = bodies[i];
+      state.r = body.position.template cast<S>();
+      state.p = body.orientation.template cast<S>();
+      state.R = rotation_matrix<S>(state.p);
+      state.v = state.w = state.v_dot = state.w_dot = Vec3<S>::Zero();
+    }
+  }
+};
+
+/// Poses, velocities and accelerations of all bodies from y and y'. Locked coordinates keep what
+/// the workspace was made with.
+template <class S>
+void unpack(const System& s, const S* y, const S* yp, std::vector<BodyState<S>>& states) {
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const BodyData& body = s.bodies[i];
+    BodyState<S>& state = states[i];
+    for (int k = 0; k < body.n_active; ++k) {
+      const int c = body.active[k];
+      const S velocity = y[body.u0 + k], acceleration = yp[body.u0 + k];
+      if (c < 3) {
+        state.r[c] = y[body.q0 + k];
+        state.v[c] = velocity;
+        state.v_dot[c] = acceleration;
+      } else {
+        state.w[c - 3] = velocity;
+        state.w_dot[c - 3] = acceleration;
+      }
+    }
+    const Index rotation = body.q0 + body.n_translations;
+    if (body.rotation == BodyData::Rotation::about_axis) {
+      state.R = rotation_about_axis<S>(body.axis, y[rotation]);
+    } else if (body.rotation == BodyData::Rotation::free) {
+      state.p << y[rotation], y[rotation + 1], y[rotation + 2], y[rotation + 3];
+      state.R = rotation_matrix<S>(state.p);
+    }
+  }
+}
+
+/// Displacement from the reference pose: [r - r_ref; rotation vector], earth axes [m; rad].
+template <class S>
+Vec6<S> displacement(const BodyData& body, const BodyState<S>& state, const S* y) {
+  Vec6<S> xi;
+  xi.template head<3>() = state.r - body.reference.template cast<S>();
+  if (body.rotation == BodyData::Rotation::about_axis) {
+    xi.template tail<3>().setZero();
+    xi[3 + body.axis] = y[body.q0 + body.n_translations];
+  } else {
+    xi.template tail<3>() = rotation_vector<S>(state.p);
+  }
+  return xi;
+}
+
+/// [v; w] in world axes.
+template <class S> Vec6<S> twist(const BodyState<S>& state) {
+  Vec6<S> out;
+  out << state.v, state.R * state.w;
+  return out;
+}
+
+/// Poses of the two bodies of a joint, seen through its markers; the ground is body -1.
+template <class S>
+joint::Geometry<S> joint_geometry(const JointData& j, const std::vector<BodyState<S>>& states) {
+  const Vec3<S> origin = Vec3<S>::Zero();
+  const Mat3<S> identity = Mat3<S>::Identity();
+  const bool a = j.A.body >= 0, b = j.B.body >= 0;
+  return joint::geometry<S>(j.B, a ? states[j.A.body].r : origin, a ? states[j.A.body].R : identity,
+                            b ? states[j.B.body].r : origin, b ? states[j.B.body].R : identity);
+}
+
+/// (v_A, w_A, v_B, w_B) of a joint.
+template <class S>
+joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S>>& states) {
+  joint::Vec12<S> u = joint::Vec12<S>::Zero();
+  if (j.A.body >= 0)
+    u.template head<6>() << states[j.A.body].v, states[j.A.body].w;
+  if (j.B.body >= 0)
+    u.template tail<6>() << states[j.B.body].v, states[j.B.body].w;
+  return u;
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,178 @@
+#include "hydrodae/system/observer.h"
+
+#include <algorithm>
+
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+/// Force and moment in world axes of a load given as world force and body-axes moment.
+Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
+  Vector6 load;
+  load << tangent.head<3>(), state.R * tangent.tail<3>();
+  return load;
+}
+
+int component_index(Observation& out, const std::string& name) {
+  const auto found = std::find(out.components.begin(), out.components.end(), name);
+  if (found != out.components.end())
+    return static_cast<int>(found - out.components.begin());
+  out.components.push_back(name);
+  return static_cast<int>(out.components.size()) - 1;
+}
+
+} // namespace
+
+Observer::Observer(const System& system) : s_(system), ws_(system) {
+  auto plan = [&](const std::string& component, int body) {
+    if (body >= 0)
+      out_.loads.push_back({component_index(out_, component), body});
+  };
+  for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
+    plan("weight", i);
+  for_each_element(s_.body_forces, [&](const auto& f) { plan(f.component, f.body); });
+  for_each_element(s_.motion_forces, [&](const auto& f) {
+    plan(f.component, s_.joints[f.joint].A.body);
+    plan(f.component, s_.joints[f.joint].B.body);
+  });
+  if (s_.hydro.n_moving > 0)
+    for (const HydroBody& hb : s_.hydro.bodies) {
+      plan("added_mass_inf", hb.body);
+      if (s_.hydro.n_states > 0)
+        plan("radiation", hb.body);
+    }
+  out_.reactions.resize(s_.joints.size());
+  out_.supports.resize(s_.bodies.size());
+  out_.powers.resize(out_.components.size());
+  for (const JointData& j : s_.joints)
+    out_.motions.resize(out_.motions.size() + j.type->motions.size());
+  totals_.resize(s_.bodies.size());
+  const Eigen::Index rows = s_.hydro.added_mass_all.rows();
+  rate_ = momentum_ = memory_ = VectorX::Zero(rows);
+}
+
+/// Takes the next planned load: into the list, the power of its component, and the balance.
+void Observer::add_load(const Vector6& world_load) {
+  ComponentLoad& entry = out_.loads[next_load_++];
+  const BodyState<double>& state = ws_.bodies[entry.body];
+  entry.load = world_load;
+  out_.powers[entry.component] += world_load.dot(twist<double>(state));
+  totals_[entry.body] -= to_tangent<double>(state, world_load);
+}
+
+void Observer::observe_forces(const double* y) {
+  for (const BodyData& b : s_.bodies) {
+    Vector6 weight = Vector6::Zero();
+    weight[2] = -b.mass * s_.gravity;
+    add_load(weight);
+    out_.potential += b.mass * s_.gravity * (ws_.bodies[&b - s_.bodies.data()].r - b.reference)[2];
+  }
+  for_each_element(s_.body_forces, [&](const auto& f) {
+    const BodyState<double>& state = ws_.bodies[f.body];
+    const Vector6 xi = displacement<double>(s_.bodies[f.body], state, y);
+    add_load(f.law.template apply<double>(xi, twist<double>(state)));
+    out_.potential += f.law.potential(xi);
+  });
+  for_each_element(s_.motion_forces, [&](const auto& f) {
+    const JointData& j = s_.joints[f.joint];
+    const joint::Row<double> w =
+        joint::motion_row<double>(f.motion, j.A, j.B, joint_geometry<double>(j, ws_.bodies));
+    const double rate = w.gradient.dot(joint_velocity<double>(j, ws_.bodies));
+    const joint::Vector12 load = f.law.template apply<double>(w.value, rate) * w.gradient;
+    out_.potential += f.law.potential(w.value);
+    if (j.A.body >= 0)
+      add_load(to_world(ws_.bodies[j.A.body], load.head<6>()));
+    if (j.B.body >= 0)
+      add_load(to_world(ws_.bodies[j.B.body], load.tail<6>()));
+  });
+}
+
+void Observer::observe_hydrodynamics(const double* y) {
+  const HydroData& h = s_.hydro;
+  if (h.n_moving == 0)
+    return;
+  hydro_motion(s_, ws_);
+  momentum_.noalias() = h.added_mass_all * ws_.U;
+  rate_.noalias() = h.added_mass_all * ws_.U_dot;
+  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  for (int u = 0; u < h.n_moving; ++u) {
+    const HydroData::Coordinate& k = h.coordinates[u];
+    out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
+  }
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    const Vector6 added =
+        hydro_load<double>(h.body_axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
+    add_load(-to_world(state, added));
+    if (h.n_states == 0)
+      continue;
+    const Vector6 radiation =
+        hydro_load<double>(h.body_axes, state, memory_.segment<6>(row), Vector6::Zero());
+    add_load(-to_world(state, radiation));
+  }
+}
+
+void Observer::observe_joints(const double* y) {
+  std::size_t motion = 0;
+  for (std::size_t k = 0; k < s_.joints.size(); ++k) {
+    const JointData& j = s_.joints[k];
+    const joint::Geometry<double> g = joint_geometry<double>(j, ws_.bodies);
+    const joint::Vector12 u = joint_velocity<double>(j, ws_.bodies);
+    joint::Vector12 load = joint::Vector12::Zero();
+    Vector6& reaction = out_.reactions[k];
+    reaction.setZero();
+    for (const RowData& row : j.rows) {
+      const joint::Row<double> value = joint::basic_row<double>(row.kind, j.A, j.B, g);
+      const double lambda = y[row.lambda];
+      load += lambda * value.gradient;
+      if (row.kind.kind == joint::BasicRow::Kind::span) {
+        reaction[row.kind.i] += lambda;
+      } else { // moment b_j x a_i on B, seen from A's marker
+        const Vector3 b = g.N * j.B.axes.col(row.kind.j);
+        reaction.tail<3>() += lambda * (j.A.axes.transpose() * b.cross(j.A.axes.col(row.kind.i)));
+      }
+    }
+    if (j.A.body >= 0)
+      totals_[j.A.body] -= load.head<6>();
+    if (j.B.body >= 0)
+      totals_[j.B.body] -= load.tail<6>();
+    for (const joint::FreeMotion& free : j.type->motions) {
+      const joint::Row<double> w = joint::motion_row<double>(free, j.A, j.B, g);
+      out_.motions[motion++] = {w.value, w.gradient.dot(u)};
+    }
+  }
+}
+
+/// Kinetic energies, and what the locked coordinates must carry: inertia minus all other loads.
+void Observer::observe_energy() {
+  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
+    const BodyData& b = s_.bodies[i];
+    const BodyState<double>& state = ws_.bodies[i];
+    const Vector3 spin = b.inertia * state.w;
+    out_.kinetic += 0.5 * b.mass * state.v.squaredNorm() + 0.5 * state.w.dot(spin);
+    Vector6 support = totals_[i];
+    support.head<3>() += b.mass * state.v_dot;
+    support.tail<3>() += b.inertia * state.w_dot + state.w.cross(spin);
+    for (int k = 0; k < b.n_active; ++k)
+      support[b.active[k]] = 0.0;
+    out_.supports[i] = to_world(state, support);
+  }
+}
+
+const Observation& Observer::observe(const VectorX& y, const VectorX& yp) {
+  unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+  std::fill(totals_.begin(), totals_.end(), Vector6(Vector6::Zero()));
+  std::fill(out_.powers.begin(), out_.powers.end(), 0.0);
+  out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
+  next_load_ = 0;
+  observe_forces(y.data());
+  observe_hydrodynamics(y.data());
+  observe_joints(y.data());
+  observe_energy();
+  return out_;
+}
+
+} // namespace hydrodae::system

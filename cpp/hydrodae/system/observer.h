@@ -1,0 +1,57 @@
+#pragma once
+/// Everything that a run reports: motions, every force component by name, reactions, energies.
+
+#include <span>
+
+#include "hydrodae/core/channel.h"
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+/// One force component on one body: force and moment about the centre of gravity, world axes.
+struct ComponentLoad {
+  int component = 0; ///< index into Observation::components
+  int body = 0;
+  Vector6 load = Vector6::Zero();
+};
+
+/// The state of the scene at one instant, taken apart.
+struct Observation {
+  std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ...
+  std::vector<ComponentLoad> loads;    ///< all components but the reactions
+  std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
+  std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world
+  std::vector<double> powers;          ///< per component [W]
+  std::vector<std::array<double, 2>> motions; ///< per joint motion: coordinate and rate
+  double kinetic = 0.0;                       ///< of the bodies [J]
+  double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
+  double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
+};
+
+/// Evaluates observations; owns its scratch.
+class Observer {
+public:
+  explicit Observer(const System& system);
+
+  /// Fills `observation()` from y, y'. No allocation after the first call.
+  const Observation& observe(const VectorX& y, const VectorX& yp);
+  const Observation& observation() const { return out_; }
+  const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
+
+private:
+  void add_load(const Vector6& world_load);
+  void observe_forces(const double* y);
+  void observe_hydrodynamics(const double* y);
+  void observe_joints(const double* y);
+  void observe_energy();
+
+  const System& s_;
+  Workspace<double> ws_;
+  Observation out_;
+  std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
+  VectorX rate_, momentum_, memory_;
+  std::size_t next_load_ = 0;
+  int weight_ = -1, added_mass_ = -1, radiation_ = -1;
+};
+
+} // namespace hydrodae::system

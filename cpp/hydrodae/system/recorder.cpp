@@ -1,0 +1,212 @@
+#include "hydrodae/system/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hydrodae::system {
+
+namespace {
+
+/// The value of angle + 2 pi k nearest to `previous`.
+double nearest_turn(double angle, double previous) {
+  return angle + 2.0 * pi * std::round((previous - angle) / (2.0 * pi));
+}
+
+bool has_locked(const BodyData& body) { return body.n_active < 6; }
+
+void put(double*& out, const Vector3& v) {
+  for (int k = 0; k < 3; ++k)
+    *out++ = v[k];
+}
+
+} // namespace
+
+Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
+    : s_(system), observer_(system), t_(t0), y_(y), yp_(yp) {
+  const Observation& o = observer_.observe(y, yp);
+  power_ = o.powers;
+  work_.assign(power_.size(), 0.0);
+  for (const auto& motion : o.motions)
+    angles_.push_back(motion[0]);
+  energy0_ = o.kinetic + o.kinetic_added_mass;
+  make_channels();
+}
+
+void Recorder::add_channel(std::string path, int width, std::string unit, std::string frame,
+                           std::string description) {
+  width_ += static_cast<std::size_t>(width);
+  channels_.push_back(
+      {std::move(path), width, std::move(unit), std::move(frame), std::move(description)});
+}
+
+void Recorder::make_channels() {
+  for (const BodyData& b : s_.bodies) {
+    const std::string head = "bodies/" + b.name + "/";
+    add_channel(head + "position", 3, "m", "world", "Centre of gravity.");
+    add_channel(head + "orientation", 4, "-", "world",
+                "Unit quaternion (w, x, y, z) of the rotation from the reference pose.");
+    add_channel(head + "rotation", 3, "rad", "world", "Rotation vector from the reference pose.");
+    if (b.n_active > 0) {
+      add_channel(head + "velocity", 3, "m/s", "world", "Of the centre of gravity.");
+      add_channel(head + "angular_velocity", 3, "rad/s", "world", "Angular velocity.");
+      add_channel(head + "acceleration", 3, "m/s2", "world", "Of the centre of gravity.");
+    }
+    if (has_locked(b)) {
+      std::string note;
+      for (const HydroBody& hb : s_.hydro.bodies)
+        if (s_.bodies[hb.body].name == b.name && !s_.hydro.uncovered.empty())
+          for (const std::string& label : s_.hydro.uncovered)
+            note += (note.empty() ? " Without the hydrodynamic loads that the fit does not give: "
+                                  : ", ") +
+                    label;
+      add_channel(head + "support_force", 3, "N", "world",
+                  "What holds the locked coordinates, on the body." + note);
+      add_channel(head + "support_moment", 3, "N m", "world",
+                  "Moment about the centre of gravity that holds the locked coordinates." + note);
+    }
+  }
+  for (const JointData& j : s_.joints) {
+    const std::string head = "joints/" + j.name + "/", frame = "marker A of " + j.name;
+    for (const joint::FreeMotion& motion : j.type->motions) {
+      const bool turns = motion.kind == joint::FreeMotion::Kind::turns;
+      const std::string name = turns ? "angle" : "displacement", unit = turns ? "rad" : "m";
+      add_channel(head + name, 1, unit, frame,
+                  "Joint coordinate of B against A, followed over turns.");
+      add_channel(head + name + "_rate", 1, unit + "/s", frame, "Rate of the joint coordinate.");
+    }
+    add_channel(head + "reaction_force", 3, "N", frame, "Force of the joint on body B.");
+    add_channel(head + "reaction_moment", 3, "N m", frame,
+                "Moment of the joint on body B about its marker.");
+  }
+  const Observation& o = observer_.observation();
+  for (const ComponentLoad& load : o.loads) {
+    const std::string head =
+        "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
+    add_channel(head + "force", 3, "N", "world", "Force on the body.");
+    add_channel(head + "moment", 3, "N m", "world",
+                "Moment on the body about its centre of gravity.");
+  }
+  add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
+  add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
+  add_channel("energy/potential", 1, "J", "-",
+              "Weight, hydrostatics and springs; zero in the reference pose.");
+  add_channel("energy/total", 1, "J", "-", "Kinetic energies and potential.");
+  for (const std::string& component : o.components)
+    add_channel("energy/work/" + component, 1, "J", "-", "Work on the bodies since the start.");
+  add_channel("energy/balance_error", 1, "J", "-",
+              "Change of the kinetic energies minus the work of all forces: zero but for the "
+              "solver's error.");
+}
+
+/// Work of every component until t: Simpson's rule over [t_, t] on the solver's interpolant. Leaves
+/// the observer at t and the power there in `power`.
+std::vector<double> Recorder::work_until(double t, const Interpolant& at,
+                                         std::vector<double>& power) {
+  std::vector<double> work = work_, middle = power_;
+  if (t > t_) {
+    at(0.5 * (t_ + t), y_, yp_);
+    middle = observer_.observe(y_, yp_).powers;
+    at(t, y_, yp_);
+  }
+  power = observer_.observe(y_, yp_).powers;
+  for (std::size_t k = 0; k < work.size(); ++k)
+    work[k] += (t - t_) / 6.0 * (power_[k] + 4.0 * middle[k] + power[k]);
+  return work;
+}
+
+std::vector<double> Recorder::unwrapped() const {
+  std::vector<double> angles = angles_;
+  std::size_t k = 0;
+  for (const JointData& j : s_.joints)
+    for (const joint::FreeMotion& motion : j.type->motions) {
+      const double value = observer_.observation().motions[k][0];
+      angles[k] =
+          motion.kind == joint::FreeMotion::Kind::turns ? nearest_turn(value, angles_[k]) : value;
+      ++k;
+    }
+  return angles;
+}
+
+void Recorder::accept(double t, const Interpolant& at) {
+  std::vector<double> power;
+  work_ = work_until(t, at, power);
+  power_ = power;
+  angles_ = unwrapped();
+  t_ = t;
+}
+
+void Recorder::fill_bodies(double*& out) {
+  const auto& states = observer_.bodies();
+  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
+    const BodyData& b = s_.bodies[i];
+    const BodyState<double>& state = states[i];
+    put(out, state.r);
+    const Eigen::Quaterniond q(state.R);
+    for (double c : {q.w(), q.x(), q.y(), q.z()})
+      *out++ = c;
+    put(out, displacement<double>(b, state, y_.data()).tail<3>());
+    if (b.n_active > 0) {
+      put(out, state.v);
+      put(out, state.R * state.w);
+      put(out, state.v_dot);
+    }
+    if (has_locked(b)) {
+      put(out, observer_.observation().supports[i].head<3>());
+      put(out, observer_.observation().supports[i].tail<3>());
+    }
+  }
+}
+
+void Recorder::fill_joints(double*& out, const std::vector<double>& angles) {
+  const Observation& o = observer_.observation();
+  std::size_t k = 0;
+  for (std::size_t j = 0; j < s_.joints.size(); ++j) {
+    for (std::size_t m = 0; m < s_.joints[j].type->motions.size(); ++m, ++k) {
+      *out++ = angles[k];
+      *out++ = o.motions[k][1];
+    }
+    put(out, o.reactions[j].head<3>());
+    put(out, o.reactions[j].tail<3>());
+  }
+}
+
+void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
+  const Observation& o = observer_.observation();
+  const double moving = o.kinetic + o.kinetic_added_mass;
+  double total_work = 0.0, exchanged = std::abs(moving);
+  *out++ = o.kinetic;
+  *out++ = o.kinetic_added_mass;
+  *out++ = o.potential;
+  *out++ = moving + o.potential;
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    *out++ = work[k];
+    // The fluid's kinetic energy is on the left-hand side already.
+    if (o.components[k] != "added_mass_inf")
+      total_work += work[k];
+    exchanged = std::max(exchanged, std::abs(work[k]));
+  }
+  const double error = moving - energy0_ - total_work;
+  *out++ = error;
+  largest_energy_ = std::max(largest_energy_, exchanged);
+  largest_error_ = std::max(largest_error_, std::abs(error));
+}
+
+void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
+  std::vector<double> power;
+  const std::vector<double> work = work_until(t, at, power);
+  const std::vector<double> angles = unwrapped();
+  double* out = row.data();
+  fill_bodies(out);
+  fill_joints(out, angles);
+  for (const ComponentLoad& load : observer_.observation().loads) {
+    put(out, load.load.head<3>());
+    put(out, load.load.tail<3>());
+  }
+  fill_energy(out, work);
+}
+
+double Recorder::relative_balance_error() const {
+  return largest_energy_ > 0.0 ? largest_error_ / largest_energy_ : 0.0;
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,116 @@
+#pragma once
+/// The residual F(t, y, y') of the stabilised index-2 equations (see system.h). Pure: the System is
+/// const, the Workspace is scratch. Templated on the scalar so that dual numbers can check the
+/// Jacobian.
+
+#include "hydrodae/system/hydrodynamics.h"
+
+namespace hydrodae::system {
+
+/// Constraint rows, and G^T lambda, G^T mu added to the loads and shifts of the bodies.
+template <class S> void add_joints(const System& s, Workspace<S>& ws, const S* y, S* residual) {
+  for (const JointData& j : s.joints) {
+    const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
+    const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
+    joint::Vec12<S> load = joint::Vec12<S>::Zero(), shift = joint::Vec12<S>::Zero();
+    for (const RowData& row : j.rows) {
+      const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, g);
+      residual[row.mu] = value.value;
+      residual[row.lambda] = value.gradient.cwiseProduct(u).sum();
+      load += y[row.lambda] * value.gradient;
+      shift += y[row.mu] * value.gradient;
+    }
+    if (j.A.body >= 0) {
+      ws.loads[j.A.body] += load.template head<6>();
+      ws.shifts[j.A.body] += shift.template head<6>();
+    }
+    if (j.B.body >= 0) {
+      ws.loads[j.B.body] += load.template tail<6>();
+      ws.shifts[j.B.body] += shift.template tail<6>();
+    }
+  }
+}
+
+/// World force and body-axes moment of a wrench given in earth axes.
+template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
+  Vec6<S> load;
+  load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
+  return load;
+}
+
+template <class S, class Law>
+void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, const S* y) {
+  const BodyState<S>& state = ws.bodies[force.body];
+  const Vec6<S> xi = displacement<S>(s.bodies[force.body], state, y);
+  ws.loads[force.body] += to_tangent<S>(state, force.law.template apply<S>(xi, twist<S>(state)));
+}
+
+/// f along a joint coordinate s acts on the bodies as W^T f with W = ds/dxi.
+template <class S, class Law>
+void add_force(const System& s, const MotionForce<Law>& force, Workspace<S>& ws, const S*) {
+  const JointData& j = s.joints[force.joint];
+  const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
+  const joint::Row<S> w = joint::motion_row<S>(force.motion, j.A, j.B, g);
+  const S rate = w.gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
+  const joint::Vec12<S> load = force.law.template apply<S>(w.value, rate) * w.gradient;
+  if (j.A.body >= 0)
+    ws.loads[j.A.body] += load.template head<6>();
+  if (j.B.body >= 0)
+    ws.loads[j.B.body] += load.template tail<6>();
+}
+
+/// Visits every list of a tuple of lists, element by element.
+template <class Tuple, class Visitor> void for_each_element(const Tuple& lists, Visitor&& visit) {
+  std::apply([&](const auto&... list) { ((std::for_each(list.begin(), list.end(), visit)), ...); },
+             lists);
+}
+
+/// Momentum rows M u' - f - G^T lambda, position rows q' - E(q)(u + G^T mu) - sigma p, norm rows.
+template <class S>
+void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp, S* residual) {
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const BodyData& body = s.bodies[i];
+    if (body.n_active == 0)
+      continue;
+    const BodyState<S>& state = ws.bodies[i];
+    const Mat3<S> inertia = body.inertia.template cast<S>();
+    Vec6<S> rate;
+    rate << S(body.mass) * state.v_dot,
+        inertia * state.w_dot + cross<S>(state.w, inertia * state.w);
+    const Vec6<S>& load = ws.loads[i];
+    const Vec6<S>& shift = ws.shifts[i];
+    for (int k = 0; k < body.n_active; ++k) {
+      const int c = body.active[k];
+      residual[body.u0 + k] = rate[c] - load[c];
+      if (c < 3 || body.rotation == BodyData::Rotation::about_axis)
+        residual[body.q0 + k] = yp[body.q0 + k] - y[body.u0 + k] - shift[c];
+    }
+    if (body.rotation == BodyData::Rotation::free) {
+      const Index q = body.q0 + body.n_translations;
+      const Vec3<S> w = state.w + shift.template tail<3>();
+      const Vec4<S> p_dot = S(0.5) * (quaternion_rate_matrix<S>(state.p) * w);
+      for (int k = 0; k < 4; ++k)
+        residual[q + k] = yp[q + k] - p_dot[k] - y[body.sigma] * state.p[k];
+      residual[body.sigma] = S(0.5) * (state.p.cwiseProduct(state.p).sum() - S(1));
+    }
+  }
+}
+
+/// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
+template <class S>
+void residual(const System& s, Workspace<S>& ws, double /*t*/, const S* y, const S* yp,
+              S* residual) {
+  unpack<S>(s, y, yp, ws.bodies);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    ws.loads[i].setZero();
+    ws.loads[i][2] = S(-s.bodies[i].mass * s.gravity);
+    ws.shifts[i].setZero();
+  }
+  add_joints<S>(s, ws, y, residual);
+  for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
+  for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
+  add_hydrodynamics<S>(s, ws, y, yp, residual);
+  body_rows<S>(s, ws, y, yp, residual);
+}
+
+} // namespace hydrodae::system

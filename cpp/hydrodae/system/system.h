@@ -1,0 +1,145 @@
+#pragma once
+/// The equations of motion of a scene (constant after `build`), in the stabilised index-2 form of
+/// Gear, Gupta and Leimkuhler (J. Comput. Appl. Math. 12-13 (1985) 77-90):
+///
+///   q' = E(q) (u + G^T mu) + sigma p            p.p = 1 for each quaternion
+///   M(q) u' = f(t, q, u, z) + G^T lambda
+///   0 = g(q)        0 = G(q) u
+///   z' = A_r z + B_r U(q, u)                    radiation memory
+///
+/// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
+/// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
+
+#include <array>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "hydrodae/joint/basic.h"
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae::system {
+
+/// Coordinates of one body. Tangent components 0..2 are translations (world axes), 3..5 rotations
+/// (body axes); only the free ones are unknowns.
+struct BodyData {
+  enum class Rotation { locked, about_axis, free };
+  std::string name;
+  double mass = 0.0;                          ///< [kg]
+  Matrix3 inertia = Matrix3::Zero();          ///< about the centre of gravity, body axes [kg m2]
+  Vector3 reference = Vector3::Zero();        ///< centre of gravity in the reference pose [m]
+  Vector3 position = Vector3::Zero();         ///< start, and for ever along locked translations [m]
+  Vector4 orientation{1, 0, 0, 0};            ///< start, and for ever if the rotation is locked
+  Vector3 velocity = Vector3::Zero();         ///< start [m/s]
+  Vector3 angular_velocity = Vector3::Zero(); ///< start, body axes [rad/s]
+  Rotation rotation = Rotation::locked;
+  int axis = 1;                     ///< of Rotation::about_axis
+  std::array<int, 6> active{};      ///< tangent component of each velocity unknown
+  int n_active = 0;                 ///< number of velocity unknowns
+  int n_translations = 0;           ///< how many of them are translations (they come first)
+  int n_position = 0;               ///< number of position unknowns (n_active, or 7)
+  Index q0 = 0, u0 = 0, sigma = -1; ///< offsets into y
+  double length_scale = 1.0;        ///< [m], what a position error is measured by
+  double lever = 1.0;               ///< [m], turns lengths into angles
+  double time_scale = 1.0;          ///< [s], turns lengths into velocities
+};
+
+/// One constraint row that is kept, with its two multipliers.
+struct RowData {
+  joint::BasicRow kind;
+  Index lambda = 0, mu = 0;
+};
+
+struct JointData {
+  std::string name;
+  const joint::JointType* type = nullptr;
+  joint::Marker A, B;
+  std::vector<RowData> rows; ///< rows that restrict a free coordinate
+};
+
+/// Weight, buoyancy and linear hydrostatics are wrenches on a body; `component` is the name under
+/// which the results list them.
+template <class Law> struct BodyForce {
+  std::string component;
+  int body = 0;
+  Law law;
+};
+
+/// A law along the free motion of a joint.
+template <class Law> struct MotionForce {
+  std::string component;
+  int joint = 0;
+  joint::FreeMotion motion;
+  Law law;
+};
+
+using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>>;
+using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>>;
+
+/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
+struct HydroBody {
+  int body = 0;
+  std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
+  bool moves = false;
+};
+
+/// Added mass at infinite frequency and radiation memory of all bodies.
+///   loads on body-axes coordinates: -(A_inf U)' - C z,   z' = A_r z + B_r U
+struct HydroData {
+  bool body_axes = true; ///< false: earth axes of the reference pose ("mean")
+  std::vector<HydroBody> bodies;
+  struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
+    int hydro_body = 0, component = 0;
+  };
+  std::vector<Coordinate> coordinates; ///< (n_moving,)
+  int n_moving = 0;                    ///< length of U
+  MatrixX added_mass;                  ///< (n_moving, n_moving)
+  MatrixX
+      added_mass_all; ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
+  MatrixX output;     ///< C (n_moving, n_states)
+  MatrixX output_all; ///< (6 n_bodies, n_states)
+  std::vector<std::string> uncovered; ///< labels whose load the fit does not give
+  Index z0 = 0;
+  int n_states = 0;
+  struct Block { ///< z' = a z + ..., or the pair (x + i y)' = (a + i b)(x + i y) + ...
+    int state = 0;
+    double a = 0.0, b = 0.0;
+    bool pair = false;
+  };
+  std::vector<Block> blocks;
+  struct Input { ///< one nonzero of B_r
+    int state = 0, coordinate = 0;
+    double value = 0.0;
+  };
+  std::vector<Input> inputs;
+};
+
+struct System {
+  double gravity = 9.81;
+  std::vector<BodyData> bodies;
+  std::vector<JointData> joints;
+  BodyForces body_forces;
+  MotionForces motion_forces;
+  HydroData hydro;
+
+  Index n = 0;                                 ///< unknowns
+  Index n_q = 0, n_u = 0, n_z = 0, n_rows = 0; ///< positions, velocities, memory, constraint rows
+  Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
+  VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
+  VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
+  VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
+  std::vector<std::string> names;     ///< (n,) of the unknowns, as channels
+  std::vector<std::string> row_names; ///< (n,) of the equations
+  std::vector<std::string> notes;     ///< what the build found worth telling
+
+  bool is_algebraic(Index i) const { return i >= lambda0; }
+};
+
+/// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
+/// scales. Throws ModelError.
+System build(const model::Scene& scene);
+
+/// The start: y with positions, velocities, zero memory and zero multipliers.
+VectorX initial_state(const System& system);
+
+} // namespace hydrodae::system

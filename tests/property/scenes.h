@@ -1,0 +1,196 @@
+#pragma once
+/// Scenes that together contain every joint type, every force type, every kind of body and both
+/// hydrodynamic axes, made from the type lists themselves.
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "hydrodae/joint/types.h"
+#include "hydrodae/model/scene.h"
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::test {
+
+/// Reproducible numbers in (-1, 1).
+struct Random {
+  std::mt19937 engine{12345};
+  double operator()() { return 2.0 * (engine() / 4294967296.0) - 1.0; }
+  Vector3 vector() { return {(*this)(), (*this)(), (*this)()}; }
+};
+
+inline const std::vector<std::string> dofs = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+
+/// A database of two bodies with coupled added mass, hydrostatics and a memory of real and complex
+/// poles with dense complex input and output matrices.
+inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
+  auto db = std::make_shared<hydro::Database>();
+  db->rho = 1025.0;
+  db->gravity = 9.81;
+  const std::vector<Vector3> points = {{0.0, 0.0, 0.0}, {2.0, 0.5, -1.0}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::string name = i == 0 ? "a" : "b";
+    hydro::Hydrostatics h;
+    h.displaced_volume = 0.01 + 0.003 * random();
+    h.center_of_buoyancy = points[i] + 0.1 * random.vector();
+    for (int k = 0; k < 36; ++k)
+      h.stiffness(k) = 10.0 * random();
+    db->bodies.push_back({name, points[i], h});
+    for (const std::string& dof : dofs)
+      db->coordinates.push_back(name + "." + dof);
+  }
+  MatrixX root(12, 12);
+  for (int k = 0; k < 144; ++k)
+    root(k) = random();
+  db->added_mass_inf = root * root.transpose();
+  hydro::MemoryFit fit;
+  fit.name = "random";
+  fit.inputs = fit.outputs = db->coordinates;
+  fit.poles.resize(3);
+  fit.poles << -0.7, std::complex<double>(-0.3, 1.1), std::complex<double>(-0.2, 2.0);
+  fit.input_matrix.resize(3, 12);
+  fit.output_matrix.resize(12, 3);
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 12; ++c) {
+      const bool pair = fit.poles[k].imag() != 0.0;
+      fit.input_matrix(k, c) = {random(), pair ? random() : 0.0};
+      fit.output_matrix(c, k) = {random(), pair ? random() : 0.0};
+    }
+  fit.added_mass_inf = db->added_mass_inf;
+  fit.states = 5;
+  db->fits.push_back(fit);
+  return db;
+}
+
+/// Two bodies "a" and "b" on a joint "link" of the given type, "a" also held by the same type of
+/// joint to the ground ("anchor").
+inline model::Scene two_bodies(const joint::JointType& type, const std::vector<std::string>& motion,
+                               Random& random) {
+  model::Scene scene;
+  scene.solver.end_time = 1.0;
+  for (int i = 0; i < 2; ++i) {
+    model::Body body;
+    body.name = i == 0 ? "a" : "b";
+    body.motion = motion;
+    body.mass = 2.0 + i;
+    body.center_of_gravity = i == 0 ? Vector3(0, 0, 0) : Vector3(2.0, 0.5, -1.0);
+    body.inertia = {0.5, 0.7 + i, 0.9};
+    body.products_of_inertia = 0.05 * random.vector();
+    scene.bodies.push_back(body);
+  }
+  const bool planar = motion.size() == 1 && motion[0] == "planar";
+  const bool lies_in_plane = !type.turns();
+  auto add = [&](const std::string& name, const std::string& a, const std::string& b,
+                 const Vector3& p) {
+    model::Joint joint;
+    joint.name = name;
+    joint.type = std::string(type.name);
+    joint.body_a = a;
+    joint.body_b = b;
+    joint.point = p;
+    if (planar)
+      joint.axis = lies_in_plane ? Vector3(0.6, 0.0, 0.8) : Vector3(0, 1, 0);
+    else
+      joint.axis = Vector3(random.vector() + Vector3(0, 0, 2)).normalized();
+    scene.joints.push_back(joint);
+  };
+  add("link", "a", "b", planar ? Vector3(1.0, 0.0, -0.4) : Vector3(1.0, 0.2, -0.4));
+  add("anchor", "ground", "a", planar ? Vector3(-0.7, 0.0, 0.3) : Vector3(-0.7, -0.1, 0.3));
+  return scene;
+}
+
+/// Fills every field of a force from its own declaration, within its range.
+template <class Law> Law random_force(Random& random, const std::string& name) {
+  Law law;
+  for (const Field<Law>& field : Law::fields()) {
+    auto number = [&] {
+      const double low = std::isfinite(field.range.min) ? field.range.min : -3.0;
+      const double high = std::isfinite(field.range.max) ? field.range.max : low + 6.0;
+      return low + (high - low) * (0.5 + 0.45 * random());
+    };
+    std::visit(
+        [&](auto member) {
+          auto& value = law.*member;
+          using T = std::remove_reference_t<decltype(value)>;
+          if constexpr (std::is_same_v<T, double>) {
+            value = number();
+          } else if constexpr (std::is_same_v<T, std::string>) {
+            value = field.key == "body" ? "b" : field.key == "joint" ? "link" : name;
+            if (!field.choices.empty())
+              value = field.choices.front();
+          } else if constexpr (std::is_same_v<T, Vector3> || std::is_same_v<T, Vector6> ||
+                               std::is_same_v<T, Matrix6>) {
+            for (Eigen::Index k = 0; k < value.size(); ++k)
+              value.data()[k] = number();
+          }
+        },
+        field.member);
+  }
+  return law;
+}
+
+/// Adds one force of every kind in the list that this scene can carry.
+inline void add_every_force(model::Scene& scene, Random& random) {
+  const bool one_motion = joint::find_joint_type(scene.joints.front().type)->motions.size() == 1;
+  std::apply(
+      [&](auto&... lists) {
+        auto add = [&](auto& list) {
+          using Law = typename std::remove_reference_t<decltype(list)>::value_type;
+          constexpr bool on_joint = requires(Law law) { law.joint; };
+          if (!on_joint || one_motion)
+            list.push_back(random_force<Law>(random, std::string(Law::type)));
+        };
+        (add(lists), ...);
+      },
+      scene.forces);
+}
+
+inline void add_hydro(model::Scene& scene, const std::string& axes, const std::string& radiation,
+                      Random& random) {
+  scene.database = random_database(random);
+  scene.hydro = model::HydroOptions{};
+  scene.hydro->axes = axes;
+  scene.hydro->radiation = radiation;
+  for (model::Body& body : scene.bodies)
+    body.hydro = body.name;
+}
+
+struct NamedScene {
+  std::string name;
+  model::Scene scene;
+};
+
+/// Every joint type x kind of body x hydrodynamic axes, each with every force.
+inline std::vector<NamedScene> all_scenes() {
+  std::vector<NamedScene> scenes;
+  Random random;
+  const std::vector<std::vector<std::string>> motions = {
+      {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
+  for (const joint::JointType& type : joint::joint_types())
+    for (const auto& motion : motions)
+      for (const std::string hydro : {"dry", "body", "mean"}) {
+        // Rows on three axes of rotation overdetermine a body that has one.
+        if (motion.size() > 1 && type.rows.size() > 3)
+          continue;
+        model::Scene scene = two_bodies(type, motion, random);
+        if (hydro != "dry")
+          add_hydro(scene, hydro, "exponential", random);
+        add_every_force(scene, random);
+        scenes.push_back({std::string(type.name) + ", " + motion[0] +
+                              (motion.size() > 1 ? "..." : "") + ", " + hydro,
+                          scene});
+      }
+  return scenes;
+}
+
+/// Unknowns far from any special value; quaternions off the unit sphere by some per cent.
+inline VectorX random_state(const system::System& s, Random& random) {
+  VectorX y = system::initial_state(s);
+  for (Index i = 0; i < s.n; ++i)
+    y[i] += (i < s.n_q ? 0.3 : 1.0) * random();
+  return y;
+}
+
+} // namespace hydrodae::test

@@ -1,0 +1,71 @@
+/// The hand-written Jacobian against dual numbers, block by block, on every scene of the type
+/// lists.
+
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "hydrodae/math/dual.h"
+#include "hydrodae/system/jacobian.h"
+#include "hydrodae/system/residual.h"
+#include "scenes.h"
+
+namespace {
+
+using namespace hydrodae;
+using system::System;
+
+MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
+  MatrixX m = MatrixX::Zero(p.n, p.n);
+  for (Index c = 0; c < p.n; ++c)
+    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+      m(p.row[k], c) += values[k];
+  return m;
+}
+
+/// Exact derivative of the residual along unknown `column` of y or of y'.
+VectorX derivative(const System& s, const VectorX& y, const VectorX& yp, Index column, bool by_yp) {
+  VecX<Dual> dy = y.cast<Dual>(), dyp = yp.cast<Dual>(), r(s.n);
+  (by_yp ? dyp : dy)[column].b = 1.0;
+  system::Workspace<Dual> ws(s);
+  system::residual<Dual>(s, ws, 0.0, dy.data(), dyp.data(), r.data());
+  VectorX d(s.n);
+  for (Index i = 0; i < s.n; ++i)
+    d[i] = r[i].b;
+  return d;
+}
+
+} // namespace
+
+TEST_CASE("the Jacobian is exact in all blocks") {
+  test::Random random;
+  int scenes = 0;
+  for (const test::NamedScene& named : test::all_scenes()) {
+    CAPTURE(named.name);
+    const System s = system::build(named.scene);
+    const system::Pattern pattern = system::find_pattern(s);
+    const VectorX y = test::random_state(s, random);
+    VectorX yp(s.n);
+    for (Index i = 0; i < s.n; ++i)
+      yp[i] = random();
+    system::JacobianWorkspace ws(s);
+    system::JacobianParts parts(pattern);
+    system::jacobian(s, pattern, ws, 0.0, y.data(), yp.data(), parts);
+    const MatrixX by_y = dense(pattern, parts.by_y), by_yp = dense(pattern, parts.by_yp);
+    for (Index c = 0; c < s.n; ++c) {
+      CAPTURE(s.names[c]);
+      for (bool rates : {false, true}) {
+        const VectorX exact = derivative(s, y, yp, c, rates);
+        const VectorX ours = (rates ? by_yp : by_y).col(c);
+        Index worst = 0;
+        const double error =
+            ((ours - exact).array().abs() / (1.0 + exact.array().abs())).maxCoeff(&worst);
+        CAPTURE(s.row_names[worst]);
+        CAPTURE(ours[worst]);
+        CAPTURE(exact[worst]);
+        REQUIRE(error < 1e-9);
+      }
+    }
+    ++scenes;
+  }
+  CHECK(scenes >= 3 * static_cast<int>(joint::joint_types().size()));
+}

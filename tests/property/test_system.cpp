@@ -1,0 +1,90 @@
+/// Purity, momentum and energy of the equations of motion.
+
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/system/observer.h"
+#include "hydrodae/system/residual.h"
+#include "scenes.h"
+
+namespace {
+
+using namespace hydrodae;
+using system::System;
+
+VectorX evaluate(const System& s, system::Workspace<double>& ws, const VectorX& y,
+                 const VectorX& yp) {
+  VectorX r(s.n);
+  system::residual<double>(s, ws, 0.0, y.data(), yp.data(), r.data());
+  return r;
+}
+
+} // namespace
+
+TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") {
+  test::Random random;
+  for (const test::NamedScene& named : test::all_scenes()) {
+    CAPTURE(named.name);
+    const System s = system::build(named.scene);
+    const system::Pattern pattern = system::find_pattern(s);
+    system::Workspace<double> used(s), fresh(s);
+    system::JacobianWorkspace used_j(s), fresh_j(s);
+    system::JacobianParts first(pattern), second(pattern);
+    const VectorX y = test::random_state(s, random), other = test::random_state(s, random);
+    const VectorX yp = test::random_state(s, random);
+    evaluate(s, used, other, yp);
+    system::jacobian(s, pattern, used_j, 0.0, other.data(), yp.data(), first);
+    CHECK(evaluate(s, used, y, yp) == evaluate(s, fresh, y, yp));
+    system::jacobian(s, pattern, used_j, 0.0, y.data(), yp.data(), first);
+    system::jacobian(s, pattern, fresh_j, 0.0, y.data(), yp.data(), second);
+    CHECK(first.by_y == second.by_y);
+    CHECK(first.by_yp == second.by_yp);
+  }
+}
+
+TEST_CASE("the consistent start satisfies all equations") {
+  for (const test::NamedScene& named : test::all_scenes()) {
+    CAPTURE(named.name);
+    const System s = system::build(named.scene);
+    const system::Pattern pattern = system::find_pattern(s);
+    VectorX y = system::initial_state(s), yp;
+    REQUIRE_NOTHROW(solve::consistent_start(s, pattern, y, yp));
+    system::Workspace<double> ws(s);
+    const VectorX r = evaluate(s, ws, y, yp);
+    const double size = 1.0 + yp.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff();
+    CHECK(r.cwiseAbs().maxCoeff() < 1e-9 * size);
+  }
+}
+
+TEST_CASE("added mass in body axes conserves energy: power of its load is minus d(U.AU/2)/dt") {
+  test::Random random;
+  for (const std::string axes : {"body", "mean"}) {
+    CAPTURE(axes);
+    model::Scene scene = test::two_bodies(*joint::find_joint_type("spherical"), {"rigid"}, random);
+    test::add_hydro(scene, axes, "none", random);
+    scene.joints.clear();
+    const System s = system::build(scene);
+    // Positions, velocities and accelerations at random; q' as the kinematics demand.
+    VectorX y = test::random_state(s, random), yp = test::random_state(s, random);
+    for (const system::BodyData& b : s.bodies) {
+      y.segment<4>(b.q0 + 3).normalize();
+      y[b.sigma] = 0.0;
+    }
+    system::Workspace<double> ws(s);
+    VectorX rest = yp;
+    rest.head(s.n_q).setZero();
+    yp.head(s.n_q) = -evaluate(s, ws, y, rest).head(s.n_q);
+    system::Observer observer(s);
+    auto fluid = [&](double h) { // kinetic energy of the fluid along the motion
+      const VectorX moved = y + h * yp;
+      return observer.observe(moved, yp).kinetic_added_mass;
+    };
+    const double h = 1e-5;
+    const double rate = (fluid(h) - fluid(-h)) / (2.0 * h);
+    const system::Observation& o = observer.observe(y, yp);
+    const auto index = std::find(o.components.begin(), o.components.end(), "added_mass_inf");
+    const double power = o.powers[index - o.components.begin()];
+    CHECK(power == doctest::Approx(-rate).epsilon(1e-7));
+  }
+}
