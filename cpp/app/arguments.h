@@ -1,0 +1,83 @@
+#pragma once
+/// The command line of hydrodae-solve.
+
+#include <string>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/io/case_reader.h"
+
+namespace hydrodae::app {
+
+inline constexpr const char* usage =
+    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--quiet]
+       hydrodae-solve --check CASE [--set KEY=VALUE]...
+       hydrodae-solve --version | --help
+
+  -o RESULTS       results file (HDF5), replaced if it exists
+  --set KEY=VALUE  replace a value of the case, for example --set solver.rtol=1e-8 or
+                   --set joint.hinge1.initial.angle_deg=5
+  --check          read and check the case, print what is in it, do not run
+  --quiet          no progress on stderr
+
+Exit codes: 0 done, 2 bad case or model, 3 solver failure, 4 interrupted; what was computed before
+a failure or an interrupt (Ctrl-C) is kept in the results file.
+)";
+
+struct Arguments {
+  enum class Task { run, check, version, help } task = Task::run;
+  std::string case_path, output;
+  io::Overrides overrides;
+  bool quiet = false;
+};
+
+inline std::string next_value(int argc, char** argv, int& i) {
+  if (i + 1 >= argc)
+    throw CaseError(std::string(argv[i]) + ": a value is missing");
+  return argv[++i];
+}
+
+/// "KEY=VALUE"
+inline void add_override(const std::string& text, io::Overrides& overrides) {
+  const auto trimmed = [](const std::string& part) {
+    const std::size_t first = part.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : part.substr(first, part.find_last_not_of(' ') - first + 1);
+  };
+  const std::size_t equals = text.find('=');
+  const std::string key = trimmed(text.substr(0, equals));
+  if (equals == std::string::npos || key.empty())
+    throw CaseError("--set " + text + ": expected KEY=VALUE");
+  overrides[key] = trimmed(text.substr(equals + 1));
+}
+
+/// Throws CaseError on words that are not understood.
+inline Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "-h" || word == "--help")
+      arguments.task = Arguments::Task::help;
+    else if (word == "--version")
+      arguments.task = Arguments::Task::version;
+    else if (word == "--check")
+      arguments.task = Arguments::Task::check;
+    else if (word == "--quiet")
+      arguments.quiet = true;
+    else if (word == "-o" || word == "--output")
+      arguments.output = next_value(argc, argv, i);
+    else if (word == "--set")
+      add_override(next_value(argc, argv, i), arguments.overrides);
+    else if (word.starts_with("-") || !arguments.case_path.empty())
+      throw CaseError("unexpected argument '" + word + "'; see hydrodae-solve --help");
+    else
+      arguments.case_path = word;
+  }
+  const bool runs = arguments.task == Arguments::Task::run;
+  if (arguments.case_path.empty() && (runs || arguments.task == Arguments::Task::check))
+    throw CaseError("a case file is missing; see hydrodae-solve --help");
+  if (runs && arguments.output.empty())
+    throw CaseError("-o RESULTS is missing; see hydrodae-solve --help");
+  return arguments;
+}
+
+} // namespace hydrodae::app

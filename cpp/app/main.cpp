@@ -1,0 +1,105 @@
+/// hydrodae-solve: runs one case file.
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iostream>
+
+#include "arguments.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/simulation.h"
+
+namespace {
+
+using hydrodae::ExitCode;
+using hydrodae::app::Arguments;
+using hydrodae::app::usage;
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void note_interrupt(int) { interrupted = 1; }
+
+/// Progress on stderr: a line that renews itself on a terminal, else a line every 2 s.
+class Reporter {
+public:
+  explicit Reporter(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+  ~Reporter() { finish(); }
+
+  bool operator()(double time, double end_time) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!quiet_ && now - last_ > std::chrono::milliseconds(terminal_ ? 100 : 2000)) {
+      std::fprintf(stderr,
+                   terminal_ ? "\r%3.0f %%  %.6g s of %.6g s " : "%3.0f %%  %.6g s of %.6g s\n",
+                   100.0 * time / end_time, time, end_time);
+      last_ = now;
+      open_line_ = terminal_;
+    }
+    return interrupted == 0;
+  }
+
+  void finish() {
+    if (open_line_)
+      std::fputc('\n', stderr);
+    open_line_ = false;
+  }
+
+private:
+  bool quiet_, terminal_, open_line_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+  Reporter reporter(arguments.quiet);
+  hydrodae::RunStatistics statistics;
+  try {
+    statistics = hydrodae::simulate(scene, arguments.output, std::ref(reporter));
+  } catch (const hydrodae::ModelError& error) {
+    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+  }
+  reporter.finish();
+  std::printf("%s at t = %.6g s: %ld steps in %.3g s, results in %s\n", statistics.status.c_str(),
+              statistics.end_time, statistics.steps, statistics.wall_time,
+              arguments.output.c_str());
+  return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
+}
+
+ExitCode perform(const Arguments& arguments) {
+  if (arguments.task == Arguments::Task::help) {
+    std::cout << usage;
+    return ExitCode::done;
+  }
+  if (arguments.task == Arguments::Task::version) {
+    std::cout << "hydrodae " << hydrodae::version << '\n';
+    return ExitCode::done;
+  }
+  const hydrodae::model::Scene scene =
+      hydrodae::io::read_case(arguments.case_path, arguments.overrides);
+  if (arguments.task == Arguments::Task::run)
+    return run(scene, arguments);
+  std::cout << hydrodae::model::summary(scene);
+  return ExitCode::done;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const auto report = [](const std::exception& error, ExitCode code) {
+    std::cerr << "hydrodae-solve: " << error.what() << '\n';
+    return static_cast<int>(code);
+  };
+  try {
+    return static_cast<int>(perform(hydrodae::app::parse(argc, argv)));
+  } catch (const hydrodae::SolverError& error) {
+    return report(error, ExitCode::solver_failure);
+  } catch (const hydrodae::Error& error) {
+    return report(error, ExitCode::bad_case);
+  } catch (const std::exception& error) {
+    return report(error, static_cast<ExitCode>(EXIT_FAILURE));
+  }
+}

@@ -1,0 +1,177 @@
+#include "hydrodae/io/case_reader.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/io/case_overrides.h"
+#include "hydrodae/io/hydro_file.h"
+#include "hydrodae/io/toml_table.h"
+
+namespace hydrodae::io {
+namespace {
+
+const std::vector<std::string> top_level_keys = {"title", "environment", "hydro",  "body",
+                                                 "joint", "force",       "solver", "output"};
+
+toml::table parse_toml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw CaseError(position(error.source()) + ": " + std::string(error.description()));
+  }
+}
+
+/// Where a table begins, or its key where it has no header (made by an override).
+std::string table_position(const toml::table& root, const std::string& name) {
+  const auto found = root.find(name);
+  const toml::source_region& source = found->second.source();
+  return position(source.path ? source : found->first.source());
+}
+
+/// [name], if the case has it.
+template <class T>
+bool read_single(const toml::table& root, const std::string& name, Positions& positions, T& out) {
+  const toml::node* node = root.get(name);
+  if (!node)
+    return false;
+  if (!node->is_table())
+    throw CaseError(table_position(root, name) + ": " + in_quotes(name) +
+                    " must be one table: write [" + name + "]");
+  positions[name] = table_position(root, name);
+  out = read_table<T>({*node->as_table(), "[" + name + "]", name, positions[name]}, positions);
+  return true;
+}
+
+/// Calls `read(table)` for each entry [[name]].
+template <class Read>
+void for_each_entry(const toml::table& root, const std::string& name, Positions& positions,
+                    const Read& read) {
+  const toml::node* node = root.get(name);
+  if (!node)
+    return;
+  if (!node->is_array_of_tables())
+    throw CaseError(table_position(root, name) + ": " + in_quotes(name) +
+                    " must be a list of tables: write [[" + name + "]]");
+  int count = 0;
+  for (const toml::node& item : *node->as_array()) {
+    ++count;
+    const toml::table& entry = *item.as_table();
+    const std::string number = "#" + std::to_string(count);
+    const auto given = entry["name"].value<std::string>();
+    const std::string path = name + "." + given.value_or(number);
+    positions[path] = position(item.source());
+    read(Table{entry, "[[" + name + "]] " + (given ? in_quotes(*given) : number), path,
+               positions[path]});
+  }
+}
+
+/// Reads the entry into the list whose element type has its `type`.
+void read_force(const Table& table, Positions& positions, model::Forces& forces) {
+  const std::vector<std::string> types = std::apply(
+      [](const auto&... list) {
+        return std::vector<std::string>{
+            std::string(std::remove_cvref_t<decltype(list)>::value_type::type)...};
+      },
+      forces);
+  Key key{"type", "-", any_value, {types.begin(), types.end()}, ""};
+  const toml::node* node = find_key(table, key, positions);
+  if (!node)
+    missing_key(table, "type", "-", "Kind of force: " + joined(types));
+  std::string type;
+  read_value(*node, key, type);
+  const auto read_into = [&](auto& list) {
+    using Force = typename std::remove_cvref_t<decltype(list)>::value_type;
+    if (type == Force::type)
+      list.push_back(read_table<Force>(table, positions));
+  };
+  std::apply([&](auto&... list) { (read_into(list), ...); }, forces);
+}
+
+model::Scene read_tables(const toml::table& root, const std::string& name) {
+  model::Scene scene;
+  Positions& positions = scene.positions;
+  const Table top{root, "the case", "", name + ":1:1"};
+  check_keys(top, top_level_keys);
+  Key title{"title", "-", any_value, {}, ""};
+  if (const toml::node* node = find_key(top, title, positions))
+    read_value(*node, title, scene.title);
+
+  read_single(root, "environment", positions, scene.environment);
+  model::HydroOptions hydro;
+  if (read_single(root, "hydro", positions, hydro))
+    scene.hydro = hydro;
+  for_each_entry(root, "body", positions, [&](const Table& entry) {
+    scene.bodies.push_back(read_table<model::Body>(entry, positions));
+  });
+  for_each_entry(root, "joint", positions, [&](const Table& entry) {
+    scene.joints.push_back(read_table<model::Joint>(entry, positions));
+  });
+  for_each_entry(root, "force", positions,
+                 [&](const Table& entry) { read_force(entry, positions, scene.forces); });
+  if (!read_single(root, "solver", positions, scene.solver))
+    throw CaseError(name + ":1:1: missing table [solver]");
+  read_single(root, "output", positions, scene.output);
+  return scene;
+}
+
+std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
+                                                     const std::string& directory) {
+  const std::filesystem::path path = std::filesystem::path(directory) / scene.hydro->database;
+  try {
+    return std::make_shared<const hydro::Database>(
+        read_hydro_file(path.lexically_normal().string()));
+  } catch (const CaseError& error) {
+    throw CaseError(scene.positions.at("hydro.database") +
+                    ": key 'database' in [hydro]: " + error.what());
+  }
+}
+
+model::Scene parse(const std::string& text, const std::string& directory,
+                   const Overrides& overrides, const std::string& name, const std::string& path) {
+  toml::table root = parse_toml(text, name);
+  apply_overrides(root, overrides);
+  model::Scene scene = read_tables(root, name);
+  scene.path = path;
+  scene.text = text;
+  for (const auto& [key, value] : overrides)
+    scene.overrides.push_back(key + " = " + value);
+  if (!overrides.empty())
+    scene.text += "\n# values given on the command line:\n";
+  for (const std::string& line : scene.overrides)
+    scene.text += "# " + line + "\n";
+  if (scene.hydro)
+    scene.database = read_database(scene, directory);
+  try {
+    model::check(scene);
+  } catch (const ModelError& error) {
+    throw CaseError(model::located(scene, error));
+  }
+  return scene;
+}
+
+} // namespace
+
+model::Scene read_case(const std::string& path, const Overrides& overrides) {
+  std::error_code ignored; // what cannot be asked cannot be opened either
+  if (std::filesystem::is_directory(path, ignored))
+    throw CaseError(path + ": is a folder; give the case file in it");
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw CaseError(path + ": cannot read the case file: " + std::strerror(errno));
+  std::ostringstream text;
+  text << file.rdbuf();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return parse(text.str(), folder.string(), overrides, path, path);
+}
+
+model::Scene parse_case(const std::string& text, const std::string& directory,
+                        const Overrides& overrides, const std::string& name) {
+  return parse(text, directory, overrides, name, "");
+}
+
+} // namespace hydrodae::io

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "hydrodae/hydro/database.h"
+
+namespace hydrodae::io {
+
+/// Reads `hydro.h5`. Throws CaseError (path, dataset, what was expected) when it is missing, not of
+/// our format, or inconsistent in its shapes.
+hydro::Database read_hydro_file(const std::string& path);
+
+} // namespace hydrodae::io

@@ -1,0 +1,9 @@
+#pragma once
+#include <string>
+
+namespace hydrodae::io {
+
+/// SHA-256 of a file's bytes as 64 hexadecimal digits. Throws CaseError when it cannot be read.
+std::string sha256_of_file(const std::string& path);
+
+} // namespace hydrodae::io

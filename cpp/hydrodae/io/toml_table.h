@@ -1,0 +1,78 @@
+#pragma once
+/// A table of a case file as the struct that declares its keys (`T::fields()`).
+
+#include <concepts>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "hydrodae/core/field.h"
+#include "hydrodae/io/toml_values.h"
+
+namespace hydrodae::io {
+
+/// A table and how messages call it.
+struct Table {
+  const toml::table& node;
+  std::string label;    ///< "[[body]] 'flap1'"
+  std::string path;     ///< "body.flap1"
+  std::string position; ///< "case.toml:12:1"
+};
+
+/// Key path -> position, for messages of later checks.
+using Positions = std::map<std::string, std::string>;
+
+/// Throws CaseError on the first key of the table that is not in `valid`.
+void check_keys(const Table& table, const std::vector<std::string>& valid);
+
+/// The value of `name` with the description of its key filled in, or null. Notes its position.
+const toml::node* find_key(const Table& table, Key& key, Positions& positions);
+
+/// Throws CaseError: a required key is missing.
+[[noreturn]] void missing_key(const Table& table, std::string_view name, std::string_view unit,
+                              std::string_view doc);
+
+/// The table under `name` of `parent`, whose members it is read into; throws if it is not a table.
+Table nested_table(const Table& parent, const toml::node& node, const std::string& name,
+                   Positions& positions);
+
+/// Entries of a list that is read by its `type` name it as a constant; the key itself is no field.
+template <class T>
+concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
+
+/// A table `initial` of its own.
+template <class T>
+concept HasInitial = requires(T value) { value.initial; };
+
+/// Reads and checks all keys of `table`. Throws CaseError.
+template <class T> T read_table(const Table& table, Positions& positions) {
+  T value{};
+  const Fields<T> fields = T::fields();
+  std::vector<std::string> valid;
+  if constexpr (NamedType<T>)
+    valid.emplace_back("type");
+  for (const Field<T>& field : fields)
+    valid.emplace_back(field.key);
+  if constexpr (HasInitial<T>)
+    valid.emplace_back("initial");
+  check_keys(table, valid);
+
+  for (const Field<T>& field : fields) {
+    Key key{field.key, field.unit, field.range, field.choices, ""};
+    const toml::node* node = find_key(table, key, positions);
+    if (node)
+      std::visit([&](auto member) { read_value(*node, key, value.*member); }, field.member);
+    else if (field.required)
+      missing_key(table, field.key, field.unit, field.doc);
+  }
+  if constexpr (HasInitial<T>)
+    if (const toml::node* node = table.node.get("initial"))
+      value.initial = read_table<decltype(value.initial)>(
+          nested_table(table, *node, "initial", positions), positions);
+  return value;
+}
+
+} // namespace hydrodae::io

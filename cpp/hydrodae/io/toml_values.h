@@ -1,0 +1,41 @@
+#pragma once
+/// Values of a case file as C++ values, checked against the description of their key.
+
+#include <toml++/toml.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::io {
+
+/// What a value must be, and where it stands.
+struct Key {
+  std::string_view name;
+  std::string_view unit;
+  Range range;
+  std::vector<std::string_view> choices;
+  std::string where; ///< "case.toml:12:3: key 'mass' in [[body]] 'flap1'", starts every message
+};
+
+/// "case.toml:12:3", or "--set solver.rtol" for a value that was given on the command line.
+std::string position(const toml::source_region& source);
+
+/// Each throws CaseError on a wrong type, length, range or word.
+void read_value(const toml::node& node, const Key& key, double& out);
+void read_value(const toml::node& node, const Key& key, bool& out);
+void read_value(const toml::node& node, const Key& key, int& out);
+void read_value(const toml::node& node, const Key& key, std::string& out);
+void read_value(const toml::node& node, const Key& key, std::vector<std::string>& out);
+void read_value(const toml::node& node, const Key& key, Vector3& out);
+void read_value(const toml::node& node, const Key& key, Vector6& out);
+void read_value(const toml::node& node, const Key& key, Matrix6& out);
+
+template <class V> void read_value(const toml::node& node, const Key& key, std::optional<V>& out) {
+  read_value(node, key, out.emplace());
+}
+
+} // namespace hydrodae::io

@@ -1,0 +1,44 @@
+#include "bindings.h"
+#include "hydrodae/core/error.h"
+
+namespace py = pybind11;
+
+namespace hydrodae::bindings {
+namespace {
+
+/// The exceptions themselves are Python's: hydrodae/errors.py.
+py::object error_type(const char* name) {
+  return py::module_::import("hydrodae.errors").attr(name);
+}
+
+void raise(const char* type, const std::exception& error) {
+  py::set_error(error_type(type), error.what());
+}
+
+void raise_solver_error(const SolverError& error) {
+  const py::object type = error_type("SolverError");
+  const py::object exception = type(error.what());
+  exception.attr("time") = error.time;
+  py::set_error(type, exception);
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer)
+      std::rethrow_exception(pointer);
+  } catch (const SolverError& error) {
+    raise_solver_error(error);
+  } catch (const CaseError& error) {
+    raise("CaseError", error);
+  } catch (const ModelError& error) { // without a place in a file; see simulation.cpp
+    raise("CaseError", error);
+  } catch (const Error& error) {
+    raise("HydrodaeError", error);
+  }
+}
+
+} // namespace
+
+void bind_errors() { py::register_local_exception_translator(translate); }
+
+} // namespace hydrodae::bindings

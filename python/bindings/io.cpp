@@ -1,0 +1,28 @@
+#include <pybind11/stl.h>
+
+#include "bindings.h"
+#include "hydrodae/io/case_reader.h"
+
+namespace py = pybind11;
+
+namespace hydrodae::bindings {
+
+void bind_io(py::module_& module) {
+  module.def(
+      "load_case",
+      [](const std::string& path, const io::Overrides& overrides) {
+        return io::read_case(path, overrides);
+      },
+      py::arg("path"), py::arg("overrides"), py::call_guard<py::gil_scoped_release>(),
+      "Read a case file; `overrides` maps dotted keys to TOML values. Raises CaseError.");
+  module.def(
+      "parse_case",
+      [](const std::string& text, const std::string& directory, const io::Overrides& overrides) {
+        return io::parse_case(text, directory, overrides);
+      },
+      py::arg("text"), py::arg("directory"), py::arg("overrides"),
+      py::call_guard<py::gil_scoped_release>(),
+      "Read a case from a string; paths in it are relative to `directory`. Raises CaseError.");
+}
+
+} // namespace hydrodae::bindings

@@ -1,0 +1,38 @@
+#include "hydrodae/model/scene.h"
+
+#include <pybind11/stl.h>
+
+#include "bindings.h"
+
+namespace py = pybind11;
+
+namespace hydrodae::bindings {
+namespace {
+
+template <class T> std::vector<std::string> names(const std::vector<T>& items) {
+  std::vector<std::string> out;
+  for (const T& item : items)
+    out.push_back(item.name);
+  return out;
+}
+
+} // namespace
+
+void bind_model(py::module_& module) {
+  using model::Scene;
+  py::class_<Scene>(module, "Scene", "A case file that was read and checked; immutable.")
+      .def_property_readonly("title", [](const Scene& s) { return s.title; })
+      .def_property_readonly("body_names", [](const Scene& s) { return names(s.bodies); })
+      .def_property_readonly("joint_names", [](const Scene& s) { return names(s.joints); })
+      .def_property_readonly(
+          "text", [](const Scene& s) { return s.text; }, "The case file as it was read.")
+      .def_property_readonly(
+          "end_time", [](const Scene& s) { return s.solver.end_time; }, "End of the run, s.")
+      .def("summary", &model::summary)
+      .def("__repr__", [](const Scene& s) {
+        return "<hydrodae._core.Scene '" + s.title + "': " + std::to_string(s.bodies.size()) +
+               " bodies, " + std::to_string(s.joints.size()) + " joints>";
+      });
+}
+
+} // namespace hydrodae::bindings

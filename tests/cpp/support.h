@@ -1,0 +1,95 @@
+#pragma once
+/// What several tests use.
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "hydrodae/core/error.h"
+
+namespace hydrodae::tests {
+
+/// An empty folder that goes with the object.
+class TemporaryFolder {
+public:
+  TemporaryFolder() {
+    path_ = std::filesystem::temp_directory_path() /
+            ("hydrodae-test-" + std::to_string(std::random_device{}()));
+    std::filesystem::create_directory(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// What the Error says that `call` throws.
+template <class Call> std::string message_of(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// `text` with the one place where it holds `old` replaced.
+inline std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  const std::size_t at = text.find(old);
+  REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
+  return text.replace(at, old.size(), by);
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A dry case: a flap that is hinged to a fixed base, with a power take-off.
+inline const std::string flap_case = R"(title = "flap"
+
+[environment]
+gravity = 9.81
+
+[[body]]
+name = "base"
+motion = "fixed"
+mass = 100.0
+center_of_gravity = [0.0, 0.0, -5.0]
+
+[[body]]
+name = "flap"
+motion = "planar"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, -2.0]
+inertia = [1.0, 2.0, 3.0]
+
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "base"
+body_b = "flap"
+point = [0.0, 0.0, -4.0]
+axis = [0.0, 1.0, 0.0]
+initial = { angle_deg = 90.0 }
+
+[[force]]
+name = "pto1"
+type = "pto_linear"
+joint = "hinge"
+damping = 5.0
+
+[solver]
+end_time = 10.0
+
+[output]
+step = 0.5
+)";
+
+} // namespace hydrodae::tests
