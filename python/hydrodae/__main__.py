@@ -1,0 +1,7 @@
+"""``python -m hydrodae``: the command line."""
+
+import sys
+
+from hydrodae.cli import main
+
+sys.exit(main())

@@ -1,0 +1,38 @@
+"""The compiled kernel (python/bindings). Users call it through `Case` and `run`."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+version: str
+
+class Scene:
+    """A case file that was read and checked; immutable."""
+
+    @property
+    def title(self) -> str: ...
+    @property
+    def body_names(self) -> list[str]: ...
+    @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def text(self) -> str:
+        """The case file as it was read."""
+    @property
+    def end_time(self) -> float:
+        """End of the run, s."""
+    def summary(self) -> str: ...
+
+def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
+    """Read a case file; `overrides` maps dotted keys to TOML values. Raises CaseError."""
+
+def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene:
+    """Read a case from a string; paths in it are relative to `directory`. Raises CaseError."""
+
+def simulate(
+    scene: Scene, output: str, progress: Callable[[float, float], bool] | None
+) -> dict[str, Any]:
+    """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
+
+    Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
+    SolverError when the integration fails; the file then holds what was computed.
+    """

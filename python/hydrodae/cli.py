@@ -1,0 +1,176 @@
+"""The command `hydrodae`: run a case, draw results, prepare hydrodynamic databases.
+
+Exit codes: 0 done, 2 bad case, model or argument, 3 solver failure (partial results kept),
+4 interrupted (likewise).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import sys
+from collections.abc import Sequence
+
+from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
+
+DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        By default those of the process.
+    """
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    parsed = _parser(given[:1]).parse_args(given)
+    try:
+        code: int | None = parsed.call(parsed)
+        sys.stdout.flush()
+    except SolverError as error:
+        return _complain(error, SOLVER_FAILURE)
+    except (RunInterrupted, KeyboardInterrupt) as error:
+        return _complain(error, INTERRUPTED)
+    except BrokenPipeError:  # whoever read our output has gone, as in `hydrodae ... | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except (HydrodaeError, OSError) as error:
+        return _complain(error, BAD_CASE)
+    return code or DONE
+
+
+def _parser(command: list[str]) -> argparse.ArgumentParser:
+    """All commands; the arguments of hdb, which need its modules, only if it is the `command`."""
+    parser = argparse.ArgumentParser(
+        prog="hydrodae",
+        description="Simulate wave energy converters with awkward mechanisms.",
+        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted.",
+    )
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+
+    run = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
+    run.add_argument("case", metavar="CASE", help="case file (TOML)")
+    run.add_argument(
+        "-o", "--output", metavar="FILE", help="results file (default: CASE with the ending .h5)"
+    )
+    run.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
+    )
+    run.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
+    run.set_defaults(call=_run)
+
+    plot = commands.add_parser(
+        "plot",
+        help="draw results",
+        description="Draw results: joint coordinates, bodies and energy, or the named channels.",
+    )
+    plot.add_argument("results", metavar="RESULTS", help="results file (HDF5)")
+    plot.add_argument(
+        "channels",
+        metavar="CHANNEL",
+        nargs="*",
+        help="such as joints/hinge1/angle, 'joints/*/angle' or bodies/base/position.z",
+    )
+    plot.add_argument(
+        "-o", "--output", metavar="FILE", help="picture (default: RESULTS with the ending .png)"
+    )
+    plot.add_argument(
+        "--compare",
+        metavar="FILE.csv:COLUMN[:LABEL[:SCALE]]",
+        action="append",
+        default=[],
+        help="a curve under the channel, over the first column, the time in s; angles in degrees "
+        "(else give the SCALE to degrees); may be repeated",
+    )
+    plot.add_argument("--list", action="store_true", help="list the channels and draw nothing")
+    plot.set_defaults(call=_plot)
+
+    hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
+    if command == ["hdb"]:
+        _add_hdb(hdb)
+
+    version = commands.add_parser("version", help="print the versions")
+    version.set_defaults(call=_version)
+    return parser
+
+
+def _add_hdb(parser: argparse.ArgumentParser) -> None:
+    from hydrodae.hdb import command
+
+    command.add_arguments(parser)
+    parser.set_defaults(call=command.run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from pathlib import Path
+
+    from hydrodae.case import Case, parse_assignment
+    from hydrodae.progress import ProgressLine
+    from hydrodae.simulate import run
+
+    case = Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
+    output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
+    if arguments.quiet:
+        run(case, output)
+        return DONE
+    with ProgressLine(case.title) as progress:
+        results = run(case, output, progress=progress)
+    print(results.summary())
+    print(f"  results in {output}")
+    return DONE
+
+
+def _plot(arguments: argparse.Namespace) -> int:
+    from pathlib import Path
+
+    from hydrodae.results import Results
+
+    results = Results.read(arguments.results)
+    if arguments.list:
+        for name in results:
+            attributes = results[name].attrs
+            print(f"{name:44} {attributes.get('unit', '')}")
+        return DONE
+
+    from hydrodae import plot
+    from hydrodae.curve import parse_curve
+
+    if arguments.compare:
+        if len(arguments.channels) != 1:
+            raise CaseError("--compare needs exactly one CHANNEL")
+        curves = [parse_curve(spec) for spec in arguments.compare]
+        figure = plot.plot_comparison(results, arguments.channels[0], curves)
+    elif arguments.channels:
+        figure = plot.plot_channels(results, arguments.channels)
+    else:
+        figure = plot.plot_overview(results)
+    print(plot.save(figure, arguments.output or Path(arguments.results).with_suffix(".png")))
+    return DONE
+
+
+def _version(_arguments: argparse.Namespace) -> int:
+    import hydrodae
+    from hydrodae import _core
+
+    print(
+        f"hydrodae {hydrodae.__version__} (kernel {_core.version}, "
+        f"Python {platform.python_version()})"
+    )
+    return DONE
+
+
+def _complain(error: BaseException, code: int) -> int:
+    """One block on stderr: what went wrong, and which file keeps the results."""
+    message = str(error) or "interrupted"
+    results = getattr(error, "results", None)
+    if results is not None:
+        message += f"\n  results up to t = {results.end_time:g} s are in {results.path}"
+    print(f"hydrodae: {message}", file=sys.stderr)
+    return code

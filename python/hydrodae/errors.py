@@ -1,0 +1,50 @@
+"""Exceptions that the package raises on purpose: one clear message each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hydrodae.results import Results
+
+
+class HydrodaeError(Exception):
+    """Base of all errors that hydrodae raises on purpose."""
+
+
+class CaseError(HydrodaeError, ValueError):
+    """A case file or an argument is wrong.
+
+    The message names file, line and column, the key, what was expected and the nearest valid name.
+    """
+
+
+class DatabaseError(HydrodaeError, ValueError):
+    """A hydrodynamic database is missing, incomplete or inconsistent."""
+
+
+class SolverError(HydrodaeError, RuntimeError):
+    """The integration stopped; partial results are kept in the results file.
+
+    Attributes
+    ----------
+    time : float
+        Time reached, s (NaN if unknown).
+    results : Results or None
+        What was computed until then.
+    """
+
+    time: float = float("nan")
+    results: Results | None = None
+
+
+class RunInterrupted(HydrodaeError):
+    """The run was stopped by the user; what was computed is kept in the results file.
+
+    Attributes
+    ----------
+    results : Results or None
+        What was computed until then.
+    """
+
+    results: Results | None = None

@@ -1,0 +1,207 @@
+"""The command line of databases: `hydrodae hdb import | fit | show`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb import files
+from hydrodae.hdb.checks import check
+from hydrodae.hdb.coordinates import body_name, expand
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import CheckReport
+from hydrodae.hdb.read import import_database, kind, read
+from hydrodae.hdb.summary import fit_summary
+
+DONE, BAD_DATA = 0, 2
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the subcommands import, fit and show to the parser of `hydrodae hdb`."""
+    actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
+
+    add = actions.add_parser(
+        "import",
+        help="read a Nemoh folder or Capytaine file, check it, write hydro.h5",
+        description="Read a Nemoh folder or a netCDF file of Capytaine, print what the checks "
+        "found, and write hydro.h5. Nothing is written if a check finds an error.",
+    )
+    add.add_argument("source", metavar="SOURCE", help="folder with Nemoh.cal, or Capytaine .nc")
+    add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
+    add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
+    add.add_argument(
+        "--cog",
+        metavar="NAME=X,Y,Z",
+        action="append",
+        default=[],
+        help="move A, B, F and the stiffness of a body to this point [m]; may be repeated",
+    )
+    add.add_argument(
+        "--origin",
+        metavar="NAME=X,Y,Z",
+        action="append",
+        default=[],
+        help="the point [m] of the moments in the source, where it does not say",
+    )
+    add.add_argument(
+        "--keep", metavar="SPEC", help="coordinates to keep, e.g. base.planar,flap1.pitch"
+    )
+    _fit_options(add)
+    add.add_argument(
+        "--fit",
+        metavar="NAME=SPEC",
+        action="append",
+        default=[],
+        help="fit the radiation memory of these coordinates, e.g. "
+        "flaps=flap1.pitch,flap2.pitch or all=base.planar,flap1.planar; may be repeated",
+    )
+    add.add_argument(
+        "--kernel", metavar="T", type=float, help="also store K(t) up to T seconds (large)"
+    )
+    add.add_argument("--single", action="store_true", help="tables in single precision")
+    add.add_argument(
+        "--accept", action="store_true", help="write the file although a check found an error"
+    )
+
+    fit = actions.add_parser("fit", help="add a fit of the radiation memory to a hydro.h5")
+    fit.add_argument("database", metavar="HYDRO.H5")
+    fit.add_argument(
+        "fit", metavar="NAME=SPEC", nargs="+", help="e.g. flaps=flap1.pitch,flap2.pitch"
+    )
+    fit.add_argument("-o", "--output", metavar="FILE", help="default: into the same file")
+    _fit_options(fit)
+
+    show = actions.add_parser("show", help="say what is in a database")
+    show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
+    show.add_argument("--check", action="store_true", help="also run the checks")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run a subcommand.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        Of a parser prepared by `add_arguments`.
+
+    Returns
+    -------
+    int
+        0 done, 2 the checks found an error and nothing was written.
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments or data.
+    """
+    actions = {"import": _import, "fit": _fit, "show": _show}
+    return actions[args.hdb_action](args)
+
+
+def _fit_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that a fit must match")
+    parser.add_argument("--states", metavar="N", type=int, help="largest number of states of a fit")
+    parser.add_argument(
+        "--loads", metavar="SPEC", help="coordinates whose loads a fit gives (default: all)"
+    )
+
+
+def _import(args: argparse.Namespace) -> int:
+    names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
+    database, report = import_database(
+        args.source,
+        names=names,
+        reference_points=dict(_point("--cog", text) for text in args.cog),
+        source_points=dict(_point("--origin", text) for text in args.origin),
+    )
+    if args.keep:
+        database = database.select(expand(args.keep, database.coordinates))
+    print(database.summary())
+    print(report)
+    if not report.ok and not args.accept:
+        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+        return BAD_DATA
+    if args.kernel is not None:
+        database = _with_kernel(database, args.kernel)
+    _add_fits(database, args.fit, args)
+    database.write(args.output, single=args.single)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    return DONE
+
+
+def _fit(args: argparse.Namespace) -> int:
+    database = files.read(args.database)
+    _add_fits(database, args.fit, args)
+    output = args.output or args.database
+    database.write(output, single=files.is_single(args.database))
+    print(f"written: {output}")
+    return DONE
+
+
+def _show(args: argparse.Namespace) -> int:
+    if args.check and kind(args.database) != "hydro":
+        database, report = import_database(args.database)
+    else:
+        database = read(args.database)
+        report = check(database) if args.check else CheckReport()
+    print(database.summary())
+    if args.check:
+        print(report)
+    return DONE
+
+
+def _with_kernel(database: HydroDatabase, end: float) -> HydroDatabase:
+    if not end > 0.0:
+        raise CaseError(f"--kernel {end:g}: needs a time > 0 [s]")
+    # 20 points per period of the highest frequency of the table
+    count = int(np.ceil(end * database.omega[-1] / 0.3)) + 1
+    return database.with_kernel(np.linspace(0.0, end, count))
+
+
+def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespace) -> None:
+    if not specs:
+        return
+    from hydrodae.memory import fit_memory
+
+    options: dict[str, Any] = {}
+    if args.band is not None:
+        options["band"] = _band(args.band)
+    if args.states is not None:
+        options["max_states"] = args.states
+    for spec in specs:
+        name, equals, text = spec.partition("=")
+        if not equals or body_name(name) != name:
+            raise CaseError(f"fit {spec!r}: expected NAME=SPEC, e.g. flaps=flap1.pitch,flap2.pitch")
+        inputs = expand(text, database.coordinates)
+        loads = expand(args.loads, database.coordinates) if args.loads else None
+        fit = fit_memory(database, inputs=inputs, outputs=loads, name=name, **options)
+        database.memory[name] = fit
+        print(f"fit {name}: {fit_summary(fit)}")
+
+
+def _numbers(what: str, text: str, count: int) -> list[float]:
+    try:
+        values = [float(v) for v in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != count or not np.all(np.isfinite(values)):
+        raise CaseError(f"{what} {text!r}: expected {count} numbers separated by commas")
+    return values
+
+
+def _point(option: str, text: str) -> tuple[str, list[float]]:
+    name, equals, values = text.partition("=")
+    if not equals:
+        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
+    return name.strip(), _numbers(option, values, 3)
+
+
+def _band(text: str) -> tuple[float, float]:
+    low, high = _numbers("--band", text, 2)
+    if not 0.0 <= low < high:
+        raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]")
+    return low, high

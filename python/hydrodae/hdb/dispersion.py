@@ -1,0 +1,30 @@
+"""Linear dispersion relation w^2 = g k tanh(k h)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:
+    """Wavenumber k [rad/m] of waves of frequency omega [rad/s] in water of depth h [m].
+
+    Newton iteration on x tanh x = w^2 h / g, to machine precision; `depth` may be infinite.
+    """
+    w = np.asarray(omega, dtype=float)
+    deep = w**2 / gravity
+    if not np.isfinite(depth):
+        return deep
+    a = deep * depth
+    x = np.where(a > 1.0, a, np.sqrt(a))
+    for _ in range(30):
+        t = np.tanh(x)
+        slope = t + x * (1.0 - t**2)
+        x = x - np.divide(x * t - a, slope, out=np.zeros_like(x), where=slope > 0.0)
+    return x / depth
+
+
+def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:
+    """Frequency [rad/s] of waves of the given wavenumbers [rad/m]."""
+    k = np.asarray(wavenumbers, dtype=float)
+    return np.sqrt(gravity * k * (np.tanh(k * depth) if np.isfinite(depth) else 1.0))

@@ -1,0 +1,187 @@
+"""Tell what a source is by its content, and read it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import h5py
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb import files
+from hydrodae.hdb.checks import check
+from hydrodae.hdb.coordinates import bodies_of, check_body, nearest
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import CheckReport, Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.nemoh_hydrostatics import find
+from hydrodae.hdb.source import SourceData, finish
+
+
+def kind(source: str | Path) -> str:
+    """Return "hydro", "nemoh" or "capytaine" for a source, by its content.
+
+    Raises
+    ------
+    DatabaseError
+        No such file, or nothing that can be read.
+    """
+    path = Path(source)
+    if path.is_dir():
+        if find(path, "Nemoh.cal") is not None:
+            return "nemoh"
+        inside = sorted(p.name for p in path.glob("*.nc"))
+        hint = f"; did you mean {path / inside[0]}?" if inside else ""
+        raise DatabaseError(f"{path}: a folder without Nemoh.cal{hint}")
+    if not path.is_file():
+        near = _similar(path)
+        raise DatabaseError(f"{path}: no such file or folder{near}")
+    if path.suffix.lower() == ".cal":
+        return "nemoh"
+    with open(path, "rb") as f:
+        magic = f.read(8)
+    if magic[:3] == b"CDF":
+        return "capytaine"
+    if h5py.is_hdf5(path):
+        if files.is_hydro_file(path):
+            return "hydro"
+        with h5py.File(path, "r") as f:
+            if "added_mass" in f and "radiating_dof" in f:
+                return "capytaine"
+            if "simulation_parameters" in f:
+                raise DatabaseError(f"{path}: a BEMIO file; this version does not read BEMIO files")
+    raise DatabaseError(
+        f"{path}: not a Nemoh folder, a netCDF file of Capytaine or a hydro.h5 of hydrodae"
+    )
+
+
+def read_source(source: str | Path) -> SourceData:
+    """Read a Nemoh folder or a Capytaine file as it is.
+
+    Raises
+    ------
+    DatabaseError
+        Missing or wrong files; the message names file and line.
+    """
+    path = Path(source)
+    if kind(path) == "nemoh":
+        from hydrodae.hdb.nemoh import read_nemoh
+
+        return read_nemoh(path)
+    from hydrodae.hdb.capytaine import read_capytaine
+
+    return read_capytaine(path)
+
+
+def read(source: str | Path) -> HydroDatabase:
+    """Read any supported source: `hydro.h5`, Nemoh folder, Capytaine netCDF.
+
+    Parameters
+    ----------
+    source : path
+        File or folder.
+
+    Returns
+    -------
+    HydroDatabase
+        In the project convention, A and B symmetrised. Use `import_database` to see the checks.
+
+    Raises
+    ------
+    DatabaseError
+        Missing or wrong files.
+    """
+    if kind(source) == "hydro":
+        return files.read(source)
+    return finish(read_source(source))
+
+
+def import_database(
+    source: str | Path,
+    *,
+    names: Sequence[str] | Mapping[str, str] | None = None,
+    reference_points: Mapping[str, ArrayLike] | None = None,
+    source_points: Mapping[str, ArrayLike] | None = None,
+    hydrostatics: Mapping[str, Hydrostatics] | None = None,
+) -> tuple[HydroDatabase, CheckReport]:
+    """Read a source, check it, rename its bodies and move it to the scene's reference points.
+
+    Parameters
+    ----------
+    source : path
+        As in `read`.
+    names : list or dict, optional
+        New body names, in the order of the source, or {old: new}. All other arguments use the new
+        names.
+    reference_points : dict of (3,) arrays, optional
+        Points to move to, usually the centres of gravity, world [m].
+    source_points : dict of (3,) arrays, optional
+        Points about which the moments of the source are, where the source does not say [m].
+    hydrostatics : dict of Hydrostatics, optional
+        Where the source has none, or wrong ones; waterplane moments about `reference_points`.
+
+    Returns
+    -------
+    database : HydroDatabase
+    report : CheckReport
+        Findings of the reader and of `hydrodae.hdb.checks.check`.
+
+    Raises
+    ------
+    DatabaseError
+        Missing or wrong files, unknown bodies, points that cannot be moved.
+    """
+    if kind(source) == "hydro":
+        database, noticed = files.read(source), list[Finding]()
+    else:
+        data = read_source(source)
+        new = {name: name for name in bodies_of(data.coordinates)}
+        new.update(_renaming(list(new), names))
+        _state_points(data, {v: k for k, v in new.items()}, source_points or {})
+        database = finish(data)
+        noticed = data.findings
+    database = database.renamed(_renaming(list(database.bodies), names))
+    if reference_points:
+        database = database.moved_to(reference_points)
+    if hydrostatics:
+        database = database.with_hydrostatics(hydrostatics)
+    return database, CheckReport([*noticed, *check(database).findings])
+
+
+def _renaming(
+    bodies: Sequence[str], names: Sequence[str] | Mapping[str, str] | None
+) -> Mapping[str, str]:
+    if names is None:
+        return {}
+    if isinstance(names, Mapping):
+        return names
+    if isinstance(names, str) or len(names) != len(bodies):
+        raise DatabaseError(
+            f"{len(bodies)} bodies in the source ({', '.join(bodies)}), "
+            f"but the new names are {names}"
+        )
+    return dict(zip(bodies, names, strict=True))
+
+
+def _state_points(
+    data: SourceData, old_names: Mapping[str, str], points: Mapping[str, ArrayLike]
+) -> None:
+    """Enter reference points that the source leaves out; contradicting the source is an error."""
+    for name, value in points.items():
+        check_body(name, old_names)
+        old, point = old_names[name], np.asarray(value, dtype=float)
+        known = data.reference_points.get(old)
+        if known is not None and not np.allclose(known, point, atol=1e-6):
+            raise DatabaseError(
+                f"the source says the moments of {name!r} are about {known.tolist()}, "
+                f"not {point.tolist()}"
+            )
+        data.reference_points[old] = point
+
+
+def _similar(path: Path) -> str:
+    if not path.parent.is_dir():
+        return ""
+    return nearest(path.name, sorted(p.name for p in path.parent.iterdir()))

@@ -1,0 +1,71 @@
+"""A database in words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hydrodae.hdb.coordinates import split_label
+from hydrodae.hdb.database import Body, HydroDatabase
+
+if TYPE_CHECKING:
+    from hydrodae.memory import ExponentialMemory
+
+
+def summary(db: HydroDatabase) -> str:
+    """Return what is in the database, for a newcomer: bodies, ranges, headings, fits."""
+    depth = f"{db.water_depth:g} m deep" if np.isfinite(db.water_depth) else "infinitely deep"
+    headings = ", ".join(f"{h:.4g}" for h in np.degrees(db.heading)) or "none"
+    lines = [
+        f"{db.title or 'hydrodynamic database'} (source {db.source or 'not stated'}, "
+        f"sha256 {db.source_sha256[:12] or '-'})",
+        f"  water      {db.rho:g} kg/m3, {depth}, gravity {db.gravity:g} m/s2",
+        f"  frequency  {db.omega.size} from {db.omega[0]:.4g} to {db.omega[-1]:.4g} rad/s "
+        f"(periods {2 * np.pi / db.omega[-1]:.3g} to {2 * np.pi / db.omega[0]:.3g} s)",
+        f"  heading    {headings} deg (direction of travel, 0 = +x)",
+        f"  excitation {'Froude-Krylov and diffraction' if db.excitation_split else 'total only'}",
+        f"  A_inf      {db.added_mass_inf_origin}",
+    ]
+    for body in db.bodies.values():
+        lines += _body(db, body)
+    if db.kernel_time is not None:
+        lines.append(f"  kernel     K(t), {db.kernel_time.size} times to {db.kernel_time[-1]:g} s")
+    for name, fit in db.memory.items():
+        lines.append(f"  memory     {name}: {fit_summary(fit)}")
+    return "\n".join(lines)
+
+
+def fit_summary(fit: ExponentialMemory) -> str:
+    """Return the figures that matter of a fit of the radiation memory, on one line."""
+    report = fit.report
+    parts = [f"{report.get('n_states', '?')} states", f"{', '.join(fit.inputs)} move"]
+    parts[-1] += f", loads on {len(fit.outputs)} coordinates"
+    band, error = report.get("band"), report.get("h_error_band")
+    if isinstance(error, float):
+        parts.append(f"error of H {error:.2g}")
+        if isinstance(band, tuple) and len(band) == 2:
+            parts[-1] += f" in {band[0]:.3g}..{band[1]:.3g} rad/s"
+    if "passive" in report:
+        parts.append("passive" if report["passive"] else "NOT passive")
+    return "; ".join(parts)
+
+
+def _body(db: HydroDatabase, body: Body) -> list[str]:
+    dofs = [c.rpartition(".")[2] for c in db.coordinates if split_label(c)[0] == body.name]
+    point = "unknown" if body.reference_point is None else _vector(body.reference_point)
+    lines = [f"  body       {body.name}: {', '.join(dofs)}; moments about {point}"]
+    hs = body.hydrostatics
+    if hs is None:
+        lines.append("             no hydrostatics")
+    else:
+        lines.append(
+            f"             displaces {hs.displaced_volume:.5g} m3 (would float with "
+            f"{db.rho * hs.displaced_volume:.5g} kg), "
+            f"buoyancy at {_vector(hs.center_of_buoyancy)}, waterplane {hs.waterplane_area:.5g} m2"
+        )
+    return lines
+
+
+def _vector(v: np.typing.ArrayLike) -> str:
+    return "(" + ", ".join(f"{x:.4g}" for x in np.asarray(v)) + ") m"

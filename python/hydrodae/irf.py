@@ -1,0 +1,434 @@
+r"""Radiation kernel K(t) and added mass at infinite frequency from tables of A(w) and B(w).
+
+Ogilvie's relations (J. F. Ogilvie, 5th Symp. Naval Hydrodynamics, 1964) for e^{+iwt}:
+
+    K(t)  = 2/pi  int_0^inf B(w) cos(w t) dw
+    A_inf = A(w) + 1/w int_0^inf K(t) sin(w t) dt
+          = A(w) + 2/pi PV int_0^inf B(s) / (w^2 - s^2) ds
+
+B is taken as the cubic spline through B(0) = 0 and the given points, integrated exactly, plus a
+tail c w^-n beyond the last frequency wherever the last points follow one. The second form of A_inf
+needs no time grid; because PV int ds/(w^2 - s^2) = 0 it is evaluated without a singularity as
+2/pi int (B(s) - B(w)) / (w^2 - s^2) ds.
+
+All functions take tables with the frequency first and any shape behind it, e.g. (nw, n, n).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
+
+from hydrodae.errors import DatabaseError
+
+Array = NDArray[np.float64]
+
+TAIL_POWERS = (2.0, 8.0)  # range of n in c w^-n
+TAIL_FROM = 0.7  # the tail is fitted to w > TAIL_FROM w_max
+TAIL_SCATTER = 0.05  # largest rms of ln|B| about its fit that counts as clean [-]
+BAND_FROM = 0.3  # A_inf: least squares over w > BAND_FROM w_max
+LOW_AREA = 0.005  # smallest share of int B dw below w_min that matters [-]
+LOW_GAP = 0.1  # w_min above LOW_GAP w_peak: the gap down to w = 0 is extrapolation
+
+
+@dataclass(frozen=True)
+class Tail:
+    """B(w) ~ B(w_max) (w / w_max)^-n beyond the last frequency, pair by pair.
+
+    Attributes
+    ----------
+    amplitude : (m,) array
+        B(w_max) where the tail is used, 0 where the table is cut off.
+    power : (m,) array
+        Exponent n, within `TAIL_POWERS`.
+    """
+
+    amplitude: Array
+    power: Array
+
+    @property
+    def used(self) -> NDArray[np.bool_]:
+        """(m,) True where a tail is used."""
+        return np.asarray(self.amplitude != 0.0)
+
+
+def radiation_kernel(
+    omega: ArrayLike,
+    damping: ArrayLike,
+    time: ArrayLike,
+    *,
+    tail: bool = True,
+    extrapolate: bool = False,
+) -> Array:
+    """Radiation kernel K(t) by exact quadrature of a cubic spline plus a power-law tail.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s], ascending, > 0; at least 4.
+    damping : (nw, ...) array
+        Radiation damping B(w) [N s/m, N s, N m s].
+    time : (nt,) array
+        Times [s], >= 0.
+    tail : bool
+        Add c w^-n beyond the last frequency for the pairs that follow one (`fit_tail`).
+    extrapolate : bool
+        Accept a table that begins above a tenth of the peak frequency of B.
+
+    Returns
+    -------
+    (nt, ...) array
+        K(t) [N/m, N, N m].
+
+    Raises
+    ------
+    DatabaseError
+        Bad table, or the first frequency is too high (`low_frequency_gap`).
+    """
+    w, b, shape = _table(omega, damping)
+    t = np.asarray(time, dtype=float)
+    if t.ndim != 1 or t.size == 0 or t.min() < 0.0:
+        raise DatabaseError("the times of a radiation kernel must be a list of numbers >= 0 [s]")
+    if not extrapolate:
+        _refuse_gap(w, b)
+    spline = _spline(w, b)
+    fitted = fit_tail(w, b) if tail else no_tail(b.shape[1])
+    kernel = np.empty((t.size, b.shape[1]))
+    for rows in _chunks(t.size, 4 * w.size):
+        kernel[rows] = _spline_cosine(spline, t[rows]) + _tail_cosine(fitted, w[-1], t[rows])
+    return (2.0 / np.pi * kernel).reshape(t.shape + shape)
+
+
+def kramers_kronig(omega: ArrayLike, damping: ArrayLike, *, tail: bool = True) -> Array:
+    """Return 1/w int K(t) sin(wt) dt = A_inf - A(w) at the frequencies of the table.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    damping : (nw, ...) array
+        Radiation damping B(w).
+    tail : bool
+        As in `radiation_kernel`. For a pair without tail the table is cut off at w_max, and values
+        close to w_max (within a few per cent) mean little.
+
+    Returns
+    -------
+    (nw, ...) array
+        In the units of added mass.
+
+    Notes
+    -----
+    The range 0..w_max is integrated by 6 Gauss points per interval of the spline, the tail in
+    closed form with u = w_max/s: int_0^1 (u^n - 1)/(1 - x^2 u^2) du and artanh(x)/x, x = w/w_max.
+    """
+    w, b, shape = _table(omega, damping)
+    spline = _spline(w, b)
+    fitted = fit_tail(w, b) if tail else no_tail(b.shape[1])
+    knots = spline.x
+    nodes, weights = leggauss(6)
+    half = 0.5 * np.diff(knots)
+    s = (knots[:-1, None] + half[:, None] * (1.0 + nodes)).ravel()
+    ds = (half[:, None] * weights).ravel()
+    bs = spline(s)
+    result = np.empty_like(b)
+    for rows in _chunks(w.size, s.size):
+        green = ds / (w[rows, None] ** 2 - s**2)
+        result[rows] = green @ bs - green.sum(axis=1)[:, None] * b[rows]
+    # the last point of a pair without tail is singular (a jump of B): take it a quarter step inside
+    x = np.minimum(w / w[-1], 1.0 - 0.25 * (w[-1] - w[-2]) / w[-1])
+    jump = b - fitted.amplitude
+    jump[-1] = np.where(fitted.used, 0.0, jump[-1])
+    result += jump * (np.arctanh(x) / x)[:, None] / w[-1]
+    result -= _tail_kramers_kronig(fitted, w)
+    return (2.0 / np.pi * result).reshape(w.shape + shape)
+
+
+def added_mass_inf_estimates(
+    omega: ArrayLike, added_mass: ArrayLike, damping: ArrayLike, *, tail: bool = True
+) -> Array:
+    """A_inf estimated at every single frequency; its scatter shows bad frequencies.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    added_mass, damping : (nw, ...) array
+        A(w), B(w).
+    tail : bool
+        As in `radiation_kernel`.
+
+    Returns
+    -------
+    (nw, ...) array
+        A(w) + 1/w int K sin(wt) dt.
+    """
+    a = np.asarray(added_mass, dtype=float)
+    b = np.asarray(damping, dtype=float)
+    if a.shape != b.shape:
+        raise DatabaseError(f"added mass {a.shape} and radiation damping {b.shape} differ in shape")
+    return a + kramers_kronig(omega, b, tail=tail)
+
+
+def added_mass_inf(
+    omega: ArrayLike,
+    added_mass: ArrayLike,
+    damping: ArrayLike,
+    *,
+    tail: bool = True,
+    estimates: ArrayLike | None = None,
+) -> tuple[Array, Array]:
+    """Added mass at infinite frequency by least squares on Ogilvie's relation.
+
+    Minimises sum over w > 0.3 w_max of [w A_inf - (w A(w) + int K sin(wt) dt)]^2, that is the mean
+    of the per-frequency estimates with weights w^2. Estimates further than 5 robust standard
+    deviations from their median (irregular frequencies) are left out.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    added_mass, damping : (nw, ...) array
+        A(w), B(w).
+    tail : bool
+        As in `radiation_kernel`.
+    estimates : (nw, ...) array, optional
+        Result of `added_mass_inf_estimates`, if it is at hand.
+
+    Returns
+    -------
+    value : (...) array
+        A_inf.
+    std : (...) array
+        Weighted standard deviation of all estimates in the band, outliers included: the
+        uncertainty of A_inf as far as the table itself shows it.
+    """
+    w = np.asarray(omega, dtype=float)
+    if estimates is None:
+        estimates = added_mass_inf_estimates(w, added_mass, damping, tail=tail)
+    estimate = np.asarray(estimates, dtype=float)
+    shape = estimate.shape[1:]
+    # the last two points depend on how the table goes on beyond its end
+    band = np.flatnonzero(w > BAND_FROM * w[-1])[:-2]
+    if band.size < 3:
+        band = np.arange(w.size)
+    e = estimate.reshape(w.size, -1)[band]
+    weight = np.broadcast_to(w[band, None] ** 2, e.shape)
+    middle = np.median(e, axis=0)
+    spread = 1.4826 * np.median(np.abs(e - middle), axis=0)
+    kept = np.abs(e - middle) <= 5.0 * spread
+    value = (weight * kept * e).sum(axis=0) / (weight * kept).sum(axis=0)
+    std = np.sqrt((weight * (e - value) ** 2).sum(axis=0) / weight.sum(axis=0))
+    return value.reshape(shape), std.reshape(shape)
+
+
+def fit_tail(omega: ArrayLike, damping: ArrayLike) -> Tail:
+    """Fit B ~ c w^-n to the last points, pair by pair.
+
+    A tail is used only if the points above 0.7 w_max (at least 4) keep their sign and lie within
+    5 % rms of the fit, and B falls there (n > 0.5). n is then clamped to 2..8.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    damping : (nw, m) array
+        B(w).
+
+    Returns
+    -------
+    Tail
+    """
+    w = np.asarray(omega, dtype=float)
+    b = np.asarray(damping, dtype=float)
+    last = w > TAIL_FROM * w[-1]
+    if last.sum() < 4:
+        return no_tail(b.shape[1])
+    y = b[last]
+    one_sign = np.all(y > 0.0, axis=0) | np.all(y < 0.0, axis=0)
+    logs = np.log(np.where(one_sign, np.abs(y), 1.0))
+    u2 = (w[-1] / w[last]) ** 2
+    design = np.stack([np.ones_like(u2), 0.5 * np.log(u2), u2 - 1.0], axis=1)
+    line, _, scatter = _fit(design[:, :2], logs)
+    curve, curve_power, curve_scatter = _fit(design, logs)
+    clean = one_sign & (np.minimum(scatter, curve_scatter) < TAIL_SCATTER) & (line > 0.5)
+    # smooth tables tell the next term too, B ~ c u^n exp(d (u^2 - 1)), u = w_max/w: take the one
+    # power that encloses the same area
+    d = curve_power[2]
+    smooth = (curve_scatter < 1e-3) & (np.abs(curve - line) < 1.0) & (np.abs(d) < 0.5)
+    safe = np.where(smooth & (curve > 1.2), curve, 3.0)
+    area = (1.0 - d) / (safe - 1.0) + d / (safe + 1.0)
+    same_area = 1.0 + 1.0 / np.where(area > 0.05, area, 1.0)
+    power = np.where(smooth & (curve > 1.2) & (area > 0.05), same_area, line)
+    power = np.clip(power, *TAIL_POWERS)
+    return Tail(np.where(clean, b[-1], 0.0), np.where(clean, power, TAIL_POWERS[1]))
+
+
+def _fit(design: Array, logs: Array) -> tuple[Array, Array, Array]:
+    """Least squares in log-log axes: exponent (m,), all coefficients (k, m), rms scatter (m,)."""
+    coefficients = np.asarray(np.linalg.lstsq(design, logs, rcond=None)[0], dtype=float)
+    scatter = np.sqrt(np.mean((logs - design @ coefficients) ** 2, axis=0))
+    return coefficients[1], coefficients, np.asarray(scatter, dtype=float)
+
+
+def no_tail(pairs: int) -> Tail:
+    """Return the tail of a table that is simply cut off."""
+    return Tail(np.zeros(pairs), np.full(pairs, TAIL_POWERS[1]))
+
+
+def low_frequency_gap(omega: ArrayLike, damping: ArrayLike) -> float:
+    """First frequency of the table over the frequency of the largest B.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    damping : (nw, ...) array
+        B(w); the worst pair counts. Pairs whose area below the first frequency, at most
+        w_min B(w_min), is under 0.5 % of the whole are left out, and so are negligible pairs.
+
+    Returns
+    -------
+    float
+        w_min / w_peak [-], 0 if no pair counts; above 0.1, K(t) rests on a guess below w_min.
+    """
+    w, b, _ = _table(omega, damping)
+    size = np.abs(b)
+    area = np.trapezoid(size, w, axis=0)
+    # a table that starts where B is already negligible leaves nothing to guess
+    guessed = (w[0] * size[0] > LOW_AREA * area) & (area > 1e-6 * area.max(initial=0.0))
+    if not np.any(guessed):
+        return 0.0
+    return float(np.max(w[0] / w[size.argmax(axis=0)][guessed]))
+
+
+def _refuse_gap(w: Array, b: Array) -> None:
+    gap = low_frequency_gap(w, b)
+    if gap > LOW_GAP:
+        raise DatabaseError(
+            f"the table begins at w = {w[0]:.4g} rad/s, {gap:.2g} times the peak frequency of the "
+            f"radiation damping: K(t) would rest on a guess below it; compute lower frequencies "
+            f"(or pass extrapolate=True)"
+        )
+
+
+def _table(omega: ArrayLike, values: ArrayLike) -> tuple[Array, Array, tuple[int, ...]]:
+    w = np.asarray(omega, dtype=float)
+    b = np.asarray(values, dtype=float)
+    if w.ndim != 1 or b.shape[:1] != w.shape:
+        raise DatabaseError(f"{w.shape} frequencies do not fit a table of shape {b.shape}")
+    if w.size < 4 or w[0] <= 0.0 or not np.all(np.diff(w) > 0.0) or not np.isfinite(w[-1]):
+        raise DatabaseError("need at least 4 finite frequencies > 0 in ascending order [rad/s]")
+    if not np.all(np.isfinite(b)):
+        raise DatabaseError("the table holds values that are not finite")
+    return w, b.reshape(w.size, -1), b.shape[1:]
+
+
+def _spline(w: Array, b: Array) -> CubicSpline:
+    # not-a-knot at w = 0 too: in finite depth B is linear in |w| there, so no zero slope is imposed
+    return CubicSpline(np.r_[0.0, w], np.vstack([np.zeros(b.shape[1]), b]))
+
+
+def _chunks(rows: int, columns: int, limit: int = 4_000_000) -> list[slice]:
+    step = max(1, limit // max(columns, 1))
+    return [slice(i, min(i + step, rows)) for i in range(0, rows, step)]
+
+
+def _moments(theta: Array) -> list[NDArray[np.complex128]]:
+    """Return int_0^1 u^k e^{i theta u} du, k = 0..3: series below theta = 1, else recursion."""
+    small = theta < 1.0
+    z = 1j * np.where(small, 1.0, theta)
+    e = np.exp(z)
+    forward = [(e - 1.0) / z]
+    for k in range(1, 4):
+        forward.append((e - k * forward[-1]) / z)
+    y = 1j * np.where(small, theta, 0.0)
+    moments = []
+    for k in range(4):
+        term = np.ones_like(y)
+        total = term / (k + 1)
+        for j in range(1, 18):
+            term = term * y / j
+            total = total + term / (j + k + 1)
+        moments.append(np.where(small, total, forward[k]))
+    return moments
+
+
+def _spline_cosine(spline: CubicSpline, t: Array) -> Array:
+    """Return int_0^w_max s(w) cos(wt) dw, exact for the piecewise cubic; (nt, m)."""
+    start, h = spline.x[:-1], np.diff(spline.x)
+    rotation = np.exp(1j * t[:, None] * start)
+    result = np.zeros((t.size, spline.c.shape[2]))
+    for k, moment in enumerate(_moments(t[:, None] * h)):
+        result += (rotation * moment).real @ (h[:, None] ** (k + 1) * spline.c[3 - k])
+    return result
+
+
+def _power_nodes(count: int = 28) -> tuple[Array, Array]:
+    """Chebyshev points in the exponent n and their barycentric weights."""
+    j = np.arange(count)
+    low, high = TAIL_POWERS
+    points = 0.5 * (low + high) + 0.5 * (high - low) * np.cos(np.pi * j / (count - 1))
+    weights = (-1.0) ** j
+    weights[[0, -1]] *= 0.5
+    return points, np.asarray(weights, dtype=float)
+
+
+def _interpolation(power: Array) -> Array:
+    """Matrix (m, nodes) from values at the Chebyshev points in n to values at `power`."""
+    points, weights = _power_nodes()
+    difference = power[:, None] - points
+    exact = np.abs(difference) < 1e-13
+    terms = weights / np.where(exact, 1.0, difference)
+    matrix = terms / terms.sum(axis=1, keepdims=True)
+    hit = exact.any(axis=1)
+    matrix[hit] = exact[hit]
+    return np.asarray(matrix, dtype=float)
+
+
+def _tail_cosine(tail: Tail, w_max: float, t: Array) -> Array:
+    """Return int_{w_max}^inf of the tail times cos(wt); (nt, m).
+
+    With y = w_max t: amplitude w_max Re int_1^inf x^-n e^{iyx} dx, in u = ln x up to x = 1 + 30/y,
+    then along x = X + i s/y, where the integrand only decays.
+    """
+    result = np.zeros((t.size, tail.amplitude.size))
+    if not np.any(tail.used):
+        return result
+    points, _ = _power_nodes()
+    y = np.maximum(w_max * t, 1e-9)
+    gauss, gauss_weight = leggauss(160)
+    end = np.log1p(30.0 / y)  # (nt,)
+    values = np.empty((t.size, points.size))
+    lag, lag_weight = np.polynomial.laguerre.laggauss(24)
+    for i, n in enumerate(points):
+        upper = np.minimum(end, 40.0 / (n - 1.0))
+        u = 0.5 * upper[:, None] * (1.0 + gauss)
+        near = (np.exp((1.0 - n) * u) * np.cos(y[:, None] * np.exp(u))) @ gauss_weight
+        x_end = np.exp(upper)
+        path = (x_end[:, None] + 1j * lag / y[:, None]) ** (-n) @ lag_weight
+        far = (1j / y * np.exp(1j * y * x_end) * path).real
+        values[:, i] = 0.5 * upper * near + np.where(upper < end, 0.0, far)
+    used = tail.used
+    result[:, used] = w_max * (values @ _interpolation(tail.power[used]).T) * tail.amplitude[used]
+    return result
+
+
+def _tail_kramers_kronig(tail: Tail, w: Array) -> Array:
+    """Return amplitude/w_max int_0^1 (u^n - 1) / (1 - x^2 u^2) du with x = w/w_max; (nw, m)."""
+    result = np.zeros((w.size, tail.amplitude.size))
+    if not np.any(tail.used):
+        return result
+    points, _ = _power_nodes()
+    nodes, weights = leggauss(80)
+    u = 0.5 * (1.0 + nodes)
+    x = w / w[-1]
+    green = 0.5 * weights / (1.0 - (x[:, None] * u) ** 2)
+    values = green @ (u[:, None] ** points - 1.0)
+    used = tail.used
+    result[:, used] = (values @ _interpolation(tail.power[used]).T) * tail.amplitude[used] / w[-1]
+    return result

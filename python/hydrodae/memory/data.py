@@ -1,0 +1,205 @@
+"""Samples, scaling and weights of a memory fit, taken from the stored points of a hydrodynamic database."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from hydrodae.errors import DatabaseError
+from hydrodae.memory.modes import Modes, Problem, residual
+from hydrodae.memory.vector_fitting import Array, ComplexArray, Samples, relocate, solve_residues, starting_poles
+
+NOISE = 1e-8
+"""A coordinate whose largest damping is below this share of the largest of its kind is left out."""
+WEIGHT_FLOOR = 1e-2
+"""|H| is taken as at least this share of its largest value in the weights."""
+ZERO_WEIGHT = 3.0
+"""Weight of the row H(0) = 0 relative to the largest other weight of the entry."""
+
+
+class RadiationData(Protocol):
+    """What a fit reads of a hydrodynamic database (SI, rad/s)."""
+
+    @property
+    def coordinates(self) -> Sequence[str]:
+        """Return the labels of the coordinates."""
+
+    @property
+    def omega(self) -> Any:
+        """Return (nw,) frequencies."""
+
+    @property
+    def added_mass(self) -> Any:
+        """Return (nw, n, n)."""
+
+    @property
+    def radiation_damping(self) -> Any:
+        """Return (nw, n, n)."""
+
+
+@dataclass(frozen=True)
+class ImpedanceData:
+    """Z = B + i omega A of the loads on `outputs` from the motion of `inputs`, SI.
+
+    Attributes
+    ----------
+    omega
+        (nw,) rad/s, positive and finite.
+    square
+        (nw, n_in, n_in), symmetrised.
+    rectangular
+        (nw, n_extra, n_in): outputs that are no inputs.
+    scale
+        (n_in,) root of the largest damping of each input; 1 for those left out.
+    active
+        (n_in,) False for inputs without radiation damping (noise).
+    extra
+        Labels of the outputs that are no inputs.
+    """
+
+    omega: Array
+    square: ComplexArray
+    rectangular: ComplexArray
+    scale: Array
+    active: npt.NDArray[np.bool_]
+    extra: tuple[str, ...]
+
+
+def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str]) -> ImpedanceData:
+    """Read and check what a fit needs.
+
+    Raises
+    ------
+    DatabaseError
+        If a label is unknown or repeated, if data are not finite or if no input radiates.
+    """
+    labels = [str(label) for label in database.coordinates]
+    for name, wanted in (("inputs", inputs), ("outputs", outputs)):
+        if unknown := [label for label in wanted if label not in labels]:
+            raise DatabaseError(f"memory fit: {name} {unknown} are not in the database (it has {', '.join(labels)})")
+        if len(set(wanted)) != len(wanted) or not wanted:
+            raise DatabaseError(f"memory fit: {name} must be given once each, got {list(wanted)}")
+    if missing := [label for label in inputs if label not in outputs]:
+        raise DatabaseError(f"memory fit: inputs {missing} must be among the outputs")
+    extra = tuple(label for label in outputs if label not in inputs)
+    columns = [labels.index(label) for label in inputs]
+    rows = columns + [labels.index(label) for label in extra]
+    omega = np.asarray(database.omega, dtype=float)
+    keep = np.isfinite(omega) & (omega > 0.0)
+    omega = omega[keep]
+    pick = np.ix_(np.nonzero(keep)[0], rows, columns)
+    damping = np.asarray(database.radiation_damping, dtype=float)
+    impedance = damping[pick] + 1j * omega[:, None, None] * np.asarray(database.added_mass, dtype=float)[pick]
+    if not np.all(np.isfinite(impedance)):
+        raise DatabaseError("memory fit: added mass or radiation damping is not finite at some frequency")
+    if omega.size < 8 or np.any(np.diff(omega) <= 0.0):
+        raise DatabaseError("memory fit: at least 8 ascending frequencies are needed")
+    n = len(columns)
+    square = 0.5 * (impedance[:, :n] + impedance[:, :n].transpose(0, 2, 1))
+    peaks = np.einsum("wii->wi", damping[keep]).max(axis=0)
+    rotation = np.array([label.rsplit(".", 1)[-1] in ("roll", "pitch", "yaw") for label in labels])
+    largest = np.array([peaks[rotation == kind].max(initial=0.0) for kind in rotation])[columns]
+    own = peaks[columns]
+    active = (own > NOISE * largest) & (own > 0.0)
+    if not np.any(active):
+        raise DatabaseError(f"memory fit: none of {list(inputs)} has positive radiation damping")
+    return ImpedanceData(
+        omega, square, impedance[:, n:], np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0), active, extra
+    )
+
+
+def uncoupled_groups(data: ImpedanceData, tolerance: float) -> tuple[list[npt.NDArray[np.int64]], float]:
+    """Split the active inputs into groups whose coupling is below `tolerance` (planar and lateral, for example).
+
+    Returns
+    -------
+    groups, neglected
+        Indices of each group; the largest coupling left out: rms over omega of B_ij + i omega (A_ij - A_ij,last)
+        relative to the root of the product of the diagonal ones.
+    """
+    index = np.nonzero(data.active)[0]
+    wave = data.square - 1j * data.omega[:, None, None] * (data.square[-1].imag / data.omega[-1])
+    size = np.sqrt(np.mean(np.abs(wave) ** 2, axis=0))
+    root = np.sqrt(np.diag(size))
+    coupling = size / np.where(root > 0.0, root, 1.0) / np.where(root > 0.0, root, 1.0)[:, None]
+    groups: list[set[int]] = []
+    for i in index:
+        linked = [group for group in groups if any(coupling[i, j] > tolerance for j in group)]
+        groups = [group for group in groups if group not in linked] + [{int(i)}.union(*linked)]
+    ordered = [np.array(sorted(group)) for group in sorted(groups, key=min)]
+    apart = np.zeros_like(coupling, dtype=bool)
+    for group in ordered:
+        rest = np.setdiff1d(index, group)
+        apart[np.ix_(group, rest)] = True
+    return ordered, float(coupling[apart].max(initial=0.0))
+
+
+def in_band(omega: Array, band: tuple[float, float]) -> npt.NDArray[np.bool_]:
+    """Tell which frequencies lie in the band."""
+    return (omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9)
+
+
+def weigh(value: ComplexArray, omega: Array, added_mass: Array, band: tuple[float, float], factor: float) -> Array:
+    """Return the weights |H|^(-1/2), times `factor` in the band, of Z (nw, ne) with A_inf (ne,)."""
+    size = np.abs(value - 1j * omega[:, None] * added_mass)
+    size = np.maximum(size, np.maximum(WEIGHT_FLOOR * size.max(axis=0), 1e-12))
+    return np.asarray(size**-0.5 * np.where(in_band(omega, band), factor, 1.0)[:, None])
+
+
+def with_zero(omega: Array, value: ComplexArray, weight: Array) -> Samples:
+    """Append the row H(0) = 0."""
+    return Samples(
+        np.append(omega, 0.0),
+        np.concatenate([value, np.zeros_like(value[:1])]),
+        np.concatenate([weight, ZERO_WEIGHT * weight.max(axis=0, keepdims=True)]),
+    )
+
+
+def make_problem(data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[float, float], factor: float) -> Problem:
+    """Scale one group and weigh it, with A_inf from a first fit of moderate weights."""
+    n, omega = group.size, data.omega
+    rows, columns = np.triu_indices(n)
+    scaled = data.square[:, group][:, :, group] / data.scale[group] / data.scale[group][:, None]
+    value = scaled[:, rows, columns]
+    double = np.where(rows == columns, 1.0, np.sqrt(2.0))
+    damping = np.maximum(0.2 * np.gradient(omega), 1e-3 * omega[-1])
+    added_mass = value[-1].imag / omega[-1]
+    poles = starting_poles(min(12, omega.size // 3 * 2), 2, max(omega[0], 0.02 * omega[-1]), omega[-1], 0.1, True)
+    for _ in range(8):
+        samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
+        poles = relocate(poles, samples, damping, omega)
+        added_mass = solve_residues(poles, samples)[0][-1]
+    samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, factor))
+    return Problem(samples, rows, columns, n, omega, damping)
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Relative errors of H: `band` and `all` are rms; `weighted_band`, `weighted_outside` in the norm of the fit."""
+
+    band: float
+    all: float
+    weighted_band: float
+    weighted_outside: float
+
+
+def quality(modes: Modes, problem: Problem, band: tuple[float, float]) -> Quality:
+    """Measure a fit at the stored points (scaled entries, off-diagonal ones counted twice)."""
+    omega = problem.samples.omega[:-1]
+    off = residual(modes, problem)[:-1]
+    target = problem.samples.value[:-1] - 1j * omega[:, None] * modes.added_mass
+    inside = in_band(omega, band)
+    double = np.where(problem.rows == problem.columns, 1.0, np.sqrt(2.0))
+    weight = problem.samples.weight[:-1]
+
+    def ratio(factor: Array, rows: npt.NDArray[np.bool_]) -> float:
+        size = float(np.linalg.norm((factor * target)[rows]))
+        return float(np.linalg.norm((factor * off)[rows])) / size if size > 0.0 else 0.0
+
+    plain = np.broadcast_to(double, weight.shape)
+    everywhere = np.ones_like(inside)
+    return Quality(ratio(plain, inside), ratio(plain, everywhere), ratio(weight, inside), ratio(weight, ~inside))

@@ -1,0 +1,275 @@
+"""Radiation impedance as a sum of rank-one modes, and their weighted least-squares fit.
+
+    Z(s) ~ sum_m [ b_m b_m^T / (s - p_m) + conjugate ]  +  sum_m sigma_m b_m b_m^T / (s - p_m)  +  s A_inf
+                 (complex pole, b complex)                     (real pole, b real, sigma = +-1)
+
+One mode costs two states (a real one costs one) whatever the number of coordinates, while a full-rank residue
+costs two per coordinate. Waves that slosh between bodies are such modes. Z, and with it each residue, is symmetric
+(reciprocity), hence a single vector per mode. All parameters are fitted together by a Levenberg-Marquardt method
+whose normal matrix is assembled entry by entry of Z from four real functions per mode.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import cho_factor, cho_solve
+
+from hydrodae.memory.vector_fitting import Array, ComplexArray, Samples, order, residues
+
+IntArray = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is fitted: samples of the upper triangle of the scaled Z, and the limits of the poles.
+
+    Attributes
+    ----------
+    samples
+        (nf, ne) entries of Z at `samples.omega`; the last sample is H(0) = 0.
+    rows, columns
+        (ne,) position of the entries in the matrix (upper triangle).
+    size
+        Number of coordinates n.
+    damping_grid, damping
+        Least -Re p [1/s] at the frequencies of the grid [rad/s].
+    """
+
+    samples: Samples
+    rows: IntArray
+    columns: IntArray
+    size: int
+    damping_grid: Array
+    damping: Array
+
+    def matrix(self, entries: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
+        """Return the symmetric (..., n, n) of entries (..., ne)."""
+        full = np.zeros((*entries.shape[:-1], self.size, self.size), dtype=entries.dtype)
+        full[..., self.rows, self.columns] = entries
+        full[..., self.columns, self.rows] = entries
+        return full
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Rank-one modes: poles (m,) with Im >= 0, vectors (m, n), sign (m,), added_mass (ne,) upper triangle."""
+
+    poles: ComplexArray
+    vectors: ComplexArray
+    sign: Array
+    added_mass: Array
+
+    @property
+    def real(self) -> npt.NDArray[np.bool_]:
+        """Tell which poles are real."""
+        return self.poles.imag == 0.0
+
+    @property
+    def n_states(self) -> int:
+        """Return the number of real states."""
+        return int(2 * self.poles.size - np.count_nonzero(self.real))
+
+    def without(self, mode: int) -> Modes:
+        """Return the modes but one."""
+        keep = np.arange(self.poles.size) != mode
+        return Modes(self.poles[keep], self.vectors[keep], self.sign[keep], self.added_mass)
+
+
+def fractions(modes: Modes, omega: Array) -> tuple[ComplexArray, ComplexArray]:
+    """Return the two partial fractions of each mode and their derivatives with respect to the pole, (2, m, nw).
+
+    H = sum_m Re(r_m) F_0m + Im(r_m) F_1m with r = b b^T; the second array holds dF/dp of the analytic parts.
+    """
+    s, poles = 1j * omega, modes.poles[:, None]
+    single = modes.real[:, None]
+    direct = np.where(single, modes.sign[:, None], 1.0) / (s - poles)
+    other = np.where(single, 0.0, 1.0 / (s - poles.conj()))
+    slope, other_slope = direct / (s - poles), other / (s - poles.conj())
+    pair = ~single
+    return (
+        np.stack([direct + other, 1j * pair * (direct - other)]),
+        np.stack([slope + other_slope, 1j * pair * (slope - other_slope)]),
+    )
+
+
+def impedance(modes: Modes, omega: Array) -> ComplexArray:
+    """Return H(i omega) = Z - i omega A_inf of the modes, (nw, n, n)."""
+    value, _ = fractions(modes, omega)
+    product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(modes.poles.size, -1)
+    full = value[0].T @ product.real + value[1].T @ product.imag
+    return full.reshape(omega.size, modes.vectors.shape[1], -1)
+
+
+def residual(modes: Modes, problem: Problem) -> ComplexArray:
+    """Return the unweighted error of Z at the samples, (nf, ne)."""
+    omega = problem.samples.omega
+    entries = impedance(modes, omega)[:, problem.rows, problem.columns]
+    return entries + 1j * omega[:, None] * modes.added_mass - problem.samples.value
+
+
+def error(modes: Modes, problem: Problem) -> float:
+    """Return the weighted error norm."""
+    return float(np.linalg.norm(problem.samples.weight * residual(modes, problem)))
+
+
+# Parameters, in this order: Re b (n, m), Im b (n, m) coordinate by coordinate, log(-Re p) (m,), Im p (m,), added_mass (ne,).
+
+
+def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
+    """Return the Gauss-Newton matrix J^T J and the gradient J^T r of half the squared weighted error."""
+    m, entries = modes.poles.size, problem.rows.size
+    samples = problem.samples
+    value, slope = fractions(modes, samples.omega)
+    functions = np.concatenate([value, slope]).reshape(4 * m, -1)
+    functions = np.concatenate([functions, 1j * samples.omega[None]])
+    base = np.concatenate([functions.real, functions.imag], axis=1)
+    weight = np.concatenate([samples.weight, samples.weight]).T
+    off = residual(modes, problem).T
+    off = np.concatenate([off.real, off.imag], axis=1)
+    weighted = base[None] * weight[:, None, :]
+    gram = weighted @ weighted.transpose(0, 2, 1)
+    moment = (weighted @ (weight * off)[..., None])[..., 0]
+
+    local = _local_derivatives(modes, problem)
+    inner = gram[:, :-1, :-1].reshape(entries, 2, 2, m, 2, 2, m)
+    block = np.empty((6, 6, entries, m, m))
+    for a in range(6):
+        half = (local[:, a, :, :, None, None, None] * inner[:, a // 4]).sum(axis=1)
+        for b in range(a, 6):
+            block[a, b] = (half[:, :, b // 4] * local[:, b, None, :]).sum(axis=2)
+            block[b, a] = block[a, b].transpose(0, 2, 1)
+    mixed = gram[:, :-1, -1].reshape(entries, 2, 2, m)
+    drive = moment[:, :-1].reshape(entries, 2, 2, m)
+    cross = np.stack([(local[:, a] * mixed[:, a // 4]).sum(axis=1) for a in range(6)])
+    force = np.stack([(local[:, a] * drive[:, a // 4]).sum(axis=1) for a in range(6)])
+    return _scatter(modes, problem, block, cross, force, gram[:, -1, -1], moment[:, -1])
+
+
+def _local_derivatives(modes: Modes, problem: Problem) -> Array:
+    """Return (ne, 6, 2, m): the factors of the two functions in dZ_e / d(Re b_i, Im b_i, Re b_j, Im b_j, log, Im p)."""
+    left, right = modes.vectors[:, problem.rows].T, modes.vectors[:, problem.columns].T
+    product = left * right
+    decay = modes.poles.real
+    pair = ~modes.real
+    return np.stack(
+        [
+            np.stack([right.real, right.imag], axis=1),
+            np.stack([-right.imag, right.real], axis=1) * pair,
+            np.stack([left.real, left.imag], axis=1),
+            np.stack([-left.imag, left.real], axis=1) * pair,
+            np.stack([decay * product.real, decay * product.imag], axis=1),
+            np.stack([-product.imag, product.real], axis=1) * pair,
+        ],
+        axis=1,
+    )
+
+
+def _scatter(
+    modes: Modes, problem: Problem, block: Array, cross: Array, force: Array, corner: Array, tail: Array
+) -> tuple[Array, Array]:
+    """Add the entries' blocks into the global matrix and gradient."""
+    m, n, entries = modes.poles.size, problem.size, problem.rows.size
+    total = 2 * m * n + 2 * m + entries
+    matrix, gradient = np.zeros((total, total)), np.zeros(total)
+    for entry, (i, j) in enumerate(zip(problem.rows, problem.columns, strict=True)):
+        starts = [i * m, (n + i) * m, j * m, (n + j) * m, 2 * n * m, (2 * n + 1) * m]
+        last = total - entries + entry
+        for a, row in enumerate(starts):
+            for b, column in enumerate(starts):
+                matrix[row : row + m, column : column + m] += block[a, b, entry]
+            matrix[row : row + m, last] += cross[a, entry]
+            matrix[last, row : row + m] += cross[a, entry]
+            gradient[row : row + m] += force[a, entry]
+        matrix[last, last] = corner[entry]
+        gradient[last] = tail[entry]
+    return matrix, gradient
+
+
+def moved(modes: Modes, step: Array, problem: Problem) -> Modes:
+    """Return the modes after a step in the parameters; poles keep their least damping."""
+    m, n = modes.vectors.shape
+    parts = np.split(step, [m * n, 2 * m * n, 2 * m * n + m, 2 * m * n + 2 * m])
+    vectors = modes.vectors + parts[0].reshape(n, m).T + 1j * parts[1].reshape(n, m).T
+    decay = -modes.poles.real * np.exp(np.clip(parts[2], -0.7, 0.7))
+    omega = np.where(modes.real, 0.0, np.maximum(modes.poles.imag + parts[3], 1e-6))
+    decay = np.maximum(decay, np.interp(omega, problem.damping_grid, problem.damping))
+    return Modes(-decay + 1j * omega, vectors, modes.sign, modes.added_mass + parts[4])
+
+
+def refine(modes: Modes, problem: Problem, iterations: int, tolerance: float = 1e-4) -> tuple[Modes, float]:
+    """Levenberg-Marquardt on all parameters; returns the modes and their weighted error."""
+    now, damping = error(modes, problem), 1e-3
+    for _ in range(iterations):
+        matrix, gradient = normal_equations(modes, problem)
+        diagonal = np.diag(matrix).copy()
+        for _ in range(6):
+            shift = damping * diagonal + 1e-12 * diagonal.max()
+            trial = moved(modes, -cho_solve(cho_factor(matrix + np.diag(shift)), gradient), problem)
+            value = error(trial, problem)
+            if value < now:
+                break
+            damping *= 5.0
+        else:
+            break
+        gain, modes, now = (now - value) / now, trial, value
+        damping = max(damping / 4.0, 1e-9)
+        if gain < tolerance:
+            break
+    return modes, now
+
+
+def importance(modes: Modes, problem: Problem) -> Array:
+    """Return an estimate of the error that removing each mode adds (others following linearly), (m,)."""
+    matrix, _ = normal_equations(modes, problem)
+    diagonal = np.diag(matrix)
+    inverse = np.linalg.inv(matrix + np.diag(1e-4 * diagonal + 1e-12 * diagonal.max()))
+    m, n = modes.vectors.shape
+    result = np.empty(m)
+    for mode, single in enumerate(modes.real):
+        index = mode + m * np.arange(n)
+        vector = modes.vectors[mode].real
+        if not single:
+            index = np.concatenate([index, m * n + index])
+            vector = np.concatenate([vector, modes.vectors[mode].imag])
+        block = inverse[np.ix_(index, index)]
+        result[mode] = np.sqrt(max(vector @ np.linalg.solve(block, vector), 0.0))
+    return result
+
+
+def from_residues(poles: ComplexArray, coefficients: Array, problem: Problem, max_states: int) -> Modes:
+    """Split the full-rank residues of a vector fit into rank-one modes and keep the heaviest.
+
+    A complex symmetric residue is R = sum_i s_i u_i (u_i)^T exp(i phi_i) (Takagi form from its SVD); a mode's weight
+    is the weighted norm of its part of H at the samples.
+    """
+    full = problem.matrix(coefficients[: order(poles)])
+    weight = problem.matrix(problem.samples.weight[:-1])
+    found: list[tuple[float, Modes]] = []
+    for pole, residue in zip(poles, residues(np.asarray(full, dtype=float), poles), strict=True):
+        if pole.imag == 0.0:
+            values, u = np.linalg.eigh(residue.real)
+            items = [(np.sqrt(abs(v)) * u[:, i] + 0j, np.sign(v)) for i, v in enumerate(values)]
+        else:
+            u, singular, vh = np.linalg.svd(residue)
+            phase = np.angle(np.einsum("ki,ik->i", u.conj(), vh))
+            items = [(np.sqrt(s) * np.exp(0.5j * phase[i]) * u[:, i], 1.0) for i, s in enumerate(singular)]
+        for vector, sign in items:
+            one = Modes(np.array([pole]), vector[None], np.array([sign]), np.zeros(problem.rows.size))
+            part = float(np.linalg.norm(weight * impedance(one, problem.samples.omega[:-1])))
+            found.append((part, one))
+    found.sort(key=lambda item: -item[0])
+    chosen: list[Modes] = []
+    states = 0
+    for part, one in found:
+        if part > 0.0 and states + one.n_states <= max_states:
+            chosen.append(one)
+            states += one.n_states
+    return Modes(
+        np.concatenate([one.poles for one in chosen]),
+        np.concatenate([one.vectors for one in chosen]),
+        np.concatenate([one.sign for one in chosen]),
+        coefficients[-1].copy(),
+    )

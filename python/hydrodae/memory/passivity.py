@@ -1,0 +1,175 @@
+"""Passivity of a radiation memory: the waves take energy, v^T Re H(i omega) v >= 0 for every v and omega.
+
+A fit that breaks this between the samples can make a free device unstable. `enforce` moves all parameters of the
+modes by the least weighted distance such that the violating minima of the smallest eigenvalue rise above a floor
+(sequential quadratic programming; each step is a least-distance problem solved by non-negative least squares).
+
+References
+----------
+C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, SIAM 1995, ch. 23 (least-distance programming);
+B. Gustavsen, A. Semlyen, Enforcing passivity for admittance matrices approximated by rational functions,
+IEEE Trans. Power Systems 16 (2001) 97.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import cholesky, solve_triangular
+from scipy.optimize import nnls
+
+from hydrodae.memory.modes import Modes, Problem, error, fractions, impedance, moved, normal_equations
+from hydrodae.memory.vector_fitting import Array, ComplexArray
+
+CONSTRAIN_BELOW = 2e-3
+"""Local minima of the eigenvalues below this share of the largest are held as constraints."""
+
+
+class Passivity(NamedTuple):
+    """Smallest eigenvalue of Re H relative to the largest, and the frequency [rad/s] where it is found."""
+
+    relative: float
+    omega: float
+
+
+class Minima(NamedTuple):
+    """Local minima of the eigenvalues of Re H: omega (k,), vectors (k, n); lowest and largest eigenvalue overall."""
+
+    omega: Array
+    vectors: Array
+    lowest: float
+    largest: float
+
+
+def frequency_grid(poles: ComplexArray, highest: float, points: int = 1200) -> Array:
+    """Return a grid [rad/s] from 0 to far beyond the last pole and the data, dense around each pole."""
+    span = 1.5 * max(highest, float(np.abs(poles).max()))
+    around = np.tan(np.linspace(-1.45, 1.45, 25))
+    near = poles.imag[:, None] + np.abs(poles.real)[:, None] * around
+    far = span * np.geomspace(1.0, 20.0, 30)
+    return np.unique(np.abs(np.concatenate([np.linspace(0.0, span, points), near.ravel(), far])))
+
+
+def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -> Minima:
+    """Find the local minima over omega of all eigenvalues of Re H that lie under `below` times the largest."""
+    omega = frequency_grid(modes.poles, highest)
+    values, vectors = np.linalg.eigh(impedance(modes, omega).real)
+    largest = float(values.max())
+    padded = np.pad(values, ((1, 1), (0, 0)), constant_values=np.inf)
+    lowest = (values <= padded[:-2]) & (values <= padded[2:]) & (values < below * largest)
+    at, branch = np.nonzero(lowest)
+    return Minima(omega[at], vectors[at, :, branch], float(values[:, 0].min()), largest)
+
+
+def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Array, Array]:
+    """Return d(v^T Re H v)/d(parameters), (k, n_parameters), and v^T Re H v, (k,)."""
+    value, slope = fractions(modes, minima.omega)
+    value, slope = value.real.transpose(0, 2, 1), slope.real.transpose(0, 2, 1)
+    beta = minima.vectors @ modes.vectors.T
+    square = beta**2
+    pair = ~modes.real
+    by_re = 2.0 * (beta.real * value[0] + beta.imag * value[1])
+    by_im = 2.0 * pair * (-beta.imag * value[0] + beta.real * value[1])
+    by_log = modes.poles.real * (square.real * slope[0] + square.imag * slope[1])
+    by_omega = pair * (-square.imag * slope[0] + square.real * slope[1])
+    count, rest = minima.omega.size, np.zeros((minima.omega.size, problem.rows.size))
+    vectors = minima.vectors[:, :, None]
+    rows = [(by_re[:, None] * vectors).reshape(count, -1), (by_im[:, None] * vectors).reshape(count, -1)]
+    quadratic = (square.real * value[0] + square.imag * value[1]).sum(axis=1)
+    return np.concatenate([*rows, by_log, by_omega, rest], axis=1), quadratic
+
+
+def least_distance(matrix: Array, gradient: Array, rows: Array, bound: Array) -> Array | None:
+    """Return argmin 1/2 d^T matrix d + gradient^T d subject to rows d >= bound; None if infeasible."""
+    lower = cholesky(matrix, lower=True)
+    shift = solve_triangular(lower, gradient, lower=True)
+    if not bound.size:
+        return solve_triangular(lower.T, -shift)
+    turned = solve_triangular(lower, rows.T, lower=True).T
+    level = bound + turned @ shift
+    norm = np.linalg.norm(turned, axis=1)
+    turned, level = turned / norm[:, None], level / norm
+    scale = max(float(np.abs(level).max()), 1e-300)
+    system = np.vstack([turned.T, level / scale])
+    target = np.zeros(system.shape[0])
+    target[-1] = 1.0
+    multipliers, misfit = nnls(system, target, maxiter=30 * system.shape[1])
+    if misfit < 1e-10:
+        return None
+    left = system @ multipliers - target
+    return solve_triangular(lower.T, -left[:-1] / left[-1] * scale - shift)
+
+
+def enforce(
+    modes: Modes,
+    problem: Problem,
+    lowering: float = 0.8,
+    floor: float = -1e-5,
+    tolerance: float = 1e-5,
+    iterations: int = 80,
+) -> tuple[Modes, bool]:
+    """Make the modes passive and refit them, all parameters free.
+
+    Parameters
+    ----------
+    modes
+        Start, usually the best unconstrained fit.
+    problem
+        Data of the fit.
+    lowering
+        Factor by which the allowed violation shrinks from step to step; nearer to 1 is slower and follows the best
+        fit more closely.
+    floor, tolerance
+        Goal for the smallest eigenvalue of Re H relative to the largest; reached within `tolerance`.
+    iterations
+        Most steps.
+
+    Returns
+    -------
+    modes, reached
+        The passive modes of least weighted error, or the last ones when the floor was not reached.
+    """
+    now, minima = error(modes, problem), local_minima(modes, float(problem.samples.omega.max()))
+    level, damping, ratio, stalled = minima.lowest / minima.largest, 1e-3, lowering, 0
+    best: tuple[float, Modes] | None = None
+    for _ in range(iterations):
+        level = level * ratio if level * ratio < floor - 0.25 * tolerance else floor
+        step = _constrained_step(modes, problem, minima, level, tolerance, damping)
+        if step is None:
+            if ratio > 0.97:
+                break
+            level, ratio = level / ratio, 0.5 * (1.0 + ratio)
+            continue
+        trial, minima, value, damping = step
+        ratio = max(lowering, 1.4 * ratio - 0.4)
+        at_floor = level == floor and minima.lowest / minima.largest >= floor - tolerance
+        stalled = stalled + 1 if at_floor and abs(now - value) < 2e-3 * now else 0
+        modes, now = trial, value
+        if at_floor and (best is None or value < best[0]):
+            best = (value, modes)
+        if stalled > 2:
+            break
+    return (best[1], True) if best else (modes, False)
+
+
+def _constrained_step(
+    modes: Modes, problem: Problem, minima: Minima, level: float, tolerance: float, damping: float
+) -> tuple[Modes, Minima, float, float] | None:
+    """Take one damped Gauss-Newton step with all minima held above `level` (relative to the largest)."""
+    now, highest = error(modes, problem), float(problem.samples.omega.max())
+    matrix, gradient = normal_equations(modes, problem)
+    diagonal = np.diag(matrix).copy()
+    rows, quadratic = constraint_rows(modes, minima, problem)
+    lack = max(0.0, level - minima.lowest / minima.largest)
+    for _ in range(6):
+        shifted = matrix + np.diag(damping * diagonal + 1e-10 * diagonal.max())
+        step = least_distance(shifted, gradient, rows, level * minima.largest - quadratic)
+        if step is not None:
+            trial = moved(modes, step, problem)
+            value, found = error(trial, problem), local_minima(trial, highest)
+            left = max(0.0, level - found.lowest / found.largest)
+            if left <= max(0.5 * lack, 0.3 * abs(level), tolerance) and value < (1.02 if lack < tolerance else 2.0) * now:
+                return trial, found, value, max(damping / 3.0, 1e-7)
+        damping *= 4.0
+    return None

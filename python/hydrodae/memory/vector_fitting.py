@@ -1,0 +1,169 @@
+"""Vector fitting of a real rational matrix function with common poles.
+
+    F(s) ~ sum_k R_k phi_k(s) + s E,     s = i omega
+
+phi_k are partial fractions with real coefficients: 1/(s - p) of a real pole, and 1/(s - p) + 1/(s - p*),
+i/(s - p) - i/(s - p*) of a complex pair. Poles are relocated to the zeros of an auxiliary function, with the
+residues eliminated entry by entry (QR).
+
+References
+----------
+B. Gustavsen, A. Semlyen, Rational approximation of frequency domain responses by vector fitting,
+IEEE Trans. Power Delivery 14 (1999) 1052; relaxed form: B. Gustavsen, IEEE Trans. Power Delivery 21 (2006) 1587;
+elimination by QR: D. Deschrijver et al., IEEE Microwave Wireless Comp. Lett. 18 (2008) 383.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Frequency samples of the independent entries of a matrix.
+
+    Attributes
+    ----------
+    omega
+        (nf,) rad/s; the last sample may be 0 (a zero of the function there).
+    value
+        (nf, ne) complex entries.
+    weight
+        (nf, ne) weights of the least-squares error.
+    """
+
+    omega: Array
+    value: ComplexArray
+    weight: Array
+
+
+def is_real(poles: ComplexArray) -> npt.NDArray[np.bool_]:
+    """Tell which poles are real (one state); the others stand for a conjugate pair (two states)."""
+    return poles.imag == 0.0
+
+
+def order(poles: ComplexArray) -> int:
+    """Return the number of real coefficients per entry, conjugates counted."""
+    return int(2 * poles.size - np.count_nonzero(is_real(poles)))
+
+
+def basis(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
+    """Return the partial fractions phi_k(s), (ns, order): real poles and pairs in the order of `poles`."""
+    columns = []
+    for pole, single in zip(poles, is_real(poles), strict=True):
+        direct = 1.0 / (s - pole)
+        if single:
+            columns.append(direct)
+        else:
+            other = 1.0 / (s - np.conj(pole))
+            columns += [direct + other, 1j * (direct - other)]
+    return np.stack(columns, axis=1)
+
+
+def residues(coefficients: npt.NDArray[np.floating], poles: ComplexArray) -> ComplexArray:
+    """Return R_k (n_poles, ...) with F = sum R_k/(s - p_k) + conjugates from real coefficients (order, ...)."""
+    rows, at = [], 0
+    for single in is_real(poles):
+        rows.append(coefficients[at] + (0j if single else 1j * coefficients[at + 1]))
+        at += 1 if single else 2
+    return np.array(rows, dtype=complex)
+
+
+def starting_poles(count: int, real: int, lowest: float, highest: float, ratio: float, logarithmic: bool) -> ComplexArray:
+    """Return `count` states of poles: `real` real ones and pairs spread over lowest..highest [rad/s]."""
+    spread = np.geomspace if logarithmic else np.linspace
+    single = -spread(lowest, highest, real + 2)[1:-1]
+    omega = spread(lowest, highest, (count - real) // 2)
+    return np.concatenate([single + 0j, -ratio * omega + 1j * omega])
+
+
+def relocate(poles: ComplexArray, data: Samples, damping: Array | float = 0.0, floor_grid: Array | None = None) -> ComplexArray:
+    """One step of relaxed vector fitting: move the poles to the zeros of the auxiliary function.
+
+    Parameters
+    ----------
+    poles
+        Current poles (Im >= 0).
+    data
+        Samples; all entries share the poles.
+    damping, floor_grid
+        Least -Re p [1/s]: a number, or values on the grid `floor_grid` [rad/s] of Im p.
+    """
+    s = 1j * data.omega
+    phi = basis(s, poles)
+    count = phi.shape[1]
+    left = np.concatenate([phi, s[:, None]], axis=1)
+    right = np.concatenate([phi, np.ones((s.size, 1))], axis=1)
+    weight = data.weight.T[:, :, None]
+    system = np.concatenate([weight * left, -weight * data.value.T[:, :, None] * right], axis=2)
+    system = np.concatenate([system.real, system.imag], axis=1)
+    scale = np.linalg.norm(weight[..., 0] * data.value.T)
+    triangle = np.linalg.qr(system, mode="r")[:, count + 1 :, count + 1 :]
+    normal = np.concatenate([triangle.reshape(-1, count + 1), scale / s.size * right.real.sum(axis=0)[None]])
+    target = np.zeros(normal.shape[0])
+    target[-1] = scale
+    norms = np.linalg.norm(normal, axis=0)
+    solution = np.linalg.lstsq(normal / norms, target, rcond=None)[0] / norms
+    constant = solution[-1]
+    if abs(constant) < 1e-8:
+        constant = np.copysign(1e-8, constant if constant else 1.0)
+    return _clean(_zeros(poles, solution[:-1], constant), damping, floor_grid)
+
+
+def _zeros(poles: ComplexArray, coefficients: Array, constant: float) -> ComplexArray:
+    """Return the zeros of constant + sum c_k phi_k."""
+    size = order(poles)
+    matrix, inlet = np.zeros((size, size)), np.zeros(size)
+    at = 0
+    for pole, single in zip(poles, is_real(poles), strict=True):
+        if single:
+            matrix[at, at], inlet[at] = pole.real, 1.0
+            at += 1
+        else:
+            matrix[at : at + 2, at : at + 2] = [[pole.real, pole.imag], [-pole.imag, pole.real]]
+            inlet[at] = 2.0
+            at += 2
+    return np.linalg.eigvals(matrix - np.outer(inlet, coefficients) / constant).astype(complex)
+
+
+def _clean(zeros: ComplexArray, damping: Array | float, floor_grid: Array | None) -> ComplexArray:
+    """Reflect into the left half plane, keep one of each pair, hold the least damping, sort by frequency."""
+    tiny = 1e-9 * np.abs(zeros).max()
+    keep = zeros[zeros.imag > tiny]
+    single = zeros[np.abs(zeros.imag) <= tiny].real + 0j
+    poles = np.concatenate([single, keep])
+    least = damping if floor_grid is None else np.interp(poles.imag, floor_grid, np.asarray(damping))
+    poles = -np.maximum(np.abs(poles.real), least) + 1j * poles.imag
+    return poles[np.lexsort((poles.real, poles.imag))]
+
+
+def solve_residues(poles: ComplexArray, data: Samples) -> tuple[Array, Array, Array]:
+    """Weighted least squares for given poles.
+
+    Returns
+    -------
+    coefficients
+        (order + 1, ne): partial fractions, then the coefficient of s.
+    factors
+        (ne, order + 1, order + 1) upper triangles R with R^T R the weighted Gram matrix of each entry.
+    error
+        (ne,) weighted residual norm.
+    """
+    s = 1j * data.omega
+    left = np.concatenate([basis(s, poles), s[:, None]], axis=1)
+    system = data.weight.T[:, :, None] * left
+    target = data.weight.T * data.value.T
+    system = np.concatenate([system.real, system.imag], axis=1)
+    target = np.concatenate([target.real, target.imag], axis=1)
+    norms = np.linalg.norm(system, axis=1)
+    orthogonal, triangle = np.linalg.qr(system / norms[:, None, :])
+    projected = np.einsum("eij,ei->ej", orthogonal, target)
+    solution = np.linalg.solve(triangle, projected[..., None])[..., 0] / norms
+    error = np.sqrt(np.maximum((target**2).sum(axis=1) - (projected**2).sum(axis=1), 0.0))
+    return solution.T, triangle * norms[:, None, :], error

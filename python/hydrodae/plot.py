@@ -1,0 +1,231 @@
+"""Pictures of results: overview, channels, comparison with other codes' curves.
+
+Angles are drawn in degrees, and only where the label says so. Nothing here touches pyplot: a figure
+belongs to the one who asked for it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from cycler import cycler
+from matplotlib.figure import Figure
+
+from hydrodae.curve import Curve
+from hydrodae.errors import CaseError
+from hydrodae.panels import Panel, gather, most_moving, overview, select
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from hydrodae.results import Results
+
+#: Colours that stay apart for the colour-blind (after Okabe and Ito 2008). Black is ours.
+COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#8C510A"]
+
+#: Settings of every picture; hold them around own drawing with ``matplotlib.rc_context(STYLE)``.
+STYLE: Any = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#555555",
+    "axes.grid": True,
+    "axes.labelsize": 9,
+    "axes.prop_cycle": cycler(color=COLORS),
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10,
+    "figure.dpi": 150,
+    "font.size": 9,
+    "grid.color": "#E4E4E4",
+    "grid.linewidth": 0.6,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "lines.linewidth": 1.2,
+    "xtick.color": "#555555",
+    "xtick.labelcolor": "black",
+    "ytick.color": "#555555",
+    "ytick.labelcolor": "black",
+}
+
+
+def plot_overview(results: Results) -> Figure:
+    """Draw joint coordinates, motions of the bodies and energies, one panel each.
+
+    Raises
+    ------
+    CaseError
+        The results have none of these channels.
+    """
+    return _draw(results, overview(results))
+
+
+def plot_channels(results: Results, names: Iterable[str]) -> Figure:
+    """Draw channels by name or shell pattern; those of one quantity and unit share a panel.
+
+    Parameters
+    ----------
+    results : Results
+    names : iterable of str
+        Such as "joints/*/angle", "bodies/base/position" or "bodies/base/position.z".
+
+    Raises
+    ------
+    ChannelError
+        There is no channel of that name.
+    CaseError
+        A component does not exist, or a pattern matches nothing.
+    """
+    return _draw(results, gather(line for name in names for line in select(results, name)))
+
+
+@matplotlib.rc_context(STYLE)
+def plot_comparison(
+    results: Results,
+    channel: str,
+    curves: Sequence[Curve],
+    *,
+    label: str = "hydrodae",
+    end_time: float | None = None,
+) -> Figure:
+    """Draw one channel over the curves or marked points of others.
+
+    Parameters
+    ----------
+    results : Results
+    channel : str
+        A scalar channel, or a component such as "bodies/base/position.z".
+    curves : sequence of Curve
+        In the unit of the axis: degrees for angles.
+    label : str
+        Name of our curve.
+    end_time : float, s, optional
+        Right end of the time axis; by default that of the results.
+    """
+    figure, (axes,) = new_figure(results, 1, row_height=3.6)
+    draw_comparison(axes, results, channel, curves, label=label, end_time=end_time)
+    return figure
+
+
+def draw_comparison(
+    axes: Axes,
+    results: Results,
+    channel: str,
+    curves: Sequence[Curve],
+    *,
+    label: str = "hydrodae",
+    end_time: float | None = None,
+) -> None:
+    """Draw the comparison of `plot_comparison` into given axes.
+
+    Raises
+    ------
+    CaseError
+        The channel is a vector, or a pattern of several channels.
+    """
+    lines = select(results, channel)
+    if len(lines) != 1:
+        raise CaseError(
+            f"{channel} is {len(lines)} lines and only one can be compared; "
+            "name one channel, or one component such as bodies/base/position.z"
+        )
+    end = results.end_time if end_time is None else end_time
+    for i, curve in enumerate(curves):
+        _draw_curve(axes, curve.until(end), COLORS[i % len(COLORS)])
+    ours = Curve(label, results.time, lines[0].values).until(end)
+    axes.plot(ours.time, ours.values, label=label, color="black", linewidth=1.8)
+    axes.set_xlim(results.time[0], end)
+    axes.set_ylabel(f"{lines[0].label} {lines[0].quantity} [{lines[0].unit}]")
+    _legend(axes)
+
+
+def new_figure(
+    results: Results, rows: int, *, width: float = 8.0, row_height: float = 2.1
+) -> tuple[Figure, list[Axes]]:
+    """Make a figure of `rows` panels over one time axis, titled after the run.
+
+    Parameters
+    ----------
+    results : Results
+    rows : int
+    width, row_height : float, inch
+
+    Returns
+    -------
+    figure : matplotlib.figure.Figure
+    axes : list of matplotlib.axes.Axes
+    """
+    figure = Figure(figsize=(width, rows * row_height + 0.6), layout="constrained")
+    axes = list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
+    title = results.title
+    if results.status != "completed":
+        title += f" ({results.status} at t = {results.end_time:g} s)"
+    axes[0].set_title(title)
+    axes[-1].set_xlabel("time [s]")
+    return figure, axes
+
+
+def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
+    """Write a figure; the ending of `path` says the format (png, pdf, svg, ...).
+
+    Raises
+    ------
+    CaseError
+        The ending is none that matplotlib can write.
+    """
+    path = Path(path)
+    known = figure.canvas.get_supported_filetypes()
+    if path.suffix[1:].lower() not in known:
+        raise CaseError(f"{path}: no such kind of picture; known are {', '.join(sorted(known))}")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path)
+    return path
+
+
+@matplotlib.rc_context(STYLE)
+def _draw(results: Results, panels: list[Panel]) -> Figure:
+    if not panels or not len(results.time):
+        raise CaseError(f"{results.path}: there is nothing to draw")
+    figure, all_axes = new_figure(results, len(panels))
+    for axes, panel in zip(all_axes, map(most_moving, panels), strict=True):
+        for line in panel.lines:
+            axes.plot(results.time, line.values, label=line.label)
+        axes.set_ylabel(panel.label)
+        _legend(axes, panel.note)
+    all_axes[0].set_xlim(results.time[0], results.end_time)
+    return figure
+
+
+def _draw_curve(axes: Axes, curve: Curve, color: str) -> None:
+    if not curve.points:
+        axes.plot(curve.time, curve.values, label=curve.label, color=color, linewidth=1.0)
+        return
+    bars = None if curve.spread is None else np.abs(curve.spread - curve.values)
+    axes.errorbar(
+        curve.time,
+        curve.values,
+        yerr=bars,
+        label=curve.label,
+        color=color,
+        fmt="o",
+        markersize=5,
+        markerfacecolor="none",
+        capsize=3,
+        zorder=3,
+    )
+
+
+def _legend(axes: Axes, title: str = "") -> None:
+    """Legend beside the axes, where it hides nothing."""
+    axes.legend(
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.03),
+        borderaxespad=0.0,
+        title=title or None,
+        title_fontsize=8,
+        alignment="left",
+    )

@@ -1,0 +1,245 @@
+"""Results of a run: labelled time series, read from results.h5 when they are asked for."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Iterator, Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import HydrodaeError
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = "hydrodae-results"
+FORMAT_VERSION = 1
+
+#: Name and labels of the second dimension of a channel, by its width.
+_COMPONENTS = {3: ("component", ["x", "y", "z"]), 4: ("quaternion", ["w", "x", "y", "z"])}
+
+
+class ResultsError(HydrodaeError):
+    """A results file cannot be used."""
+
+
+class ChannelError(ResultsError, KeyError):
+    """There is no channel of that name; the message has the nearest one."""
+
+    __str__ = Exception.__str__  # KeyError would show the message in quotes
+
+
+class Results(Mapping[str, "xarray.DataArray"]):
+    """The channels of a results file by name, such as "joints/hinge1/angle".
+
+    A channel is an `xarray.DataArray` with dimension `time` [s], for vectors also `component`
+    (x, y, z), for orientations `quaternion` (w, x, y, z); its attributes are `unit`, `frame` and
+    `description`. It is read from the file when it is first asked for.
+
+    Parameters
+    ----------
+    path : path
+        Results file.
+    owner : object, optional
+        Kept alive as long as the results are (the temporary folder of a run without output).
+
+    Raises
+    ------
+    ResultsError
+        There is no such file, or it is not a results file that this version can read.
+    ChannelError
+        From ``results[name]``: there is no such channel.
+
+    Examples
+    --------
+    >>> results = Results.read("build/f3of/flap_decay.h5")  # doctest: +SKIP
+    >>> results["joints/hinge1/angle"].sel(time=10.0, method="nearest")  # doctest: +SKIP
+    """
+
+    def __init__(self, path: str | os.PathLike[str], owner: object = None) -> None:
+        self.path = Path(path)
+        self._owner = owner
+        self._read: dict[str, xarray.DataArray] = {}
+        if not self.path.is_file():
+            raise ResultsError(f"{self.path}: no such results file")
+        try:
+            with h5py.File(self.path, "r") as file:
+                self._read_header(file)
+        except OSError as error:
+            raise ResultsError(f"{self.path}: not a readable HDF5 file ({error})") from error
+        self._identity = _identity(self.path)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Results:
+        """Open the results file at `path`."""
+        return cls(path)
+
+    def _read_header(self, file: h5py.File) -> None:
+        found = file.attrs.get("format")
+        if found != FORMAT:
+            raise ResultsError(
+                f"{self.path}: not a results file (attribute format is {found!r}, not {FORMAT!r})"
+            )
+        version = int(file.attrs["format_version"])
+        if version != FORMAT_VERSION:
+            raise ResultsError(
+                f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
+            )
+        self._header = {name: _plain(value) for name, value in file.attrs.items()}
+        solver = file.get("solver")
+        self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
+        lengths: dict[str, int] = {}
+
+        def note(name: str, node: h5py.Group | h5py.Dataset) -> None:
+            if isinstance(node, h5py.Dataset):
+                lengths[name] = len(node)
+
+        file.visititems(note)
+        # A run that was killed may have died between two channels: keep the samples that all have.
+        samples = min(lengths.values()) if self.status == "running" else lengths["time"]
+        self._time: NDArray[np.float64] = file["time"][:samples]
+        self._names = tuple(name for name in lengths if name != "time")
+
+    def __getitem__(self, name: str) -> xarray.DataArray:
+        if name not in self._read:
+            if name not in self._names:
+                raise ChannelError(self._missing(name))
+            self._read[name] = self._load(name)
+        return self._read[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    # Comparing two mappings would read both files; results are equal only to themselves.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    def channels(self, pattern: str = "*") -> list[str]:
+        """Names of the channels that match a shell pattern, such as "joints/*/angle"."""
+        return [name for name in self._names if fnmatchcase(name, pattern)]
+
+    def to_dataset(self, pattern: str = "*") -> xarray.Dataset:
+        """Return the channels that match a shell pattern as one dataset on the common time axis."""
+        import xarray
+
+        return xarray.Dataset(
+            {name: self[name] for name in self.channels(pattern)},
+            coords={"time": self._time_coordinate()},
+            attrs={"title": self.title, "status": self.status},
+        )
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """(n_time,) output times, s."""
+        return self._time
+
+    @property
+    def end_time(self) -> float:
+        """Last time that was written, s; nan if there is none."""
+        return float(self._time[-1]) if len(self._time) else float("nan")
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return str(self._header.get("title", ""))
+
+    @property
+    def status(self) -> str:
+        """How the run ended: completed, interrupted or failed; "running" if it was killed."""
+        return str(self._header["status"])
+
+    @property
+    def message(self) -> str:
+        """Why the run ended before its end time; empty for a completed run."""
+        return str(self._header.get("message", ""))
+
+    @property
+    def case_text(self) -> str:
+        """The case file that was run."""
+        return str(self._header.get("case_text", ""))
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """All attributes of the file: versions, paths, hash of the hydrodynamic database."""
+        return dict(self._header)
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """Counts of the solver, tolerances and wall times [s]."""
+        return dict(self._statistics)
+
+    def summary(self) -> str:
+        """Return a few lines for people: status, cost, extrema of the joint coordinates."""
+        from hydrodae.post import summary
+
+        return summary(self)
+
+    def __repr__(self) -> str:
+        return (
+            f"<hydrodae.Results {self.title!r}: {len(self)} channels, {len(self._time)} samples "
+            f"to t = {self.end_time:g} s, {self.status}>"
+        )
+
+    def _time_coordinate(self) -> xarray.Variable:
+        import xarray
+
+        return xarray.Variable("time", self._time, {"unit": "s"})
+
+    def _load(self, name: str) -> xarray.DataArray:
+        import xarray
+
+        if _identity(self.path) != self._identity:
+            raise ResultsError(
+                f"{self.path}: the file has changed since it was opened; read it again"
+            )
+        with h5py.File(self.path, "r") as file:
+            values = file[name][: len(self._time)]
+            attributes = {key: _plain(value) for key, value in file[name].attrs.items()}
+        dims: list[str] = ["time"]
+        coords: dict[str, Any] = {"time": self._time_coordinate()}
+        if values.ndim == 2 and values.shape[1] in _COMPONENTS:
+            dimension, labels = _COMPONENTS[values.shape[1]]
+            dims.append(dimension)
+            coords[dimension] = labels
+        if len(dims) != values.ndim or len(values) != len(self._time):
+            raise ResultsError(
+                f"{self.path}: channel {name} has shape {values.shape}, expected "
+                f"({len(self._time)},), ({len(self._time)}, 3) or ({len(self._time)}, 4)"
+            )
+        return xarray.DataArray(values, coords, dims, name=name, attrs=attributes)
+
+    def _missing(self, name: str) -> str:
+        message = f"{self.path} has no channel {name!r}"
+        inside = self.channels(f"{name}/*")
+        if inside:
+            return f"{message}: it is a group of {', '.join(inside)}"
+        near = difflib.get_close_matches(name, self._names, n=1)
+        if near:
+            return f"{message}; the nearest name is {near[0]!r}"
+        groups = sorted({channel.split("/")[0] for channel in self._names})
+        return f"{message}; there are channels in {', '.join(groups) or 'no group'}"
+
+
+def _plain(value: Any) -> Any:
+    """Attribute as plain Python: str, int, float, bool or list."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _identity(path: Path) -> tuple[int, int, int]:
+    """What changes when a file is written again."""
+    stat = path.stat()
+    return stat.st_ino, stat.st_size, stat.st_mtime_ns

@@ -1,0 +1,153 @@
+"""Run a case and hand back its results."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import tempfile
+import weakref
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Event, current_thread, main_thread
+from types import FrameType
+from typing import Any
+
+import h5py
+
+from hydrodae.case import Case
+from hydrodae.errors import CaseError, RunInterrupted, SolverError
+from hydrodae.results import FORMAT, Results
+
+#: Called with the time and the end time [s] at every output sample; return False to stop the run.
+Progress = Callable[[float, float], bool | None]
+
+
+def run(
+    case: Case | str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Results:
+    """Simulate a case from its initial state to its end time.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or the path of its file.
+    output : path, optional
+        Results file (HDF5); replaced if it exists, folders are made. Without it the results live
+        in a temporary file that goes when the returned object does.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key: ``{"solver.rtol": 1e-8}``.
+    progress : callable, optional
+        Called as ``progress(time, end_time)`` [s] at every output sample; return False to stop.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    CaseError
+        The case cannot be used, or `output` is a file that is no results file.
+    SolverError
+        The integration failed. What was computed is kept: the attribute `results` of the exception
+        is a `Results`, or None when the run did not even start.
+    RunInterrupted
+        Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
+    """
+    if not isinstance(case, Case):
+        case = Case(path=case, values=set)
+    elif set:
+        case = case.with_values(set)
+    folder = None
+    if output is None:
+        folder = _TemporaryFolder()
+        path = folder.path / "results.h5"
+    else:
+        path = Path(output)
+        _make_way(path)
+    try:
+        status = _integrate(case, path, progress)
+    except SolverError as error:
+        error.results = Results(path, owner=folder) if path.exists() else None
+        raise
+    results = Results(path, owner=folder)
+    if status == "interrupted":
+        stopped = RunInterrupted(f"stopped at t = {results.end_time:g} s of {case.end_time:g} s")
+        stopped.results = results
+        raise stopped
+    return results
+
+
+def _integrate(case: Case, path: Path, progress: Progress | None) -> str:
+    """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
+
+    The kernel always gets a callback: Python handles signals only while it runs Python.
+    """
+    from hydrodae import _core
+
+    failure: list[BaseException] = []
+
+    def report(time: float, end_time: float) -> bool:
+        try:
+            go_on = progress is None or progress(time, end_time) is not False
+        except BaseException as error:
+            failure.append(error)
+            return False
+        return go_on and not interrupt.is_set()
+
+    with _interrupt_event() as interrupt:
+        status: str = _core.simulate(case.scene, str(path), report)["status"]
+    if failure:
+        raise failure[0]
+    return status
+
+
+def _make_way(path: Path) -> None:
+    """Make the folder and remove an older run, so that nobody takes it for this one."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists():
+        if not _is_results(path):
+            raise CaseError(f"{path}: exists and is no results file; it is not replaced")
+        path.unlink()
+
+
+def _is_results(path: Path) -> bool:
+    if not (path.is_file() and h5py.is_hdf5(path)):
+        return False
+    try:
+        with h5py.File(path, "r") as file:
+            return bool(file.attrs.get("format") == FORMAT)
+    except OSError:  # HDF5 by its signature, but cut off: a run that was killed
+        return True
+
+
+@contextmanager
+def _interrupt_event() -> Iterator[Event]:
+    """Turn the first Ctrl-C into an event; a second one is a KeyboardInterrupt as usual."""
+    event = Event()
+    if current_thread() is not main_thread():  # only the main thread may set handlers
+        yield event
+        return
+
+    def stop(_signal: int, _frame: FrameType | None) -> None:
+        event.set()
+        signal.signal(signal.SIGINT, before)
+
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield event
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+class _TemporaryFolder:
+    """A folder that is removed when the last object that holds it goes."""
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="hydrodae-"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)

@@ -1,0 +1,35 @@
+"""Fixtures that every folder of tests uses."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """Root of the repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def reference() -> Path:
+    """Folder of the reference data: $HYDRODAE_REFERENCE, or shared/reference beside the repository.
+
+    A test that asks for it is skipped where there is none (a user's machine). A variable that
+    points nowhere is an error, so that no check is lost to a typing mistake.
+    """
+    named = os.environ.get("HYDRODAE_REFERENCE")
+    if named:
+        folder = Path(named)
+        if not folder.is_dir():
+            pytest.fail(f"HYDRODAE_REFERENCE = {named!r} is not a folder")
+        return folder
+    folder = ROOT.parent / "shared" / "reference"
+    if not folder.is_dir():
+        pytest.skip("no reference data: set HYDRODAE_REFERENCE to its folder")
+    return folder

@@ -1,0 +1,316 @@
+"""What a user can get wrong in a case, a database or a command line, and what he is told."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from hydrodae import _core
+from hydrodae.errors import CaseError
+from hydrodae.hdb.database import Body, HydroDatabase
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.memory import ExponentialMemory
+
+CASE = """title = "buoy"
+
+[hydro]
+database = "hydro.h5"
+
+[[body]]
+name = "buoy"
+motion = "heave"
+mass = 1000.0
+center_of_gravity = [0.0, 0.0, -1.0]
+hydro = "float"
+
+[solver]
+end_time = 1.0
+"""
+
+
+def make_database(names: tuple[str, ...] = ("float.surge", "float.heave", "float.pitch")):
+    """A body with made-up but admissible coefficients and one fit for heave."""
+    n, omega = len(names), np.array([0.5, 1.0, 2.0])
+    heave = ("float.heave",)
+    fit = ExponentialMemory(
+        "heave",
+        heave,
+        heave,
+        poles=np.array([-1.0 + 0.0j, -0.5 + 2.0j]),
+        input_matrix=np.array([[1.0 + 0.0j], [1.0 + 0.5j]]),
+        output_matrix=np.array([[10.0 + 0.0j, 20.0 - 3.0j]]),
+        added_mass_inf=np.array([[300.0]]),
+        report={"n_states": 3, "passive": True},
+    )
+    return HydroDatabase(
+        coordinates=names,
+        omega=omega,
+        added_mass=np.tile(400.0 * np.eye(n), (3, 1, 1)),
+        radiation_damping=np.tile(50.0 * np.eye(n), (3, 1, 1)),
+        added_mass_inf=300.0 * np.eye(n),
+        added_mass_inf_std=np.zeros((n, n)),
+        heading=np.array([0.0]),
+        froude_krylov=np.zeros((3, 1, n), complex),
+        diffraction=np.zeros((3, 1, n), complex),
+        bodies={
+            "float": Body(
+                "float",
+                np.array([0.0, 0.0, -1.0]),
+                Hydrostatics(1.0, np.array([0.0, 0.0, -1.2]), 2.0, np.zeros(5)),
+            )
+        },
+        rho=1000.0,
+        gravity=9.81,
+        memory={"heave": fit},
+    )
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    """The buoy case with its database."""
+    make_database().write(tmp_path / "hydro.h5")
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+def message(case: Path, overrides: dict[str, str] | None = None) -> str:
+    """Say what is wrong with the case, with the folder left out."""
+    with pytest.raises(CaseError) as caught:
+        _core.load_case(str(case), overrides or {})
+    return str(caught.value).replace(f"{case.parent}{os.sep}", "")
+
+
+def test_a_database_from_python_is_read(case):
+    summary = _core.load_case(str(case), {}).summary()
+    assert "3 coordinates, 1 move, body axes" in summary
+    assert "fit 'heave' with 3 states for 1 coordinates, passive" in summary
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            "mass = 1000.0",
+            "masss = 1000.0",
+            "case.toml:9:1: unknown key 'masss' in [[body]] 'buoy'; did you mean 'mass'? (valid: "
+            "name, motion, mass, center_of_gravity, inertia, products_of_inertia, hydro, initial)",
+        ),
+        (
+            "mass = 1000.0",
+            "mass = 0",
+            "case.toml:9:1: body 'buoy': a body that moves needs a mass > 0 kg, this one has 0 kg",
+        ),
+        (
+            "end_time = 1.0",
+            'end_time = "long"',
+            "case.toml:14:1: key 'end_time' in [solver]: expected a number [s], got the string "
+            "'long'",
+        ),
+        (
+            'motion = "heave"',
+            'motion = ["heave", "roll", "pitch"]',
+            "case.toml:8:1: body 'buoy': motion frees two of roll, pitch and yaw; possible are one "
+            "rotation or all three",
+        ),
+        (
+            'hydro = "float"',
+            'hydro = "flaot"',
+            "case.toml:11:1: body 'buoy': hydro = 'flaot' is no body of hydro.h5; did you mean "
+            "'float'? (valid: float)",
+        ),
+        (
+            "-1.0]",
+            "-1.5]",
+            "case.toml:11:1: body 'buoy': the database is about the point [0, 0, -1] m, but the "
+            "center_of_gravity is [0, 0, -1.5] m; make the database for it with: hydrodae hdb "
+            "import ... --cog float=0,0,-1.5",
+        ),
+        (
+            "[hydro]",
+            "[environment]\ngravity = 9.8\n\n[hydro]",
+            "case.toml:4:1: gravity is 9.8 m/s2, but the database hydro.h5 was made with 9.81 m/s2",
+        ),
+        (
+            '"hydro.h5"',
+            '"hydra.h5"',
+            "case.toml:4:1: key 'database' in [hydro]: hydra.h5: no such file",
+        ),
+        (
+            '"hydro.h5"',
+            '"case.toml"',
+            "case.toml:4:1: key 'database' in [hydro]: case.toml: not an HDF5 file",
+        ),
+        (
+            'motion = "heave"',
+            'motion = ["sway", "heave"]',
+            "case.toml:4:1: hydro.h5 lacks coordinates that move: float.sway",
+        ),
+        (
+            'motion = "heave"',
+            'motion = ["heave", "pitch"]\ninertia = [0, 5, 0]',
+            "case.toml:3:1: no exponential fit in hydro.h5 covers all coordinates that move; "
+            "'heave' lacks float.surge, float.pitch; make one with: hydrodae hdb fit",
+        ),
+        (
+            '"hydro.h5"',
+            '"hydro.h5"\nfit = "heaves"',
+            "case.toml:5:1: no exponential fit 'heaves' in hydro.h5; did you mean 'heave'? (valid: "
+            "heave)",
+        ),
+        ("[solver]", "[solver", "case.toml:13:8: "),
+    ],
+)
+def test_one_mistake_gives_one_message(case, old, new, expected):
+    assert CASE.count(old) == 1
+    case.write_text(CASE.replace(old, new))
+    said = message(case)
+    assert said.startswith(expected) if expected.endswith(": ") else said == expected
+
+
+def test_a_wrong_override_is_told_with_its_key(case):
+    assert message(case, {"body.bouy.mass": "1"}) == (
+        "--set body.bouy.mass: no body 'bouy'; did you mean 'buoy'? (valid: buoy)"
+    )
+    assert message(case, {"hydro.radiation": '"expo"'}).startswith(
+        "--set hydro.radiation: key 'radiation' in [hydro]: unknown value 'expo'"
+    )
+
+
+def _drop_hydrostatics(file: h5py.File) -> None:
+    del file["bodies/float/hydrostatic_stiffness"]
+    for name in ("displaced_volume", "center_of_buoyancy"):
+        del file["bodies/float"].attrs[name]
+
+
+def _newer(file: h5py.File) -> None:
+    file.attrs["format_version"] = 2
+
+
+def _no_fits(file: h5py.File) -> None:
+    del file["memory"]
+
+
+def _unstable(file: h5py.File) -> None:
+    file["memory/heave/poles"][0] = 0.1
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (_drop_hydrostatics, "case.toml:11:1: body 'buoy': hydro.h5 holds no hydrostatics"),
+        (_newer, "case.toml:4:1: key 'database' in [hydro]: hydro.h5: /: format_version is 2"),
+        (_no_fits, "case.toml:3:1: hydro.h5 holds no exponential fit; make one with: hydrodae hdb"),
+        (
+            _unstable,
+            "case.toml:4:1: key 'database' in [hydro]: hydro.h5: /memory/heave/poles: pole ",
+        ),
+    ],
+)
+def test_a_wrong_database_is_told(case, change: Callable[[h5py.File], None], expected):
+    with h5py.File(case.parent / "hydro.h5", "r+") as file:
+        change(file)
+    assert message(case).startswith(expected)
+
+
+@pytest.fixture(scope="session")
+def executable() -> str:
+    """hydrodae-solve of the installed package."""
+    folder = os.path.dirname(sys.executable)
+    path = shutil.which("hydrodae-solve", path=os.pathsep.join([folder, os.environ["PATH"]]))
+    assert path, "hydrodae-solve is not installed"
+    return path
+
+
+def solve(executable: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [executable, *map(str, arguments)], capture_output=True, text=True, check=False
+    )
+
+
+def test_the_executable_runs_a_case(executable, case):
+    output = case.parent / "results.h5"
+    run = solve(executable, case, "-o", output, "--set", "solver.end_time=2", "--quiet")
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.startswith("completed at t = 2 s: ")
+    assert run.stdout.endswith(f"results in {output}\n")
+    assert run.stderr == ""
+    with h5py.File(output) as file:
+        assert file["time"][-1] == pytest.approx(2.0)
+        assert len(file.attrs["hydro_sha256"]) == 64
+
+
+def test_the_executable_checks_a_case(executable, case):
+    run = solve(executable, "--check", case)
+    assert run.returncode == 0
+    assert run.stdout == _core.load_case(str(case), {}).summary()
+
+
+@pytest.mark.parametrize("flag", ["--help", "--version"])
+def test_the_executable_tells_about_itself(executable, flag):
+    run = solve(executable, flag)
+    assert run.returncode == 0
+    assert "hydrodae" in run.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        ([], "a case file is missing"),
+        (["CASE"], "-o RESULTS is missing"),
+        (["CASE", "-o"], "-o: a value is missing"),
+        (["CASE", "-o", "x.h5", "--sett", "a=1"], "unexpected argument '--sett'"),
+        (["CASE", "-o", "x.h5", "--set", "solver.rtol"], "expected KEY=VALUE"),
+        (["CASE", "-o", "x.h5", "--set", "solver.rtl=1"], "did you mean 'rtol'?"),
+        (["none.toml", "-o", "x.h5"], "none.toml: cannot read the case file"),
+    ],
+)
+def test_a_wrong_command_line_is_exit_code_2(executable, case, arguments, expected):
+    run = solve(executable, *[str(case) if a == "CASE" else a for a in arguments])
+    assert run.returncode == 2
+    assert run.stdout == ""
+    assert run.stderr.startswith("hydrodae-solve: ")
+    assert expected in run.stderr
+
+
+def test_a_solver_failure_is_exit_code_3(executable, case):
+    anti_spring = """
+[[force]]
+name = "anti"
+type = "mooring_matrix"
+body = "buoy"
+stiffness = [0, 0, -1e9, 0, 0, 0]
+"""
+    case.write_text(CASE + anti_spring)
+    output = case.parent / "results.h5"
+    run = solve(executable, case, "-o", output, "--set", "body.buoy.initial.displacement=[0,0,1]")
+    assert run.returncode == 3, run.stdout
+    assert "stopped at t = " in run.stderr
+    with h5py.File(output) as file:
+        assert file.attrs["status"] == "failed"
+
+
+def test_an_interrupt_is_exit_code_4(executable, case):
+    output = case.parent / "results.h5"
+    command = [executable, str(case), "-o", str(output), "--set", "solver.end_time=1e8", "--quiet"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        while not output.exists():
+            time.sleep(0.01)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        said, _ = process.communicate(timeout=20)
+    assert process.returncode == 4
+    assert said.startswith("interrupted at t = ")
+    with h5py.File(output) as file:
+        assert file.attrs["status"] == "interrupted"
+        assert len(file["time"]) > 1

@@ -1,0 +1,213 @@
+"""The Capytaine reader on files with known content (layouts of versions 2 and 3) and real ones."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from hydrodae import hdb
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.read import read_source
+
+DOFS = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"]
+
+
+def dataset(version, omega, bodies=("a", "b")):
+    """A[force i, motion j] = 1000 (i == j) + 10 i + j + w; F = (i + 1) e^{0.2 i (h + 1)} e^{iw}."""
+    dofs = [f"{b}__{d}" for b in bodies for d in DOFS] if bodies else list(DOFS)
+    n, heading = len(dofs), [0.0, 0.7]
+    i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+    finite = np.where(np.isfinite(omega), omega, 9.0)
+    a = (1000.0 * (i == j) + 10 * i + j)[None] + finite[:, None, None]
+    b = 300.0 * (i == j)[None] * (finite * np.exp(-finite))[:, None, None]
+    h = np.arange(2)[None, :, None]
+    f = (np.arange(n) + 1) * np.exp(0.2j * (h + 1) + 1j * finite[:, None, None])
+    f[~np.isfinite(omega) | (omega == 0.0)] = np.nan
+    force = (["complex", "omega", "wave_direction", "influenced_dof"], np.stack([f.real, f.imag]))
+    dims = ["omega", "influenced_dof", "radiating_dof"]
+    if version == 2:
+        dims, a, b = ["omega", dims[2], dims[1]], a.transpose(0, 2, 1), b.transpose(0, 2, 1)
+    names = list(bodies) if bodies else ["only"]
+    dim = "rigid_body_component" if version == 2 else "body"
+    return xr.Dataset(
+        {
+            "added_mass": (dims, a),
+            "radiation_damping": (dims, b),
+            "Froude_Krylov_force": (force[0], 0.25 * force[1]),
+            "diffraction_force": (force[0], 0.75 * force[1]),
+            "rotation_center": ([dim, "point"], [[3.0 * k, 0.0, -1.0] for k in range(len(names))]),
+        },
+        coords={
+            "omega": omega,
+            "influenced_dof": dofs,
+            "radiating_dof": dofs,
+            "complex": ["re", "im"],
+            "wave_direction": heading,
+            dim: names,
+            "rho": 1025.0,
+            "g": 9.81,
+            "water_depth": np.inf,
+        },
+        attrs={"capytaine_version": f"{version}.1"},
+    )
+
+
+def hydrostatics(db, name):
+    return db.bodies[name].hydrostatics
+
+
+OMEGA = np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, np.inf])
+
+
+def save(ds, path, version):
+    if version == 2:
+        ds.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+    else:
+        ds.to_netcdf(path, engine="netcdf4", format="NETCDF4")
+    return path
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_axes_go_by_name_and_forces_are_conjugated(tmp_path, version):
+    path = save(dataset(version, OMEGA), tmp_path / "x.nc", version)
+    data: Any = read_source(path)
+    assert data.coordinates[8] == "b.heave"
+    np.testing.assert_allclose(data.omega, OMEGA[1:-1])
+    assert data.added_mass[1, 8, 3] == pytest.approx(10 * 8 + 3 + 1.0)
+    assert data.added_mass_inf[8, 3] == pytest.approx(10 * 8 + 3 + 9.0)
+    np.testing.assert_allclose(data.reference_points["b"], [3.0, 0.0, -1.0])
+    db = hdb.read(path)
+    assert db.added_mass_inf_origin == "source"
+    assert db.excitation[1, 1, 4] == pytest.approx(5 * np.exp(-1j * (0.4 + 1.0)))
+    assert db.froude_krylov[1, 1, 4] == pytest.approx(0.25 * db.excitation[1, 1, 4])
+
+
+def test_labels_decide_not_positions(tmp_path):
+    ds = dataset(3, OMEGA)
+    shuffled = ds.isel(influenced_dof=np.r_[11:-1:-1], radiating_dof=np.roll(np.arange(12), 5))
+    a = hdb.read(save(ds, tmp_path / "a.nc", 3))
+    b = hdb.read(save(shuffled, tmp_path / "b.nc", 3))
+    b = b.reordered(a.coordinates)
+    np.testing.assert_allclose(b.added_mass, a.added_mass)
+    np.testing.assert_allclose(b.excitation, a.excitation)
+
+
+@pytest.mark.parametrize("axis", ["period", "freq", "wavenumber"])
+def test_other_frequency_axes(tmp_path, axis):
+    omega = OMEGA[1:-1]
+    ds = dataset(3, omega).assign_coords(water_depth=20.0)
+    k = np.array([brute_wavenumber(w, 20.0) for w in omega])
+    values = {"period": 2 * np.pi / omega, "freq": omega / (2 * np.pi), "wavenumber": k}[axis]
+    ds = ds.rename(omega=axis).assign_coords({axis: values})
+    db = hdb.read(save(ds, tmp_path / "x.nc", 3))
+    np.testing.assert_allclose(db.omega, omega, rtol=1e-9)
+    assert db.added_mass[1, 0, 0] == pytest.approx(1001.0)
+
+
+def brute_wavenumber(w, depth):
+    low, high = 0.0, 100.0
+    for _ in range(200):
+        k = 0.5 * (low + high)
+        low, high = (k, high) if 9.81 * k * np.tanh(k * depth) < w**2 else (low, k)
+    return k
+
+
+def test_few_nan_rows_are_dropped_and_reported_many_are_an_error(tmp_path):
+    ds = dataset(3, np.arange(0.5, 8.0, 0.5))
+    ds["radiation_damping"][2, 1, 1] = np.nan
+    db, report = hdb.import_database(save(ds, tmp_path / "few.nc", 3))
+    assert 1.5 not in db.omega
+    assert "(w = 1.5 rad/s)" in report.find("NaN")[0].message
+    ds["radiation_damping"][2:8] = np.nan
+    with pytest.raises(DatabaseError, match="6 of 15 frequencies hold NaN"):
+        hdb.read(save(ds, tmp_path / "many.nc", 3))
+
+
+def test_study_dimensions_must_be_selected(tmp_path):
+    ds = dataset(3, OMEGA)
+    two = xr.concat([ds, ds.assign_coords(rho=1000.0)], dim="rho", data_vars="all")
+    with pytest.raises(DatabaseError, match="2 values of 'rho'"):
+        hdb.read(save(two, tmp_path / "two.nc", 3))
+
+
+def test_flexible_modes_are_left_out_with_a_warning(tmp_path):
+    ds = dataset(3, OMEGA, bodies=())
+    names = [*DOFS[:5], "bending"]
+    ds = ds.assign_coords(influenced_dof=names, radiating_dof=names)
+    db, report = hdb.import_database(save(ds, tmp_path / "hull.nc", 3))
+    assert [c.split(".")[1] for c in db.coordinates] == [d.lower() for d in DOFS[:5]]
+    assert "bending" in report.find("coordinates")[0].message
+
+
+def test_files_that_are_something_else(tmp_path):
+    text = tmp_path / "notes.txt"
+    text.write_text("hello")
+    with pytest.raises(DatabaseError, match=r"notes.txt: not a Nemoh folder"):
+        hdb.read(text)
+    other = tmp_path / "other.nc"
+    xr.Dataset({"t": ("x", [1.0])}).to_netcdf(other, engine="scipy")
+    with pytest.raises(DatabaseError, match="no variable 'added_mass'"):
+        hdb.read(other)
+
+
+def test_hydrostatics_with_the_weight_taken_out(tmp_path):
+    # box 4 x 2 x 1 m, draught 1, about (0, 0, -1), centre of gravity at z = 0.5
+    rho, g, volume, zb, zc, zg = 1025.0, 9.81, 8.0, -0.5, -1.0, 0.5
+    ds = dataset(3, OMEGA, bodies=())
+    ds = ds.drop_vars(["body", "rotation_center"]).drop_dims("body", errors="ignore")
+    k = np.zeros((6, 6))
+    k[2, 2] = rho * g * 8.0
+    k[3, 3] = rho * g * (4 * 2**3 / 12 + volume * (zb - zc) - volume * (zg - zc))
+    k[4, 4] = rho * g * (2 * 4**3 / 12 + volume * (zb - zc) - volume * (zg - zc))
+    ds["hydrostatic_stiffness"] = (["influenced_dof", "radiating_dof"], k)
+    ds["disp_mass"] = rho * volume
+    ds["center_of_buoyancy"] = ("xyz", [0.0, 0.0, zb])
+    ds["center_of_mass"] = ("xyz", [0.0, 0.0, zg])
+    ds["rotation_center"] = ("xyz", [0.0, 0.0, zc])
+    db = hdb.read(save(ds, tmp_path / "box.nc", 3))
+    hs = hydrostatics(db, "box")
+    assert hs.waterplane_moments[2:4] == pytest.approx([2 * 4**3 / 12, 4 * 2**3 / 12])
+    expected = rho * g * (4 * 2**3 / 12 + volume * (zb - zc))
+    assert db.hydrostatic_stiffness("box")[3, 3] == pytest.approx(expected)
+
+
+# real files
+
+
+def test_own_sphere(reference):
+    db, report = hdb.import_database(reference / "hdb" / "own" / "sphere.nc")
+    assert report.ok
+    assert not report.of("warning")
+    assert db.omega.size == 100
+    # half the displaced mass: exact for a hemisphere in heave at infinite frequency
+    displaced = db.rho * hydrostatics(db, "sphere").displaced_volume
+    assert db.added_mass_inf[2, 2] / displaced == pytest.approx(0.5, abs=0.005)
+    assert hydrostatics(db, "sphere").displaced_volume == pytest.approx(2 / 3 * np.pi * 125)
+
+
+def test_own_array_has_headings_and_four_bodies(reference):
+    db, report = hdb.import_database(reference / "hdb" / "own" / "4n3la.nc")
+    assert list(db.bodies) == ["S3", "C1", "S1", "S2"]
+    np.testing.assert_allclose(np.degrees(db.heading), [0, 30, 60, 90, 180])
+    np.testing.assert_allclose(db.reference_point("S2"), [2.1, -1.21, -0.3])
+    assert report.ok
+
+
+def test_capytaine_2_sphere_needs_its_point(reference, tmp_path):
+    path = reference / "hdb" / "sphere_capytaine" / "sphere_hydrodynamics.nc"
+    db, report = hdb.import_database(path)
+    assert 3 == round(report.find("NaN")[0].value * 420)
+    assert db.omega[0] == pytest.approx(0.08)
+    with pytest.raises(DatabaseError, match="--origin floating_sphere"):
+        db.write(tmp_path / "x.h5")
+    with pytest.raises(DatabaseError, match="does not say about which point"):
+        db.moved_to({"floating_sphere": (0, 0, 0)})
+    db, report = hdb.import_database(path, names=["buoy"], source_points={"buoy": (0, 0, -2)})
+    assert hydrostatics(db, "buoy").displaced_volume == pytest.approx(261.364)
+    assert report.find("pitch moment")[0].severity == "info"
+    # about the wrong point the long-wave moment contradicts the stiffness
+    _, report = hdb.import_database(path, source_points={"floating_sphere": (0, 0, 0)})
+    assert report.find("pitch moment")[0].severity == "warning"

@@ -1,0 +1,148 @@
+"""The checks find what is wrong and pass what is right; four codes agree on a sphere."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from hydrodae import hdb
+from hydrodae.hdb.findings import CheckReport, Finding
+
+
+@pytest.fixture(scope="module")
+def sphere(reference):
+    return hdb.read(reference / "hdb" / "own" / "sphere.nc")
+
+
+@pytest.fixture(scope="module")
+def spheres(reference, sphere):
+    folder = reference / "hdb"
+    capytaine, _ = hdb.import_database(
+        folder / "sphere_capytaine" / "sphere_hydrodynamics.nc",
+        names=["sphere"],
+        source_points={"sphere": (0.0, 0.0, -2.0)},
+    )
+    return {
+        "nemoh 2": hdb.read(folder / "sphere_nemoh_v2.3"),
+        "nemoh 3": hdb.read(folder / "sphere_nemoh_v3.0.2"),
+        "capytaine": capytaine,
+        "own": sphere,
+    }
+
+
+def hydrostatics(db, name):
+    return db.bodies[name].hydrostatics
+
+
+def largest_difference(a, b, omega):
+    """Over the largest value of each entry (for couplings: of the two diagonals), yaw left out."""
+    worst = 0.0
+    for name in ("added_mass", "radiation_damping", "excitation"):
+        x, y = (CubicSpline(d.omega, getattr(d, name))(omega) for d in (a, b))
+        if name == "excitation":
+            scale = np.abs(y).max(axis=(0, 1))
+            scale[scale < 1e-4 * scale.max()] = np.inf
+        else:
+            size = np.sqrt(np.abs(np.einsum("wii->wi", y)).max(axis=0))
+            size[5] = np.inf
+            scale = np.outer(size, size)
+        worst = max(worst, float((np.abs(x - y) / scale).max()))
+    return worst
+
+
+@pytest.mark.parametrize(
+    ("a", "b"), [("nemoh 2", "nemoh 3"), ("nemoh 2", "capytaine"), ("nemoh 3", "capytaine")]
+)
+def test_three_codes_agree_on_the_sphere_in_50_m(spheres, a, b):
+    assert largest_difference(spheres[a], spheres[b], np.arange(0.1, 2.001, 0.02)) < 0.02
+
+
+@pytest.mark.parametrize("a", ["nemoh 2", "nemoh 3", "capytaine"])
+def test_our_own_sphere_in_deep_water_agrees_where_50_m_are_deep(spheres, a):
+    # k h > pi above 0.8 rad/s; below, the depths differ by up to 7 %
+    assert largest_difference(spheres[a], spheres["own"], np.arange(0.8, 1.9, 0.02)) < 0.025
+    assert largest_difference(spheres[a], spheres["own"], np.arange(0.1, 0.3, 0.02)) > 0.03
+
+
+def test_added_mass_inf_of_the_codes(spheres):
+    # source value of our own run; Nemoh without irregular-frequency removal within 2 %
+    own = spheres["own"].added_mass_inf
+    for name in ("nemoh 2", "nemoh 3", "capytaine"):
+        found = spheres[name].added_mass_inf
+        for i in (0, 2, 4):
+            assert found[i, i] == pytest.approx(own[i, i], rel=0.02)
+
+
+def test_a_clean_database_has_no_warning(sphere):
+    report = hdb.check(sphere)
+    assert report.ok
+    assert not report.of("warning")
+
+
+def test_a_forgotten_conjugation_is_an_error(sphere):
+    wrong = dataclasses.replace(
+        sphere,
+        froude_krylov=sphere.froude_krylov.conj(),
+        diffraction=sphere.diffraction.conj(),
+    )
+    finding = hdb.check(wrong).find("phase convention")[0]
+    assert finding.severity == "error"
+    assert "other time convention" in finding.message
+
+
+def test_negative_damping_is_found_with_its_frequency(sphere):
+    b = sphere.radiation_damping.copy()
+    b[30, 2, 2] -= 2.0 * b[:, 2, 2].max()
+    finding = hdb.check(dataclasses.replace(sphere, radiation_damping=b)).find("B positive")[0]
+    assert finding.severity == "error"
+    assert finding.omega == pytest.approx(sphere.omega[30])
+
+
+def test_a_spike_of_added_mass_is_found_with_its_frequency(sphere):
+    a = sphere.added_mass.copy()
+    a[44, 0, 0] *= 1.5
+    report = hdb.check(dataclasses.replace(sphere, added_mass=a))
+    finding = report.find("Ogilvie")[0]
+    assert finding.severity == "warning"
+    assert finding.omega == pytest.approx(sphere.omega[44])
+    assert "spike" in finding.message
+
+
+@pytest.mark.parametrize(
+    ("factor", "check", "severity"),
+    [
+        ({"displaced_volume": 1.2}, "displacement", "warning"),
+        ({"displaced_volume": 2.0}, "displacement", "error"),
+        ({"waterplane_area": 1.08}, "heave force", "warning"),
+        ({"waterplane_area": 2.0}, "heave force", "error"),
+        ({"waterplane_moments": 1.5}, "pitch moment", "warning"),
+    ],
+)
+def test_hydrostatics_that_do_not_belong_to_the_forces(sphere, factor, check, severity):
+    hs = hydrostatics(sphere, "sphere")
+    changed = {k: getattr(hs, k) * v for k, v in factor.items()}
+    wrong = sphere.with_hydrostatics({"sphere": dataclasses.replace(hs, **changed)})
+    assert hdb.check(wrong).find(check)[0].severity == severity
+
+
+def test_truncated_tables_are_noticed(sphere):
+    def cut(low, high):
+        keep = (sphere.omega >= low) & (sphere.omega <= high)
+        tables = ("omega", "added_mass", "radiation_damping", "froude_krylov", "diffraction")
+        return dataclasses.replace(sphere, **{t: getattr(sphere, t)[keep] for t in tables})
+
+    assert hdb.check(cut(0.5, 5.0)).find("low frequencies")
+    assert hdb.check(cut(0.0, 1.2)).find("high frequencies")
+    assert not hdb.check(sphere).find("low frequencies")
+    assert not hdb.check(sphere).find("high frequencies")
+
+
+def test_report_prints_the_worst_first_and_counts():
+    report = CheckReport([Finding("info", "a", "fine"), Finding("error", "b", "bad", 3.0, 2.2)])
+    lines = str(report).splitlines()
+    assert lines[0] == "error   b: bad [w = 2.2 rad/s]"
+    assert lines[-1] == "checks: 1 error, 0 warning, 1 info"
+    assert not report.ok

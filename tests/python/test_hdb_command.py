@@ -1,0 +1,118 @@
+"""`hydrodae hdb import | fit | show`."""
+
+from __future__ import annotations
+
+import argparse
+
+import numpy as np
+import pytest
+
+import hydrodae.memory
+from hydrodae import hdb
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb import command, files
+from hydrodae.memory import ExponentialMemory
+
+
+def call(*words):
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return command.run(parser.parse_args([str(w) for w in words]))
+
+
+@pytest.fixture
+def fits(monkeypatch):
+    """Calls of `fit_memory`, replaced by one that only remembers them."""
+    calls = []
+
+    def fit_memory(database, **options):
+        calls.append(options)
+        inputs = tuple(options["inputs"])
+        outputs = tuple(options["outputs"] or database.coordinates)
+        return ExponentialMemory(
+            name=options["name"],
+            inputs=inputs,
+            outputs=outputs,
+            poles=np.array([-1.0 + 1.0j]),
+            input_matrix=np.ones((1, len(inputs)), dtype=complex),
+            output_matrix=np.ones((len(outputs), 1), dtype=complex),
+            added_mass_inf=np.zeros((len(outputs), len(inputs))),
+            report={"n_states": 2, "h_error_band": 0.5},
+        )
+
+    monkeypatch.setattr(hydrodae.memory, "fit_memory", fit_memory)
+    return calls
+
+
+def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
+    source = reference / "hdb" / "own" / "sphere.nc"
+    out = tmp_path / "hydro.h5"
+    code = call(
+        "import", source, "-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5",
+        "--keep", "buoy.planar", "--kernel", "10", "--single",
+    )  # fmt: skip
+    assert code == 0
+    db = hdb.read(out)
+    assert db.coordinates == ("buoy.surge", "buoy.heave", "buoy.pitch")
+    np.testing.assert_allclose(db.reference_point("buoy"), [0, 0, -1.5])
+    assert db.kernel_time is not None
+    assert db.kernel_time[-1] == 10.0
+    assert files.is_single(out)
+    text = capsys.readouterr().out
+    assert "phase convention" in text
+    assert "checks: 0 error" in text
+
+
+def test_import_with_an_error_writes_nothing_unless_accepted(reference, tmp_path, capsys):
+    source = reference / "hdb" / "rm3_nemoh_v2.3"
+    out = tmp_path / "hydro.h5"
+    assert call("import", source, "-o", out) == 2
+    assert not out.exists()
+    assert "--accept" in capsys.readouterr().out
+    assert call("import", source, "-o", out, "--accept") == 0
+    assert list(hdb.read(out).bodies) == ["float", "spar"]
+
+
+def test_fits_at_import_and_later(reference, tmp_path, fits, capsys):
+    source = reference / "hdb" / "own" / "4n3la.nc"
+    out = tmp_path / "hydro.h5"
+    call("import", source, "-o", out, "--fit", "heaves=S3.heave,C1.heave", "--single")
+    assert fits[0] == {"inputs": ["S3.heave", "C1.heave"], "outputs": None, "name": "heaves"}
+    call("fit", out, "planar=S3.planar", "--band", "0.5,6", "--states", "40", "--loads", "S3.all")
+    assert fits[1]["inputs"] == ["S3.surge", "S3.heave", "S3.pitch"]
+    assert fits[1]["band"] == (0.5, 6.0)
+    assert fits[1]["max_states"] == 40
+    assert len(fits[1]["outputs"]) == 6
+    db = hdb.read(out)
+    assert list(db.memory) == ["heaves", "planar"]
+    assert files.is_single(out)
+    capsys.readouterr()
+    assert call("show", out) == 0
+    assert "planar: 2 states" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "error", "message"),
+    [
+        (["--cog", "sphere"], CaseError, "expected NAME=X,Y,Z"),
+        (["--cog", "sphere=0,0"], CaseError, "expected 3 numbers"),
+        (["--cog", "spere=0,0,0"], DatabaseError, "did you mean 'sphere'"),
+        (["--bodies", "a,b"], DatabaseError, "1 bodies in the source"),
+        (["--origin", "sphere=0,0,0"], DatabaseError, "the source says the moments"),
+        (["--fit", "sphere.heave"], CaseError, "expected NAME=SPEC"),
+        (["--fit", "f=sphere.heaf"], DatabaseError, "did you mean 'sphere.heave'"),
+        (["--fit", "f=sphere.heave", "--band", "3,1"], DatabaseError, "LO < HI"),
+        (["--kernel", "-1"], CaseError, "needs a time"),
+    ],
+)
+def test_bad_arguments_say_what_is_expected(reference, tmp_path, fits, words, error, message):
+    source = reference / "hdb" / "own" / "sphere.nc"
+    with pytest.raises(error, match=message):
+        call("import", source, "-o", tmp_path / "x.h5", *words)
+
+
+def test_show_checks_any_source(reference, capsys):
+    assert call("show", reference / "hdb" / "volturnus_nemoh", "--check") == 0
+    text = capsys.readouterr().out
+    assert "200 m deep" in text
+    assert "displacement" in text

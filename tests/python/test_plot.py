@@ -1,0 +1,189 @@
+"""Pictures: what is drawn, in which unit, with which label."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from types import ModuleType
+
+import matplotlib
+import numpy as np
+import pytest
+
+from hydrodae import plot
+from hydrodae.curve import Curve, parse_curve, read_curve
+from hydrodae.errors import CaseError
+from hydrodae.panels import MOST_LINES, Line, Panel, most_moving, overview, select
+from hydrodae.post import turning_points
+from hydrodae.results import Results
+
+
+@pytest.fixture
+def results(results_file) -> Results:
+    return Results.read(results_file)
+
+
+@pytest.fixture(scope="module")
+def f3of_figure(repository) -> ModuleType:
+    """cases/f3of/figure.py as a module."""
+    path = repository / "cases" / "f3of" / "figure.py"
+    spec = importlib.util.spec_from_file_location("f3of_figure", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_overview_shows_angles_in_degrees_and_leaves_out_what_rests(results):
+    panels = {panel.label: panel for panel in overview(results)}
+    assert list(panels) == [
+        "joint angle [deg]",
+        "body displacement\nfrom the start [m]",
+        "body rotation [deg]",
+        "energy [kJ]",
+    ]
+    angle = panels["joint angle [deg]"].lines[0]
+    assert angle.label == "hinge1"
+    assert angle.values[0] == pytest.approx(10.0)
+    moving = [line.label for line in panels["body displacement\nfrom the start [m]"].lines]
+    assert moving == ["flap1 x", "flap1 z", "flap2 x"]
+    assert [line.label for line in panels["body rotation [deg]"].lines] == ["flap1 y", "flap2 y"]
+
+
+def test_energies_share_a_scale_and_potential_counts_from_its_least(results):
+    panel = overview(results)[-1]
+    lines = {line.label: line.values for line in panel.lines}
+    assert set(lines) == {"kinetic", "kinetic added mass", "potential"}
+    assert lines["potential"].min() == 0.0
+    largest = 3e6 * np.max(results["joints/hinge1/angle_rate"].to_numpy() ** 2) / 1e3
+    assert lines["kinetic added mass"].max() == pytest.approx(largest)
+
+
+def test_overview_figure_has_units_on_all_axes(results):
+    figure = plot.plot_overview(results)
+    assert all("[" in axes.get_ylabel() for axes in figure.axes)
+    assert figure.axes[-1].get_xlabel() == "time [s]"
+    assert figure.axes[0].get_title(loc="left") == "Flap decay"
+
+
+def test_partial_run_is_marked_in_the_title(results_writer):
+    partial = Results.read(results_writer(np.linspace(0, 30, 301), status="failed"))
+    title = plot.plot_overview(partial).axes[0].get_title(loc="left")
+    assert title == "Flap decay (failed at t = 30 s)"
+
+
+def test_run_without_samples_cannot_be_drawn(results_writer):
+    with pytest.raises(CaseError, match="nothing to draw"):
+        plot.plot_overview(Results.read(results_writer(np.empty(0), status="failed")))
+
+
+def test_channels_of_one_quantity_share_a_panel(results):
+    names = ["joints/*/angle", "joints/hinge1/angle_rate", "bodies/flap1/position.z"]
+    figure = plot.plot_channels(results, names)
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels == ["angle [deg]", "angle rate [deg/s]", "position [m]"]
+    assert [len(axes.lines) for axes in figure.axes] == [2, 1, 1]
+    drawn = np.asarray(figure.axes[2].lines[0].get_ydata())
+    assert np.array_equal(drawn, results["bodies/flap1/position"].sel(component="z"))
+
+
+def test_components_and_labels(results):
+    assert [line.label for line in select(results, "bodies/base/position")] == [
+        "base x",
+        "base y",
+        "base z",
+    ]
+    (line,) = select(results, "energy/kinetic")
+    assert (line.label, line.quantity, line.unit) == ("kinetic", "energy", "J")
+
+
+def test_crowded_panel_keeps_the_lines_that_move_most():
+    spans = [0.0, 5.0, 1.0, 9.0, 0.0, 2.0, 3.0, 4.0, 6.0, 7.0, 8.0]
+    lines = [Line(f"line{i}", "q", "m", np.array([0.0, s])) for i, s in enumerate(spans)]
+    panel = most_moving(Panel("q", "m", lines))
+    assert [line.span for line in panel.lines] == [5.0, 9.0, 2.0, 3.0, 4.0, 6.0, 7.0, 8.0]
+    assert panel.note == f"largest {MOST_LINES} of 11"
+
+
+def test_comparison_draws_ours_in_degrees_over_theirs(results):
+    theirs = Curve("theirs", np.array([0.0, 50.0, 400.0]), np.array([1.0, 2.0, 99.0]))
+    points = Curve(
+        "points", np.array([7.0]), np.array([-9.0]), points=True, spread=np.array([[-9.5], [-8.8]])
+    )
+    figure = plot.plot_comparison(results, "joints/hinge1/angle", [theirs, points], end_time=60.0)
+    (axes,) = figure.axes
+    assert axes.get_ylabel() == "hinge1 angle [deg]"
+    assert axes.get_xlim() == (0.0, 60.0)
+    ours = axes.lines[-1]
+    assert ours.get_label() == "hydrodae"
+    assert np.asarray(ours.get_ydata())[0] == pytest.approx(10.0)
+    # what lies beyond the time axis does not stretch the other one
+    assert np.array_equal(axes.lines[0].get_xdata(), [0.0, 50.0])
+    assert axes.get_ylim()[1] < 20.0
+    legend = axes.get_legend()
+    assert legend is not None
+    assert {text.get_text() for text in legend.get_texts()} == {"hydrodae", "theirs", "points"}
+
+
+def test_pictures_leave_no_global_trace(results):
+    before = {key: matplotlib.rcParams[key] for key in plot.STYLE}
+    plot.plot_overview(results)
+    assert {key: matplotlib.rcParams[key] for key in plot.STYLE} == before
+    program = (
+        "import sys; from hydrodae import Results, plot;"
+        "plot.plot_overview(Results.read(sys.argv[1]));"
+        "sys.exit('matplotlib.pyplot' in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", program, str(results.path)], check=True)
+
+
+def test_saved_picture_is_a_png_of_some_size(results, tmp_path):
+    path = plot.save(plot.plot_overview(results), tmp_path / "a" / "overview.png")
+    data = path.read_bytes()
+    assert data.startswith(b"\x89PNG")
+    width, height = (int.from_bytes(data[i : i + 4]) for i in (16, 20))
+    assert width >= 1000
+    assert height >= 1000
+
+
+def test_curve_of_a_csv_file(tmp_path):
+    path = tmp_path / "curve.csv"
+    path.write_text("t_s, a_rad ,b_deg\n0,0.1,\n1,0.2,5\n2,,6\n")
+    curve = parse_curve(f"{path}:a_rad:code A:57.29577951308232")
+    assert curve.label == "code A"
+    assert curve.values == pytest.approx(np.degrees([0.1, 0.2]))
+    assert read_curve(path, "b_deg").time.tolist() == [1.0, 2.0]
+    path.write_text("t_s,a\n0,1\n1,x\n")
+    with pytest.raises(CaseError, match=r"curve.csv:3: could not convert string to float: 'x'"):
+        read_curve(path, "a")
+
+
+def test_published_extrema_of_the_f3of_figure_are_those_of_the_codes(f3of_figure, reference):
+    file = reference / "f3of" / "dt3_flap1_decay.csv"
+    times, angles = [], []
+    for column in f3of_figure.CODES:
+        if column == f3of_figure.UNCOUPLED:
+            continue
+        curve = read_curve(file, column).until(60.0)
+        t, x = turning_points(curve.time, curve.values)
+        times.append(t[: len(f3of_figure.PUBLISHED)])
+        angles.append(x[: len(f3of_figure.PUBLISHED)])
+    expected = np.stack([np.min(times, 0), np.max(times, 0), np.min(angles, 0), np.max(angles, 0)])
+    assert f3of_figure.PUBLISHED == pytest.approx(expected.T, abs=0.0051)
+
+
+@pytest.mark.parametrize("with_reference", [True, False])
+def test_f3of_figure_with_and_without_reference_data(
+    f3of_figure, results, tmp_path, monkeypatch, request, with_reference
+):
+    file = None
+    if with_reference:
+        file = request.getfixturevalue("reference") / "f3of" / "dt3_flap1_decay.csv"
+    monkeypatch.setattr(f3of_figure, "reference_file", lambda: file)
+    picture = f3of_figure.draw(results, tmp_path / "figure.png", 100.0)
+    assert picture.stat().st_size > 20_000
+    rows = f3of_figure.comparison(results).splitlines()
+    assert len(rows) == 1 + len(f3of_figure.PUBLISHED)
+    assert "minimum         -9.33 deg at  6.95 s" in rows[1]
