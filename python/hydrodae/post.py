@@ -135,11 +135,13 @@ def _extrema(results: Results, name: str) -> str:
 
 
 def _energy_balance(results: Results) -> str:
-    """Largest error of the energy balance against the largest change of the total energy."""
+    """Largest error of the energy balance against the largest kinetic energy, fluid included."""
     if "energy/balance_error" not in results or "energy/kinetic" not in results:
         return ""
     error = np.abs(results["energy/balance_error"].to_numpy())
     scale = np.abs(results["energy/kinetic"].to_numpy())
+    if "energy/kinetic_added_mass" in results:
+        scale = scale + results["energy/kinetic_added_mass"].to_numpy()
     if not len(error) or not scale.max() > 0:
         return ""
     share = error.max() / scale.max()

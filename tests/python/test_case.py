@@ -178,6 +178,7 @@ def test_progress_that_returns_false_keeps_what_was_computed(kernel, case_file, 
     with pytest.raises(RunInterrupted, match="stopped at t = 3 s of 10 s") as caught:
         hydrodae.run(case_file, path, progress=lambda t, end: t < 3)
     results = caught.value.results
+    assert results is not None
     assert results.status == "interrupted"
     assert results["joints/hinge1/angle"].shape == (4,)
 
@@ -191,6 +192,7 @@ def test_ctrl_c_keeps_what_was_computed(kernel, case_file):
 
     with pytest.raises(RunInterrupted) as caught:
         hydrodae.run(case_file, progress=press)
+    assert caught.value.results is not None
     assert caught.value.results.end_time == 4.0
     assert signal.getsignal(signal.SIGINT) is before
 
@@ -220,6 +222,7 @@ def test_solver_failure_keeps_what_was_computed(kernel, case_file):
     with pytest.raises(SolverError, match="IDA_CONV_FAIL in joint hinge1") as caught:
         hydrodae.run(case_file)
     results = caught.value.results
+    assert results is not None
     assert results.status == "failed"
     assert results.message == str(caught.value)
     assert results.end_time == 5.0

@@ -1,4 +1,4 @@
-"""Samples, scaling and weights of a memory fit, taken from the stored points of a hydrodynamic database."""
+"""Samples, scaling and weights of a memory fit: the stored points of a hydrodynamic database."""
 
 from __future__ import annotations
 
@@ -11,12 +11,21 @@ import numpy.typing as npt
 
 from hydrodae.errors import DatabaseError
 from hydrodae.memory.modes import Modes, Problem, residual
-from hydrodae.memory.vector_fitting import Array, ComplexArray, Samples, relocate, solve_residues, starting_poles
+from hydrodae.memory.vector_fitting import (
+    Array,
+    ComplexArray,
+    Samples,
+    relocate,
+    solve_residues,
+    starting_poles,
+)
 
 NOISE = 1e-8
 """A coordinate whose largest damping is below this share of the largest of its kind is left out."""
 WEIGHT_FLOOR = 1e-2
 """|H| is taken as at least this share of its largest value in the weights."""
+ENTRY_FLOOR = 1e-3
+"""|H| is taken as at least this share of the largest entry (entries that symmetry makes zero)."""
 ZERO_WEIGHT = 3.0
 """Weight of the row H(0) = 0 relative to the largest other weight of the entry."""
 
@@ -80,7 +89,9 @@ def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str
     labels = [str(label) for label in database.coordinates]
     for name, wanted in (("inputs", inputs), ("outputs", outputs)):
         if unknown := [label for label in wanted if label not in labels]:
-            raise DatabaseError(f"memory fit: {name} {unknown} are not in the database (it has {', '.join(labels)})")
+            raise DatabaseError(
+                f"memory fit: {name} {unknown} are not in the database (it has {', '.join(labels)})"
+            )
         if len(set(wanted)) != len(wanted) or not wanted:
             raise DatabaseError(f"memory fit: {name} must be given once each, got {list(wanted)}")
     if missing := [label for label in inputs if label not in outputs]:
@@ -91,11 +102,16 @@ def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str
     omega = np.asarray(database.omega, dtype=float)
     keep = np.isfinite(omega) & (omega > 0.0)
     omega = omega[keep]
-    pick = np.ix_(np.nonzero(keep)[0], rows, columns)
+    pick = np.ix_(np.nonzero(keep)[0], np.array(rows), np.array(columns))
     damping = np.asarray(database.radiation_damping, dtype=float)
-    impedance = damping[pick] + 1j * omega[:, None, None] * np.asarray(database.added_mass, dtype=float)[pick]
+    impedance = (
+        damping[pick]
+        + 1j * omega[:, None, None] * np.asarray(database.added_mass, dtype=float)[pick]
+    )
     if not np.all(np.isfinite(impedance)):
-        raise DatabaseError("memory fit: added mass or radiation damping is not finite at some frequency")
+        raise DatabaseError(
+            "memory fit: added mass or radiation damping is not finite at some frequency"
+        )
     if omega.size < 8 or np.any(np.diff(omega) <= 0.0):
         raise DatabaseError("memory fit: at least 8 ascending frequencies are needed")
     n = len(columns)
@@ -108,18 +124,25 @@ def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str
     if not np.any(active):
         raise DatabaseError(f"memory fit: none of {list(inputs)} has positive radiation damping")
     return ImpedanceData(
-        omega, square, impedance[:, n:], np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0), active, extra
+        omega,
+        square,
+        impedance[:, n:],
+        np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0),
+        active,
+        extra,
     )
 
 
-def uncoupled_groups(data: ImpedanceData, tolerance: float) -> tuple[list[npt.NDArray[np.int64]], float]:
-    """Split the active inputs into groups whose coupling is below `tolerance` (planar and lateral, for example).
+def uncoupled_groups(
+    data: ImpedanceData, tolerance: float
+) -> tuple[list[npt.NDArray[np.int64]], float]:
+    """Split the active inputs into groups (planar, lateral) whose coupling is below `tolerance`.
 
     Returns
     -------
     groups, neglected
-        Indices of each group; the largest coupling left out: rms over omega of B_ij + i omega (A_ij - A_ij,last)
-        relative to the root of the product of the diagonal ones.
+        Indices of each group; the largest coupling left out: rms over omega of B_ij + i omega (A_ij
+        - A_ij,last) relative to the root of the product of the diagonal ones.
     """
     index = np.nonzero(data.active)[0]
     wave = data.square - 1j * data.omega[:, None, None] * (data.square[-1].imag / data.omega[-1])
@@ -143,10 +166,13 @@ def in_band(omega: Array, band: tuple[float, float]) -> npt.NDArray[np.bool_]:
     return (omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9)
 
 
-def weigh(value: ComplexArray, omega: Array, added_mass: Array, band: tuple[float, float], factor: float) -> Array:
+def weigh(
+    value: ComplexArray, omega: Array, added_mass: Array, band: tuple[float, float], factor: float
+) -> Array:
     """Return the weights |H|^(-1/2), times `factor` in the band, of Z (nw, ne) with A_inf (ne,)."""
     size = np.abs(value - 1j * omega[:, None] * added_mass)
-    size = np.maximum(size, np.maximum(WEIGHT_FLOOR * size.max(axis=0), 1e-12))
+    least = np.maximum(WEIGHT_FLOOR * size.max(axis=0), ENTRY_FLOOR * size.max())
+    size = np.maximum(size, least)
     return np.asarray(size**-0.5 * np.where(in_band(omega, band), factor, 1.0)[:, None])
 
 
@@ -159,7 +185,9 @@ def with_zero(omega: Array, value: ComplexArray, weight: Array) -> Samples:
     )
 
 
-def make_problem(data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[float, float], factor: float) -> Problem:
+def make_problem(
+    data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[float, float], factor: float
+) -> Problem:
     """Scale one group and weigh it, with A_inf from a first fit of moderate weights."""
     n, omega = group.size, data.omega
     rows, columns = np.triu_indices(n)
@@ -168,10 +196,12 @@ def make_problem(data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[
     double = np.where(rows == columns, 1.0, np.sqrt(2.0))
     damping = np.maximum(0.2 * np.gradient(omega), 1e-3 * omega[-1])
     added_mass = value[-1].imag / omega[-1]
-    poles = starting_poles(min(12, omega.size // 3 * 2), 2, max(omega[0], 0.02 * omega[-1]), omega[-1], 0.1, True)
+    poles = starting_poles(
+        min(12, omega.size // 3 * 2), 2, max(omega[0], 0.02 * omega[-1]), omega[-1], 0.1, True
+    )
     for _ in range(8):
         samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
-        poles = relocate(poles, samples, damping, omega)
+        poles = relocate(poles, samples, omega, damping)
         added_mass = solve_residues(poles, samples)[0][-1]
     samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, factor))
     return Problem(samples, rows, columns, n, omega, damping)
@@ -179,7 +209,7 @@ def make_problem(data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[
 
 @dataclass(frozen=True)
 class Quality:
-    """Relative errors of H: `band` and `all` are rms; `weighted_band`, `weighted_outside` in the norm of the fit."""
+    """Relative errors of H: rms (`band`, `all`) and in the norm of the fit (`weighted_...`)."""
 
     band: float
     all: float
@@ -202,4 +232,9 @@ def quality(modes: Modes, problem: Problem, band: tuple[float, float]) -> Qualit
 
     plain = np.broadcast_to(double, weight.shape)
     everywhere = np.ones_like(inside)
-    return Quality(ratio(plain, inside), ratio(plain, everywhere), ratio(weight, inside), ratio(weight, ~inside))
+    return Quality(
+        ratio(plain, inside),
+        ratio(plain, everywhere),
+        ratio(weight, inside),
+        ratio(weight, ~inside),
+    )

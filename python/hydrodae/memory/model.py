@@ -12,8 +12,6 @@ from hydrodae.errors import DatabaseError
 from hydrodae.memory.passivity import Passivity, frequency_grid
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
-ReportValue = float | str | bool | tuple[Any, ...]
-
 
 @dataclass(frozen=True)
 class ExponentialMemory:
@@ -21,17 +19,20 @@ class ExponentialMemory:
 
         z_k' = p_k z_k + B_k U,    f = -Re(C z) - added_mass_inf U'
 
-    U are the velocities of `inputs`, f the loads on `outputs`. A real pole costs one real state, a complex one two
-    (Re z, Im z); of a conjugate pair only the pole with Im > 0 is kept, the factor 2 of the pair is inside C.
+    U are the velocities of `inputs`, f the loads on `outputs`. A real pole costs one real state, a
+    complex one two (Re z, Im z); of a conjugate pair only the pole with Im > 0 is kept, the factor
+    2 of the pair is inside C.
 
-        H(i w) = B(w) + i w (A(w) - A_inf) ~ 1/2 sum_k [C_k B_k / (i w - p_k) + conj(C_k B_k) / (i w - conj(p_k))]
+        H(i w) = B(w) + i w (A(w) - A_inf) ~ 1/2 sum_k [C_k B_k / (i w - p_k) + conj(C_k B_k) / (i w
+        - conj(p_k))]
 
     Attributes
     ----------
     name
         Name of the fit.
     inputs, outputs
-        Labels "<body>.<dof>" of the coordinates that move and of the loads; outputs contain the inputs.
+        Labels "<body>.<dof>" of the coordinates that move and of the loads; outputs contain the
+        inputs.
     poles
         (nb,) complex, Im >= 0 [1/s].
     input_matrix
@@ -51,16 +52,26 @@ class ExponentialMemory:
     input_matrix: ComplexArray
     output_matrix: ComplexArray
     added_mass_inf: Array
-    report: dict[str, ReportValue] = field(default_factory=dict)
+    report: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check the shapes."""
-        shapes = (self.poles.shape, self.input_matrix.shape, self.output_matrix.shape, self.added_mass_inf.shape)
+        shapes = (
+            self.poles.shape,
+            self.input_matrix.shape,
+            self.output_matrix.shape,
+            self.added_mass_inf.shape,
+        )
         count, n_in, n_out = self.poles.size, len(self.inputs), len(self.outputs)
         if shapes != ((count,), (count, n_in), (n_out, count), (n_out, n_in)):
-            raise DatabaseError(f"memory fit '{self.name}': shapes {shapes} do not fit {n_in} inputs, {n_out} outputs")
+            raise DatabaseError(
+                f"memory fit '{self.name}': shapes {shapes} do not fit "
+                f"{n_in} inputs, {n_out} outputs"
+            )
         if missing := [label for label in self.inputs if label not in self.outputs]:
-            raise DatabaseError(f"memory fit '{self.name}': inputs {missing} are not among the outputs")
+            raise DatabaseError(
+                f"memory fit '{self.name}': inputs {missing} are not among the outputs"
+            )
         if np.any(self.poles.imag < 0.0) or np.any(self.poles.real >= 0.0):
             raise DatabaseError(f"memory fit '{self.name}': poles must have Re < 0 and Im >= 0")
 
@@ -82,20 +93,25 @@ class ExponentialMemory:
     def kernel(self, time: Array) -> Array:
         """Return K(t) = Re sum_k C_k B_k exp(p_k t), (nt, n_out, n_in), at time (nt,) >= 0 [s]."""
         decay = np.exp(np.outer(np.asarray(time, dtype=float), self.poles))
-        return np.asarray(np.einsum("tk,ik,kj->tij", decay, self.output_matrix, self.input_matrix, optimize=True).real)
+        return np.asarray(
+            np.einsum(
+                "tk,ik,kj->tij", decay, self.output_matrix, self.input_matrix, optimize=True
+            ).real
+        )
 
     def passivity(self, highest: float = 0.0, points: int = 6000) -> Passivity:
-        """Return the smallest eigenvalue of the Hermitian part of H relative to the largest, over all frequencies.
+        """Return the smallest eigenvalue of the Hermitian part of H over the largest, and where.
 
-        Only the block of loads on the inputs counts, scaled by the roots of the largest damping of each input.
+        Only the block of loads on the inputs counts, scaled by the roots of the largest damping of
+        each input.
 
         Parameters
         ----------
         highest
             The grid reaches at least 30 times this [rad/s] (and 30 times the largest pole).
         points
-            Uniform points up to 1.5 times the largest pole; more are set around each pole, and the lowest minima
-            are refined twice.
+            Uniform points up to 1.5 times the largest pole; more are set around each pole, and the
+            lowest minima are refined twice.
         """
         omega = frequency_grid(self.poles, highest, points)
         scale = self._scale(omega)
@@ -154,7 +170,9 @@ class ExponentialMemory:
         keys = ("inputs", "outputs", "poles", "input_matrix", "output_matrix", "added_mass_inf")
         if missing := [key for key in keys if key not in group]:
             raise DatabaseError(f"memory fit '{name}': data sets {missing} are missing")
-        inputs, outputs, poles, input_matrix, output_matrix, added_mass = (group[key][()] for key in keys)
+        inputs, outputs, poles, input_matrix, output_matrix, added_mass = (
+            group[key][()] for key in keys
+        )
         return cls(
             name=name,
             inputs=tuple(label.decode("ascii") for label in inputs),
@@ -167,10 +185,10 @@ class ExponentialMemory:
         )
 
 
-def _plain(value: Any) -> ReportValue:
+def _plain(value: Any) -> Any:
     """Turn an HDF5 attribute into a plain Python value."""
     if isinstance(value, np.ndarray):
         return tuple(item.decode() if isinstance(item, bytes) else item for item in value.tolist())
     if isinstance(value, np.generic):
-        return value.item()  # type: ignore[no-any-return]
+        return value.item()
     return str(value)

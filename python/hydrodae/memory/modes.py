@@ -1,12 +1,14 @@
 """Radiation impedance as a sum of rank-one modes, and their weighted least-squares fit.
 
-    Z(s) ~ sum_m [ b_m b_m^T / (s - p_m) + conjugate ]  +  sum_m sigma_m b_m b_m^T / (s - p_m)  +  s A_inf
+    Z(s) ~ sum_m [ b_m b_m^T / (s - p_m) + conjugate ]  +  sum_m sigma_m b_m b_m^T / (s - p_m)  +  s
+    A_inf
                  (complex pole, b complex)                     (real pole, b real, sigma = +-1)
 
-One mode costs two states (a real one costs one) whatever the number of coordinates, while a full-rank residue
-costs two per coordinate. Waves that slosh between bodies are such modes. Z, and with it each residue, is symmetric
-(reciprocity), hence a single vector per mode. All parameters are fitted together by a Levenberg-Marquardt method
-whose normal matrix is assembled entry by entry of Z from four real functions per mode.
+One mode costs two states (a real one costs one) whatever the number of coordinates, while a
+full-rank residue costs two per coordinate. Waves that slosh between bodies are such modes. Z, and
+with it each residue, is symmetric (reciprocity), hence a single vector per mode. All parameters are
+fitted together by a Levenberg-Marquardt method whose normal matrix is assembled entry by entry of Z
+from four real functions per mode.
 """
 
 from __future__ import annotations
@@ -17,7 +19,15 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import cho_factor, cho_solve
 
-from hydrodae.memory.vector_fitting import Array, ComplexArray, Samples, order, residues
+from hydrodae.memory.vector_fitting import (
+    Array,
+    ComplexArray,
+    Samples,
+    is_real,
+    limited,
+    order,
+    residues,
+)
 
 IntArray = npt.NDArray[np.int64]
 
@@ -45,9 +55,9 @@ class Problem:
     damping_grid: Array
     damping: Array
 
-    def matrix(self, entries: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
+    def matrix(self, entries: Array) -> Array:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
-        full = np.zeros((*entries.shape[:-1], self.size, self.size), dtype=entries.dtype)
+        full = np.zeros((*entries.shape[:-1], self.size, self.size))
         full[..., self.rows, self.columns] = entries
         full[..., self.columns, self.rows] = entries
         return full
@@ -55,7 +65,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Modes:
-    """Rank-one modes: poles (m,) with Im >= 0, vectors (m, n), sign (m,), added_mass (ne,) upper triangle."""
+    """Poles (m,) with Im >= 0, vectors (m, n), sign (m,), added_mass (ne,) of the entries."""
 
     poles: ComplexArray
     vectors: ComplexArray
@@ -65,7 +75,7 @@ class Modes:
     @property
     def real(self) -> npt.NDArray[np.bool_]:
         """Tell which poles are real."""
-        return self.poles.imag == 0.0
+        return is_real(self.poles)
 
     @property
     def n_states(self) -> int:
@@ -79,9 +89,10 @@ class Modes:
 
 
 def fractions(modes: Modes, omega: Array) -> tuple[ComplexArray, ComplexArray]:
-    """Return the two partial fractions of each mode and their derivatives with respect to the pole, (2, m, nw).
+    """Return the two partial fractions of each mode, and their derivatives by the pole, (2, m, nw).
 
-    H = sum_m Re(r_m) F_0m + Im(r_m) F_1m with r = b b^T; the second array holds dF/dp of the analytic parts.
+    H = sum_m Re(r_m) F_0m + Im(r_m) F_1m with r = b b^T; the second array holds dF/dp of the
+    analytic parts.
     """
     s, poles = 1j * omega, modes.poles[:, None]
     single = modes.real[:, None]
@@ -100,7 +111,7 @@ def impedance(modes: Modes, omega: Array) -> ComplexArray:
     value, _ = fractions(modes, omega)
     product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(modes.poles.size, -1)
     full = value[0].T @ product.real + value[1].T @ product.imag
-    return full.reshape(omega.size, modes.vectors.shape[1], -1)
+    return np.asarray(full).reshape(omega.size, modes.vectors.shape[1], -1)
 
 
 def residual(modes: Modes, problem: Problem) -> ComplexArray:
@@ -115,11 +126,11 @@ def error(modes: Modes, problem: Problem) -> float:
     return float(np.linalg.norm(problem.samples.weight * residual(modes, problem)))
 
 
-# Parameters, in this order: Re b (n, m), Im b (n, m) coordinate by coordinate, log(-Re p) (m,), Im p (m,), added_mass (ne,).
+# Parameters, in this order: Re b (n, m), Im b (n, m), log(-Re p) (m,), Im p (m,), added_mass (ne,).
 
 
 def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
-    """Return the Gauss-Newton matrix J^T J and the gradient J^T r of half the squared weighted error."""
+    """Return J^T J and the gradient J^T r of half the squared weighted error."""
     m, entries = modes.poles.size, problem.rows.size
     samples = problem.samples
     value, slope = fractions(modes, samples.omega)
@@ -129,9 +140,12 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
     weight = np.concatenate([samples.weight, samples.weight]).T
     off = residual(modes, problem).T
     off = np.concatenate([off.real, off.imag], axis=1)
-    weighted = base[None] * weight[:, None, :]
-    gram = weighted @ weighted.transpose(0, 2, 1)
-    moment = (weighted @ (weight * off)[..., None])[..., 0]
+    gram = np.empty((entries, base.shape[0], base.shape[0]))
+    moment = np.empty((entries, base.shape[0]))
+    for entry in range(entries):
+        weighted = base * weight[entry]
+        gram[entry] = weighted @ weighted.T
+        moment[entry] = weighted @ (weight[entry] * off[entry])
 
     local = _local_derivatives(modes, problem)
     inner = gram[:, :-1, :-1].reshape(entries, 2, 2, m, 2, 2, m)
@@ -149,7 +163,10 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
 
 
 def _local_derivatives(modes: Modes, problem: Problem) -> Array:
-    """Return (ne, 6, 2, m): the factors of the two functions in dZ_e / d(Re b_i, Im b_i, Re b_j, Im b_j, log, Im p)."""
+    """Return the factors of the two functions in dZ_ij, (ne, 6, 2, m).
+
+    The six parameters: Re b_i, Im b_i, Re b_j, Im b_j, log(-Re p), Im p.
+    """
     left, right = modes.vectors[:, problem.rows].T, modes.vectors[:, problem.columns].T
     product = left * right
     decay = modes.poles.real
@@ -168,7 +185,13 @@ def _local_derivatives(modes: Modes, problem: Problem) -> Array:
 
 
 def _scatter(
-    modes: Modes, problem: Problem, block: Array, cross: Array, force: Array, corner: Array, tail: Array
+    modes: Modes,
+    problem: Problem,
+    block: Array,
+    cross: Array,
+    force: Array,
+    corner: Array,
+    tail: Array,
 ) -> tuple[Array, Array]:
     """Add the entries' blocks into the global matrix and gradient."""
     m, n, entries = modes.poles.size, problem.size, problem.rows.size
@@ -189,25 +212,31 @@ def _scatter(
 
 
 def moved(modes: Modes, step: Array, problem: Problem) -> Modes:
-    """Return the modes after a step in the parameters; poles keep their least damping."""
+    """Return the modes after a step in the parameters; poles stay within their limits."""
     m, n = modes.vectors.shape
     parts = np.split(step, [m * n, 2 * m * n, 2 * m * n + m, 2 * m * n + 2 * m])
     vectors = modes.vectors + parts[0].reshape(n, m).T + 1j * parts[1].reshape(n, m).T
     decay = -modes.poles.real * np.exp(np.clip(parts[2], -0.7, 0.7))
     omega = np.where(modes.real, 0.0, np.maximum(modes.poles.imag + parts[3], 1e-6))
-    decay = np.maximum(decay, np.interp(omega, problem.damping_grid, problem.damping))
-    return Modes(-decay + 1j * omega, vectors, modes.sign, modes.added_mass + parts[4])
+    poles = limited(-decay + 1j * omega, problem.damping_grid, problem.damping)
+    return Modes(poles, vectors, modes.sign, modes.added_mass + parts[4])
 
 
-def refine(modes: Modes, problem: Problem, iterations: int, tolerance: float = 1e-4) -> tuple[Modes, float]:
+def damped(matrix: Array, damping: float) -> Array:
+    """Return the matrix with its diagonal raised by a share (to 1 where it is zero: no effect)."""
+    diagonal = np.diag(matrix)
+    return matrix + np.diag(np.where(diagonal > 0.0, (damping + 1e-12) * diagonal, 1.0))
+
+
+def refine(
+    modes: Modes, problem: Problem, iterations: int, tolerance: float = 1e-4
+) -> tuple[Modes, float]:
     """Levenberg-Marquardt on all parameters; returns the modes and their weighted error."""
     now, damping = error(modes, problem), 1e-3
     for _ in range(iterations):
         matrix, gradient = normal_equations(modes, problem)
-        diagonal = np.diag(matrix).copy()
         for _ in range(6):
-            shift = damping * diagonal + 1e-12 * diagonal.max()
-            trial = moved(modes, -cho_solve(cho_factor(matrix + np.diag(shift)), gradient), problem)
+            trial = moved(modes, -cho_solve(cho_factor(damped(matrix, damping)), gradient), problem)
             value = error(trial, problem)
             if value < now:
                 break
@@ -222,10 +251,9 @@ def refine(modes: Modes, problem: Problem, iterations: int, tolerance: float = 1
 
 
 def importance(modes: Modes, problem: Problem) -> Array:
-    """Return an estimate of the error that removing each mode adds (others following linearly), (m,)."""
+    """Estimate the error that removing each mode adds, the others following linearly, (m,)."""
     matrix, _ = normal_equations(modes, problem)
-    diagonal = np.diag(matrix)
-    inverse = np.linalg.inv(matrix + np.diag(1e-4 * diagonal + 1e-12 * diagonal.max()))
+    inverse = np.linalg.inv(damped(matrix, 1e-4))
     m, n = modes.vectors.shape
     result = np.empty(m)
     for mode, single in enumerate(modes.real):
@@ -239,25 +267,32 @@ def importance(modes: Modes, problem: Problem) -> Array:
     return result
 
 
-def from_residues(poles: ComplexArray, coefficients: Array, problem: Problem, max_states: int) -> Modes:
+def from_residues(
+    poles: ComplexArray, coefficients: Array, problem: Problem, max_states: int
+) -> Modes:
     """Split the full-rank residues of a vector fit into rank-one modes and keep the heaviest.
 
-    A complex symmetric residue is R = sum_i s_i u_i (u_i)^T exp(i phi_i) (Takagi form from its SVD); a mode's weight
-    is the weighted norm of its part of H at the samples.
+    A complex symmetric residue is R = sum_i s_i u_i (u_i)^T exp(i phi_i) (Takagi form from its
+    SVD); a mode's weight is the weighted norm of its part of H at the samples.
     """
     full = problem.matrix(coefficients[: order(poles)])
     weight = problem.matrix(problem.samples.weight[:-1])
     found: list[tuple[float, Modes]] = []
-    for pole, residue in zip(poles, residues(np.asarray(full, dtype=float), poles), strict=True):
+    for pole, residue in zip(poles, residues(full, poles), strict=True):
         if pole.imag == 0.0:
             values, u = np.linalg.eigh(residue.real)
             items = [(np.sqrt(abs(v)) * u[:, i] + 0j, np.sign(v)) for i, v in enumerate(values)]
         else:
             u, singular, vh = np.linalg.svd(residue)
             phase = np.angle(np.einsum("ki,ik->i", u.conj(), vh))
-            items = [(np.sqrt(s) * np.exp(0.5j * phase[i]) * u[:, i], 1.0) for i, s in enumerate(singular)]
+            items = [
+                (np.sqrt(s) * np.exp(0.5j * phase[i]) * u[:, i], 1.0)
+                for i, s in enumerate(singular)
+            ]
         for vector, sign in items:
-            one = Modes(np.array([pole]), vector[None], np.array([sign]), np.zeros(problem.rows.size))
+            one = Modes(
+                np.array([pole]), vector[None], np.array([sign]), np.zeros(problem.rows.size)
+            )
             part = float(np.linalg.norm(weight * impedance(one, problem.samples.omega[:-1])))
             found.append((part, one))
     found.sort(key=lambda item: -item[0])

@@ -1,14 +1,15 @@
-"""Passivity of a radiation memory: the waves take energy, v^T Re H(i omega) v >= 0 for every v and omega.
+"""Passivity of a radiation memory: waves take energy, v^T Re H(i omega) v >= 0 for all v, omega.
 
-A fit that breaks this between the samples can make a free device unstable. `enforce` moves all parameters of the
-modes by the least weighted distance such that the violating minima of the smallest eigenvalue rise above a floor
-(sequential quadratic programming; each step is a least-distance problem solved by non-negative least squares).
+A fit that breaks this between the samples can make a free device unstable. `enforce` moves all
+parameters of the modes by the least weighted distance such that the violating minima of the
+smallest eigenvalue rise above a floor (sequential quadratic programming; each step is a
+least-distance problem solved by non-negative least squares).
 
 References
 ----------
-C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, SIAM 1995, ch. 23 (least-distance programming);
-B. Gustavsen, A. Semlyen, Enforcing passivity for admittance matrices approximated by rational functions,
-IEEE Trans. Power Systems 16 (2001) 97.
+C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, SIAM 1995, ch. 23 (least-distance
+programming); B. Gustavsen, A. Semlyen, Enforcing passivity for admittance matrices approximated by
+rational functions, IEEE Trans. Power Systems 16 (2001) 97.
 """
 
 from __future__ import annotations
@@ -19,22 +20,35 @@ import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
 
-from hydrodae.memory.modes import Modes, Problem, error, fractions, impedance, moved, normal_equations
+from hydrodae.memory.modes import (
+    Modes,
+    Problem,
+    damped,
+    error,
+    fractions,
+    impedance,
+    moved,
+    normal_equations,
+)
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
 CONSTRAIN_BELOW = 2e-3
 """Local minima of the eigenvalues below this share of the largest are held as constraints."""
 
 
+ACCEPTED = -5e-5
+"""When the iterations end above the floor, modes down to this share count as passive."""
+
+
 class Passivity(NamedTuple):
-    """Smallest eigenvalue of Re H relative to the largest, and the frequency [rad/s] where it is found."""
+    """Smallest eigenvalue of Re H relative to the largest, and its frequency [rad/s]."""
 
     relative: float
     omega: float
 
 
 class Minima(NamedTuple):
-    """Local minima of the eigenvalues of Re H: omega (k,), vectors (k, n); lowest and largest eigenvalue overall."""
+    """Local minima of the eigenvalues of Re H: omega (k,), vectors (k, n); the extremes of all."""
 
     omega: Array
     vectors: Array
@@ -43,7 +57,7 @@ class Minima(NamedTuple):
 
 
 def frequency_grid(poles: ComplexArray, highest: float, points: int = 1200) -> Array:
-    """Return a grid [rad/s] from 0 to far beyond the last pole and the data, dense around each pole."""
+    """Return a grid [rad/s] from 0 to far beyond poles and data, dense around each pole."""
     span = 1.5 * max(highest, float(np.abs(poles).max()))
     around = np.tan(np.linspace(-1.45, 1.45, 25))
     near = poles.imag[:, None] + np.abs(poles.real)[:, None] * around
@@ -52,7 +66,7 @@ def frequency_grid(poles: ComplexArray, highest: float, points: int = 1200) -> A
 
 
 def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -> Minima:
-    """Find the local minima over omega of all eigenvalues of Re H that lie under `below` times the largest."""
+    """Find the local minima of all eigenvalues of Re H under `below` times the largest."""
     omega = frequency_grid(modes.poles, highest)
     values, vectors = np.linalg.eigh(impedance(modes, omega).real)
     largest = float(values.max())
@@ -64,8 +78,7 @@ def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -
 
 def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Array, Array]:
     """Return d(v^T Re H v)/d(parameters), (k, n_parameters), and v^T Re H v, (k,)."""
-    value, slope = fractions(modes, minima.omega)
-    value, slope = value.real.transpose(0, 2, 1), slope.real.transpose(0, 2, 1)
+    value, slope = (part.real.transpose(0, 2, 1) for part in fractions(modes, minima.omega))
     beta = minima.vectors @ modes.vectors.T
     square = beta**2
     pair = ~modes.real
@@ -75,17 +88,20 @@ def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Arr
     by_omega = pair * (-square.imag * slope[0] + square.real * slope[1])
     count, rest = minima.omega.size, np.zeros((minima.omega.size, problem.rows.size))
     vectors = minima.vectors[:, :, None]
-    rows = [(by_re[:, None] * vectors).reshape(count, -1), (by_im[:, None] * vectors).reshape(count, -1)]
+    rows = [
+        (by_re[:, None] * vectors).reshape(count, -1),
+        (by_im[:, None] * vectors).reshape(count, -1),
+    ]
     quadratic = (square.real * value[0] + square.imag * value[1]).sum(axis=1)
     return np.concatenate([*rows, by_log, by_omega, rest], axis=1), quadratic
 
 
 def least_distance(matrix: Array, gradient: Array, rows: Array, bound: Array) -> Array | None:
-    """Return argmin 1/2 d^T matrix d + gradient^T d subject to rows d >= bound; None if infeasible."""
+    """Return argmin 1/2 d^T matrix d + gradient^T d with rows d >= bound; None if infeasible."""
     lower = cholesky(matrix, lower=True)
     shift = solve_triangular(lower, gradient, lower=True)
     if not bound.size:
-        return solve_triangular(lower.T, -shift)
+        return np.asarray(solve_triangular(lower.T, -shift))
     turned = solve_triangular(lower, rows.T, lower=True).T
     level = bound + turned @ shift
     norm = np.linalg.norm(turned, axis=1)
@@ -98,7 +114,7 @@ def least_distance(matrix: Array, gradient: Array, rows: Array, bound: Array) ->
     if misfit < 1e-10:
         return None
     left = system @ multipliers - target
-    return solve_triangular(lower.T, -left[:-1] / left[-1] * scale - shift)
+    return np.asarray(solve_triangular(lower.T, -left[:-1] / left[-1] * scale - shift))
 
 
 def enforce(
@@ -118,10 +134,11 @@ def enforce(
     problem
         Data of the fit.
     lowering
-        Factor by which the allowed violation shrinks from step to step; nearer to 1 is slower and follows the best
-        fit more closely.
+        Factor by which the allowed violation shrinks from step to step; nearer to 1 is slower and
+        follows the best fit more closely.
     floor, tolerance
-        Goal for the smallest eigenvalue of Re H relative to the largest; reached within `tolerance`.
+        Goal for the smallest eigenvalue of Re H relative to the largest; reached within
+        `tolerance`.
     iterations
         Most steps.
 
@@ -150,26 +167,29 @@ def enforce(
             best = (value, modes)
         if stalled > 2:
             break
-    return (best[1], True) if best else (modes, False)
+    return (best[1], True) if best else (modes, minima.lowest / minima.largest >= ACCEPTED)
 
 
 def _constrained_step(
     modes: Modes, problem: Problem, minima: Minima, level: float, tolerance: float, damping: float
 ) -> tuple[Modes, Minima, float, float] | None:
-    """Take one damped Gauss-Newton step with all minima held above `level` (relative to the largest)."""
+    """Take one damped Gauss-Newton step with all minima held above `level` times the largest."""
     now, highest = error(modes, problem), float(problem.samples.omega.max())
     matrix, gradient = normal_equations(modes, problem)
-    diagonal = np.diag(matrix).copy()
     rows, quadratic = constraint_rows(modes, minima, problem)
     lack = max(0.0, level - minima.lowest / minima.largest)
     for _ in range(6):
-        shifted = matrix + np.diag(damping * diagonal + 1e-10 * diagonal.max())
-        step = least_distance(shifted, gradient, rows, level * minima.largest - quadratic)
+        step = least_distance(
+            damped(matrix, damping), gradient, rows, level * minima.largest - quadratic
+        )
         if step is not None:
             trial = moved(modes, step, problem)
             value, found = error(trial, problem), local_minima(trial, highest)
             left = max(0.0, level - found.lowest / found.largest)
-            if left <= max(0.5 * lack, 0.3 * abs(level), tolerance) and value < (1.02 if lack < tolerance else 2.0) * now:
+            if (
+                left <= max(0.5 * lack, 0.3 * abs(level), tolerance)
+                and value < (1.02 if lack < tolerance else 2.0) * now
+            ):
                 return trial, found, value, max(damping / 3.0, 1e-7)
         damping *= 4.0
     return None

@@ -2,15 +2,16 @@
 
     F(s) ~ sum_k R_k phi_k(s) + s E,     s = i omega
 
-phi_k are partial fractions with real coefficients: 1/(s - p) of a real pole, and 1/(s - p) + 1/(s - p*),
-i/(s - p) - i/(s - p*) of a complex pair. Poles are relocated to the zeros of an auxiliary function, with the
-residues eliminated entry by entry (QR).
+phi_k are partial fractions with real coefficients: 1/(s - p) of a real pole, and 1/(s - p) + 1/(s -
+p*), i/(s - p) - i/(s - p*) of a complex pair. Poles are relocated to the zeros of an auxiliary
+function, with the residues eliminated entry by entry (QR).
 
 References
 ----------
 B. Gustavsen, A. Semlyen, Rational approximation of frequency domain responses by vector fitting,
-IEEE Trans. Power Delivery 14 (1999) 1052; relaxed form: B. Gustavsen, IEEE Trans. Power Delivery 21 (2006) 1587;
-elimination by QR: D. Deschrijver et al., IEEE Microwave Wireless Comp. Lett. 18 (2008) 383.
+IEEE Trans. Power Delivery 14 (1999) 1052; relaxed form: B. Gustavsen, IEEE Trans. Power Delivery 21
+(2006) 1587; elimination by QR: D. Deschrijver et al., IEEE Microwave Wireless Comp. Lett. 18 (2008)
+383.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ class Samples:
 
 def is_real(poles: ComplexArray) -> npt.NDArray[np.bool_]:
     """Tell which poles are real (one state); the others stand for a conjugate pair (two states)."""
-    return poles.imag == 0.0
+    return np.asarray(poles.imag == 0.0)
 
 
 def order(poles: ComplexArray) -> int:
@@ -54,7 +55,7 @@ def order(poles: ComplexArray) -> int:
 
 
 def basis(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
-    """Return the partial fractions phi_k(s), (ns, order): real poles and pairs in the order of `poles`."""
+    """Return the partial fractions phi_k(s), (ns, order), in the order of `poles`."""
     columns = []
     for pole, single in zip(poles, is_real(poles), strict=True):
         direct = 1.0 / (s - pole)
@@ -67,7 +68,7 @@ def basis(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
 
 
 def residues(coefficients: npt.NDArray[np.floating], poles: ComplexArray) -> ComplexArray:
-    """Return R_k (n_poles, ...) with F = sum R_k/(s - p_k) + conjugates from real coefficients (order, ...)."""
+    """Return R_k (n_poles, ...) of F = sum R_k/(s - p_k) + conjugates, from real coefficients."""
     rows, at = [], 0
     for single in is_real(poles):
         rows.append(coefficients[at] + (0j if single else 1j * coefficients[at + 1]))
@@ -75,15 +76,17 @@ def residues(coefficients: npt.NDArray[np.floating], poles: ComplexArray) -> Com
     return np.array(rows, dtype=complex)
 
 
-def starting_poles(count: int, real: int, lowest: float, highest: float, ratio: float, logarithmic: bool) -> ComplexArray:
-    """Return `count` states of poles: `real` real ones and pairs spread over lowest..highest [rad/s]."""
+def starting_poles(
+    count: int, real: int, lowest: float, highest: float, ratio: float, logarithmic: bool
+) -> ComplexArray:
+    """Return `count` states: `real` real poles, and pairs spread over lowest..highest [rad/s]."""
     spread = np.geomspace if logarithmic else np.linspace
     single = -spread(lowest, highest, real + 2)[1:-1]
     omega = spread(lowest, highest, (count - real) // 2)
     return np.concatenate([single + 0j, -ratio * omega + 1j * omega])
 
 
-def relocate(poles: ComplexArray, data: Samples, damping: Array | float = 0.0, floor_grid: Array | None = None) -> ComplexArray:
+def relocate(poles: ComplexArray, data: Samples, grid: Array, damping: Array) -> ComplexArray:
     """One step of relaxed vector fitting: move the poles to the zeros of the auxiliary function.
 
     Parameters
@@ -92,10 +95,10 @@ def relocate(poles: ComplexArray, data: Samples, damping: Array | float = 0.0, f
         Current poles (Im >= 0).
     data
         Samples; all entries share the poles.
-    damping, floor_grid
-        Least -Re p [1/s]: a number, or values on the grid `floor_grid` [rad/s] of Im p.
+    grid, damping
+        Limits of the poles, see `limited`.
     """
-    s = 1j * data.omega
+    s = np.asarray(1j * data.omega, dtype=complex)
     phi = basis(s, poles)
     count = phi.shape[1]
     left = np.concatenate([phi, s[:, None]], axis=1)
@@ -104,8 +107,10 @@ def relocate(poles: ComplexArray, data: Samples, damping: Array | float = 0.0, f
     system = np.concatenate([weight * left, -weight * data.value.T[:, :, None] * right], axis=2)
     system = np.concatenate([system.real, system.imag], axis=1)
     scale = np.linalg.norm(weight[..., 0] * data.value.T)
-    triangle = np.linalg.qr(system, mode="r")[:, count + 1 :, count + 1 :]
-    normal = np.concatenate([triangle.reshape(-1, count + 1), scale / s.size * right.real.sum(axis=0)[None]])
+    triangle = np.asarray(np.linalg.qr(system, mode="r"))[:, count + 1 :, count + 1 :]
+    normal = np.concatenate(
+        [triangle.reshape(-1, count + 1), scale / s.size * right.real.sum(axis=0)[None]]
+    )
     target = np.zeros(normal.shape[0])
     target[-1] = scale
     norms = np.linalg.norm(normal, axis=0)
@@ -113,7 +118,7 @@ def relocate(poles: ComplexArray, data: Samples, damping: Array | float = 0.0, f
     constant = solution[-1]
     if abs(constant) < 1e-8:
         constant = np.copysign(1e-8, constant if constant else 1.0)
-    return _clean(_zeros(poles, solution[:-1], constant), damping, floor_grid)
+    return limited(_half(_zeros(poles, solution[:-1], constant)), grid, damping)
 
 
 def _zeros(poles: ComplexArray, coefficients: Array, constant: float) -> ComplexArray:
@@ -132,15 +137,25 @@ def _zeros(poles: ComplexArray, coefficients: Array, constant: float) -> Complex
     return np.linalg.eigvals(matrix - np.outer(inlet, coefficients) / constant).astype(complex)
 
 
-def _clean(zeros: ComplexArray, damping: Array | float, floor_grid: Array | None) -> ComplexArray:
-    """Reflect into the left half plane, keep one of each pair, hold the least damping, sort by frequency."""
+def _half(zeros: ComplexArray) -> ComplexArray:
+    """Keep one of each conjugate pair, sorted by frequency."""
     tiny = 1e-9 * np.abs(zeros).max()
-    keep = zeros[zeros.imag > tiny]
     single = zeros[np.abs(zeros.imag) <= tiny].real + 0j
-    poles = np.concatenate([single, keep])
-    least = damping if floor_grid is None else np.interp(poles.imag, floor_grid, np.asarray(damping))
-    poles = -np.maximum(np.abs(poles.real), least) + 1j * poles.imag
-    return poles[np.lexsort((poles.real, poles.imag))]
+    poles = np.concatenate([single, zeros[zeros.imag > tiny]])
+    return np.asarray(poles[np.lexsort((poles.real, poles.imag))])
+
+
+def limited(poles: ComplexArray, grid: Array, damping: Array) -> ComplexArray:
+    """Reflect poles to the left and hold them where the data can tell something of them.
+
+    -Re p is at least `damping` (nw,) [1/s] at the frequencies `grid` (nw,) [rad/s], which keeps
+    peaks from growing between the samples, and at most 5 times the last of them; Im p is at most
+    1.2 times that.
+    """
+    last = float(grid[-1])
+    omega = np.minimum(poles.imag, 1.2 * last)
+    decay = np.clip(np.abs(poles.real), np.interp(omega, grid, damping), 5.0 * last)
+    return np.asarray(-decay + 1j * omega, dtype=complex)
 
 
 def solve_residues(poles: ComplexArray, data: Samples) -> tuple[Array, Array, Array]:
@@ -151,11 +166,12 @@ def solve_residues(poles: ComplexArray, data: Samples) -> tuple[Array, Array, Ar
     coefficients
         (order + 1, ne): partial fractions, then the coefficient of s.
     factors
-        (ne, order + 1, order + 1) upper triangles R with R^T R the weighted Gram matrix of each entry.
+        (ne, order + 1, order + 1) upper triangles R with R^T R the weighted Gram matrix of each
+        entry.
     error
         (ne,) weighted residual norm.
     """
-    s = 1j * data.omega
+    s = np.asarray(1j * data.omega, dtype=complex)
     left = np.concatenate([basis(s, poles), s[:, None]], axis=1)
     system = data.weight.T[:, :, None] * left
     target = data.weight.T * data.value.T

@@ -1,0 +1,272 @@
+"""Exponential memory: closed-form kernels, passivity, loads on fixed bodies, storage, bad input."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from hydrodae.errors import DatabaseError
+from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+
+# Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
+RESONANCES = (
+    (0.30, 0.80, 4.0e4, (1.0, 0.2, 3.0)),
+    (0.12, 1.50, 1.0e4, (0.3, -1.0, 1.0)),
+    (0.40, 2.20, 2.0e4, (-0.5, 0.4, 2.0)),
+)
+ADDED_MASS_INF = np.array([[5.0e4, 1.0e3, 2.0e4], [1.0e3, 3.0e4, 0.0], [2.0e4, 0.0, 9.0e5]])
+LABELS = ("float.surge", "float.heave", "float.pitch")
+
+
+@dataclass
+class Table:
+    """A database as `fit_memory` reads it."""
+
+    coordinates: tuple[str, ...]
+    omega: np.ndarray
+    added_mass: np.ndarray
+    radiation_damping: np.ndarray
+
+
+def exact_transfer(omega: np.ndarray) -> np.ndarray:
+    s = 1j * omega[:, None, None]
+    return sum(
+        r * s / (s**2 + 2 * a * s + w0**2) * np.outer(v, v) for a, w0, r, v in RESONANCES
+    ) + np.zeros((omega.size, 3, 3))
+
+
+def exact_kernel(time: np.ndarray) -> np.ndarray:
+    kernel = np.zeros((time.size, 3, 3))
+    for a, w0, r, v in RESONANCES:
+        wd = np.sqrt(w0**2 - a**2)
+        scalar = r * np.exp(-a * time) * (np.cos(wd * time) - a / wd * np.sin(wd * time))
+        kernel += scalar[:, None, None] * np.outer(v, v)
+    return kernel
+
+
+def table(transfer: np.ndarray, omega: np.ndarray) -> Table:
+    added_mass = ADDED_MASS_INF + transfer.imag / omega[:, None, None]
+    return Table(LABELS, omega, added_mass, transfer.real.copy())
+
+
+@pytest.fixture(scope="module")
+def exact() -> Table:
+    omega = np.arange(0.05, 5.01, 0.05)
+    return table(exact_transfer(omega), omega)
+
+
+@pytest.fixture(scope="module")
+def fitted(exact: Table) -> ExponentialMemory:
+    return fit_memory(exact, LABELS, name="exact")
+
+
+def test_damped_cosines_are_recovered(fitted: ExponentialMemory) -> None:
+    # also beyond the data, and the kernel that no fit saw
+    omega, time = np.linspace(0.0, 12.0, 500), np.linspace(0.0, 40.0, 801)
+    scale = np.sqrt(np.einsum("wii->wi", exact_transfer(omega).real).max(axis=0))
+    off = (fitted.transfer(omega) - exact_transfer(omega)) / scale / scale[:, None]
+    assert np.abs(off).max() < 1e-6
+    kernel = exact_kernel(time)
+    assert np.abs(fitted.kernel(time) - kernel).max() < 1e-6 * np.abs(kernel).max()
+    assert fitted.added_mass_inf == pytest.approx(ADDED_MASS_INF, rel=1e-6, abs=1.0)
+
+
+def test_damped_cosines_need_only_their_own_poles(fitted: ExponentialMemory) -> None:
+    exact_poles = [-a + 1j * np.sqrt(w0**2 - a**2) for a, w0, _, _ in RESONANCES]
+    assert fitted.n_states == 6
+    assert np.sort_complex(fitted.poles) == pytest.approx(np.sort_complex(exact_poles), rel=1e-5)
+
+
+def test_report_of_a_passive_fit(fitted: ExponentialMemory) -> None:
+    report = fitted.report
+    assert report["passive"] is True
+    assert report["target_met"] is True
+    assert report["n_states"] == fitted.n_states
+    assert report["h_error_band"] < 1e-6
+    assert report["max_real_pole"] == fitted.poles.real.max() < 0
+    assert report["min_eig_re_h_relative"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_states_reproduce_the_load_in_time(fitted: ExponentialMemory) -> None:
+    # z' = p z + B U with U = U0 e^{iwt} settles to z = B U / (iw - p); f = -Re(C z)
+    omega = 0.7
+    velocity = np.array([1.0, -0.5, 0.1])
+    time = np.linspace(0.0, 2 * np.pi / omega, 9)
+    load = np.zeros((time.size, 3))
+    for pole, row, column in zip(
+        fitted.poles, fitted.input_matrix, fitted.output_matrix.T, strict=True
+    ):
+        # the real part of U0 e^{iwt} drives the complex state: both signs of w
+        drive = row @ velocity / 2
+        state = drive * np.exp(1j * omega * time) / (1j * omega - pole)
+        state = state + drive * np.exp(-1j * omega * time) / (-1j * omega - pole)
+        load -= (column * state[:, None]).real
+    expected = -(
+        np.exp(1j * omega * time)[:, None] * (exact_transfer(np.array([omega]))[0] @ velocity)
+    ).real
+    assert load == pytest.approx(expected, rel=1e-5, abs=1e-5 * np.abs(expected).max())
+
+
+def test_passivity_finds_a_narrow_dip() -> None:
+    # 1/(s + a) minus a narrow resonance: Re H(i w0) = a/(a^2 + w0^2) - g/(2 d)
+    a, w0, d, g = 1.0, 3.0, 1e-3, 4e-4
+    memory = ExponentialMemory(
+        "dip",
+        ("b.heave",),
+        ("b.heave",),
+        np.array([-a, -d + 1j * w0]),
+        np.ones((2, 1), dtype=complex),
+        np.array([[1.0, -g]], dtype=complex),
+        np.zeros((1, 1)),
+    )
+    dip = memory.passivity()
+    s = 1j * dip.omega
+    exact_dip = (1 / (s + a) - g / 2 * (1 / (s + d - 1j * w0) + 1 / (s + d + 1j * w0))).real
+    assert dip.omega == pytest.approx(w0, abs=1e-4)
+    assert dip.relative == pytest.approx(exact_dip, rel=1e-6)
+    assert dip.relative == pytest.approx(a / (a**2 + w0**2) - g / (2 * d), rel=1e-3)
+
+
+def test_non_passive_data_give_a_passive_fit_that_says_so(exact: Table) -> None:
+    damping = exact.radiation_damping.copy()
+    # waves that give energy: more negative damping in heave than there is positive
+    damping[:, 1, 1] -= 0.6 * damping[:, 1, 1].max() * np.exp(-(((exact.omega - 2.8) / 0.3) ** 2))
+    bad = replace(exact, radiation_damping=damping)
+    with pytest.warns(MemoryFitWarning, match="misses its target"):
+        memory = fit_memory(bad, LABELS, max_states=20)
+    assert memory.report["data_min_eig_relative"] < -0.1
+    assert memory.report["target_met"] is False
+    assert memory.report["passive"] == (memory.report["min_eig_re_h_relative"] >= -1e-4)
+    assert memory.passivity().relative == pytest.approx(
+        memory.report["min_eig_re_h_relative"], abs=1e-6
+    )
+
+
+def test_max_states_is_kept(exact: Table) -> None:
+    with pytest.warns(MemoryFitWarning, match="misses its target with 4 states"):
+        memory = fit_memory(exact, LABELS, max_states=4)
+    assert memory.n_states == 4
+    assert memory.report["target_met"] is False
+
+
+def test_loads_on_a_body_that_does_not_move(exact: Table) -> None:
+    memory = fit_memory(exact, LABELS[:1], LABELS, target=1e-6, target_outside=1e-6)
+    assert memory.outputs == LABELS
+    assert memory.output_matrix.shape == (3, memory.poles.size)
+    omega = np.linspace(0.0, 8.0, 200)
+    expected = exact_transfer(omega)[:, :, :1]
+    off = np.abs(memory.transfer(omega) - expected).max(axis=0)
+    assert np.all(off < 1e-5 * np.abs(expected).max(axis=0))
+    assert memory.added_mass_inf == pytest.approx(ADDED_MASS_INF[:, :1], rel=1e-5, abs=1.0)
+    assert memory.report["h_error_outputs"] < 1e-5
+
+
+def test_coordinate_without_radiation_is_left_out(exact: Table) -> None:
+    n = 4
+    added_mass, damping = np.zeros((exact.omega.size, n, n)), np.zeros((exact.omega.size, n, n))
+    added_mass[:, :3, :3], damping[:, :3, :3] = exact.added_mass, exact.radiation_damping
+    rng = np.random.default_rng(1)
+    added_mass[:, 3, 3] = 7.0
+    damping[:, 3, 3] = 1e-9 * damping[:, 2, 2].max() * rng.standard_normal(exact.omega.size)
+    labels = (*LABELS, "float.yaw")
+    data = Table(labels, exact.omega, added_mass, damping)
+    with pytest.warns(MemoryFitWarning, match=r"no radiation in float\.yaw"):
+        memory = fit_memory(data, labels)
+    assert memory.report["dropped_inputs"] == "float.yaw"
+    assert not np.any(memory.input_matrix[:, 3])
+    assert not np.any(memory.output_matrix[3])
+    assert memory.added_mass_inf[3] == pytest.approx([0.0, 0.0, 0.0, 7.0])
+    assert memory.report["h_error_band"] < 1e-5
+
+
+def test_uncoupled_coordinates_are_fitted_apart(exact: Table) -> None:
+    coupling = np.array([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 1.0]])
+    data = replace(
+        exact,
+        added_mass=exact.added_mass * coupling,
+        radiation_damping=exact.radiation_damping * coupling,
+    )
+    memory = fit_memory(data, LABELS)
+    assert memory.report["groups"] == "float.surge, float.pitch; float.heave"
+    heave = memory.input_matrix[:, 1] != 0
+    assert np.all(memory.input_matrix[heave][:, [0, 2]] == 0)
+    assert memory.report["passive"] is True
+
+
+def test_fit_is_deterministic(exact: Table, fitted: ExponentialMemory) -> None:
+    again = fit_memory(exact, LABELS)
+    assert np.array_equal(again.poles, fitted.poles)
+    assert np.array_equal(again.output_matrix, fitted.output_matrix)
+
+
+def test_write_and_read_give_the_same_fit(fitted: ExponentialMemory, tmp_path: Path) -> None:
+    path = tmp_path / "hydro.h5"
+    with h5py.File(path, "w") as file:
+        group = file.create_group("memory")
+        fitted.write(group)
+        fitted.write(group)  # replaces
+    with h5py.File(path) as file:
+        stored = file["memory/exact"]
+        assert stored["poles"].dtype == np.complex128
+        assert stored["inputs"].dtype == np.dtype("S32")
+        assert stored.attrs["n_states"] == 6
+        read = ExponentialMemory.read(stored)
+    assert (read.name, read.inputs, read.outputs) == ("exact", fitted.inputs, fitted.outputs)
+    for key in ("poles", "input_matrix", "output_matrix", "added_mass_inf"):
+        assert np.array_equal(getattr(read, key), getattr(fitted, key))
+    assert read.report == fitted.report
+
+
+def test_reading_an_incomplete_fit_names_what_is_missing(
+    fitted: ExponentialMemory, tmp_path: Path
+) -> None:
+    with h5py.File(tmp_path / "hydro.h5", "w") as file:
+        fitted.write(file)
+        del file["exact/poles"]
+        with pytest.raises(DatabaseError, match=r"'exact'.*poles.*missing"):
+            ExponentialMemory.read(file["exact"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"inputs": ("float.sway",)}, r"inputs \['float.sway'\] are not in the database"),
+        ({"inputs": ()}, "inputs must be given once each"),
+        ({"inputs": LABELS[:1] * 2}, "inputs must be given once each"),
+        ({"inputs": LABELS, "band": (6.0, 9.0)}, "holds 0 stored frequencies"),
+        ({"inputs": LABELS, "band": (1.0, 0.1)}, "4 are needed"),
+    ],
+)
+def test_bad_arguments(exact: Table, arguments: dict, message: str) -> None:
+    with pytest.raises(DatabaseError, match=message):
+        fit_memory(exact, **arguments)
+
+
+def test_bad_data(exact: Table) -> None:
+    damping = exact.radiation_damping.copy()
+    damping[3, 0, 0] = np.nan
+    with pytest.raises(DatabaseError, match="not finite"):
+        fit_memory(replace(exact, radiation_damping=damping), LABELS)
+    with pytest.raises(DatabaseError, match=r"none of .* has positive radiation damping"):
+        fit_memory(replace(exact, radiation_damping=0 * exact.radiation_damping), LABELS)
+    short = replace(
+        exact,
+        omega=exact.omega[:6],
+        added_mass=exact.added_mass[:6],
+        radiation_damping=exact.radiation_damping[:6],
+    )
+    with pytest.raises(DatabaseError, match="at least 8 ascending frequencies"):
+        fit_memory(short, LABELS)
+
+
+def test_inconsistent_shapes_are_refused(fitted: ExponentialMemory) -> None:
+    with pytest.raises(DatabaseError, match="shapes"):
+        replace(fitted, poles=fitted.poles[:-1])
+    with pytest.raises(DatabaseError, match="not among the outputs"):
+        replace(fitted, outputs=("a.surge", "a.heave", "a.pitch"))
+    with pytest.raises(DatabaseError, match="Re < 0"):
+        replace(fitted, poles=-fitted.poles.conj())
