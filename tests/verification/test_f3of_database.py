@@ -46,7 +46,7 @@ def theirs(reference: Path) -> Reference:
 
 
 def in_band(omega: np.ndarray, values: np.ndarray) -> np.ndarray:
-    return np.interp(BAND, omega, values)
+    return np.asarray(np.interp(BAND, omega, values))
 
 
 def difference(a: np.ndarray, b: np.ndarray) -> float:

@@ -38,7 +38,7 @@ def fit_memory(
     band: tuple[float, float] | None = None,
     max_states: int | None = None,
     target: float = 4.5e-4,
-    target_outside: float = 0.2,
+    target_outside: float = 0.15,
     band_weight: float = 500.0,
     name: str = "default",
     progress: Progress | None = None,

@@ -1,0 +1,49 @@
+"""The examples of the README run as they stand."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hydrodae
+
+
+def blocks(readme: Path, language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", readme.read_text(), re.DOTALL | re.MULTILINE)
+
+
+@pytest.fixture
+def readme(repository: Path) -> Path:
+    return repository / "README.md"
+
+
+def test_toml_example(readme: Path) -> None:
+    (text,) = blocks(readme, "toml")
+    results = hydrodae.run(hydrodae.Case.from_text(text, directory=readme.parent))
+    assert results.status == "completed"
+    angle = abs(results["joints/hinge/angle"])
+    assert angle.max() == angle[0]  # the PTO takes energy
+    assert "forces/pto/flap/moment" in results
+
+
+def test_python_example(readme: Path) -> None:
+    (text,) = blocks(readme, "python")
+    done = subprocess.run(
+        [sys.executable, "-c", text], cwd=readme.parent, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("flap 2 reaches") == 3
+
+
+def test_pictures_and_files_named_exist(readme: Path) -> None:
+    text = readme.read_text()
+    named = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(
+        r"`((?:cases|tests|cpp)/[^`\s]+)`", text
+    )
+    assert named
+    missing = [name for name in named if not (readme.parent / name).exists()]
+    assert not missing
