@@ -42,8 +42,8 @@ TABLES = ("added_mass", "radiation_damping", "diffraction_force", "Froude_Krylov
 def frequencies() -> Array:
     """Grid [rad/s], ending with infinity: fine where waves between the flaps resonate.
 
-    It ends at 3.2 rad/s, where a wave is three panels long: beyond, the damping has negative
-    eigenvalues, and no memory can be passive that follows it.
+    It ends at 3.2 rad/s, where a wave is five panels long. Beyond 3.5 rad/s damping of motion in
+    the plane has negative eigenvalues (across it from 2.9 rad/s): no passive memory follows that.
     """
     low, resonant = np.arange(4, 98, 4), np.arange(100, 300)
     return np.append(np.concatenate([low, resonant, np.arange(300, 321, 2)]) / 100.0, np.inf)

@@ -123,6 +123,6 @@ def test_all_planar_coordinates(data: cummins.Radiation, truth: cummins.CumminsM
     assert memory.report["passive"] is True
     time = np.arange(0.0, 100.05, 0.1)
     exact, fitted = truth.free_decay([1.0, 0.0], time), decay(memory, truth, time)
-    assert nrms(fitted[:, 0], exact[:, 0]) <= 0.002
+    assert nrms(fitted[:, 0], exact[:, 0]) <= 0.003
     assert nrms(fitted[:, 1], exact[:, 1]) <= 0.006
     assert np.linalg.eigvals(reduced_system(memory, truth)).real.max() < 0.0

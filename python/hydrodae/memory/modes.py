@@ -225,7 +225,7 @@ def moved(modes: Modes, step: Array, problem: Problem) -> Modes:
 def damped(matrix: Array, damping: float) -> Array:
     """Return the matrix with its diagonal raised by a share (to 1 where it is zero: no effect)."""
     diagonal = np.diag(matrix)
-    return matrix + np.diag(np.where(diagonal > 0.0, (damping + 1e-12) * diagonal, 1.0))
+    return np.asarray(matrix + np.diag(np.where(diagonal > 0.0, (damping + 1e-12) * diagonal, 1.0)))
 
 
 def refine(
