@@ -56,13 +56,12 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
   Reporter reporter(arguments.quiet);
-  hydrodae::RunStatistics statistics;
-  try {
-    statistics = hydrodae::simulate(scene, arguments.output, std::ref(reporter));
-  } catch (const hydrodae::ModelError& error) {
-    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
-  }
+  const hydrodae::RunStatistics statistics =
+      hydrodae::simulate(scene, arguments.output, std::ref(reporter));
   reporter.finish();
+  if (!arguments.quiet)
+    for (const std::string& note : statistics.notes)
+      std::cerr << "note: " << note << '\n';
   std::printf("%s at t = %.6g s: %ld steps in %.3g s, results in %s\n", statistics.status.c_str(),
               statistics.end_time, statistics.steps, statistics.wall_time,
               arguments.output.c_str());
@@ -80,10 +79,14 @@ ExitCode perform(const Arguments& arguments) {
   }
   const hydrodae::model::Scene scene =
       hydrodae::io::read_case(arguments.case_path, arguments.overrides);
-  if (arguments.task == Arguments::Task::run)
-    return run(scene, arguments);
-  std::cout << hydrodae::model::summary(scene);
-  return ExitCode::done;
+  try {
+    if (arguments.task == Arguments::Task::run)
+      return run(scene, arguments);
+    std::cout << hydrodae::examine(scene);
+    return ExitCode::done;
+  } catch (const hydrodae::ModelError& error) {
+    throw hydrodae::CaseError(hydrodae::model::located(scene, error));
+  }
 }
 
 } // namespace

@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/ida.h"
+#include "hydrodae/system/assemble.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -19,7 +21,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-io::Attributes header(const model::Scene& scene) {
+io::Attributes header(const model::Scene& scene, const std::vector<std::string>& lines) {
+  std::string notes;
+  for (const std::string& line : lines)
+    notes += line + "\n";
   std::string overrides;
   for (const std::string& line : scene.overrides)
     overrides += line + "\n";
@@ -28,7 +33,8 @@ io::Attributes header(const model::Scene& scene) {
           {"case_path", scene.path},
           {"case_overrides", overrides},
           {"hydro_sha256", scene.database ? scene.database->sha256 : std::string()},
-          {"version", std::string(version)}};
+          {"version", std::string(version)},
+          {"notes", notes}};
 }
 
 io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
@@ -81,9 +87,11 @@ public:
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
     row_.resize(recorder_->width() + solver_channels.size());
     if (!output_path.empty())
-      file_ = std::make_unique<io::ResultsFile>(output_path, channels, header(scene));
+      file_ =
+          std::make_unique<io::ResultsFile>(output_path, channels, header(scene, system_.notes));
     statistics_.unknowns = system_.n;
     statistics_.nonzeros = pattern_.nonzeros();
+    statistics_.notes = system_.notes;
     statistics_.setup_time = seconds_since(started_);
   }
 
@@ -156,6 +164,23 @@ private:
 };
 
 } // namespace
+
+std::string examine(const model::Scene& scene) {
+  const system::System s = system::build(scene);
+  const system::Pattern pattern = system::find_pattern(s);
+  std::ostringstream out;
+  out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
+      << s.n_u << " velocities + " << s.n_z << " memory states + " << s.n_lambda << " + " << s.n_mu
+      << " multipliers";
+  if (s.n > s.sigma0)
+    out << " + " << s.n - s.sigma0 << " of quaternion norms";
+  out << "; " << pattern.nonzeros() << " nonzeros in the Jacobian\n"
+      << "  mobility: " << system::mobility(s) << " degrees of freedom left by " << s.n_lambda
+      << " constraint rows\n";
+  for (const std::string& note : s.notes)
+    out << "  note: " << note << "\n";
+  return out.str();
+}
 
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/model/scene.h"
@@ -29,7 +30,12 @@ struct RunStatistics {
   double wall_time = 0.0;   ///< wall time of the whole run with output [s]
   long unknowns = 0;
   long nonzeros = 0;
+  std::vector<std::string> notes; ///< what the assembly found worth telling
 };
+
+/// What a person wants to know before a run: the scene as a tree, unknowns and multipliers,
+/// mobility, redundant rows, how far the bodies were moved to close the joints. Throws ModelError.
+std::string examine(const model::Scene& scene);
 
 /// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty).
 /// Throws ModelError when the scene cannot start, SolverError when the integration fails (the file

@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include <pybind11/stl.h>
+
 #include "bindings.h"
 #include "hydrodae/core/error.h"
 
@@ -55,7 +57,7 @@ py::dict as_dict(const RunStatistics& s) {
       "error_test_failures"_a = s.error_test_failures,
       "convergence_failures"_a = s.convergence_failures, "end_time"_a = s.end_time,
       "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time, "wall_time"_a = s.wall_time,
-      "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros);
+      "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback) {
@@ -71,9 +73,21 @@ py::dict run(const model::Scene& scene, const std::string& output, const py::obj
   return as_dict(statistics);
 }
 
+std::string examine_scene(const model::Scene& scene) {
+  try {
+    return examine(scene);
+  } catch (const ModelError& error) {
+    throw CaseError(model::located(scene, error));
+  }
+}
+
 } // namespace
 
 void bind_simulation(py::module_& module) {
+  module.def(
+      "examine", &examine_scene, py::arg("scene"),
+      "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
+      "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.\n\n"
              "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "

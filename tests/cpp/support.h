@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/model/scene.h"
 
 namespace hydrodae::tests {
 
@@ -38,6 +39,23 @@ template <class Call> std::string message_of(const Call& call) {
     return error.what();
   }
   return "no error";
+}
+
+/// "key: message" of what `check` says about a scene, "" if it is content.
+inline std::string verdict(const model::Scene& scene) {
+  try {
+    model::check(scene);
+  } catch (const ModelError& error) {
+    return error.key + ": " + error.what();
+  }
+  return "";
+}
+
+/// The same for a scene of one body.
+inline std::string verdict(const model::Body& body) {
+  model::Scene scene;
+  scene.bodies = {body};
+  return verdict(scene);
 }
 
 /// `text` with the one place where it holds `old` replaced.

@@ -81,7 +81,7 @@ inline model::Scene two_bodies(const joint::JointType& type, const std::vector<s
     scene.bodies.push_back(body);
   }
   const bool planar = motion.size() == 1 && motion[0] == "planar";
-  const bool lies_in_plane = !type.turns();
+  const bool lies_in_plane = !type.turns() || type.name == "universal";
   auto add = [&](const std::string& name, const std::string& a, const std::string& b,
                  const Vector3& p) {
     model::Joint joint;
@@ -90,6 +90,9 @@ inline model::Scene two_bodies(const joint::JointType& type, const std::vector<s
     joint.body_a = a;
     joint.body_b = b;
     joint.point = p;
+    if (type.has_row(joint::BasicRow::Kind::distance))
+      joint.point_b = p + Vector3(0.3, 0.0, 0.4);
+    joint.pitch = 0.3;
     if (planar)
       joint.axis = lies_in_plane ? Vector3(0.6, 0.0, 0.8) : Vector3(0, 1, 0);
     else
@@ -117,7 +120,10 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
           if constexpr (std::is_same_v<T, double>) {
             value = number();
           } else if constexpr (std::is_same_v<T, std::string>) {
-            value = field.key == "body" ? "b" : field.key == "joint" ? "link" : name;
+            value = field.key == "body" || field.key == "body_b" ? "b"
+                    : field.key == "body_a"                      ? "a"
+                    : field.key == "joint"                       ? "link"
+                                                                 : name;
             if (!field.choices.empty())
               value = field.choices.front();
           } else if constexpr (std::is_same_v<T, Vector3> || std::is_same_v<T, Vector6> ||

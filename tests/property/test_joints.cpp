@@ -16,6 +16,8 @@ namespace {
 using namespace hydrodae;
 using namespace hydrodae::joint;
 
+const Parameters parameters{0.8, 0.3};
+
 struct Poses {
   Vector3 r_A, r_B;
   Matrix3 R_A, R_B;
@@ -63,7 +65,7 @@ Poses closed_poses(const JointType& type, const Marker& A, const Marker& B, test
     MatrixX G(type.rows.size(), 12);
     VectorX value(type.rows.size());
     for (std::size_t k = 0; k < type.rows.size(); ++k) {
-      const Row<double> row = basic_row<double>(type.rows[k], A, B, g);
+      const Row<double> row = basic_row<double>(type.rows[k], A, B, parameters, g);
       G.row(static_cast<Eigen::Index>(k)) = row.gradient.transpose();
       value[static_cast<Eigen::Index>(k)] = row.value;
     }
@@ -97,8 +99,8 @@ TEST_CASE("gradients and curvatures of all rows and motions are exact") {
       }
     };
     for (const BasicRow& kind : type.rows)
-      check([&](const auto& at) { return basic_row(kind, A, B, at); },
-            basic_curvature(kind, A, B, g));
+      check([&](const auto& at) { return basic_row(kind, A, B, parameters, at); },
+            basic_curvature(kind, A, B, parameters, g));
     for (const FreeMotion& motion : type.motions)
       check([&](const auto& at) { return motion_row(motion, A, B, at); },
             motion_curvature(motion, A, B, g));
@@ -116,7 +118,7 @@ TEST_CASE("on closed poses the rows are independent and leave exactly the named 
       const auto rows = static_cast<Eigen::Index>(type.rows.size());
       MatrixX G(rows, 12);
       for (Eigen::Index k = 0; k < rows; ++k) {
-        const Row<double> row = basic_row<double>(type.rows[k], A, B, g);
+        const Row<double> row = basic_row<double>(type.rows[k], A, B, parameters, g);
         REQUIRE(std::abs(row.value) < 1e-10);
         G.row(k) = row.gradient.transpose();
       }
@@ -141,7 +143,7 @@ TEST_CASE("reactions do no work on velocities that keep the joint, and add up to
     const Poses p = random_poses(random);
     const Geometry<double> g = seen(B, p);
     for (const BasicRow& kind : type.rows) {
-      const Vector12 G = basic_row<double>(kind, A, B, g).gradient;
+      const Vector12 G = basic_row<double>(kind, A, B, parameters, g).gradient;
       // A rigid motion of both bodies together (translation V, rotation W about the origin).
       const Vector3 V = random.vector(), W = random.vector();
       Vector12 u;
@@ -162,8 +164,8 @@ TEST_CASE("rows do not depend on where the scene lies and how it is turned") {
     const Vector3 shift = 100.0 * random.vector();
     const Poses moved{Q * p.r_A + shift, Q * p.r_B + shift, Q * p.R_A, Q * p.R_B};
     for (const BasicRow& kind : type.rows) {
-      const double here = basic_row<double>(kind, A, B, seen(B, p)).value;
-      const double there = basic_row<double>(kind, A, B, seen(B, moved)).value;
+      const double here = basic_row<double>(kind, A, B, parameters, seen(B, p)).value;
+      const double there = basic_row<double>(kind, A, B, parameters, seen(B, moved)).value;
       CHECK(here == doctest::Approx(there).epsilon(1e-11));
     }
   }

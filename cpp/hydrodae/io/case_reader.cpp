@@ -15,8 +15,8 @@
 namespace hydrodae::io {
 namespace {
 
-const std::vector<std::string> top_level_keys = {"title", "environment", "hydro",  "body",
-                                                 "joint", "force",       "solver", "output"};
+const std::vector<std::string> top_level_keys = {
+    "title", "environment", "hydro", "body", "joint", "constraint", "force", "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -111,6 +111,9 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   for_each_entry(root, "joint", positions, [&](const Table& entry) {
     scene.joints.push_back(read_table<model::Joint>(entry, positions));
   });
+  for_each_entry(root, "constraint", positions, [&](const Table& entry) {
+    scene.constraints.push_back(read_table<model::Constraint>(entry, positions));
+  });
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });
   if (!read_single(root, "solver", positions, scene.solver))
@@ -151,6 +154,8 @@ model::Scene parse(const std::string& text, const std::string& directory,
   } catch (const ModelError& error) {
     throw CaseError(model::located(scene, error));
   }
+  for (model::Constraint& constraint : scene.constraints) // after the check: a spline needs a table
+    constraint.drive.prepare();
   return scene;
 }
 

@@ -43,9 +43,20 @@ Table nested_table(const Table& parent, const toml::node& node, const std::strin
 template <class T>
 concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
 
-/// A table `initial` of its own.
+/// A table `initial` or `drive` of its own.
 template <class T>
 concept HasInitial = requires(T value) { value.initial; };
+template <class T>
+concept HasDrive = requires(T value) { value.drive; };
+
+template <class T> T read_table(const Table& table, Positions& positions);
+
+/// The table `name` of `parent`, if it has one.
+template <class T>
+void read_nested(const Table& parent, const std::string& name, Positions& positions, T& out) {
+  if (const toml::node* node = parent.node.get(name))
+    out = read_table<T>(nested_table(parent, *node, name, positions), positions);
+}
 
 /// Reads and checks all keys of `table`. Throws CaseError.
 template <class T> T read_table(const Table& table, Positions& positions) {
@@ -58,6 +69,8 @@ template <class T> T read_table(const Table& table, Positions& positions) {
     valid.emplace_back(field.key);
   if constexpr (HasInitial<T>)
     valid.emplace_back("initial");
+  if constexpr (HasDrive<T>)
+    valid.emplace_back("drive");
   check_keys(table, valid);
 
   for (const Field<T>& field : fields) {
@@ -69,9 +82,9 @@ template <class T> T read_table(const Table& table, Positions& positions) {
       missing_key(table, field.key, field.unit, field.doc);
   }
   if constexpr (HasInitial<T>)
-    if (const toml::node* node = table.node.get("initial"))
-      value.initial = read_table<decltype(value.initial)>(
-          nested_table(table, *node, "initial", positions), positions);
+    read_nested(table, "initial", positions, value.initial);
+  if constexpr (HasDrive<T>)
+    read_nested(table, "drive", positions, value.drive);
   return value;
 }
 

@@ -136,6 +136,15 @@ void read_value(const toml::node& node, const Key& key, std::vector<std::string>
     out.push_back(word(item, key));
 }
 
+void read_value(const toml::node& node, const Key& key, std::vector<double>& out) {
+  const toml::array* list = node.as_array();
+  if (!list || list->empty())
+    refuse(key, "a list of numbers" + in_unit(key), node);
+  out.clear();
+  for (const toml::node& item : *list)
+    out.push_back(in_radians(number(item, key), key));
+}
+
 void read_value(const toml::node& node, const Key& key, Vector3& out) {
   read_vector(node, key, out);
 }

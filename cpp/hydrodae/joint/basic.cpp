@@ -38,10 +38,35 @@ Matrix12 perp_curvature(const Marker& A, const Marker& B, int i, int j, const Ge
   return t;
 }
 
+// With delta d_W = D xi, D = [-I, R_A [s_A]x, I, -R_B [s_B]x],
+//      delta d_A = R_A^T D xi + [d_A]x dphi_A,   delta d_B = R_B^T D xi + [d_B]x dphi_B.
+Matrix12 distance_curvature(const Marker& A, const Marker& B, double length,
+                            const Geometry<double>& g) {
+  const Vector3 d_A = g.e - A.point, d_B = g.N.transpose() * d_A;
+  const Matrix3 sA = skew<double>(A.point), sB = skew<double>(B.point);
+  Eigen::Matrix<double, 3, 12> D;
+  D << -Matrix3::Identity(), g.R_A * sA, Matrix3::Identity(), -g.R_B * sB;
+  Eigen::Matrix<double, 3, 12> D_A = g.R_A.transpose() * D, D_B = g.R_B.transpose() * D;
+  D_A.middleCols<3>(pA) += skew<double>(d_A);
+  D_B.middleCols<3>(pB) += skew<double>(d_B);
+  Matrix12 t;
+  t << -D, -sA * D_A, D, sB * D_B;
+  return t / length;
+}
+
 Matrix12 basic_curvature(const BasicRow& kind, const Marker& A, const Marker& B,
-                         const Geometry<double>& g) {
-  return kind.kind == BasicRow::Kind::span ? span_curvature(A, B, kind.i, g)
-                                           : perp_curvature(A, B, kind.i, kind.j, g);
+                         const Parameters& p, const Geometry<double>& g) {
+  switch (kind.kind) {
+  case BasicRow::Kind::span:
+    return span_curvature(A, B, kind.i, g);
+  case BasicRow::Kind::perp:
+    return perp_curvature(A, B, kind.i, kind.j, g);
+  case BasicRow::Kind::distance:
+    return distance_curvature(A, B, p.length, g);
+  case BasicRow::Kind::screw:
+    break;
+  }
+  return span_curvature(A, B, Z, g) - p.pitch / (2.0 * pi) * motion_curvature(turns(Z), A, B, g);
 }
 
 // theta = atan2(s, c): W = (c ds - s dc) / n2, n2 = c^2 + s^2, differentiated once more.
@@ -49,13 +74,18 @@ Matrix12 motion_curvature(const FreeMotion& motion, const Marker& A, const Marke
                           const Geometry<double>& g) {
   if (motion.kind == FreeMotion::Kind::slides)
     return span_curvature(A, B, motion.axis, g);
+  if (motion.kind == FreeMotion::Kind::stretches) {
+    const Row<double> s = stretch_row<double>(A, B, g);
+    return (distance_curvature(A, B, 1.0, g) - s.gradient * s.gradient.transpose()) / s.value;
+  }
   const int j = (motion.axis + 1) % 3, k = (motion.axis + 2) % 3;
-  const Row<double> c = perp_row<double>(A, B, j, j, g), s = perp_row<double>(A, B, k, j, g);
+  const int m = motion.kind == FreeMotion::Kind::turns ? j : k;
+  const Row<double> c = perp_row<double>(A, B, m, m, g), s = perp_row<double>(A, B, k, j, g);
   const double n2 = c.value * c.value + s.value * s.value;
   const Vector12 w = (c.value * s.gradient - s.value * c.gradient) / n2;
   const Vector12 n2_gradient = 2.0 * (c.value * c.gradient + s.value * s.gradient);
   return (s.gradient * c.gradient.transpose() - c.gradient * s.gradient.transpose() +
-          c.value * perp_curvature(A, B, k, j, g) - s.value * perp_curvature(A, B, j, j, g) -
+          c.value * perp_curvature(A, B, k, j, g) - s.value * perp_curvature(A, B, m, m, g) -
           w * n2_gradient.transpose()) /
          n2;
 }

@@ -38,6 +38,21 @@ Geometry<S> geometry(const Marker& b, const Vec3<S>& r_A, const Mat3<S>& R_A, co
   return g;
 }
 
+/// Numbers of a joint that its rows need.
+struct Parameters {
+  double length = 1.0; ///< L of `distance` [m]
+  double pitch = 1.0;  ///< P of `screw` [m per turn]
+};
+
+/// The value of a scalar without its derivative.
+inline double value_of(double x) { return x; }
+template <class S> double value_of(const S& x) { return x.a; }
+
+/// The value of angle + 2 pi k nearest to `reference`.
+template <class S> S nearest_turn(const S& angle, double reference) {
+  return angle + S(2.0 * pi * std::round((reference - value_of(angle)) / (2.0 * pi)));
+}
+
 /// A scalar function of the two poses with its gradient.
 template <class S> struct Row {
   S value;
@@ -66,32 +81,81 @@ Row<S> perp_row(const Marker& A, const Marker& B, int i, int j, const Geometry<S
   return row;
 }
 
+/// g = (d.d / L - L) / 2, d = B - A:  G = [-d_W, d_A x s_A, d_W, s_B x d_B] / L
 template <class S>
-Row<S> basic_row(const BasicRow& kind, const Marker& A, const Marker& B, const Geometry<S>& g) {
-  return kind.kind == BasicRow::Kind::span ? span_row<S>(A, B, kind.i, g)
-                                           : perp_row<S>(A, B, kind.i, kind.j, g);
+Row<S> distance_row(const Marker& A, const Marker& B, double length, const Geometry<S>& g) {
+  const Vec3<S> d_A = g.e - A.point.cast<S>(), d_W = g.R_A * d_A;
+  Row<S> row;
+  row.value = S(0.5) * (dot<S>(d_A, d_A) / S(length) - S(length));
+  row.gradient << -d_W, cross<S>(d_A, A.point.cast<S>()), d_W,
+      cross<S>(B.point.cast<S>(), g.N.transpose() * d_A);
+  row.gradient /= S(length);
+  return row;
 }
 
-/// The coordinate of a free motion: displacement a_i . (B - A), or angle of B's axis j = i + 1 in
-/// the plane normal to a_i, theta = atan2(a_k . b_j, a_j . b_j) with (i, j, k) cyclic, in (-pi,
-/// pi].
+/// s = |B - A| [m]; not defined where the points coincide.
+template <class S> Row<S> stretch_row(const Marker& A, const Marker& B, const Geometry<S>& g) {
+  using std::sqrt;
+  Row<S> row = distance_row<S>(A, B, 1.0, g); // (s^2 - 1) / 2 and its gradient
+  row.value = sqrt(S(2) * row.value + S(1));
+  row.gradient /= row.value;
+  return row;
+}
+
+/// The coordinate of a free motion: displacement a_i . (B - A); distance |B - A|; angle of B's axis
+/// j = i + 1 in the plane normal to a_i, theta = atan2(a_k . b_j, a_j . b_j) with (i, j, k) cyclic;
+/// or, about an axis of B, the angle of A's axis k seen from B, theta = atan2(a_k . b_j, a_k . b_k)
+/// with (i, j, k) cyclic. Angles in (-pi, pi].
 template <class S>
 Row<S> motion_row(const FreeMotion& motion, const Marker& A, const Marker& B,
                   const Geometry<S>& g) {
   using std::atan2;
   if (motion.kind == FreeMotion::Kind::slides)
     return span_row<S>(A, B, motion.axis, g);
+  if (motion.kind == FreeMotion::Kind::stretches)
+    return stretch_row<S>(A, B, g);
   const int j = (motion.axis + 1) % 3, k = (motion.axis + 2) % 3;
-  const Row<S> c = perp_row<S>(A, B, j, j, g), s = perp_row<S>(A, B, k, j, g);
+  const int m = motion.kind == FreeMotion::Kind::turns ? j : k;
+  const Row<S> c = perp_row<S>(A, B, m, m, g), s = perp_row<S>(A, B, k, j, g);
   const S norm2 = c.value * c.value + s.value * s.value;
   return {atan2(s.value, c.value), (c.value * s.gradient - s.value * c.gradient) / norm2};
+}
+
+/// g = s - P theta / 2 pi with theta on the turn that the displacement s tells.
+template <class S>
+Row<S> screw_row(const Marker& A, const Marker& B, double pitch, const Geometry<S>& g) {
+  const double advance = pitch / (2.0 * pi);
+  Row<S> row = span_row<S>(A, B, Z, g);
+  const Row<S> turn = motion_row<S>(turns(Z), A, B, g);
+  const double reference = value_of(row.value) / advance;
+  row.value -= S(advance) * nearest_turn<S>(turn.value, reference);
+  row.gradient -= S(advance) * turn.gradient;
+  return row;
+}
+
+template <class S>
+Row<S> basic_row(const BasicRow& kind, const Marker& A, const Marker& B, const Parameters& p,
+                 const Geometry<S>& g) {
+  switch (kind.kind) {
+  case BasicRow::Kind::span:
+    return span_row<S>(A, B, kind.i, g);
+  case BasicRow::Kind::perp:
+    return perp_row<S>(A, B, kind.i, kind.j, g);
+  case BasicRow::Kind::distance:
+    return distance_row<S>(A, B, p.length, g);
+  case BasicRow::Kind::screw:
+    break;
+  }
+  return screw_row<S>(A, B, p.pitch, g);
 }
 
 /// Curvature T(m, n) = d gradient(m) / d xi(n) of the rows above (kernel scalar only).
 Matrix12 span_curvature(const Marker& A, const Marker& B, int i, const Geometry<double>& g);
 Matrix12 perp_curvature(const Marker& A, const Marker& B, int i, int j, const Geometry<double>& g);
+Matrix12 distance_curvature(const Marker& A, const Marker& B, double length,
+                            const Geometry<double>& g);
 Matrix12 basic_curvature(const BasicRow& kind, const Marker& A, const Marker& B,
-                         const Geometry<double>& g);
+                         const Parameters& p, const Geometry<double>& g);
 Matrix12 motion_curvature(const FreeMotion& motion, const Marker& A, const Marker& B,
                           const Geometry<double>& g);
 

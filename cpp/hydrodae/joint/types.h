@@ -8,10 +8,16 @@
 ///   span(i):    a_i . (B - A) = 0   [m]     the origins do not part along a_i
 ///   perp(i,j):  a_i . b_j     = 0   [-]     two axes stay perpendicular
 ///
-/// Both markers coincide in the reference pose. `perp` rows also vanish when a body is flipped by
-/// 180 degrees; the branch is checked at the start of a run.
+/// and two rows with a parameter of the joint:
+///
+///   distance():   |B - A|^2 / 2L - L/2 = 0             [m]   the origins keep the distance L
+///   screw():      a_z . (B - A) - P theta_z / 2 pi = 0 [m]   P: advance a turn
+///
+/// Both markers coincide in the reference pose (except along `distance`). `perp` rows also vanish
+/// when a body is flipped by 180 degrees; the branch is checked at the start of a run.
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,35 +26,46 @@ namespace hydrodae::joint {
 enum Axis : int { X = 0, Y = 1, Z = 2 };
 
 struct BasicRow {
-  enum class Kind { span, perp } kind = Kind::span;
+  enum class Kind { span, perp, distance, screw } kind = Kind::span;
   int i = 0; ///< axis of marker A
   int j = 0; ///< axis of marker B (perp only)
 };
 constexpr BasicRow span(Axis i) { return {BasicRow::Kind::span, i, 0}; }
 constexpr BasicRow perp(Axis i, Axis j) { return {BasicRow::Kind::perp, i, j}; }
+constexpr BasicRow distance() { return {BasicRow::Kind::distance, Z, Z}; }
+constexpr BasicRow screw() { return {BasicRow::Kind::screw, Z, Z}; }
 
-/// A motion that a joint leaves free and that has a coordinate of its own, along or about the axis
-/// of marker A.
+/// A motion that a joint leaves free and that has a coordinate of its own, along or about an axis
+/// of marker A (`turns_b`: about an axis of marker B).
 struct FreeMotion {
-  enum class Kind { turns, slides } kind = Kind::turns;
+  enum class Kind { turns, turns_b, slides, stretches } kind = Kind::turns;
   int axis = Z;
+  bool is_angle() const { return kind == Kind::turns || kind == Kind::turns_b; }
 };
 constexpr FreeMotion turns(Axis i) { return {FreeMotion::Kind::turns, i}; }
+constexpr FreeMotion turns_b(Axis i) { return {FreeMotion::Kind::turns_b, i}; }
+constexpr FreeMotion stretches() { return {FreeMotion::Kind::stretches, Z}; } ///< |B - A|
 constexpr FreeMotion slides(Axis i) { return {FreeMotion::Kind::slides, i}; }
 
 struct JointType {
   std::string_view name;
   std::vector<BasicRow> rows;
-  std::vector<FreeMotion> motions; ///< at most one `turns` and one `slides`
+  std::vector<FreeMotion> motions; ///< the first angle and the first slide are the main ones
   bool needs_axis = false;         ///< the case must give the axis (z of both markers)
 
-  bool turns() const { return has(FreeMotion::Kind::turns); }
-  bool slides() const { return has(FreeMotion::Kind::slides); }
+  bool turns() const { return has(true); }
+  bool slides() const { return has(false); }
+  bool has_row(BasicRow::Kind kind) const {
+    for (const BasicRow& row : rows)
+      if (row.kind == kind)
+        return true;
+    return false;
+  }
 
 private:
-  bool has(FreeMotion::Kind kind) const {
+  bool has(bool angle) const {
     for (const FreeMotion& motion : motions)
-      if (motion.kind == kind)
+      if (motion.is_angle() == angle)
         return true;
     return false;
   }
@@ -61,6 +78,12 @@ inline const std::vector<JointType>& joint_types() {
       {"revolute", {span(X), span(Y), span(Z), perp(X, Z), perp(Y, Z)}, {turns(Z)}, true},
       {"prismatic", {span(X), span(Y), perp(X, Y), perp(Y, Z), perp(Z, X)}, {slides(Z)}, true},
       {"fixed", {span(X), span(Y), span(Z), perp(X, Y), perp(Y, Z), perp(Z, X)}, {}, false},
+      {"universal", {span(X), span(Y), span(Z), perp(X, Y)}, {turns(X), turns_b(Y)}, true},
+      {"cylindrical", {span(X), span(Y), perp(X, Z), perp(Y, Z)}, {turns(Z), slides(Z)}, true},
+      {"planar", {span(Z), perp(X, Z), perp(Y, Z)}, {turns(Z), slides(X), slides(Y)}, true},
+      {"sliding", {span(X), span(Y)}, {slides(Z)}, true},
+      {"screw", {span(X), span(Y), perp(X, Z), perp(Y, Z), screw()}, {turns(Z), slides(Z)}, true},
+      {"distance", {distance()}, {}, false},
   };
   return table;
 }
@@ -77,6 +100,18 @@ inline std::vector<std::string_view> joint_type_names() {
   std::vector<std::string_view> names;
   for (const JointType& type : joint_types())
     names.push_back(type.name);
+  return names;
+}
+
+/// Names of the motions, in their order: angle, angle_2, ... and displacement, displacement_2, ...
+inline std::vector<std::string> motion_names(const JointType& type) {
+  std::vector<std::string> names;
+  std::array<int, 2> count{};
+  for (const FreeMotion& motion : type.motions) {
+    const int k = ++count[motion.is_angle() ? 0 : 1];
+    names.push_back((motion.is_angle() ? "angle" : "displacement") +
+                    (k > 1 ? "_" + std::to_string(k) : std::string()));
+  }
   return names;
 }
 

@@ -4,13 +4,10 @@
 #include <string_view>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/joint/types.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::model {
 namespace {
-
-constexpr std::string_view ground = "ground";
 
 /// Names become parts of key paths, of channel paths and of coordinate labels.
 void check_name(const std::string& name, const std::string& kind) {
@@ -33,53 +30,39 @@ void check_names(const std::vector<std::string>& names, const std::string& kind)
   }
 }
 
-template <class T> void append_names(const std::vector<T>& items, std::vector<std::string>& names) {
-  for (const T& item : items)
-    names.push_back(item.name);
-}
-
-template <class T> std::vector<std::string> names_of(const std::vector<T>& items) {
-  std::vector<std::string> names;
-  append_names(items, names);
-  return names;
-}
-
-void check_reference(const std::string& name, const std::vector<std::string>& names,
-                     const std::string& owner_kind, const std::string& owner,
-                     const std::string& key, const std::string& kind) {
-  if (std::find(names.begin(), names.end(), name) != names.end())
-    return;
-  throw ModelError(owner_kind + "." + owner + "." + key,
-                   owner_kind + " " + in_quotes(owner) + ": " + key + " = " + in_quotes(name) +
-                       " is no " + kind + suggestion(name, names));
-}
-
-/// What a force refers to is read off its members: `body` names a body, `joint` a joint.
-template <class Force> void check_force(const Scene& scene, const Force& force) {
-  if constexpr (requires { force.body; })
-    check_reference(force.body, names_of(scene.bodies), "force", force.name, "body", "body");
-  if constexpr (requires { force.joint; }) {
-    check_reference(force.joint, names_of(scene.joints), "force", force.name, "joint", "joint");
-    for (const Joint& joint : scene.joints) {
-      if (joint.name != force.joint)
-        continue;
-      const std::size_t n = joint::find_joint_type(joint.type)->motions.size();
-      if (n != 1)
-        throw ModelError("force." + force.name + ".joint",
-                         "force " + in_quotes(force.name) + ": a " + joint.type + " joint has " +
-                             (n == 0 ? "no motion" : "more than one motion") +
-                             " of its own to act along; use a joint that turns or slides");
-    }
-  }
-}
-
 } // namespace
+
+void refuse(const Entry& entry, const std::string& key, const std::string& message) {
+  throw ModelError(entry.kind + "." + entry.name + (key.empty() ? "" : "." + key),
+                   entry.kind + " " + in_quotes(entry.name) + ": " + message);
+}
+
+void check_reference(const Entry& entry, const std::string& key, const std::string& name,
+                     const std::vector<std::string>& names, const std::string& sort) {
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    refuse(entry, key, key + " = " + in_quotes(name) + " is no " + sort + suggestion(name, names));
+}
+
+void check_ends(const Scene& scene, const Entry& entry, const std::string& body_a,
+                const std::string& body_b) {
+  std::vector<std::string> names = {std::string(ground)};
+  append_names(scene.bodies, names);
+  check_reference(entry, "body_a", body_a, names, "body");
+  check_reference(entry, "body_b", body_b, names, "body");
+  if (body_a == body_b)
+    refuse(entry, "body_b", "joins " + in_quotes(body_a) + " with itself");
+}
+
+bool coincide(const Vector3& a, const Vector3& b) {
+  return (b - a).norm() <= 1e-12 * std::max(a.norm(), b.norm());
+}
 
 void check(const Scene& scene) {
   if (scene.bodies.empty())
     throw ModelError("body", "the case has no [[body]]");
   check_names(names_of(scene.bodies), "body");
   check_names(names_of(scene.joints), "joint");
+  check_names(names_of(scene.constraints), "constraint");
   std::vector<std::string> forces;
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   check_names(forces, "force");
@@ -93,11 +76,9 @@ void check(const Scene& scene) {
     throw ModelError("body", "every body is fixed: nothing can move");
   for (const Joint& joint : scene.joints)
     check_joint(scene, joint);
-  const auto check_all = [&](const auto& list) {
-    for (const auto& force : list)
-      check_force(scene, force);
-  };
-  std::apply([&](const auto&... list) { (check_all(list), ...); }, scene.forces);
+  for (const Constraint& constraint : scene.constraints)
+    check_constraint(scene, constraint);
+  check_forces(scene);
   if (scene.hydro && scene.database)
     check_database(scene);
 }

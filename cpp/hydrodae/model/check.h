@@ -5,8 +5,51 @@
 
 namespace hydrodae::model {
 
+inline constexpr std::string_view ground = "ground"; ///< the fixed world, as an end of a joint
+
 void check_body(const Scene& scene, const Body& body);
 void check_joint(const Scene& scene, const Joint& joint);
+void check_constraint(const Scene& scene, const Constraint& constraint);
+void check_forces(const Scene& scene);
 void check_database(const Scene& scene); ///< only called when the scene has one
+
+/// The entry that is being checked: [[kind]] with this name.
+struct Entry {
+  std::string kind;
+  std::string name;
+};
+
+/// Throws ModelError with the key path "<kind>.<name>.<key>" (without a key: "<kind>.<name>").
+[[noreturn]] void refuse(const Entry& entry, const std::string& key, const std::string& message);
+
+/// Refuses `key = name` of the entry unless the name is among `names`, which are of this sort.
+void check_reference(const Entry& entry, const std::string& key, const std::string& name,
+                     const std::vector<std::string>& names, const std::string& sort);
+
+/// Refuses `body_a` and `body_b` of the entry unless they are two bodies, or a body and the ground.
+void check_ends(const Scene& scene, const Entry& entry, const std::string& body_a,
+                const std::string& body_b);
+
+/// Are two points of a scene the same, up to rounding [m]?
+bool coincide(const Vector3& a, const Vector3& b);
+
+template <class T> void append_names(const std::vector<T>& items, std::vector<std::string>& names) {
+  for (const T& item : items)
+    names.push_back(item.name);
+}
+
+template <class T> std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  append_names(items, names);
+  return names;
+}
+
+/// The item with this name, or null.
+template <class T> const T* find_named(const std::vector<T>& items, const std::string& name) {
+  for (const T& item : items)
+    if (item.name == name)
+      return &item;
+  return nullptr;
+}
 
 } // namespace hydrodae::model

@@ -3,22 +3,19 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
+#include "hydrodae/model/mass.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::model {
 namespace {
 
 [[noreturn]] void refuse(const Body& body, const std::string& key, const std::string& message) {
-  throw ModelError("body." + body.name + "." + key,
-                   "body " + in_quotes(body.name) + ": " + message);
+  refuse(Entry{"body", body.name}, key, message);
 }
 
 /// A rigid body turning freely: the inertia tensor is positive definite and its principal moments
 /// satisfy I1 + I2 >= I3 (moments of a mass distribution).
-void check_tensor(const Body& body) {
-  const Vector3 &d = body.inertia, &o = body.products_of_inertia;
-  Matrix3 tensor;
-  tensor << d[0], o[0], o[2], o[0], d[1], o[1], o[2], o[1], d[2];
+void check_tensor(const Body& body, const Matrix3& tensor) {
   const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
   const std::string text = "principal moments " + number_text(moments[0]) + ", " +
                            number_text(moments[1]) + ", " + number_text(moments[2]) + " kg m2";
@@ -33,13 +30,18 @@ void check_tensor(const Body& body) {
 
 void check_inertia(const Body& body, const std::array<bool, 6>& free) {
   static constexpr std::array<const char*, 3> symbols = {"Ixx", "Iyy", "Izz"};
+  if (body.principal_axes && !body.products_of_inertia.isZero(0.0))
+    refuse(body, "principal_axes_deg",
+           "principal_axes_deg and products_of_inertia exclude each other: with principal axes, "
+           "'inertia' holds the principal moments");
+  const Matrix3 tensor = inertia_tensor(body);
   for (std::size_t i = 0; i < 3; ++i)
-    if (free[3 + i] && !(body.inertia[static_cast<Eigen::Index>(i)] > 0.0))
+    if (free[3 + i] && !(tensor.diagonal()[static_cast<Eigen::Index>(i)] > 0.0))
       refuse(body, "inertia",
              std::string(symbols[i]) + " must be > 0 kg m2, because the body is free in " +
                  std::string(coordinate_names[3 + i]));
   if (free[3] && free[4] && free[5])
-    check_tensor(body);
+    check_tensor(body, tensor);
 }
 
 /// A locked coordinate keeps its start for ever, so it has no velocity; a body with one free

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "hydrodae/core/text.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
@@ -7,27 +5,16 @@
 namespace hydrodae::model {
 namespace {
 
-[[noreturn]] void refuse(const Joint& joint, const std::string& key, const std::string& message) {
-  throw ModelError("joint." + joint.name + (key.empty() ? "" : "." + key),
-                   "joint " + in_quotes(joint.name) + ": " + message);
-}
+using Row = joint::BasicRow::Kind;
 
-void check_end(const Scene& scene, const Joint& joint, const std::string& key,
-               const std::string& name) {
-  std::vector<std::string> names = {"ground"};
-  for (const Body& body : scene.bodies)
-    names.push_back(body.name);
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    refuse(joint, key, key + " = " + in_quotes(name) + " is no body" + suggestion(name, names));
+[[noreturn]] void refuse(const Joint& joint, const std::string& key, const std::string& message) {
+  refuse(Entry{"joint", joint.name}, key, message);
 }
 
 void check_axes(const Joint& joint, const joint::JointType& type) {
-  const bool directed =
-      std::any_of(type.rows.begin(), type.rows.end(), [](const joint::BasicRow& row) {
-        return row.kind == joint::BasicRow::Kind::perp;
-      });
   if (type.needs_axis && !joint.axis)
     refuse(joint, "", "a " + joint.type + " joint needs the key 'axis'");
+  const bool directed = type.needs_axis || type.has_row(Row::perp);
   if (!directed && (joint.axis || joint.axis_x))
     refuse(joint, joint.axis ? "axis" : "axis_x", "a " + joint.type + " joint has no axis");
   if (joint.axis && joint.axis->isZero(0.0))
@@ -38,6 +25,43 @@ void check_axes(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "axis_x", "key 'axis_x' needs the key 'axis'");
   if (joint.axis_x->normalized().cross(joint.axis->normalized()).norm() < 1e-6)
     refuse(joint, "axis_x", "axis_x must have a length and a direction other than the axis");
+}
+
+/// Keys that belong to the rows `distance` and `screw`.
+void check_parameters(const Joint& joint, const joint::JointType& type) {
+  const std::string kind = "a " + joint.type + " joint ";
+  if (type.has_row(Row::distance)) {
+    if (!joint.point_b)
+      refuse(joint, "", kind + "needs the key 'point_b', the point on body B");
+    if (coincide(joint.point, *joint.point_b))
+      refuse(joint, "point_b", "point and point_b coincide: their distance has no direction");
+  } else if (joint.point_b || joint.length) {
+    const std::string key = joint.point_b ? "point_b" : "length";
+    refuse(joint, key, kind + "has no " + in_quotes(key) + "; only a distance joint has");
+  }
+  if (type.has_row(Row::screw) && joint.pitch == 0.0)
+    refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
+  if (!type.has_row(Row::screw) && joint.pitch != 0.0)
+    refuse(joint, "pitch", kind + "has no 'pitch'; only a screw joint has");
+}
+
+/// A body that is a point has no axes: nothing can hold its rotation, and it carries no axis.
+void check_points(const Scene& scene, const Joint& joint, const joint::JointType& type) {
+  const auto is_point = [&](const std::string& name) {
+    const Body* body = find_named(scene.bodies, name);
+    return body && body->motion == std::vector<std::string>{"point"};
+  };
+  const bool a = is_point(joint.body_a), b = is_point(joint.body_b);
+  if (!a && !b)
+    return;
+  const std::string head = "body " + in_quotes(a ? joint.body_a : joint.body_b) + " is a point: ";
+  if (type.has_row(Row::perp) || type.has_row(Row::screw) || type.turns())
+    refuse(joint, a ? "body_a" : "body_b",
+           head + "it has no rotation for a " + joint.type +
+               " joint to hold; use spherical, distance or sliding");
+  if (a && type.needs_axis)
+    refuse(joint, "body_a",
+           head + "it cannot carry the axis of a " + joint.type + " joint; make it body_b");
 }
 
 void check_initial(const Joint& joint, const joint::JointType& type) {
@@ -66,11 +90,10 @@ void check_joint(const Scene& scene, const Joint& joint) {
       names.emplace_back(name);
     refuse(joint, "type", "unknown type " + in_quotes(joint.type) + suggestion(joint.type, names));
   }
-  check_end(scene, joint, "body_a", joint.body_a);
-  check_end(scene, joint, "body_b", joint.body_b);
-  if (joint.body_a == joint.body_b)
-    refuse(joint, "body_b", "joins " + in_quotes(joint.body_a) + " with itself");
+  check_ends(scene, Entry{"joint", joint.name}, joint.body_a, joint.body_b);
+  check_points(scene, joint, *type);
   check_axes(joint, *type);
+  check_parameters(joint, *type);
   check_initial(joint, *type);
 }
 

@@ -4,6 +4,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/joint/types.h"
 
 namespace hydrodae::model {
 namespace {
@@ -82,6 +83,14 @@ std::array<bool, 6> moving_axes(const Body& body) {
 bool moves(const Body& body) {
   const Six free = free_coordinates(body);
   return std::find(free.begin(), free.end(), true) != free.end();
+}
+
+std::string coordinate_of(const Scene& scene, const std::string& joint,
+                          const std::optional<std::string>& coordinate) {
+  const auto found = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                  [&](const Joint& j) { return j.name == joint; });
+  return coordinate ? *coordinate
+                    : joint::motion_names(*joint::find_joint_type(found->type)).front();
 }
 
 std::vector<std::string> moving_coordinates(const Scene& scene) {

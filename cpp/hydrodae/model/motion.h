@@ -26,6 +26,11 @@ std::array<bool, 6> moving_axes(const Body& body);
 /// Does any coordinate move?
 bool moves(const Body& body);
 
+/// Name of the coordinate of a joint that a constraint means: the given one, else the first. The
+/// joint must exist and have a motion.
+std::string coordinate_of(const Scene& scene, const std::string& joint,
+                          const std::optional<std::string>& coordinate);
+
 /// Labels "<body>.<dof>" in the database of all hydrodynamic coordinates that move.
 std::vector<std::string> moving_coordinates(const Scene& scene);
 

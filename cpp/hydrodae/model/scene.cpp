@@ -16,6 +16,13 @@ Fields<Joint> Joint::fields() {
        "Direction of the axis in the reference pose, world axes: z of both markers."},
       {"axis_x", &J::axis_x, "-",
        "Direction across the axis that is x of both markers (made perpendicular to the axis)."},
+      {"point_b", &J::point_b, "m",
+       "Point on body B in the reference pose, world axes; distance joint only."},
+      {"length", &J::length, "m",
+       "Distance that is kept; default: that of point and point_b. Distance joint only.", false,
+       more_than(0)},
+      {"pitch", &J::pitch, "m per turn",
+       "Advance of body B along the axis for one turn about it, not zero; screw joint only."},
   };
 }
 

@@ -11,9 +11,12 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
+#include "hydrodae/force/constant_load.h"
 #include "hydrodae/force/mooring_matrix.h"
 #include "hydrodae/force/pto_linear.h"
+#include "hydrodae/force/spring_damper.h"
 #include "hydrodae/hydro/database.h"
+#include "hydrodae/model/drive.h"
 
 namespace hydrodae::model {
 
@@ -86,6 +89,7 @@ struct Body {
   Vector3 center_of_gravity = Vector3::Zero();
   Vector3 inertia = Vector3::Zero();
   Vector3 products_of_inertia = Vector3::Zero();
+  std::optional<Vector3> principal_axes; ///< rotation vector; then `inertia`: principal moments
   std::optional<std::string> hydro;
   BodyInitial initial;
 
@@ -108,6 +112,9 @@ struct Body {
          "Moments of inertia Ixx, Iyy, Izz about the centre of gravity.", false, at_least(0)},
         {"products_of_inertia", &B::products_of_inertia, "kg m2",
          "Ixy, Iyz, Izx as entries of the inertia tensor (Ixy = -sum m x y)."},
+        {"principal_axes_deg", &B::principal_axes, "deg",
+         "Rotation vector that turns the world axes into the principal axes of inertia in the "
+         "reference pose; inertia then holds the principal moments."},
         {"hydro", &B::hydro, "-",
          "Name of this body in the hydrodynamic database; without it the body is dry."},
     };
@@ -142,9 +149,59 @@ struct Joint {
   Vector3 point = Vector3::Zero();
   std::optional<Vector3> axis;
   std::optional<Vector3> axis_x;
+  std::optional<Vector3> point_b;
+  std::optional<double> length;
+  double pitch = 0.0; ///< 0: not given
   JointInitial initial;
 
   static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
+};
+
+/// Table [[constraint]]: a condition on the coordinates of joints or bodies.
+///
+///   coordinate:  s = f(t)  (level position),  s' = f(t)  (level velocity)
+///   coupler:     s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts
+struct Constraint {
+  std::string name;
+  std::string type;
+  std::optional<std::string> joint;
+  std::optional<std::string> body;
+  std::optional<std::string> coordinate;
+  std::string level = "position";
+  Drive drive;
+  std::optional<std::string> joint_b;
+  std::optional<std::string> coordinate_b;
+  double ratio = 1.0;
+
+  static Fields<Constraint> fields() {
+    using C = Constraint;
+    return {
+        {"name", &C::name, "-", "Name of the constraint in the results.", true},
+        {"type",
+         &C::type,
+         "-",
+         "coordinate: one coordinate follows a function of time; coupler: two joint coordinates "
+         "keep a ratio.",
+         true,
+         any_value,
+         {"coordinate", "coupler"}},
+        {"joint", &C::joint, "-", "Joint whose coordinate is meant."},
+        {"body", &C::body, "-", "Body whose coordinate is meant (relative to its reference pose)."},
+        {"coordinate", &C::coordinate, "-",
+         "Which one: surge ... yaw of a body; angle, displacement (angle_2, ...) of a joint. By "
+         "default the first of the joint."},
+        {"level",
+         &C::level,
+         "-",
+         "What follows the function: the coordinate or its rate.",
+         false,
+         any_value,
+         {"position", "velocity"}},
+        {"joint_b", &C::joint_b, "-", "Second joint of a coupler."},
+        {"coordinate_b", &C::coordinate_b, "-", "Its coordinate; by default the first."},
+        {"ratio", &C::ratio, "- or m/rad", "Motion of the second joint per motion of the first."},
+    };
+  }
 };
 
 /// Table [solver].
@@ -190,7 +247,8 @@ struct OutputOptions {
 
 /// Every kind of force, in the order in which the case reader and the system visit them. A new kind
 /// is one header in force/ and one entry here.
-using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>>;
+using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>,
+                          std::vector<force::SpringDamper>, std::vector<force::ConstantLoad>>;
 
 struct Scene {
   std::string title;
@@ -198,6 +256,7 @@ struct Scene {
   std::optional<HydroOptions> hydro;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Constraint> constraints;
   Forces forces;
   SolverOptions solver;
   OutputOptions output;

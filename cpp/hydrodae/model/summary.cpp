@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 
 #include "hydrodae/core/text.h"
@@ -24,11 +25,59 @@ void write_start(std::ostream& out, const char* what, const std::optional<double
 void write_joint(std::ostream& out, const Joint& joint) {
   out << "    " << joint.name << ": " << joint.type << ", " << joint.body_a << " - "
       << joint.body_b;
+  if (joint.point_b)
+    out << ", length " << number_text(joint.length.value_or((*joint.point_b - joint.point).norm()))
+        << " m";
+  if (joint.pitch != 0.0)
+    out << ", " << number_text(joint.pitch) << " m per turn";
   write_start(out, "angle", joint.initial.angle, 180.0 / pi, "deg");
   write_start(out, "angle rate", joint.initial.angle_rate, 1.0, "rad/s");
   write_start(out, "displacement", joint.initial.displacement, 1.0, "m");
   write_start(out, "displacement rate", joint.initial.displacement_rate, 1.0, "m/s");
   out << '\n';
+}
+
+/// "0.1 + 0.2 sin(2 pi t / 5 - 30 deg) + a table of 12 points"
+std::string function_text(const Drive& drive) {
+  std::string text;
+  const auto add = [&](double factor, const std::string& what) {
+    const bool minus = factor < 0.0;
+    text += text.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
+    text += number_text(std::abs(factor)) + (what.empty() ? "" : " " + what);
+  };
+  if (drive.constant != 0.0)
+    add(drive.constant, "");
+  if (drive.rate != 0.0)
+    add(drive.rate, "t");
+  if (drive.amplitude != 0.0) {
+    std::string sine = "sin(2 pi t / " + number_text(drive.period);
+    if (drive.phase != 0.0)
+      sine += (drive.phase < 0.0 ? " - " : " + ") +
+              number_text(std::abs(drive.phase) * 180.0 / pi) + " deg";
+    sine += drive.ramp > 0.0 ? ") grown over " + number_text(drive.ramp) + " s" : ")";
+    add(drive.amplitude, sine);
+  }
+  if (!drive.time.empty())
+    text += std::string(text.empty() ? "" : " + ") + "a table of " +
+            std::to_string(drive.time.size()) + " points";
+  return text.empty() ? "0" : text;
+}
+
+void write_constraint(std::ostream& out, const Scene& scene, const Constraint& c) {
+  const auto motion = [&](const std::string& joint, const std::optional<std::string>& coordinate) {
+    return coordinate_of(scene, joint, coordinate) + " of " + joint;
+  };
+  out << "    " << c.name << ": ";
+  if (c.type == "coupler") {
+    out << motion(*c.joint_b, c.coordinate_b) << " moves " << number_text(c.ratio) << " x "
+        << motion(*c.joint, c.coordinate) << '\n';
+    return;
+  }
+  const Drive& drive = c.drive;
+  const bool steady = drive.rate == 0.0 && drive.amplitude == 0.0 && drive.time.empty();
+  out << (c.level == "velocity" ? "rate of " : "")
+      << (c.joint ? motion(*c.joint, c.coordinate) : *c.coordinate + " of " + *c.body)
+      << (steady ? " stays " : " follows ") << function_text(drive) << '\n';
 }
 
 template <class Force> void write_force(std::ostream& out, const Force& force) {
@@ -37,6 +86,8 @@ template <class Force> void write_force(std::ostream& out, const Force& force) {
     out << " on body " << force.body;
   if constexpr (requires { force.joint; })
     out << " on joint " << force.joint;
+  if constexpr (requires { force.body_a; })
+    out << " between " << force.body_a << " and " << force.body_b;
   out << '\n';
 }
 
@@ -70,6 +121,10 @@ std::string summary(const Scene& scene) {
     out << "  joints:\n";
   for (const Joint& joint : scene.joints)
     write_joint(out, joint);
+  if (!scene.constraints.empty())
+    out << "  constraints:\n";
+  for (const Constraint& constraint : scene.constraints)
+    write_constraint(out, scene, constraint);
   bool any_force = false;
   const auto write_list = [&](const auto& list) {
     if (!list.empty() && !any_force)

@@ -97,6 +97,7 @@ struct Ida::Impl {
   }
   void start(const IdaOptions& options, double t0, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
+  void accept();
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user);
   static int jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix j,
@@ -149,6 +150,7 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
   scratch.reset(new_vector());
   std::copy(y0.begin(), y0.end(), N_VGetArrayPointer(y.get()));
   std::copy(yp0.begin(), yp0.end(), N_VGetArrayPointer(yp.get()));
+  accept();
   for (Index i = 0; i < system.n; ++i)
     N_VGetArrayPointer(id.get())[i] = system.is_algebraic(i) ? 0.0 : 1.0;
   memory.reset(made(IDACreate(context.get()), "IDACreate"));
@@ -173,6 +175,15 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
   check(IDASetJacFn(ida, jacobian), "IDASetJacFn");
 }
 
+/// What belongs to accepted steps moves on.
+void Ida::Impl::accept() {
+  if (system.motions.empty())
+    return;
+  system::accept_turns(system, N_VGetArrayPointer(y.get()), N_VGetArrayPointer(yp.get()),
+                       workspace);
+  jacobian_workspace.state.turns = workspace.turns;
+}
+
 /// Which unknowns failed the error test, and which equations Newton could not satisfy, at the point
 /// that IDA tried last.
 std::string Ida::Impl::diagnosis(int flag) {
@@ -192,6 +203,15 @@ std::string Ida::Impl::diagnosis(int flag) {
                              N_VGetArrayPointer(yp_now), values.data());
     text += "\n  worst equations, relative to their scale: " +
             worst(values.cwiseQuotient(system.row_scale), system.row_names);
+    // A loop that locks shows in reactions that grow without bound.
+    values.setZero();
+    const Eigen::Map<const VectorX> state(N_VGetArrayPointer(y.get()), system.n);
+    values.segment(system.lambda0, system.n_lambda) =
+        state.segment(system.lambda0, system.n_lambda)
+            .cwiseQuotient(system.scale.segment(system.lambda0, system.n_lambda));
+    if (system.n_lambda > 0)
+      text += "\n  largest reactions at the last good step, relative to the weights: " +
+              worst(values, system.names);
   }
   return text;
 }
@@ -207,8 +227,10 @@ Ida::~Ida() = default;
 double Ida::step() {
   Impl& m = *impl_;
   const int flag = IDASolve(m.memory.get(), m.end_time, &m.t, m.y.get(), m.yp.get(), IDA_ONE_STEP);
-  if (flag >= 0)
+  if (flag >= 0) {
+    m.accept();
     return m.t;
+  }
   double h = 0.0;
   IDAGetCurrentStep(m.memory.get(), &h);
   static const std::pair<int, const char*> reasons[] = {

@@ -5,7 +5,9 @@
 #include <random>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/model/mass.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/initial_pose.h"
 #include "hydrodae/system/kinematics.h"
@@ -18,11 +20,7 @@ BodyData make_body(const model::Body& body, const Pose& pose) {
   BodyData b;
   b.name = body.name;
   b.mass = body.mass;
-  b.inertia = body.inertia.asDiagonal();
-  const Vector3& products = body.products_of_inertia; // Ixy, Iyz, Izx
-  b.inertia(0, 1) = b.inertia(1, 0) = products[0];
-  b.inertia(1, 2) = b.inertia(2, 1) = products[1];
-  b.inertia(2, 0) = b.inertia(0, 2) = products[2];
+  b.inertia = model::inertia_tensor(body);
   b.reference = body.center_of_gravity;
   b.position = pose.r;
   b.orientation = pose.p;
@@ -47,19 +45,114 @@ BodyData make_body(const model::Body& body, const Pose& pose) {
   return b;
 }
 
-JointData make_joint(const model::Scene& scene, const model::Joint& joint) {
+/// Coordinates of bodies are motions between the ground and the centre of gravity.
+const std::array<joint::JointType, 6> body_coordinates = {{
+    {"surge", {}, {joint::slides(joint::X)}, false},
+    {"sway", {}, {joint::slides(joint::Y)}, false},
+    {"heave", {}, {joint::slides(joint::Z)}, false},
+    {"roll", {}, {joint::turns(joint::X)}, false},
+    {"pitch", {}, {joint::turns(joint::Y)}, false},
+    {"yaw", {}, {joint::turns(joint::Z)}, false},
+}};
+const joint::JointType spring_type = {"spring", {}, {joint::stretches()}, false};
+
+joint::Marker make_marker(const model::Scene& scene, const std::string& body, const Vector3& point,
+                          const Matrix3& axes) {
+  const int index = body_index(scene, body);
+  return {index, index < 0 ? point : point - scene.bodies[index].center_of_gravity, axes};
+}
+
+/// Adds a joint and its motions.
+JointData& add_joint(System& s, JointData j) {
+  j.first_motion = static_cast<int>(s.motions.size());
+  const std::vector<std::string> names = joint::motion_names(*j.type);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    s.motions.push_back({static_cast<int>(s.joints.size()), j.type->motions[k], names[k]});
+  s.joints.push_back(std::move(j));
+  return s.joints.back();
+}
+
+void add_joint(const model::Scene& scene, const model::Joint& joint, System& s) {
   JointData j;
   j.name = joint.name;
   j.type = joint::find_joint_type(joint.type);
   const Matrix3 axes = marker_axes(joint);
-  auto marker = [&](const std::string& body) -> joint::Marker {
-    const int index = body_index(scene, body);
-    return {index, index < 0 ? joint.point : joint.point - scene.bodies[index].center_of_gravity,
-            axes};
-  };
-  j.A = marker(joint.body_a);
-  j.B = marker(joint.body_b);
-  return j;
+  const Vector3 point_b = joint.point_b.value_or(joint.point);
+  j.A = make_marker(scene, joint.body_a, joint.point, axes);
+  j.B = make_marker(scene, joint.body_b, point_b, axes);
+  j.parameters.length = joint.length.value_or((point_b - joint.point).norm());
+  j.parameters.pitch = joint.pitch;
+  const model::JointInitial& start = joint.initial;
+  for (int m = add_joint(s, std::move(j)).first_motion; m < static_cast<int>(s.motions.size());
+       ++m) {
+    const bool angle = s.motions[m].name == "angle";
+    if (!angle && s.motions[m].name != "displacement")
+      continue;
+    const MotionStart given{m, angle ? start.angle : start.displacement,
+                            angle ? start.angle_rate : start.displacement_rate};
+    s.motions[m].start = given.value.value_or(0.0);
+    if (given.value || given.rate)
+      s.starts.push_back(given);
+  }
+}
+
+/// Couplers hold what they find at the start.
+void set_coupler_offsets(const model::Scene& scene, System& s) {
+  const Workspace<double> start(s);
+  for (std::size_t k = 0; k < s.couplers.size(); ++k) {
+    if (scene.constraints[k].type != "coupler")
+      continue;
+    s.couplers[k].offset = 0.0;
+    for (const CouplerData::Term& term : s.couplers[k].terms)
+      s.couplers[k].offset += term.factor * motion_row<double>(s, start, term.motion).value;
+  }
+}
+
+/// The motion that stands for one coordinate of a body.
+int body_motion(const model::Scene& scene, const std::string& body, const std::string& coordinate,
+                System& s) {
+  const auto type = std::find_if(body_coordinates.begin(), body_coordinates.end(),
+                                 [&](const auto& t) { return t.name == coordinate; });
+  const Vector3& point = scene.bodies[body_index(scene, body)].center_of_gravity;
+  JointData j;
+  j.name = body + "." + coordinate;
+  j.type = &*type;
+  j.A = make_marker(scene, "ground", point, Matrix3::Identity());
+  j.B = make_marker(scene, body, point, Matrix3::Identity());
+  j.hidden = true;
+  return add_joint(s, std::move(j)).first_motion;
+}
+
+/// The motion of a joint by name, its first one without.
+int joint_motion(const System& s, const std::string& joint,
+                 const std::optional<std::string>& coordinate) {
+  for (const JointData& j : s.joints) {
+    if (j.name != joint || j.hidden)
+      continue;
+    for (std::size_t k = 0; k < j.type->motions.size(); ++k) {
+      const int motion = j.first_motion + static_cast<int>(k);
+      if (!coordinate || s.motions[motion].name == *coordinate)
+        return motion;
+    }
+  }
+  return -1;
+}
+
+void add_constraints(const model::Scene& scene, System& s) {
+  for (const model::Constraint& c : scene.constraints) {
+    CouplerData coupler;
+    coupler.name = c.name;
+    coupler.drive = c.drive;
+    coupler.velocity_level = c.level == "velocity";
+    const int first = c.joint ? joint_motion(s, *c.joint, c.coordinate)
+                              : body_motion(scene, *c.body, *c.coordinate, s);
+    if (c.type == "coupler") { // s_b - ratio s = what it is at the start
+      coupler.terms = {{joint_motion(s, *c.joint_b, c.coordinate_b), 1.0}, {first, -c.ratio}};
+    } else {
+      coupler.terms = {{first, 1.0}};
+    }
+    s.couplers.push_back(coupler);
+  }
 }
 
 /// Poses that the free coordinates can reach, drawn at random: they tell which constraint rows can
@@ -105,16 +198,17 @@ void select_rows(System& s) {
     for (const joint::BasicRow& kind : j.type->rows) {
       double largest = 0.0;
       for (const auto& states : samples) {
-        const auto row =
-            joint::basic_row<double>(kind, j.A, j.B, joint_geometry<double>(j, states));
+        const auto row = joint::basic_row<double>(kind, j.A, j.B, j.parameters,
+                                                  joint_geometry<double>(j, states));
         largest = std::max(largest, free_gradient(s, j, row.gradient));
       }
       if (largest > 1e-12 * std::max({1.0, j.A.point.norm(), j.B.point.norm()})) {
-        j.rows.push_back({kind, 0, 0});
+        j.rows.push_back({kind});
         continue;
       }
-      const double gap =
-          joint::basic_row<double>(kind, j.A, j.B, joint_geometry<double>(j, start.bodies)).value;
+      const double gap = joint::basic_row<double>(kind, j.A, j.B, j.parameters,
+                                                  joint_geometry<double>(j, start.bodies))
+                             .value;
       if (std::abs(gap) > 1e-9)
         throw ModelError("joint." + j.name, "joint '" + j.name + "' is open by " +
                                                 std::to_string(gap) +
@@ -126,23 +220,28 @@ void select_rows(System& s) {
 }
 
 void add_forces(const model::Scene& scene, System& s) {
+  auto& wrenches = std::get<0>(s.body_forces);
   for (const force::MooringMatrix& m : std::get<std::vector<force::MooringMatrix>>(scene.forces))
-    std::get<0>(s.body_forces).push_back({m.name, body_index(scene, m.body), m.law()});
-  for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces)) {
-    const auto found = std::find_if(s.joints.begin(), s.joints.end(),
-                                    [&](const JointData& j) { return j.name == p.joint; });
-    if (found->type->motions.size() != 1)
-      throw ModelError("force." + p.name + ".joint",
-                       "joint '" + p.joint + "' (" + std::string(found->type->name) +
-                           ") has no single free motion for '" + p.name + "' to act along");
-    std::get<0>(s.motion_forces)
-        .push_back(
-            {p.name, static_cast<int>(found - s.joints.begin()), found->type->motions[0], p.law()});
+    wrenches.push_back({m.name, body_index(scene, m.body), m.law()});
+  for (const force::ConstantLoad& c : std::get<std::vector<force::ConstantLoad>>(scene.forces))
+    wrenches.push_back({c.name, body_index(scene, c.body), c.law()});
+  for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces))
+    std::get<0>(s.motion_forces).push_back({p.name, joint_motion(s, p.joint, {}), p.law()});
+  for (const force::SpringDamper& d : std::get<std::vector<force::SpringDamper>>(scene.forces)) {
+    JointData j;
+    j.name = d.name;
+    j.type = &spring_type;
+    j.A = make_marker(scene, d.body_a, d.point_a, Matrix3::Identity());
+    j.B = make_marker(scene, d.body_b, d.point_b, Matrix3::Identity());
+    j.hidden = true;
+    const int motion = add_joint(s, std::move(j)).first_motion;
+    std::get<1>(s.motion_forces).push_back({d.name, motion, d.law()});
   }
 }
 
 /// Offsets of y = [q | u | z | lambda | mu | sigma].
 void lay_out(System& s) {
+  s.n = s.n_q = s.n_u = s.n_lambda = s.n_mu = 0;
   for (BodyData& b : s.bodies) {
     b.q0 = s.n_q;
     s.n_q += b.n_position;
@@ -156,18 +255,27 @@ void lay_out(System& s) {
   s.n_z = s.hydro.n_states;
   s.hydro.z0 = s.z0;
   s.lambda0 = s.z0 + s.n_z;
-  for (JointData& j : s.joints)
-    for (RowData& row : j.rows)
-      row.lambda = s.lambda0 + s.n_rows++;
-  s.mu0 = s.lambda0 + s.n_rows;
-  for (JointData& j : s.joints)
-    for (RowData& row : j.rows)
-      row.mu = row.lambda + s.n_rows;
-  s.sigma0 = s.mu0 + s.n_rows;
+  for_each_row(s, [&](Index& lambda, Index&, bool) {
+    if (lambda != redundant)
+      lambda = s.lambda0 + s.n_lambda++;
+  });
+  s.mu0 = s.lambda0 + s.n_lambda;
+  for_each_row(s, [&](Index& lambda, Index& mu, bool velocity_level) {
+    if (lambda != redundant && !velocity_level)
+      mu = s.mu0 + s.n_mu++;
+  });
+  s.sigma0 = s.mu0 + s.n_mu;
   s.n = s.sigma0;
   for (BodyData& b : s.bodies)
     if (b.rotation == BodyData::Rotation::free)
       b.sigma = s.n++;
+}
+
+/// Layout, and what needs it.
+void finish(System& s) {
+  lay_out(s);
+  set_scales(s);
+  set_names(s);
 }
 
 } // namespace
@@ -179,16 +287,19 @@ System build(const model::Scene& scene) {
   for (std::size_t i = 0; i < poses.size(); ++i)
     s.bodies.push_back(make_body(scene.bodies[i], poses[i]));
   for (const model::Joint& joint : scene.joints)
-    s.joints.push_back(make_joint(scene, joint));
+    add_joint(scene, joint, s);
   set_body_scales(scene, s);
   select_rows(s);
   add_hydro(scene, s);
+  add_constraints(scene, s);
   add_forces(scene, s);
-  lay_out(s);
+  set_coupler_offsets(scene, s);
+  finish(s);
   if (s.n_u == 0)
     throw ModelError("body", "nothing can move: every body of the scene is fixed");
-  set_scales(s);
-  set_names(s);
+  assemble(s);
+  if (drop_redundant_rows(s))
+    finish(s);
   return s;
 }
 

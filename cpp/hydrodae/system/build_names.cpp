@@ -4,6 +4,21 @@
 
 namespace hydrodae::system {
 
+std::string row_name(const joint::BasicRow& row) {
+  static const std::array<std::string, 3> axis = {"x", "y", "z"};
+  switch (row.kind) {
+  case joint::BasicRow::Kind::span:
+    return "gap along " + axis[row.i];
+  case joint::BasicRow::Kind::perp:
+    return "axes " + axis[row.i] + "-" + axis[row.j];
+  case joint::BasicRow::Kind::distance:
+    return "distance";
+  case joint::BasicRow::Kind::screw:
+    break;
+  }
+  return "screw";
+}
+
 void set_names(System& s) {
   static const std::array<std::string, 6> position = {"position x", "position y",  "position z",
                                                       "roll angle", "pitch angle", "yaw angle"};
@@ -14,7 +29,6 @@ void set_names(System& s) {
                                                   "moment x", "moment y", "moment z"};
   static const std::array<std::string, 4> quaternion = {"quaternion w", "quaternion x",
                                                         "quaternion y", "quaternion z"};
-  static const std::array<std::string, 3> axis = {"x", "y", "z"};
   s.names.assign(s.n, "");
   s.row_names.assign(s.n, "");
   for (const BodyData& b : s.bodies) {
@@ -36,15 +50,25 @@ void set_names(System& s) {
   }
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows) {
-      const bool turns = row.kind.kind == joint::BasicRow::Kind::perp;
-      const std::string kind = turns ? "axes " + axis[row.kind.i] + "-" + axis[row.kind.j]
-                                     : "gap along " + axis[row.kind.i];
-      const std::string head = "joints/" + j.name + " ";
+      if (!row.kept())
+        continue;
+      const std::string head = "joints/" + j.name + " ", kind = row_name(row.kind);
       s.names[row.lambda] = head + "reaction (" + kind + ")";
       s.names[row.mu] = head + "position multiplier (" + kind + ")";
       s.row_names[row.lambda] = head + kind + ", velocity";
       s.row_names[row.mu] = head + kind;
     }
+  for (const CouplerData& c : s.couplers) {
+    if (!c.kept())
+      continue;
+    const std::string head = "constraints/" + c.name;
+    s.names[c.lambda] = head + " reaction";
+    s.row_names[c.lambda] = head + ", velocity";
+    if (c.velocity_level)
+      continue;
+    s.names[c.mu] = head + " position multiplier";
+    s.row_names[c.mu] = head;
+  }
   for (Index k = 0; k < s.n_z; ++k) {
     s.names[s.z0 + k] = "radiation memory state " + std::to_string(k);
     s.row_names[s.z0 + k] = s.names[s.z0 + k] + " rate";

@@ -12,6 +12,9 @@ void set_body_scales(const model::Scene& scene, System& system);
 /// Tolerance scales of all unknowns; needs the layout (build_scales.cpp).
 void set_scales(System& system);
 
+/// What a constraint row holds, for people: "gap along x".
+std::string row_name(const joint::BasicRow& row);
+
 /// Names of unknowns and rows; needs the layout (build_names.cpp).
 void set_names(System& system);
 

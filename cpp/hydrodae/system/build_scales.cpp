@@ -32,6 +32,37 @@ double lever(const System& s, const model::Scene& scene, int body) {
   return arm > 0.0 ? arm : 1.0;
 }
 
+/// Sizes at a joint: those of the lighter of its bodies, which feels an error of the multiplier
+/// most.
+struct JointScale {
+  double force = 0.0, length = 1.0, angle = 1.0, time = 1.0;
+};
+
+JointScale joint_scale(const System& s, const JointData& j) {
+  JointScale out;
+  for (int body : {j.A.body, j.B.body}) {
+    if (body < 0 || s.bodies[body].n_active == 0)
+      continue;
+    const BodyData& b = s.bodies[body];
+    const double weight =
+        b.mass * (s.gravity > 0.0 ? s.gravity : b.length_scale / (b.time_scale * b.time_scale));
+    if (out.force == 0.0 || weight < out.force)
+      out = {weight, b.length_scale, b.length_scale / b.lever, b.time_scale};
+  }
+  return out;
+}
+
+/// Scales of one constraint row and of its multipliers; `angle`: the row is an angle, not a length.
+void set_row(System& s, const JointScale& scale, Index lambda, Index mu, bool angle) {
+  const double size = angle ? scale.angle : scale.length;
+  s.scale[lambda] = angle ? scale.force * scale.length / scale.angle : scale.force;
+  s.row_scale[lambda] = size / scale.time;
+  if (mu < 0)
+    return;
+  s.scale[mu] = size / scale.time;
+  s.row_scale[mu] = size;
+}
+
 } // namespace
 
 void set_body_scales(const model::Scene& scene, System& s) {
@@ -68,29 +99,17 @@ void set_scales(System& s) {
     if (b.sigma >= 0)
       s.scale[b.sigma] = 0.5 * angle / b.time_scale;
   }
-  for (JointData& j : s.joints) {
-    // The lighter of the two bodies feels an error of the multiplier most.
-    double force = 0.0, length = 0.0, angle = 0.0, time = 1.0;
-    for (int body : {j.A.body, j.B.body}) {
-      if (body < 0 || s.bodies[body].n_active == 0)
-        continue;
-      const BodyData& b = s.bodies[body];
-      const double weight =
-          b.mass * (s.gravity > 0.0 ? s.gravity : b.length_scale / (b.time_scale * b.time_scale));
-      if (force > 0.0 && weight >= force)
-        continue;
-      force = weight;
-      length = b.length_scale;
-      angle = length / b.lever;
-      time = b.time_scale;
-    }
-    for (const RowData& row : j.rows) {
-      const bool turns = row.kind.kind == joint::BasicRow::Kind::perp;
-      s.scale[row.lambda] = turns ? force * length / angle : force;
-      s.scale[row.mu] = (turns ? angle : length) / time;
-      s.row_scale[row.lambda] = (turns ? angle : length) / time;
-      s.row_scale[row.mu] = turns ? angle : length;
-    }
+  for (const JointData& j : s.joints) {
+    const JointScale scale = joint_scale(s, j);
+    for (const RowData& row : j.rows)
+      if (row.kept())
+        set_row(s, scale, row.lambda, row.mu, row.kind.kind == joint::BasicRow::Kind::perp);
+  }
+  for (const CouplerData& c : s.couplers) {
+    const MotionData& motion = s.motions[c.terms.front().motion];
+    if (c.kept())
+      set_row(s, joint_scale(s, s.joints[motion.joint]), c.lambda, c.velocity_level ? -1 : c.mu,
+              motion.motion.is_angle());
   }
   // A state z' = p z + B U follows U / |p|.
   const HydroData& h = s.hydro;

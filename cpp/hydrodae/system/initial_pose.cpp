@@ -74,11 +74,7 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
     sign = -1.0;
   }
   if (loop || !movable(scene, side))
-    throw ModelError("joint." + joint.name + ".initial",
-                     "joint '" + joint.name +
-                         "' cannot be started at a given angle or displacement: " +
-                         (loop ? "it belongs to a closed loop" : "both sides are held in place") +
-                         "; give body.initial instead");
+    return; // the assembly finds a pose that has this coordinate
   // The joint's point and axis as they stand now on body A (the side that may have moved before).
   const Pose ground;
   const Pose& base = a >= 0 ? poses[a] : ground;

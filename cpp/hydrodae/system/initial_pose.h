@@ -15,8 +15,8 @@ struct Pose {
 
 /// Start of all bodies: the reference pose, displaced by `body.initial`, then moved joint by joint
 /// by `joint.initial`. A joint moves its body B and all that hangs on it; where the ground or a
-/// fixed body hangs there, it moves the other side the opposite way. Throws ModelError where
-/// neither side is free to move (a closed loop) or the start moves a locked coordinate.
+/// fixed body hangs there, it moves the other side the opposite way; joints in closed loops are
+/// left to the assembly. Throws ModelError where the start moves a locked coordinate.
 std::vector<Pose> initial_poses(const model::Scene& scene);
 
 /// Index of a body in the scene, -1 for "ground".

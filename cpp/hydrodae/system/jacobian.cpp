@@ -106,7 +106,11 @@ template <class Sink> struct Assembly {
     }
   }
 
+  void constraint_row(const JointData& j, Index lambda, Index mu, const Vector12& gradient,
+                      const Vector12& rate_gradient);
+  void constraint_curvature(const JointData& j, const Matrix12& by_lambda, const Matrix12& by_mu);
   void joints();
+  void couplers();
   void body_rows();
   void hydrodynamics();
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
@@ -118,6 +122,7 @@ template <class Sink> struct Assembly {
 
   void run() {
     joints();
+    couplers();
     for_each_element(s.body_forces, [&](const auto& f) { force(f); });
     for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
     hydrodynamics();
@@ -125,48 +130,83 @@ template <class Sink> struct Assembly {
   }
 };
 
+/// What one constraint row adds: its own two rows, and its columns in the rows of the bodies.
+template <class Sink>
+void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
+                                    const Vector12& gradient, const Vector12& rate_gradient) {
+  for (int side = 0; side < 2; ++side) {
+    const int b = side == 0 ? j.A.body : j.B.body;
+    if (b < 0 || s.bodies[b].n_active == 0)
+      continue;
+    const RowVector6 G = gradient.segment<6>(6 * side).transpose();
+    velocity_columns(lambda, b, G);
+    displacement_columns(lambda, b, rate_gradient.segment<6>(6 * side).transpose());
+    for (int k = 0; k < s.bodies[b].n_active; ++k)
+      sink.by_y(s.bodies[b].u0 + k, lambda, -G[s.bodies[b].active[k]]);
+    if (mu < 0)
+      continue;
+    displacement_columns(mu, b, G);
+    position_rows(b, [&](Index r, const RowVector6& weights) { sink.by_y(r, mu, weights.dot(G)); });
+  }
+}
+
+/// How G^T lambda and G^T mu of a joint turn with the poses of its bodies.
+template <class Sink>
+void Assembly<Sink>::constraint_curvature(const JointData& j, const Matrix12& by_lambda,
+                                          const Matrix12& by_mu) {
+  const std::array<int, 2> body{j.A.body, j.B.body};
+  for (int m = 0; m < 2; ++m)
+    for (int n = 0; n < 2; ++n) {
+      if (body[m] < 0 || body[n] < 0)
+        continue;
+      load_by_displacement(body[m], body[n], by_lambda.block<6, 6>(6 * m, 6 * n));
+      const Matrix6 d_shift = by_mu.block<6, 6>(6 * m, 6 * n);
+      position_rows(body[m], [&](Index r, const RowVector6& weights) {
+        displacement_columns(r, body[n], weights * d_shift);
+      });
+    }
+}
+
 template <class Sink> void Assembly<Sink>::joints() {
   for (const JointData& j : s.joints) {
     const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
     const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
     Matrix12 by_lambda = Matrix12::Zero(), by_mu = Matrix12::Zero();
     Vector12 shift = Vector12::Zero();
-    const std::array<int, 2> body{j.A.body, j.B.body};
     for (const RowData& row : j.rows) {
-      const Vector12 gradient = joint::basic_row<double>(row.kind, j.A, j.B, g).gradient;
-      const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, g);
-      const Vector12 rate_gradient = curvature.transpose() * u;
+      if (!row.kept())
+        continue;
+      const Vector12 gradient =
+          joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
+      const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, j.parameters, g);
       by_lambda += y[row.lambda] * curvature;
       by_mu += y[row.mu] * curvature;
       shift += y[row.mu] * gradient;
-      for (int side = 0; side < 2; ++side) {
-        const int b = body[side];
-        if (b < 0 || s.bodies[b].n_active == 0)
-          continue;
-        const RowVector6 G = gradient.segment<6>(6 * side).transpose();
-        displacement_columns(row.mu, b, G);
-        velocity_columns(row.lambda, b, G);
-        displacement_columns(row.lambda, b, rate_gradient.segment<6>(6 * side).transpose());
-        for (int k = 0; k < s.bodies[b].n_active; ++k)
-          sink.by_y(s.bodies[b].u0 + k, row.lambda, -G[s.bodies[b].active[k]]);
-        position_rows(
-            b, [&](Index r, const RowVector6& weights) { sink.by_y(r, row.mu, weights.dot(G)); });
-      }
+      constraint_row(j, row.lambda, row.mu, gradient, curvature.transpose() * u);
     }
-    for (int m = 0; m < 2; ++m)
-      for (int n = 0; n < 2; ++n) {
-        if (body[m] < 0 || body[n] < 0)
-          continue;
-        const Matrix6 d_load = by_lambda.block<6, 6>(6 * m, 6 * n);
-        const Matrix6 d_shift = by_mu.block<6, 6>(6 * m, 6 * n);
-        load_by_displacement(body[m], body[n], d_load);
-        position_rows(body[m], [&](Index r, const RowVector6& weights) {
-          displacement_columns(r, body[n], weights * d_shift);
-        });
-      }
-    for (int side = 0; side < 2; ++side)
-      if (body[side] >= 0)
-        ws.state.shifts[body[side]] += shift.segment<6>(6 * side);
+    if (!j.rows.empty())
+      constraint_curvature(j, by_lambda, by_mu);
+    add_to_bodies<double>(j, shift, ws.state.shifts);
+  }
+}
+
+template <class Sink> void Assembly<Sink>::couplers() {
+  for (const CouplerData& coupler : s.couplers) {
+    if (!coupler.kept())
+      continue;
+    const double mu = coupler.velocity_level ? 0.0 : y[coupler.mu];
+    for (const CouplerData::Term& term : coupler.terms) {
+      const MotionData& motion = s.motions[term.motion];
+      const JointData& j = s.joints[motion.joint];
+      const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
+      const Vector12 gradient =
+          term.factor * joint::motion_row<double>(motion.motion, j.A, j.B, g).gradient;
+      const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
+      constraint_row(j, coupler.lambda, coupler.velocity_level ? -1 : coupler.mu, gradient,
+                     curvature.transpose() * joint_velocity<double>(j, ws.state.bodies));
+      constraint_curvature(j, y[coupler.lambda] * curvature, mu * curvature);
+      add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
+    }
   }
 }
 
@@ -194,13 +234,14 @@ template <class Sink> template <class Law> void Assembly<Sink>::force(const Body
 
 // load = f(s, s') W, s' = W.u: d load = f T + W (f_s W + f_s' T^T u)^T, by velocity W f_s' W^T.
 template <class Sink> template <class Law> void Assembly<Sink>::force(const MotionForce<Law>& f) {
-  const JointData& j = s.joints[f.joint];
+  const MotionData& motion = s.motions[f.motion];
+  const JointData& j = s.joints[motion.joint];
   const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
-  const joint::Row<double> w = joint::motion_row<double>(f.motion, j.A, j.B, g);
+  const joint::Row<double> w = motion_row<double>(s, ws.state, f.motion);
   const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
   const double rate = w.gradient.dot(u);
   const auto [by_s, by_rate] = f.law.gradient(w.value, rate);
-  const Matrix12 curvature = joint::motion_curvature(f.motion, j.A, j.B, g);
+  const Matrix12 curvature = joint::motion_curvature(motion.motion, j.A, j.B, g);
   const Matrix12 d =
       f.law.template apply<double>(w.value, rate) * curvature +
       w.gradient * (by_s * w.gradient + by_rate * curvature.transpose() * u).transpose();

@@ -14,16 +14,21 @@ template <class S> struct BodyState {
   Mat3<S> R;
 };
 
-/// Scratch memory of one evaluation; sized once, holds nothing between calls.
+/// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which
+/// belongs to the last accepted step and changes only there.
 template <class S> struct Workspace {
   std::vector<BodyState<S>> bodies;
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
+  std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
 
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
-        U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U) {
+        U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
+        turns(s.motions.size()) {
+    for (std::size_t m = 0; m < turns.size(); ++m)
+      turns[m] = s.motions[m].start;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const BodyData& body = s.bodies[i];
       BodyState<S>& state = bodies[i];
@@ -104,6 +109,33 @@ joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S
   if (j.B.body >= 0)
     u.template tail<6>() << states[j.B.body].v, states[j.B.body].w;
   return u;
+}
+
+/// Coordinate of a motion with its gradient; angles on the turn nearest to the last accepted step.
+template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>& ws, int motion) {
+  const MotionData& m = s.motions[motion];
+  const JointData& j = s.joints[m.joint];
+  joint::Row<S> row = joint::motion_row<S>(m.motion, j.A, j.B, joint_geometry<S>(j, ws.bodies));
+  if (m.motion.is_angle())
+    row.value = joint::nearest_turn<S>(row.value, ws.turns[motion]);
+  return row;
+}
+
+/// Moves `turns` on to an accepted state.
+inline void accept_turns(const System& s, const double* y, const double* yp,
+                         Workspace<double>& ws) {
+  unpack<double>(s, y, yp, ws.bodies);
+  for (int m = 0; m < static_cast<int>(s.motions.size()); ++m)
+    ws.turns[m] = motion_row<double>(s, ws, m).value;
+}
+
+/// Adds a load or shift (12 numbers of a joint) to its two bodies.
+template <class S>
+void add_to_bodies(const JointData& j, const joint::Vec12<S>& load, std::vector<Vec6<S>>& bodies) {
+  if (j.A.body >= 0)
+    bodies[j.A.body] += load.template head<6>();
+  if (j.B.body >= 0)
+    bodies[j.B.body] += load.template tail<6>();
 }
 
 } // namespace hydrodae::system

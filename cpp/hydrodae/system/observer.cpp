@@ -1,5 +1,6 @@
 #include "hydrodae/system/observer.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "hydrodae/system/residual.h"
@@ -34,8 +35,8 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
     plan("weight", i);
   for_each_element(s_.body_forces, [&](const auto& f) { plan(f.component, f.body); });
   for_each_element(s_.motion_forces, [&](const auto& f) {
-    plan(f.component, s_.joints[f.joint].A.body);
-    plan(f.component, s_.joints[f.joint].B.body);
+    plan(f.component, s_.joints[s_.motions[f.motion].joint].A.body);
+    plan(f.component, s_.joints[s_.motions[f.motion].joint].B.body);
   });
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {
@@ -43,14 +44,23 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
       if (s_.hydro.n_states > 0)
         plan("radiation", hb.body);
     }
+  out_.components.push_back("constraints");
+  Eigen::Index rows = 0;
+  for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
+    for (const RowData& row : s_.joints[j].rows) {
+      ++rows;
+      if (!row.kept())
+        redundant_joints_.push_back(j);
+    }
+  shared_ = VectorX::Zero(rows);
   out_.reactions.resize(s_.joints.size());
   out_.supports.resize(s_.bodies.size());
   out_.powers.resize(out_.components.size());
-  for (const JointData& j : s_.joints)
-    out_.motions.resize(out_.motions.size() + j.type->motions.size());
+  out_.motions.resize(s_.motions.size());
+  out_.constraints.resize(s_.couplers.size());
   totals_.resize(s_.bodies.size());
-  const Eigen::Index rows = s_.hydro.added_mass_all.rows();
-  rate_ = momentum_ = memory_ = VectorX::Zero(rows);
+  const Eigen::Index loads = s_.hydro.added_mass_all.rows();
+  rate_ = momentum_ = memory_ = VectorX::Zero(loads);
 }
 
 /// Takes the next planned load: into the list, the power of its component, and the balance.
@@ -76,9 +86,8 @@ void Observer::observe_forces(const double* y) {
     out_.potential += f.law.potential(xi);
   });
   for_each_element(s_.motion_forces, [&](const auto& f) {
-    const JointData& j = s_.joints[f.joint];
-    const joint::Row<double> w =
-        joint::motion_row<double>(f.motion, j.A, j.B, joint_geometry<double>(j, ws_.bodies));
+    const JointData& j = s_.joints[s_.motions[f.motion].joint];
+    const joint::Row<double> w = motion_row<double>(s_, ws_, f.motion);
     const double rate = w.gradient.dot(joint_velocity<double>(j, ws_.bodies));
     const joint::Vector12 load = f.law.template apply<double>(w.value, rate) * w.gradient;
     out_.potential += f.law.potential(w.value);
@@ -115,35 +124,99 @@ void Observer::observe_hydrodynamics(const double* y) {
   }
 }
 
+/// Reaction of one row on B: force along the marker's axes of A, moment about the marker of B.
+Vector6 Observer::row_reaction(const JointData& j, const RowData& row,
+                               const joint::Geometry<double>& g, double lambda) const {
+  Vector6 reaction = Vector6::Zero();
+  const Matrix3 to_marker = j.A.axes.transpose();
+  switch (row.kind.kind) {
+  case joint::BasicRow::Kind::span:
+    reaction[row.kind.i] = lambda;
+    break;
+  case joint::BasicRow::Kind::perp: // moment b_j x a_i
+    reaction.tail<3>() =
+        lambda * (to_marker *
+                  Vector3(g.N * j.B.axes.col(row.kind.j)).cross(Vector3(j.A.axes.col(row.kind.i))));
+    break;
+  case joint::BasicRow::Kind::distance:
+    reaction.head<3>() = lambda / j.parameters.length * (to_marker * (g.e - j.A.point));
+    break;
+  case joint::BasicRow::Kind::screw:
+    reaction[2] = lambda;
+    reaction[5] = -lambda * j.parameters.pitch / (2.0 * pi);
+    break;
+  }
+  return reaction;
+}
+
 void Observer::observe_joints(const double* y) {
-  std::size_t motion = 0;
+  const bool shared = !redundant_joints_.empty();
+  if (shared)
+    share_reactions(y);
+  Eigen::Index next = 0;
   for (std::size_t k = 0; k < s_.joints.size(); ++k) {
     const JointData& j = s_.joints[k];
     const joint::Geometry<double> g = joint_geometry<double>(j, ws_.bodies);
-    const joint::Vector12 u = joint_velocity<double>(j, ws_.bodies);
     joint::Vector12 load = joint::Vector12::Zero();
-    Vector6& reaction = out_.reactions[k];
-    reaction.setZero();
+    out_.reactions[k].setZero();
     for (const RowData& row : j.rows) {
-      const joint::Row<double> value = joint::basic_row<double>(row.kind, j.A, j.B, g);
-      const double lambda = y[row.lambda];
-      load += lambda * value.gradient;
-      if (row.kind.kind == joint::BasicRow::Kind::span) {
-        reaction[row.kind.i] += lambda;
-      } else { // moment b_j x a_i on B, seen from A's marker
-        const Vector3 b = g.N * j.B.axes.col(row.kind.j);
-        reaction.tail<3>() += lambda * (j.A.axes.transpose() * b.cross(j.A.axes.col(row.kind.i)));
-      }
+      const double lambda = shared ? shared_[next++] : y[row.lambda];
+      load += lambda * joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
+      out_.reactions[k] += row_reaction(j, row, g, lambda);
     }
-    if (j.A.body >= 0)
-      totals_[j.A.body] -= load.head<6>();
-    if (j.B.body >= 0)
-      totals_[j.B.body] -= load.tail<6>();
-    for (const joint::FreeMotion& free : j.type->motions) {
-      const joint::Row<double> w = joint::motion_row<double>(free, j.A, j.B, g);
-      out_.motions[motion++] = {w.value, w.gradient.dot(u)};
+    subtract(j, load);
+  }
+  for (std::size_t k = 0; k < s_.couplers.size(); ++k) {
+    const CouplerData& c = s_.couplers[k];
+    if (!c.kept())
+      continue;
+    out_.constraints[k] = y[c.lambda];
+    for (const CouplerData::Term& term : c.terms)
+      subtract(s_.joints[s_.motions[term.motion].joint],
+               y[c.lambda] * term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
+  }
+  for (int m = 0; m < static_cast<int>(s_.motions.size()); ++m) {
+    const joint::Row<double> w = motion_row<double>(s_, ws_, m);
+    const JointData& j = s_.joints[s_.motions[m].joint];
+    out_.motions[m] = {w.value, w.gradient.dot(joint_velocity<double>(j, ws_.bodies))};
+  }
+}
+
+/// With redundant rows only the sum of the reactions is known: of all multipliers of all rows with
+/// the same G^T lambda, the smallest.
+void Observer::share_reactions(const double* y) {
+  MatrixX G_T = MatrixX::Zero(s_.n_u, shared_.size());
+  VectorX load = VectorX::Zero(s_.n_u);
+  Eigen::Index column = 0;
+  for (const JointData& j : s_.joints) {
+    const joint::Geometry<double> g = joint_geometry<double>(j, ws_.bodies);
+    for (const RowData& row : j.rows) {
+      const joint::Vector12 gradient =
+          joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
+      for (int side = 0; side < 2; ++side) {
+        const int body = side == 0 ? j.A.body : j.B.body;
+        if (body < 0)
+          continue;
+        const BodyData& b = s_.bodies[body];
+        for (int k = 0; k < b.n_active; ++k)
+          G_T(b.u0 - s_.u0 + k, column) = gradient[6 * side + b.active[k]];
+      }
+      if (row.kept())
+        load += y[row.lambda] * G_T.col(column);
+      ++column;
     }
   }
+  shared_ = G_T.completeOrthogonalDecomposition().solve(load);
+}
+
+/// Takes the load of a constraint into the balance of its bodies, and its power (nonzero only where
+/// a drive moves the constraint).
+void Observer::subtract(const JointData& j, const joint::Vector12& load) {
+  if (j.A.body >= 0)
+    totals_[j.A.body] -= load.head<6>();
+  if (j.B.body >= 0)
+    totals_[j.B.body] -= load.tail<6>();
+  out_.powers.back() += load.dot(joint_velocity<double>(j, ws_.bodies));
 }
 
 /// Kinetic energies, and what the locked coordinates must carry: inertia minus all other loads.

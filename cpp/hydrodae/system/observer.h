@@ -17,12 +17,13 @@ struct ComponentLoad {
 
 /// The state of the scene at one instant, taken apart.
 struct Observation {
-  std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ...
+  std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ..., constraints
   std::vector<ComponentLoad> loads;    ///< all components but the reactions
   std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
   std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world
   std::vector<double> powers;          ///< per component [W]
-  std::vector<std::array<double, 2>> motions; ///< per joint motion: coordinate and rate
+  std::vector<std::array<double, 2>> motions; ///< per motion: coordinate and rate
+  std::vector<double> constraints;            ///< per coupler: multiplier [N or N m]
   double kinetic = 0.0;                       ///< of the bodies [J]
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
@@ -38,11 +39,18 @@ public:
   const Observation& observation() const { return out_; }
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
+  /// Angles go on from these values (of an accepted step).
+  void follow(const std::vector<double>& turns) { ws_.turns = turns; }
+
 private:
   void add_load(const Vector6& world_load);
   void observe_forces(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_joints(const double* y);
+  Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
+                       double lambda) const;
+  void share_reactions(const double* y);
+  void subtract(const JointData& j, const joint::Vector12& load);
   void observe_energy();
 
   const System& s_;
@@ -51,6 +59,8 @@ private:
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
   VectorX rate_, momentum_, memory_;
   std::size_t next_load_ = 0;
+  std::vector<int> redundant_joints_; ///< joints with rows that follow from others
+  VectorX shared_;                    ///< multipliers of all rows, where some are redundant
   int weight_ = -1, added_mass_ = -1, radiation_ = -1;
 };
 

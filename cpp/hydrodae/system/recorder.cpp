@@ -7,11 +7,6 @@ namespace hydrodae::system {
 
 namespace {
 
-/// The value of angle + 2 pi k nearest to `previous`.
-double nearest_turn(double angle, double previous) {
-  return angle + 2.0 * pi * std::round((previous - angle) / (2.0 * pi));
-}
-
 bool has_locked(const BodyData& body) { return body.n_active < 6; }
 
 void put(double*& out, const Vector3& v) {
@@ -26,8 +21,6 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
   const Observation& o = observer_.observe(y, yp);
   power_ = o.powers;
   work_.assign(power_.size(), 0.0);
-  for (const auto& motion : o.motions)
-    angles_.push_back(motion[0]);
   energy0_ = o.kinetic + o.kinetic_added_mass;
   make_channels();
 }
@@ -66,17 +59,25 @@ void Recorder::make_channels() {
     }
   }
   for (const JointData& j : s_.joints) {
+    if (j.hidden)
+      continue;
     const std::string head = "joints/" + j.name + "/", frame = "marker A of " + j.name;
-    for (const joint::FreeMotion& motion : j.type->motions) {
-      const bool turns = motion.kind == joint::FreeMotion::Kind::turns;
-      const std::string name = turns ? "angle" : "displacement", unit = turns ? "rad" : "m";
-      add_channel(head + name, 1, unit, frame,
+    for (std::size_t m = 0; m < j.type->motions.size(); ++m) {
+      const MotionData& motion = s_.motions[static_cast<std::size_t>(j.first_motion) + m];
+      const std::string unit = motion.motion.is_angle() ? "rad" : "m";
+      add_channel(head + motion.name, 1, unit, frame,
                   "Joint coordinate of B against A, followed over turns.");
-      add_channel(head + name + "_rate", 1, unit + "/s", frame, "Rate of the joint coordinate.");
+      add_channel(head + motion.name + "_rate", 1, unit + "/s", frame,
+                  "Rate of the joint coordinate.");
     }
     add_channel(head + "reaction_force", 3, "N", frame, "Force of the joint on body B.");
     add_channel(head + "reaction_moment", 3, "N m", frame,
                 "Moment of the joint on body B about its marker.");
+  }
+  for (const CouplerData& c : s_.couplers) {
+    const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
+    add_channel("constraints/" + c.name + "/reaction", 1, angle ? "N m" : "N", "-",
+                "Load that the constraint puts on its (first) coordinate.");
   }
   const Observation& o = observer_.observation();
   for (const ComponentLoad& load : o.loads) {
@@ -114,24 +115,14 @@ std::vector<double> Recorder::work_until(double t, const Interpolant& at,
   return work;
 }
 
-std::vector<double> Recorder::unwrapped() const {
-  std::vector<double> angles = angles_;
-  std::size_t k = 0;
-  for (const JointData& j : s_.joints)
-    for (const joint::FreeMotion& motion : j.type->motions) {
-      const double value = observer_.observation().motions[k][0];
-      angles[k] =
-          motion.kind == joint::FreeMotion::Kind::turns ? nearest_turn(value, angles_[k]) : value;
-      ++k;
-    }
-  return angles;
-}
-
 void Recorder::accept(double t, const Interpolant& at) {
   std::vector<double> power;
   work_ = work_until(t, at, power);
   power_ = power;
-  angles_ = unwrapped();
+  std::vector<double> turns;
+  for (const auto& motion : observer_.observation().motions)
+    turns.push_back(motion[0]);
+  observer_.follow(turns);
   t_ = t;
 }
 
@@ -157,17 +148,23 @@ void Recorder::fill_bodies(double*& out) {
   }
 }
 
-void Recorder::fill_joints(double*& out, const std::vector<double>& angles) {
+void Recorder::fill_joints(double*& out) {
   const Observation& o = observer_.observation();
-  std::size_t k = 0;
   for (std::size_t j = 0; j < s_.joints.size(); ++j) {
-    for (std::size_t m = 0; m < s_.joints[j].type->motions.size(); ++m, ++k) {
-      *out++ = angles[k];
-      *out++ = o.motions[k][1];
+    const JointData& joint = s_.joints[j];
+    if (joint.hidden)
+      continue;
+    for (std::size_t m = 0; m < joint.type->motions.size(); ++m) {
+      const std::array<double, 2>& motion =
+          o.motions[static_cast<std::size_t>(joint.first_motion) + m];
+      *out++ = motion[0];
+      *out++ = motion[1];
     }
     put(out, o.reactions[j].head<3>());
     put(out, o.reactions[j].tail<3>());
   }
+  for (double multiplier : o.constraints)
+    *out++ = multiplier;
 }
 
 void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
@@ -194,10 +191,9 @@ void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
 void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   std::vector<double> power;
   const std::vector<double> work = work_until(t, at, power);
-  const std::vector<double> angles = unwrapped();
   double* out = row.data();
   fill_bodies(out);
-  fill_joints(out, angles);
+  fill_joints(out);
   for (const ComponentLoad& load : observer_.observation().loads) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());

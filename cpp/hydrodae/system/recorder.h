@@ -38,9 +38,8 @@ private:
                    std::string description);
   std::vector<double> work_until(double t, const Interpolant& at, std::vector<double>& power);
   void fill_bodies(double*& out);
-  void fill_joints(double*& out, const std::vector<double>& angles);
+  void fill_joints(double*& out);
   void fill_energy(double*& out, const std::vector<double>& work);
-  std::vector<double> unwrapped() const;
 
   const System& s_;
   Observer observer_;
@@ -48,7 +47,6 @@ private:
   std::size_t width_ = 0;
   double t_;                         ///< end of the last accepted step [s]
   std::vector<double> power_, work_; ///< per component, at t_
-  std::vector<double> angles_;       ///< per joint motion at t_, unwrapped
   double energy0_ = 0.0;             ///< kinetic energies at the start [J]
   double largest_energy_ = 0.0, largest_error_ = 0.0;
   VectorX y_, yp_;

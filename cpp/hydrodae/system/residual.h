@@ -14,20 +14,41 @@ template <class S> void add_joints(const System& s, Workspace<S>& ws, const S* y
     const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
     joint::Vec12<S> load = joint::Vec12<S>::Zero(), shift = joint::Vec12<S>::Zero();
     for (const RowData& row : j.rows) {
-      const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, g);
+      if (!row.kept())
+        continue;
+      const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, j.parameters, g);
       residual[row.mu] = value.value;
       residual[row.lambda] = value.gradient.cwiseProduct(u).sum();
       load += y[row.lambda] * value.gradient;
       shift += y[row.mu] * value.gradient;
     }
-    if (j.A.body >= 0) {
-      ws.loads[j.A.body] += load.template head<6>();
-      ws.shifts[j.A.body] += shift.template head<6>();
+    add_to_bodies<S>(j, load, ws.loads);
+    add_to_bodies<S>(j, shift, ws.shifts);
+  }
+}
+
+/// Rows on motions: sum_k c_k s_k = offset + f(t) and its rate, or at velocity level only.
+template <class S>
+void add_couplers(const System& s, Workspace<S>& ws, double t, const S* y, S* residual) {
+  for (const CouplerData& coupler : s.couplers) {
+    if (!coupler.kept())
+      continue;
+    const std::array<double, 3> f = coupler.drive(t);
+    const bool position = !coupler.velocity_level;
+    S value = S(-coupler.offset - f[0]), rate = S(position ? -f[1] : -f[0]);
+    for (const CouplerData::Term& term : coupler.terms) {
+      const JointData& j = s.joints[s.motions[term.motion].joint];
+      const joint::Row<S> w = motion_row<S>(s, ws, term.motion);
+      const joint::Vec12<S> gradient = S(term.factor) * w.gradient;
+      value += S(term.factor) * w.value;
+      rate += gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
+      add_to_bodies<S>(j, y[coupler.lambda] * gradient, ws.loads);
+      if (position)
+        add_to_bodies<S>(j, y[coupler.mu] * gradient, ws.shifts);
     }
-    if (j.B.body >= 0) {
-      ws.loads[j.B.body] += load.template tail<6>();
-      ws.shifts[j.B.body] += shift.template tail<6>();
-    }
+    residual[coupler.lambda] = rate;
+    if (position)
+      residual[coupler.mu] = value;
   }
 }
 
@@ -48,15 +69,10 @@ void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, c
 /// f along a joint coordinate s acts on the bodies as W^T f with W = ds/dxi.
 template <class S, class Law>
 void add_force(const System& s, const MotionForce<Law>& force, Workspace<S>& ws, const S*) {
-  const JointData& j = s.joints[force.joint];
-  const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
-  const joint::Row<S> w = joint::motion_row<S>(force.motion, j.A, j.B, g);
+  const JointData& j = s.joints[s.motions[force.motion].joint];
+  const joint::Row<S> w = motion_row<S>(s, ws, force.motion);
   const S rate = w.gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
-  const joint::Vec12<S> load = force.law.template apply<S>(w.value, rate) * w.gradient;
-  if (j.A.body >= 0)
-    ws.loads[j.A.body] += load.template head<6>();
-  if (j.B.body >= 0)
-    ws.loads[j.B.body] += load.template tail<6>();
+  add_to_bodies<S>(j, force.law.template apply<S>(w.value, rate) * w.gradient, ws.loads);
 }
 
 /// Visits every list of a tuple of lists, element by element.
@@ -98,8 +114,7 @@ void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp,
 
 /// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
 template <class S>
-void residual(const System& s, Workspace<S>& ws, double /*t*/, const S* y, const S* yp,
-              S* residual) {
+void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
   unpack<S>(s, y, yp, ws.bodies);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.loads[i].setZero();
@@ -107,6 +122,7 @@ void residual(const System& s, Workspace<S>& ws, double /*t*/, const S* y, const
     ws.shifts[i].setZero();
   }
   add_joints<S>(s, ws, y, residual);
+  add_couplers<S>(s, ws, t, y, residual);
   for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   add_hydrodynamics<S>(s, ws, y, yp, residual);

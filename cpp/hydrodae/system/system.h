@@ -11,6 +11,7 @@
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -44,17 +45,53 @@ struct BodyData {
   double time_scale = 1.0;          ///< [s], turns lengths into velocities
 };
 
-/// One constraint row that is kept, with its two multipliers.
+inline constexpr Index redundant = -1; ///< in place of a multiplier: the row follows from others
+
+/// One constraint row that restricts a free coordinate, with its two multipliers.
 struct RowData {
   joint::BasicRow kind;
   Index lambda = 0, mu = 0;
+  bool kept() const { return lambda != redundant; }
 };
 
 struct JointData {
   std::string name;
   const joint::JointType* type = nullptr;
   joint::Marker A, B;
+  joint::Parameters parameters;
   std::vector<RowData> rows; ///< rows that restrict a free coordinate
+  int first_motion = 0;      ///< of its motions in System::motions
+  bool hidden = false;       ///< stands for a coordinate of a body; not reported
+};
+
+/// A coordinate along a free motion of a joint. Angles are followed over turns: Workspace::turns
+/// holds the value at the last accepted step.
+struct MotionData {
+  int joint = 0;
+  joint::FreeMotion motion;
+  std::string name;   ///< angle, displacement, angle_2, ...
+  double start = 0.0; ///< near the value at the start: tells the turn of an angle
+};
+
+/// What a motion is to be at the start; met by the assembly together with the joints.
+struct MotionStart {
+  int motion = 0;
+  std::optional<double> value, rate;
+};
+
+/// A condition on motions: sum_k factor_k s_k = offset + f(t), or on their rates: = f(t).
+struct CouplerData {
+  struct Term {
+    int motion = 0;
+    double factor = 1.0;
+  };
+  std::string name;
+  std::vector<Term> terms;
+  double offset = 0.0;
+  model::Drive drive;
+  bool velocity_level = false; ///< then it has no mu
+  Index lambda = 0, mu = 0;
+  bool kept() const { return lambda != redundant; }
 };
 
 /// Weight, buoyancy and linear hydrostatics are wrenches on a body; `component` is the name under
@@ -68,13 +105,13 @@ template <class Law> struct BodyForce {
 /// A law along the free motion of a joint.
 template <class Law> struct MotionForce {
   std::string component;
-  int joint = 0;
-  joint::FreeMotion motion;
+  int motion = 0; ///< in System::motions
   Law law;
 };
 
 using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>>;
-using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>>;
+using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
+                                std::vector<MotionForce<force::SpringDamper::Law>>>;
 
 /// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
 struct HydroBody {
@@ -118,12 +155,16 @@ struct System {
   double gravity = 9.81;
   std::vector<BodyData> bodies;
   std::vector<JointData> joints;
+  std::vector<MotionData> motions;
+  std::vector<CouplerData> couplers;
+  std::vector<MotionStart> starts;
   BodyForces body_forces;
   MotionForces motion_forces;
   HydroData hydro;
 
-  Index n = 0;                                 ///< unknowns
-  Index n_q = 0, n_u = 0, n_z = 0, n_rows = 0; ///< positions, velocities, memory, constraint rows
+  Index n = 0;                     ///< unknowns
+  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states
+  Index n_lambda = 0, n_mu = 0;    ///< rows at velocity level, those also at position level
   Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
@@ -134,6 +175,15 @@ struct System {
 
   bool is_algebraic(Index i) const { return i >= lambda0; }
 };
+
+/// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
+template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visitor&& visit) {
+  for (auto& j : s.joints)
+    for (auto& row : j.rows)
+      visit(row.lambda, row.mu, false);
+  for (auto& coupler : s.couplers)
+    visit(coupler.lambda, coupler.mu, coupler.velocity_level);
+}
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales. Throws ModelError.

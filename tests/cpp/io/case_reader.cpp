@@ -77,7 +77,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, body, joint, force, solver, output)"},
+       "environment, hydro, body, joint, constraint, force, solver, output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate, displacement, displacement_rate)"},
@@ -89,10 +89,10 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
       {"[solver]", "[[solver]]", "case.toml:34:1: 'solver' must be one table: write [solver]"},
       {"type = \"pto_linear\"\n", "",
        "case.toml:28:1: missing key 'type' in [[force]] 'pto1' (Kind of force: mooring_matrix, "
-       "pto_linear)"},
+       "pto_linear, spring_damper, constant_load)"},
       {"type = \"pto_linear\"", "type = \"pto_liner\"",
        "case.toml:30:1: key 'type' in [[force]] 'pto1': unknown value 'pto_liner'; did you mean "
-       "'pto_linear'? (valid: mooring_matrix, pto_linear)"},
+       "'pto_linear'? (valid: mooring_matrix, pto_linear, spring_damper, constant_load)"},
       {"initial = { angle_deg = 90.0 }", "initial = 90.0",
        "case.toml:26:1: initial of [[joint]] 'hinge' must be a table, such as initial = { ... }"},
   });
@@ -119,7 +119,8 @@ TEST_CASE("a wrong value is told with its place and what was expected") {
        "'planar'? (valid: fixed, planar, point, rigid, surge, sway, heave, roll, pitch, yaw)"},
       {"type = \"revolute\"", "type = \"revolut\"",
        "case.toml:21:1: key 'type' in [[joint]] 'hinge': unknown value 'revolut'; did you mean "
-       "'revolute'? (valid: spherical, revolute, prismatic, fixed)"},
+       "'revolute'? (valid: spherical, revolute, prismatic, fixed, universal, cylindrical, planar, "
+       "sliding, screw, distance)"},
       {"end_time = 10.0", "end_time = 0",
        "case.toml:35:1: key 'end_time' in [solver]: must be > 0 s, got 0 s"},
       {"end_time = 10.0", "end_time = 10.0\nmax_order = 9",

@@ -61,22 +61,6 @@ struct Wet {
   Body& buoy() { return scene.bodies[0]; }
 };
 
-/// "key: message" of what `check` says about a scene, "" if it is content.
-std::string verdict(const Scene& scene) {
-  try {
-    model::check(scene);
-  } catch (const ModelError& error) {
-    return error.key + ": " + error.what();
-  }
-  return "";
-}
-
-std::string verdict(const Body& b) {
-  Scene scene;
-  scene.bodies = {b};
-  return verdict(scene);
-}
-
 } // namespace
 
 TEST_CASE("words of motion") {
