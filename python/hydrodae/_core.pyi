@@ -28,6 +28,9 @@ def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
 def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene:
     """Read a case from a string; paths in it are relative to `directory`. Raises CaseError."""
 
+def examine(scene: Scene) -> str:
+    """The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError."""
+
 def simulate(
     scene: Scene, output: str, progress: Callable[[float, float], bool] | None
 ) -> dict[str, Any]:

@@ -138,6 +138,18 @@ class Case:
         """Return the scene as a short tree: bodies, joints, forces, solver."""
         return self._scene.summary()
 
+    def examine(self) -> str:
+        """Return the summary with unknowns, multipliers, mobility and redundant constraint rows.
+
+        Raises
+        ------
+        CaseError
+            The joints cannot be closed near the start.
+        """
+        from hydrodae import _core
+
+        return _core.examine(self._scene)
+
     def __repr__(self) -> str:
         changed = "".join(f", {key} = {value}" for key, value in self._overrides.items())
         return f"<hydrodae.Case {self.title!r} from {self._path or 'a string'}{changed}>"

@@ -66,6 +66,16 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     run.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     run.set_defaults(call=_run)
 
+    check = commands.add_parser(
+        "check",
+        help="read a case, close its joints and tell what it costs",
+        description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
+        "constraint rows, and how far the bodies were moved to close the joints.",
+    )
+    check.add_argument("case", metavar="CASE", help="case file (TOML)")
+    check.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    check.set_defaults(call=_check)
+
     plot = commands.add_parser(
         "plot",
         help="draw results",
@@ -124,6 +134,14 @@ def _run(arguments: argparse.Namespace) -> int:
         results = run(case, output, progress=progress)
     print(results.summary())
     print(f"  results in {output}")
+    return DONE
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from hydrodae.case import Case, parse_assignment
+
+    case = Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
+    print(case.examine(), end="")
     return DONE
 
 

@@ -97,6 +97,7 @@ def summary(results: Results) -> str:
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    lines += [f"  note: {note}" for note in results.notes]
     balance = _energy_balance(results)
     if balance:
         lines.append(f"  {balance}")

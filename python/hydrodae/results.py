@@ -161,6 +161,11 @@ class Results(Mapping[str, "xarray.DataArray"]):
         return str(self._header["status"])
 
     @property
+    def notes(self) -> list[str]:
+        """What the assembly found worth telling: redundant rows, bodies moved to close joints."""
+        return str(self._header.get("notes", "")).splitlines()
+
+    @property
     def message(self) -> str:
         """Why the run ended before its end time; empty for a completed run."""
         return str(self._header.get("message", ""))

@@ -104,7 +104,8 @@ def test_a_database_from_python_is_read(case):
             "mass = 1000.0",
             "masss = 1000.0",
             "case.toml:9:1: unknown key 'masss' in [[body]] 'buoy'; did you mean 'mass'? (valid: "
-            "name, motion, mass, center_of_gravity, inertia, products_of_inertia, hydro, initial)",
+            "name, motion, mass, center_of_gravity, inertia, products_of_inertia, "
+            "principal_axes_deg, hydro, initial)",
         ),
         (
             "mass = 1000.0",
@@ -176,6 +177,159 @@ def test_one_mistake_gives_one_message(case, old, new, expected):
     case.write_text(CASE.replace(old, new))
     said = message(case)
     assert said.startswith(expected) if expected.endswith(": ") else said == expected
+
+
+MECHANISM = """title = "crank"
+
+[[body]]
+name = "wheel"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, 0.0]
+inertia = [1.0, 2.0, 2.5]
+
+[[body]]
+name = "weight"
+motion = "point"
+mass = 3.0
+center_of_gravity = [0.0, 0.0, -2.0]
+
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "wheel"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+
+[[joint]]
+name = "rope"
+type = "distance"
+body_a = "wheel"
+body_b = "weight"
+point = [0.0, 0.0, -0.5]
+point_b = [0.0, 0.0, -2.0]
+
+[[constraint]]
+name = "crank"
+type = "coordinate"
+joint = "hinge"
+drive = { time = [0, 5, 10], values = [0.0, 0.1, 0.0] }
+
+[[force]]
+name = "spring"
+type = "spring_damper"
+body_a = "ground"
+body_b = "weight"
+point_a = [5.0, 0.0, -2.0]
+point_b = [0.0, 0.0, -2.0]
+
+[solver]
+end_time = 10.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            'joint = "hinge"',
+            'joint = "hing"',
+            "case.toml:34:1: constraint 'crank': joint = 'hing' is no joint; did you mean 'hinge'? "
+            "(valid: hinge, rope)",
+        ),
+        (
+            'joint = "hinge"',
+            'joint = "hinge"\ncoordinate = "angel"',
+            "case.toml:35:1: constraint 'crank': coordinate = 'angel' is no motion of joint "
+            "'hinge'; did you mean 'angle'? (valid: angle)",
+        ),
+        (
+            'joint = "hinge"',
+            'joint = "rope"',
+            "case.toml:34:1: constraint 'crank': joint 'rope' has no coordinate: a distance joint "
+            "has no motion of its own",
+        ),
+        (
+            'joint = "hinge"',
+            'body = "weight"\ncoordinate = "pitch"',
+            "case.toml:35:1: constraint 'crank': coordinate = 'pitch' is no free coordinate of "
+            "body 'weight'; valid: surge, sway, heave",
+        ),
+        (
+            'type = "coordinate"\njoint = "hinge"\ndrive = { time = [0, 5, 10], '
+            "values = [0.0, 0.1, 0.0] }",
+            'type = "coupler"\njoint = "hinge"',
+            "case.toml:31:1: constraint 'crank': a coupler needs the key 'joint_b'",
+        ),
+        (
+            "time = [0, 5, 10]",
+            "time = [0, 5, 8]",
+            "case.toml:35:11: constraint 'crank': the table of drive goes from 0 s to 8 s, but the "
+            "run goes from 0 s to 10 s (solver.end_time)",
+        ),
+        (
+            "time = [0, 5, 10]",
+            "time = [0, 10]",
+            "case.toml:35:11: constraint 'crank': the table of drive needs as many times as "
+            "values; 'time' has 2 numbers, 'values' has 3 numbers",
+        ),
+        (
+            "time = [0, 5, 10], values = [0.0, 0.1, 0.0]",
+            "amplitude = 0.1, period = 0",
+            "case.toml:35:28: key 'period' in drive of [[constraint]] 'crank': must be > 0 s, got "
+            "0 s",
+        ),
+        (
+            "point_b = [0.0, 0.0, -2.0]\n\n[[constraint]]",
+            "\n[[constraint]]",
+            "case.toml:23:1: joint 'rope': a distance joint needs the key 'point_b', the point on "
+            "body B",
+        ),
+        (
+            'body_b = "wheel"',
+            'body_b = "weight"',
+            "case.toml:19:1: joint 'hinge': body 'weight' is a point: it has no rotation for a "
+            "revolute joint to hold; use spherical, distance or sliding",
+        ),
+        (
+            'type = "revolute"',
+            'type = "screw"',
+            "case.toml:15:1: joint 'hinge': a screw joint needs the key 'pitch' [m per turn], and "
+            "not zero",
+        ),
+        (
+            "point_a = [5.0",
+            "point_a = [0.0",
+            "case.toml:43:1: force 'spring': point_a and point_b coincide in the reference pose: "
+            "the force has no direction",
+        ),
+        (
+            "inertia = [1.0, 2.0, 2.5]",
+            "inertia = [1.0, 2.0, 3.5]\nprincipal_axes_deg = [0, 30, 0]",
+            "case.toml:7:1: body 'wheel': no mass distribution has this inertia: the largest "
+            "principal moment exceeds the sum of the other two; principal moments 1, 2, 3.5 kg m2",
+        ),
+    ],
+)
+def test_one_mistake_in_a_mechanism_gives_one_message(tmp_path, old, new, expected):
+    assert MECHANISM.count(old) == 1
+    path = tmp_path / "case.toml"
+    path.write_text(MECHANISM)
+    _core.load_case(str(path), {})
+    path.write_text(MECHANISM.replace(old, new))
+    assert message(path) == expected
+
+
+def test_a_constraint_is_overridden_by_its_name(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(MECHANISM)
+    assert message(path, {"constraint.crnk.level": "velocity"}) == (
+        "--set constraint.crnk.level: no constraint 'crnk'; did you mean 'crank'? (valid: crank)"
+    )
+    assert message(path, {"solver.end_time": "20"}) == (
+        "case.toml:35:11: constraint 'crank': the table of drive goes from 0 s to 10 s, but the "
+        "run goes from 0 s to 20 s (solver.end_time)"
+    )
 
 
 def test_a_wrong_override_is_told_with_its_key(case):

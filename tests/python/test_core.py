@@ -84,6 +84,40 @@ def test_a_scene_shows_what_it_holds():
     assert "spring: mooring_matrix on body buoy" in scene.summary()
 
 
+def test_a_scene_tells_what_its_mechanism_does():
+    text = SPRING.replace("initial = { displacement = [0, 0, 1] }", "").replace(
+        "[solver]",
+        """[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "buoy"
+point = [0, 0, 0]
+axis = [0, 0, 1]
+
+[[constraint]]
+name = "lift"
+type = "coordinate"
+joint = "guide"
+drive = { amplitude = 0.1, period = 5 }
+
+[[force]]
+name = "rope"
+type = "spring_damper"
+body_a = "ground"
+body_b = "buoy"
+point_a = [0, 0, -3]
+point_b = [0, 0, 0]
+
+[solver]""",
+    )
+    scene = _core.parse_case(text, ".", {"constraint.lift.drive.ramp": "2"})
+    assert scene.joint_names == ["guide"]
+    motion = "displacement of guide follows 0.1 sin(2 pi t / 5) grown over 2 s"
+    assert f"  constraints:\n    lift: {motion}\n" in scene.summary()
+    assert "rope: spring_damper between ground and buoy" in scene.summary()
+
+
 def test_a_scene_cannot_be_changed():
     with pytest.raises(AttributeError):
         spring().title = "other"  # type: ignore[misc]
