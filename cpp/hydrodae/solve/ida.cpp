@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "hydrodae/core/error.h"
@@ -97,6 +97,10 @@ struct Ida::Impl {
   system::JacobianParts parts;
   long residual_calls = 0, jacobian_calls = 0;
   double t = 0.0, end_time = 0.0;
+  double first = 0.0;      ///< first step [s]
+  double time_scale = 0.0; ///< longest of the bodies [s]
+  long steps = 0;          ///< since `t_checked`
+  double t_checked = 0;    ///< [s]
 
   Owned<SUNContext, ContextDeleter> context{make_context()};
   Owned<N_Vector, VectorDeleter> y, yp, id, scratch;
@@ -113,6 +117,7 @@ struct Ida::Impl {
   void start(const IdaOptions& options, double t0, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
   void accept();
+  void check_progress();
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user);
   static int jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix j,
@@ -146,18 +151,27 @@ int Ida::Impl::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vecto
   return 0;
 }
 
-// w_i = 1 / (rtol (scale_i + |y_i|)), without |y_i| for positions, whose origin means nothing.
+// w_i = 1 / (rtol (scale_i + |y_i|)), without |y_i| for positions, whose origin means nothing. A
+// multiplier is known no better than the velocities, whose rounding it feels divided by the step.
 int Ida::Impl::weights(N_Vector y, N_Vector w, void* user) {
-  const Impl& self = *static_cast<const Impl*>(user);
+  Impl& self = *static_cast<Impl*>(user);
   const Eigen::Map<const VectorX> state(N_VGetArrayPointer(y), self.system.n);
   Eigen::Map<VectorX>(N_VGetArrayPointer(w), self.system.n) =
       (self.rtol * (self.system.scale.array() + self.system.relative.array() * state.array().abs()))
           .inverse();
+  double step = 0.0;
+  IDAGetCurrentStep(self.memory.get(), &step);
+  if (step <= 0.0)
+    step = self.first;
+  const Index n = self.system.n - self.system.lambda0;
+  const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * self.time_scale / step;
+  Eigen::Map<VectorX> all(N_VGetArrayPointer(w), self.system.n);
+  all.tail(n) = all.tail(n).cwiseMin((rounding * self.system.scale.tail(n)).cwiseInverse());
   return 0;
 }
 
 void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, const VectorX& yp0) {
-  t = t0;
+  t = t_checked = t0;
   end_time = options.end_time;
   y.reset(new_vector());
   yp.reset(new_vector());
@@ -183,8 +197,10 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
   if (options.max_step > 0.0)
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
   const double longest = options.max_step > 0.0 ? options.max_step : options.end_time - t0;
-  check(IDASetInitStep(ida, std::min(first_step(system, rtol, y0, yp0), longest)),
-        "IDASetInitStep");
+  first = std::min(first_step(system, rtol, y0, yp0), longest);
+  for (const system::BodyData& b : system.bodies)
+    time_scale = std::max(time_scale, b.time_scale);
+  check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
                     "SUNSparseMatrix"));
   linear_solver.reset(made(SUNLinSol_KLU(y.get(), matrix.get(), context.get()), "SUNLinSol_KLU"));
@@ -234,6 +250,22 @@ std::string Ida::Impl::diagnosis(int flag) {
   return text;
 }
 
+/// Near a singular pose the steps can shrink without ever failing: a run that would take for ever
+/// ends with that reason.
+void Ida::Impl::check_progress() {
+  constexpr long watch = 5000;
+  constexpr double least = 1e-6; // of the whole run, in so many steps
+  if (++steps < watch)
+    return;
+  if (t - t_checked < least * end_time && t < end_time)
+    throw SolverError(t, "stopped at t = " + number_text(t) + " s: no progress, " +
+                             std::to_string(watch) + " steps brought only " +
+                             number_text(t - t_checked) + " s (a singular pose?)" +
+                             diagnosis(IDA_SUCCESS));
+  steps = 0;
+  t_checked = t;
+}
+
 Ida::Ida(const system::System& system, const system::Pattern& pattern, const IdaOptions& options,
          double t0, const VectorX& y, const VectorX& yp)
     : impl_(std::make_unique<Impl>(system, pattern, options.rtol)) {
@@ -247,6 +279,7 @@ double Ida::step() {
   const int flag = IDASolve(m.memory.get(), m.end_time, &m.t, m.y.get(), m.yp.get(), IDA_ONE_STEP);
   if (flag >= 0) {
     m.accept();
+    m.check_progress();
     return m.t;
   }
   double h = 0.0;
