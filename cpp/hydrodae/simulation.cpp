@@ -77,6 +77,7 @@ public:
       : scene_(scene), progress_(progress), started_(Clock::now()), system_(system::build(scene)),
         pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
+    system::take_time_scales(system_, y_, yp_);
     ida_ = std::make_unique<solve::Ida>(system_, pattern_,
                                         solve::IdaOptions{scene.solver.rtol, scene.solver.end_time,
                                                           scene.solver.max_step,

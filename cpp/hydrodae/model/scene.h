@@ -208,7 +208,7 @@ struct Constraint {
 struct SolverOptions {
   std::string method = "ida";
   double end_time = 0.0;
-  double rtol = 1e-5;
+  double rtol = 1e-6;
   double max_step = 0.0;
   int max_order = 5;
   std::optional<double> length_scale;
@@ -229,7 +229,8 @@ struct SolverOptions {
          "Length that the tolerance of positions refers to; default: from the bodies and joints.",
          false, more_than(0)},
         {"time_scale", &O::time_scale, "s",
-         "Time that turns the position scale into the velocity scale; default: from gravity.",
+         "Time that turns the position scale into the velocity scale; default: from gravity, "
+         "else from the start.",
          false, more_than(0)},
     };
   }

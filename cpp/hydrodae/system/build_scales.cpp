@@ -70,9 +70,29 @@ void set_body_scales(const model::Scene& scene, System& s) {
     BodyData& b = s.bodies[i];
     b.lever = lever(s, scene, i);
     b.length_scale = scene.solver.length_scale.value_or(0.1 * b.lever);
+    b.time_scale_known = scene.solver.time_scale.has_value() || s.gravity > 0.0;
     b.time_scale =
         scene.solver.time_scale.value_or(s.gravity > 0.0 ? std::sqrt(b.lever / s.gravity) : 1.0);
   }
+}
+
+void take_time_scales(System& s, const VectorX& y, const VectorX& yp) {
+  double shortest = INFINITY;
+  for (const BodyData& b : s.bodies)
+    for (int k = 0; k < b.n_active && !b.time_scale_known; ++k) {
+      const double size = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
+      const double speed = std::abs(y[b.u0 + k]), rate = std::abs(yp[b.u0 + k]);
+      if (speed > 0.0)
+        shortest = std::min(shortest, size / speed);
+      if (rate > 0.0)
+        shortest = std::min(shortest, std::sqrt(size / rate));
+    }
+  if (!std::isfinite(shortest))
+    return; // at rest without loads: any scale will do
+  for (BodyData& b : s.bodies)
+    if (!b.time_scale_known)
+      b.time_scale = shortest;
+  set_scales(s);
 }
 
 void set_scales(System& s) {

@@ -42,6 +42,7 @@ struct BodyData {
   Index q0 = 0, u0 = 0, sigma = -1; ///< offsets into y
   double length_scale = 1.0;        ///< [m], what a position error is measured by
   double lever = 1.0;               ///< [m], turns lengths into angles
+  bool time_scale_known = true;     ///< else taken from the start (no gravity, none given)
   double time_scale = 1.0;          ///< [s], turns lengths into velocities
 };
 
@@ -188,6 +189,10 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales. Throws ModelError.
 System build(const model::Scene& scene);
+
+/// Time scales of bodies that have none yet, from the velocities and accelerations of the start:
+/// the time in which a body moves, or speeds up by, its own length. The tolerances follow.
+void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
 /// The start: y with positions, velocities, zero memory and zero multipliers.
 VectorX initial_state(const System& system);

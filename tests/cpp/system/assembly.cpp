@@ -41,7 +41,8 @@ model::Scene four_bar(const std::string& motion) {
   scene.bodies = {bar("crank", {0, 0, 0.5}, motion), bar("coupler", {0.5, 0, 1.0}, motion),
                   bar("rocker", {1.0, 0, 0.5}, motion)};
   scene.joints = {pin("a", "ground", "crank", {0, 0, 0}), pin("b", "crank", "coupler", {0, 0, 1}),
-                  pin("c", "coupler", "rocker", {1, 0, 1}), pin("d", "rocker", "ground", {1, 0, 0})};
+                  pin("c", "coupler", "rocker", {1, 0, 1}),
+                  pin("d", "rocker", "ground", {1, 0, 0})};
   scene.solver.end_time = 1.0;
   return scene;
 }
@@ -51,10 +52,10 @@ double largest_gap(const system::System& s) {
   double largest = 0.0;
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
-      largest = std::max(largest, std::abs(joint::basic_row<double>(
-                                               row.kind, j.A, j.B, j.parameters,
-                                               system::joint_geometry<double>(j, ws.bodies))
-                                               .value));
+      largest = std::max(
+          largest, std::abs(joint::basic_row<double>(row.kind, j.A, j.B, j.parameters,
+                                                     system::joint_geometry<double>(j, ws.bodies))
+                                .value));
   return largest;
 }
 
