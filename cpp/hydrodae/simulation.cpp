@@ -115,7 +115,7 @@ private:
     const auto samples = static_cast<long>(std::floor(end / dt * (1.0 + 1e-12)));
     if (!sample(0.0))
       return false;
-    long next = 1;
+    long next = 1, steps_since_asked = 0;
     while (t_ < end) {
       const Clock::time_point before = Clock::now();
       t_ = ida_->step();
@@ -125,6 +125,12 @@ private:
         if (!sample(std::min(static_cast<double>(next) * dt, t_)))
           return false;
       recorder_->accept(t_, at_);
+      // Between samples that are far apart in steps, a request to stop is heard as well.
+      if (++steps_since_asked >= 1000 && progress_) {
+        steps_since_asked = 0;
+        if (!progress_(t_, end))
+          return false;
+      }
     }
     return true;
   }

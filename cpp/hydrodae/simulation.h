@@ -12,8 +12,8 @@ namespace hydrodae {
 
 inline constexpr const char* version = HYDRODAE_VERSION;
 
-/// Called after every output sample with the time reached and the end time [s]; returns false to
-/// stop the run (what was computed is kept).
+/// Called after every output sample, and every thousand steps, with the time reached and the end
+/// time [s]; returns false to stop the run (what was computed is kept).
 using Progress = std::function<bool(double time, double end_time)>;
 
 struct RunStatistics {

@@ -16,14 +16,18 @@ using system::System;
 
 constexpr double closed = 1e-6; ///< gaps above this part of their scale are refused
 
-/// Is axis `axis` of both markers held parallel: do two rows keep the other two axes of A
-/// perpendicular to it?
+/// Is axis `axis` of both markers held parallel? Two rows keep the other axes of A perpendicular to
+/// it, or three rows tie all axes.
 bool tied(const joint::JointType& type, int axis) {
-  int count = 0;
-  for (const joint::BasicRow& row : type.rows)
-    if (row.kind == joint::BasicRow::Kind::perp && row.j == axis && row.i != axis)
-      ++count;
-  return count >= 2 || type.rows.size() >= 5;
+  int own = 0, all = 0;
+  for (const joint::BasicRow& row : type.rows) {
+    if (row.kind != joint::BasicRow::Kind::perp)
+      continue;
+    ++all;
+    if (row.j == axis && row.i != axis)
+      ++own;
+  }
+  return own == 2 || all == 3;
 }
 
 /// Largest entry of each row, 1 for an empty one.

@@ -254,14 +254,14 @@ std::string Ida::Impl::diagnosis(int flag) {
 /// ends with that reason.
 void Ida::Impl::check_progress() {
   constexpr long watch = 5000;
-  constexpr double least = 1e-6; // of the whole run, in so many steps
+  constexpr double least = 1e-6; // of the whole run in so many steps, of a body's time in one
   if (++steps < watch)
     return;
-  if (t - t_checked < least * end_time && t < end_time)
+  const double gained = t - t_checked;
+  if (gained < least * end_time && gained < watch * least * time_scale && t < end_time)
     throw SolverError(t, "stopped at t = " + number_text(t) + " s: no progress, " +
-                             std::to_string(watch) + " steps brought only " +
-                             number_text(t - t_checked) + " s (a singular pose?)" +
-                             diagnosis(IDA_SUCCESS));
+                             std::to_string(watch) + " steps brought only " + number_text(gained) +
+                             " s (a singular pose?)" + diagnosis(IDA_SUCCESS));
   steps = 0;
   t_checked = t;
 }

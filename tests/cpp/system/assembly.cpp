@@ -152,3 +152,19 @@ TEST_CASE("two hinges share the load of one door evenly") {
   CHECK(moment_y == doctest::Approx(-0.5 * weight));
   CHECK(r[0][0] + r[1][0] == doctest::Approx(0.0).epsilon(1e-9));
 }
+
+TEST_CASE("a hinge starts at any angle, a lock turned over does not") {
+  model::Scene scene;
+  scene.solver.end_time = 1.0;
+  scene.bodies = {bar("arm", {0, 0, 0.5}, "rigid")};
+  for (const double angle : {-3.0, -1.7, 1.7, 2.5}) {
+    scene.joints = {pin("hinge", "ground", "arm", {0, 0, 0})};
+    scene.joints[0].initial.angle = angle;
+    CHECK_NOTHROW(reactions(system::build(scene)));
+  }
+  scene.joints[0].initial.angle.reset();
+  scene.joints[0].type = "fixed";
+  scene.bodies[0].initial.rotation = {0, pi, 0};
+  scene.bodies[0].initial.displacement = {0, 0, -1.0};
+  CHECK_THROWS_AS(reactions(system::build(scene)), ModelError);
+}
