@@ -8,7 +8,6 @@
 namespace hydrodae::system {
 
 namespace {
-
 using Rotation = BodyData::Rotation;
 using joint::Matrix12;
 using joint::Vector12;
@@ -460,7 +459,6 @@ void prepare(const System& s, JacobianWorkspace& ws, const double* y, const doub
 }
 
 } // namespace
-
 JacobianWorkspace::JacobianWorkspace(const System& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {}
 
