@@ -1,0 +1,46 @@
+"""Error and cost of the multibody benchmark cases over a ladder of tolerances.
+
+    .venv/bin/python tests/benchmark/multibody.py [NAME ...]
+
+Makes the figures of cases/benchmarks/README.md. Needs the reference solutions ($HYDRODAE_REFERENCE
+or shared/reference beside the repository).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tests.verification.multibody import PROBLEMS  # noqa: E402
+
+import hydrodae  # noqa: E402
+
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11)
+
+
+def main() -> None:
+    folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
+    for name in sys.argv[1:] or PROBLEMS:
+        file = folder / "multibody" / f"{name}.json"  # heavy_top has a definition only
+        document = json.loads(file.read_text()) if file.exists() else {}
+        print(name)
+        for rtol in TOLERANCES:
+            case = ROOT / "cases" / "benchmarks" / f"{name}.toml"
+            try:
+                results = hydrodae.run(case, set={"solver.rtol": rtol})
+            except hydrodae.SolverError as stop:
+                print(f"  {rtol:.0e}  {str(stop).splitlines()[0]}")
+                continue
+            errors = PROBLEMS[name](results, document)
+            told = ", ".join(f"{what} {error:.1e}" for what, error in errors.items())
+            steps, seconds = results.statistics["steps"], results.statistics["solver_time"]
+            print(f"  {rtol:.0e}  {told}; {steps} steps, {1e3 * float(seconds):.1f} ms")
+
+
+if __name__ == "__main__":
+    main()
