@@ -1,29 +1,19 @@
 #include "hydrodae/system/assemble.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/rank.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
 
 namespace {
 
-constexpr double rank_tolerance = 1e-9; ///< of the largest pivot of the scaled gradient
-constexpr double closed = 1e-12;        ///< gaps, in units of their scale, that count as none
-
-/// Minimum-norm solver that takes the ranks as they are near singular poses.
-Eigen::CompleteOrthogonalDecomposition<MatrixX> decompose(const MatrixX& G) {
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-  cod.setThreshold(rank_tolerance);
-  cod.compute(G);
-  return cod;
-}
+constexpr double closed = 1e-12; ///< gaps, in units of their scale, that count as none
 
 /// What one unit of each velocity coordinate means as a displacement [m or rad].
 VectorX displacement_scale(const System& s) {
@@ -80,24 +70,31 @@ public:
     }
   }
 
-  /// Gradient (rows, n_u) by scaled displacements at the pose evaluated last.
-  MatrixX gradient() const {
-    MatrixX G = MatrixX::Zero(size_.size(), s_.n_u);
+  /// Gradient (rows, n_u) by scaled displacements at the pose evaluated last; rows for which
+  /// `wanted(i)` is false stay empty.
+  template <class Wanted> SparseMatrix gradient(Wanted&& wanted) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](const JointData& j, Index i, const joint::Vector12& row) {
+      if (wanted(i))
+        append(entries, j, i, row);
+    };
     for (const JointData& j : s_.joints) {
       const auto g = joint_geometry<double>(j, ws_.bodies);
       for (const RowData& row : j.rows)
         if (row.kept())
-          add(G, j, row.lambda - s_.lambda0,
+          add(j, row.lambda - s_.lambda0,
               joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient);
     }
     for (const CouplerData& c : s_.couplers)
       for (const CouplerData::Term& term : c.terms)
         if (c.kept())
-          add(G, s_.joints[s_.motions[term.motion].joint], c.lambda - s_.lambda0,
+          add(s_.joints[s_.motions[term.motion].joint], c.lambda - s_.lambda0,
               term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
     for (std::size_t k = 0; k < s_.starts.size(); ++k)
-      add(G, s_.joints[s_.motions[s_.starts[k].motion].joint], s_.n_lambda + static_cast<Index>(k),
+      add(s_.joints[s_.motions[s_.starts[k].motion].joint], s_.n_lambda + static_cast<Index>(k),
           motion_row<double>(s_, ws_, s_.starts[k].motion).gradient);
+    SparseMatrix G(size_.size(), s_.n_u);
+    G.setFromTriplets(entries.begin(), entries.end());
     return G;
   }
 
@@ -121,7 +118,8 @@ private:
     return s_.starts[static_cast<std::size_t>(i - s_.n_lambda)];
   }
 
-  void add(MatrixX& G, const JointData& j, Index i, const joint::Vector12& gradient) const {
+  void append(std::vector<Eigen::Triplet<double>>& entries, const JointData& j, Index i,
+              const joint::Vector12& gradient) const {
     for (int side = 0; side < 2; ++side) {
       const int body = side == 0 ? j.A.body : j.B.body;
       if (body < 0)
@@ -129,7 +127,7 @@ private:
       const BodyData& b = s_.bodies[body];
       for (int k = 0; k < b.n_active; ++k) {
         const Index u = b.u0 - s_.u0 + k;
-        G(i, u) += gradient[6 * side + b.active[k]] * scale_[u] / size_[i];
+        entries.emplace_back(i, u, gradient[6 * side + b.active[k]] * scale_[u] / size_[i]);
       }
     }
   }
@@ -150,11 +148,8 @@ double close_positions(const System& s, Constraints& constraints, VectorX& y) {
     if (!std::isfinite(size) || size < closed || (size < 1e-9 && size > 0.5 * before))
       break;
     before = size;
-    MatrixX G = constraints.gradient();
-    for (Index i = 0; i < G.rows(); ++i)
-      if (!constraints.holds_position(i))
-        G.row(i).setZero();
-    VectorX step = decompose(G).solve(-gaps);
+    VectorX step = smallest_solution(
+        constraints.gradient([&](Index i) { return constraints.holds_position(i); }), -gaps);
     const double largest = step.cwiseAbs().maxCoeff();
     if (largest > 3.0) // three scales are 0.3 levers: keep to the branch
       step *= 3.0 / largest;
@@ -170,11 +165,8 @@ void close_velocities(const System& s, Constraints& constraints, VectorX& y) {
     constraints.evaluate(y, gaps, rates);
     if (rates.size() == 0 || rates.cwiseAbs().maxCoeff() < closed)
       return;
-    MatrixX G = constraints.gradient();
-    for (Index i = 0; i < G.rows(); ++i)
-      if (!constraints.holds_rate(i))
-        G.row(i).setZero();
-    y.segment(s.u0, s.n_u) += decompose(G).solve(-rates).cwiseProduct(constraints.scale());
+    const SparseMatrix G = constraints.gradient([&](Index i) { return constraints.holds_rate(i); });
+    y.segment(s.u0, s.n_u) += smallest_solution(G, -rates).cwiseProduct(constraints.scale());
   }
 }
 
@@ -206,18 +198,6 @@ void write_back(System& s, const VectorX& y) {
     b.velocity = state.v;
     b.angular_velocity = state.w;
   }
-}
-
-/// Rank of G and an independent set of rows, the largest pivots first.
-Index independent_rows(const MatrixX& G, std::vector<Index>& rows) {
-  Eigen::ColPivHouseholderQR<MatrixX> qr(G.transpose());
-  qr.setThreshold(rank_tolerance);
-  const Index rank = qr.rank();
-  rows.clear();
-  for (Index k = 0; k < rank; ++k)
-    rows.push_back(qr.colsPermutation().indices()[k]);
-  std::sort(rows.begin(), rows.end());
-  return rank;
 }
 
 } // namespace
@@ -258,29 +238,33 @@ void assemble(System& s) {
   write_back(s, y);
 }
 
-MatrixX scaled_gradient(const System& s, const VectorX& y) {
-  Constraints constraints(s);
+SparseMatrix constraint_gradient(const System& s, const VectorX& y) {
+  System rows = s; // without the conditions of the start
+  rows.starts.clear();
+  Constraints constraints(rows);
   VectorX gaps, rates;
   constraints.evaluate(y, gaps, rates);
-  return constraints.gradient().topRows(s.n_lambda);
+  return constraints.gradient([](Index) { return true; });
 }
 
 Index mobility(const System& s) {
-  std::vector<Index> rows;
   return s.n_u -
-         (s.n_lambda > 0 ? independent_rows(scaled_gradient(s, initial_state(s)), rows) : 0);
+         static_cast<Index>(independent_rows(constraint_gradient(s, initial_state(s))).size());
 }
 
 bool drop_redundant_rows(System& s) {
   if (s.n_lambda == 0)
     return false;
-  if (mobility(s) == 0)
+  const VectorX start = initial_state(s);
+  std::vector<Index> best = independent_rows(constraint_gradient(s, start));
+  const auto rank_of = [](const std::vector<Index>& rows) {
+    return static_cast<Index>(rows.size());
+  };
+  Index rank = rank_of(best);
+  if (rank == s.n_u)
     s.notes.push_back(
         "the constraints leave nothing to move (or their axes and points are not exact: "
         "rows that agree to less than nine digits count as independent)");
-  const VectorX start = initial_state(s);
-  std::vector<Index> best, rows;
-  Index rank = independent_rows(scaled_gradient(s, start), best);
   const Index at_start = rank;
   if (rank == s.n_lambda)
     return false;
@@ -295,10 +279,10 @@ bool drop_redundant_rows(System& s) {
     retract(s, step.cwiseProduct(constraints.scale()), y);
     if (!(close_positions(free, constraints, y) < 1e-8))
       continue;
-    const Index here = independent_rows(scaled_gradient(s, y), rows);
-    if (here > rank) {
-      rank = here;
-      best = rows;
+    std::vector<Index> rows = independent_rows(constraint_gradient(s, y));
+    if (rank_of(rows) > rank) {
+      rank = rank_of(rows);
+      best = std::move(rows);
     }
   }
   if (rank > at_start)

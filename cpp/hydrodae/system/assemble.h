@@ -1,6 +1,7 @@
 #pragma once
 /// Closing the loops at the start, and finding rows that follow from others.
 
+#include "hydrodae/system/rank.h"
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
@@ -15,15 +16,15 @@ void retract(const System& system, const VectorX& step, VectorX& y);
 /// there is no such pose near.
 void assemble(System& system);
 
-/// Marks constraint rows that follow from the others in every closed pose near the start (rank by
-/// pivoted QR of the scaled gradient, there and at perturbed closed poses). A rank that is lost in
+/// Marks constraint rows that follow from the others in every closed pose near the start (rank of
+/// the scaled gradient, there and at perturbed closed poses). A rank that is lost in
 /// the pose of the start alone is a singular pose: noted, nothing dropped.
 /// @returns whether rows were dropped; then the layout has to be made anew.
 bool drop_redundant_rows(System& system);
 
 /// Scaled gradient of all rows kept (n_lambda, n_u) at y: rows by their own scale, columns by the
 /// length or angle that counts as one.
-MatrixX scaled_gradient(const System& system, const VectorX& y);
+SparseMatrix constraint_gradient(const System& system, const VectorX& y);
 
 /// Degrees of freedom that the constraints leave at the start: n_u - rank.
 Index mobility(const System& system);
