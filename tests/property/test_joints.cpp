@@ -33,8 +33,15 @@ Poses random_poses(test::Random& random) {
 
 /// Markers with random places and axes on both bodies.
 std::pair<Marker, Marker> random_markers(test::Random& random) {
-  return {Marker{0, random.vector(), random_rotation(random)},
-          Marker{1, random.vector(), random_rotation(random)}};
+  // A curve of gentle bends: random points lie within its radius of curvature.
+  Vector3 point = random.vector();
+  const Matrix3 turn = random_rotation(random);
+  std::vector<Vector3> points;
+  for (int k = 0; k < 9; ++k)
+    points.push_back(point + turn * Vector3(k - 4.0, 0.1 * random(), 0.1 * random()));
+  const auto path = std::make_shared<const Path>(points);
+  return {Marker{0, point, random_rotation(random), path},
+          Marker{1, random.vector(), random_rotation(random), nullptr}};
 }
 
 Geometry<double> seen(const Marker& B, const Poses& p) {

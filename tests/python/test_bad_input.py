@@ -289,7 +289,7 @@ end_time = 10.0
             'body_b = "wheel"',
             'body_b = "weight"',
             "case.toml:19:1: joint 'hinge': body 'weight' is a point: it has no rotation for a "
-            "revolute joint to hold; use spherical, distance or sliding",
+            "revolute joint to hold; use spherical, distance, sliding or path",
         ),
         (
             'type = "revolute"',

@@ -30,10 +30,11 @@ inline const std::vector<std::string_view> any_word;
 /// A member of `T` of one of the types that a case file can hold. A `std::vector<std::string>` also
 /// accepts one bare string; a `Matrix6` also accepts six numbers (its diagonal).
 template <class T>
-using Member = std::variant<double T::*, bool T::*, int T::*, std::string T::*,
-                            std::vector<std::string> T::*, std::vector<double> T::*, Vector3 T::*,
-                            Vector6 T::*, Matrix6 T::*, std::optional<double> T::*,
-                            std::optional<Vector3> T::*, std::optional<std::string> T::*>;
+using Member =
+    std::variant<double T::*, bool T::*, int T::*, std::string T::*, std::vector<std::string> T::*,
+                 std::vector<double> T::*, std::vector<Vector3> T::*, Vector3 T::*, Vector6 T::*,
+                 Matrix6 T::*, std::optional<double> T::*, std::optional<Vector3> T::*,
+                 std::optional<std::string> T::*>;
 
 /// One key of a case table.
 template <class T> struct Field {

@@ -145,6 +145,15 @@ void read_value(const toml::node& node, const Key& key, std::vector<double>& out
     out.push_back(in_radians(number(item, key), key));
 }
 
+void read_value(const toml::node& node, const Key& key, std::vector<Vector3>& out) {
+  const toml::array* list = node.as_array();
+  if (!list || list->empty() || !list->get(0)->is_array())
+    refuse(key, "a list of points, each of 3 numbers" + in_unit(key), node);
+  out.clear();
+  for (const toml::node& item : *list)
+    read_vector(item, key, out.emplace_back());
+}
+
 void read_value(const toml::node& node, const Key& key, Vector3& out) {
   read_vector(node, key, out);
 }

@@ -31,6 +31,7 @@ void read_value(const toml::node& node, const Key& key, int& out);
 void read_value(const toml::node& node, const Key& key, std::string& out);
 void read_value(const toml::node& node, const Key& key, std::vector<std::string>& out);
 void read_value(const toml::node& node, const Key& key, std::vector<double>& out);
+void read_value(const toml::node& node, const Key& key, std::vector<Vector3>& out);
 void read_value(const toml::node& node, const Key& key, Vector3& out);
 void read_value(const toml::node& node, const Key& key, Vector6& out);
 void read_value(const toml::node& node, const Key& key, Matrix6& out);

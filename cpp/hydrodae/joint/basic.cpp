@@ -10,8 +10,7 @@ constexpr int rA = 0, pA = 3, rB = 6, pB = 9;
 // With delta a_W = -R_A [a]x dphi_A,
 //      delta e   = [e]x dphi_A + R_A^T (dr_B - dr_A) - N [s_B]x dphi_B,
 //      delta (N^T a) = [N^T a]x dphi_B - N^T [a]x dphi_A.
-Matrix12 span_curvature(const Marker& A, const Marker& B, int i, const Geometry<double>& g) {
-  const Vector3 a = A.axes.col(i);
+static Matrix12 along_curvature(const Vector3& a, const Marker& B, const Geometry<double>& g) {
   const Matrix3 ax = skew<double>(a), sx = skew<double>(B.point);
   const Matrix3 a_W = g.R_A * ax, a_e = ax * g.R_A.transpose();
   Matrix12 t = Matrix12::Zero();
@@ -24,6 +23,19 @@ Matrix12 span_curvature(const Marker& A, const Marker& B, int i, const Geometry<
   t.block<3, 3>(pB, pA) = -sx * g.N.transpose() * ax;
   t.block<3, 3>(pB, pB) = sx * skew<double>(g.N.transpose() * a);
   return t;
+}
+
+Matrix12 span_curvature(const Marker& A, const Marker& B, int i, const Geometry<double>& g) {
+  return along_curvature(A.axes.col(i), B, g);
+}
+
+// f(e) with gradient a and second derivatives H: delta f = a . J xi, so T = J^T H J + (dJ)^T a with
+// J = [-R_A^T, [e]x, R_A^T, -N [s_B]x]; the second part is that of a row along a fixed a.
+static Matrix12 place_curvature(const Vector3& a, const Matrix3& H, const Marker& B,
+                                const Geometry<double>& g) {
+  Eigen::Matrix<double, 3, 12> J;
+  J << -g.R_A.transpose(), skew<double>(g.e), g.R_A.transpose(), -g.N * skew<double>(B.point);
+  return J.transpose() * H * J + along_curvature(a, B, g);
 }
 
 // With delta (N b) = [N b]x dphi_A - N [b]x dphi_B.
@@ -63,6 +75,9 @@ Matrix12 basic_curvature(const BasicRow& kind, const Marker& A, const Marker& B,
     return perp_curvature(A, B, kind.i, kind.j, g);
   case BasicRow::Kind::distance:
     return distance_curvature(A, B, p.length, g);
+  case BasicRow::Kind::across:
+    return place_curvature(A.path->across<double>(kind.i, g.e).gradient,
+                           A.path->across_hessian(kind.i, g.e), B, g);
   case BasicRow::Kind::screw:
     break;
   }
@@ -74,6 +89,8 @@ Matrix12 motion_curvature(const FreeMotion& motion, const Marker& A, const Marke
                           const Geometry<double>& g) {
   if (motion.kind == FreeMotion::Kind::slides)
     return span_curvature(A, B, motion.axis, g);
+  if (motion.kind == FreeMotion::Kind::travels)
+    return place_curvature(A.path->arc<double>(g.e).gradient, A.path->arc_hessian(g.e), B, g);
   if (motion.kind == FreeMotion::Kind::stretches) {
     const Row<double> s = stretch_row<double>(A, B, g);
     return (distance_curvature(A, B, 1.0, g) - s.gradient * s.gradient.transpose()) / s.value;

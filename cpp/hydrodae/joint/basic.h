@@ -4,6 +4,9 @@
 /// translations in world axes, the rotations in body axes; the same 12 numbers multiply the
 /// velocities (v_A, w_A, v_B, w_B).
 
+#include <memory>
+
+#include "hydrodae/joint/path.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/math/rotation.h"
 
@@ -18,6 +21,7 @@ struct Marker {
   int body = -1;
   Vector3 point = Vector3::Zero();    ///< from the centre of gravity, body axes [m]
   Matrix3 axes = Matrix3::Identity(); ///< columns: marker axes in body axes
+  std::shared_ptr<const Path> path;   ///< of a path joint: the curve, points like `point`
 };
 
 /// What every row of a joint needs of the poses of its two bodies.
@@ -43,10 +47,6 @@ struct Parameters {
   double length = 1.0; ///< L of `distance` [m]
   double pitch = 1.0;  ///< P of `screw` [m per turn]
 };
-
-/// The value of a scalar without its derivative.
-inline double value_of(double x) { return x; }
-template <class S> double value_of(const S& x) { return x.a; }
 
 /// The value of angle + 2 pi k nearest to `reference`.
 template <class S> S nearest_turn(const S& angle, double reference) {
@@ -102,10 +102,33 @@ template <class S> Row<S> stretch_row(const Marker& A, const Marker& B, const Ge
   return row;
 }
 
-/// The coordinate of a free motion: displacement a_i . (B - A); distance |B - A|; angle of B's axis
-/// j = i + 1 in the plane normal to a_i, theta = atan2(a_k . b_j, a_j . b_j) with (i, j, k) cyclic;
-/// or, about an axis of B, the angle of A's axis k seen from B, theta = atan2(a_k . b_j, a_k . b_k)
-/// with (i, j, k) cyclic. Angles in (-pi, pi].
+/// Gradient of a function of the place e of B's marker seen from A, whose gradient there is a:
+///   [-R_A a, a x e, R_A a, s_B x N^T a]
+template <class S>
+Vec12<S> place_gradient(const Vec3<S>& a, const Marker& B, const Geometry<S>& g) {
+  const Vec3<S> a_W = g.R_A * a;
+  Vec12<S> gradient;
+  gradient << -a_W, cross<S>(a, g.e), a_W, cross<S>(B.point.cast<S>(), g.N.transpose() * a);
+  return gradient;
+}
+
+/// g = n_i . w of the curve that A carries.
+template <class S>
+Row<S> across_row(const Marker& A, const Marker& B, int i, const Geometry<S>& g) {
+  const PointFunction<S> f = A.path->across<S>(i, g.e);
+  return {f.value, place_gradient<S>(f.gradient, B, g)};
+}
+
+/// Arc length from the first point of the curve to its point nearest to B [m].
+template <class S> Row<S> travel_row(const Marker& A, const Marker& B, const Geometry<S>& g) {
+  const PointFunction<S> f = A.path->arc<S>(g.e);
+  return {f.value, place_gradient<S>(f.gradient, B, g)};
+}
+
+/// The coordinate of a free motion: displacement a_i . (B - A); distance |B - A|; arc length; angle
+/// of B's axis j = i + 1 in the plane normal to a_i, theta = atan2(a_k . b_j, a_j . b_j) with (i,
+/// j, k) cyclic; or, about an axis of B, the angle of A's axis k seen from B, theta = atan2(a_k .
+/// b_j, a_k . b_k) with (i, j, k) cyclic. Angles in (-pi, pi].
 template <class S>
 Row<S> motion_row(const FreeMotion& motion, const Marker& A, const Marker& B,
                   const Geometry<S>& g) {
@@ -114,6 +137,8 @@ Row<S> motion_row(const FreeMotion& motion, const Marker& A, const Marker& B,
     return span_row<S>(A, B, motion.axis, g);
   if (motion.kind == FreeMotion::Kind::stretches)
     return stretch_row<S>(A, B, g);
+  if (motion.kind == FreeMotion::Kind::travels)
+    return travel_row<S>(A, B, g);
   const int j = (motion.axis + 1) % 3, k = (motion.axis + 2) % 3;
   const int m = motion.kind == FreeMotion::Kind::turns ? j : k;
   const Row<S> c = perp_row<S>(A, B, m, m, g), s = perp_row<S>(A, B, k, j, g);
@@ -143,6 +168,8 @@ Row<S> basic_row(const BasicRow& kind, const Marker& A, const Marker& B, const P
     return perp_row<S>(A, B, kind.i, kind.j, g);
   case BasicRow::Kind::distance:
     return distance_row<S>(A, B, p.length, g);
+  case BasicRow::Kind::across:
+    return across_row<S>(A, B, kind.i, g);
   case BasicRow::Kind::screw:
     break;
   }

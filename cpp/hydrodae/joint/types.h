@@ -12,6 +12,7 @@
 ///
 ///   distance():   |B - A|^2 / 2L - L/2 = 0             [m]   the origins keep the distance L
 ///   screw():      a_z . (B - A) - P theta_z / 2 pi = 0 [m]   P: advance a turn
+///   across(i):    n_i . (B - C) = 0 [m]   C: nearest point of a curve carried by A (see path.h)
 ///
 /// Both markers coincide in the reference pose (except along `distance`). `perp` rows also vanish
 /// when a body is flipped by 180 degrees; the branch is checked at the start of a run.
@@ -26,25 +27,27 @@ namespace hydrodae::joint {
 enum Axis : int { X = 0, Y = 1, Z = 2 };
 
 struct BasicRow {
-  enum class Kind { span, perp, distance, screw } kind = Kind::span;
-  int i = 0; ///< axis of marker A
+  enum class Kind { span, perp, distance, screw, across } kind = Kind::span;
+  int i = 0; ///< axis of marker A, or vector across the curve (0, 1)
   int j = 0; ///< axis of marker B (perp only)
 };
 constexpr BasicRow span(Axis i) { return {BasicRow::Kind::span, i, 0}; }
 constexpr BasicRow perp(Axis i, Axis j) { return {BasicRow::Kind::perp, i, j}; }
 constexpr BasicRow distance() { return {BasicRow::Kind::distance, Z, Z}; }
+constexpr BasicRow across(int i) { return {BasicRow::Kind::across, i, 0}; }
 constexpr BasicRow screw() { return {BasicRow::Kind::screw, Z, Z}; }
 
 /// A motion that a joint leaves free and that has a coordinate of its own, along or about an axis
 /// of marker A (`turns_b`: about an axis of marker B).
 struct FreeMotion {
-  enum class Kind { turns, turns_b, slides, stretches } kind = Kind::turns;
+  enum class Kind { turns, turns_b, slides, stretches, travels } kind = Kind::turns;
   int axis = Z;
   bool is_angle() const { return kind == Kind::turns || kind == Kind::turns_b; }
 };
 constexpr FreeMotion turns(Axis i) { return {FreeMotion::Kind::turns, i}; }
 constexpr FreeMotion turns_b(Axis i) { return {FreeMotion::Kind::turns_b, i}; }
 constexpr FreeMotion stretches() { return {FreeMotion::Kind::stretches, Z}; } ///< |B - A|
+constexpr FreeMotion travels() { return {FreeMotion::Kind::travels, Z}; }     ///< along the curve
 constexpr FreeMotion slides(Axis i) { return {FreeMotion::Kind::slides, i}; }
 
 struct JointType {
@@ -84,6 +87,7 @@ inline const std::vector<JointType>& joint_types() {
       {"sliding", {span(X), span(Y)}, {slides(Z)}, true},
       {"screw", {span(X), span(Y), perp(X, Z), perp(Y, Z), screw()}, {turns(Z), slides(Z)}, true},
       {"distance", {distance()}, {}, false},
+      {"path", {across(0), across(1)}, {travels()}, false},
   };
   return table;
 }

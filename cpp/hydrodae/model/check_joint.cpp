@@ -1,4 +1,5 @@
 #include "hydrodae/core/text.h"
+#include "hydrodae/joint/path.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
 
@@ -27,7 +28,7 @@ void check_axes(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "axis_x", "axis_x must have a length and a direction other than the axis");
 }
 
-/// Keys that belong to the rows `distance` and `screw`.
+/// Keys that belong to the rows `distance`, `screw` and `across`.
 void check_parameters(const Joint& joint, const joint::JointType& type) {
   const std::string kind = "a " + joint.type + " joint ";
   if (type.has_row(Row::distance)) {
@@ -43,6 +44,15 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
   if (!type.has_row(Row::screw) && joint.pitch != 0.0)
     refuse(joint, "pitch", kind + "has no 'pitch'; only a screw joint has");
+  if (!type.has_row(Row::across)) {
+    if (!joint.path.empty())
+      refuse(joint, "path", kind + "has no 'path'; only a path joint has");
+    return;
+  }
+  if (joint.path.empty())
+    refuse(joint, "", kind + "needs the key 'path', the points of the curve that body A carries");
+  if (const auto flaw = joint::Path::flaw(joint.path))
+    refuse(joint, "path", "the path " + *flaw);
 }
 
 /// A body that is a point has no axes: nothing can hold its rotation, and it carries no axis.
@@ -58,10 +68,11 @@ void check_points(const Scene& scene, const Joint& joint, const joint::JointType
   if (type.has_row(Row::perp) || type.has_row(Row::screw) || type.turns())
     refuse(joint, a ? "body_a" : "body_b",
            head + "it has no rotation for a " + joint.type +
-               " joint to hold; use spherical, distance or sliding");
-  if (a && type.needs_axis)
+               " joint to hold; use spherical, distance, sliding or path");
+  if (a && (type.needs_axis || type.has_row(Row::across)))
     refuse(joint, "body_a",
-           head + "it cannot carry the axis of a " + joint.type + " joint; make it body_b");
+           head + "it cannot carry the " + (type.needs_axis ? "axis" : "curve") + " of a " +
+               joint.type + " joint; make it body_b");
 }
 
 void check_initial(const Joint& joint, const joint::JointType& type) {

@@ -23,6 +23,9 @@ Fields<Joint> Joint::fields() {
        more_than(0)},
       {"pitch", &J::pitch, "m per turn",
        "Advance of body B along the axis for one turn about it, not zero; screw joint only."},
+      {"path", &J::path, "m",
+       "Points of the curve that body A carries, in the reference pose, world axes, joined by a "
+       "natural cubic spline that goes on straight beyond its ends; path joint only."},
   };
 }
 

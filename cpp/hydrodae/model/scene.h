@@ -152,6 +152,7 @@ struct Joint {
   std::optional<Vector3> point_b;
   std::optional<double> length;
   double pitch = 0.0; ///< 0: not given
+  std::vector<Vector3> path;
   JointInitial initial;
 
   static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/joint/path.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::model {
@@ -28,6 +29,9 @@ void write_joint(std::ostream& out, const Joint& joint) {
   if (joint.point_b)
     out << ", length " << number_text(joint.length.value_or((*joint.point_b - joint.point).norm()))
         << " m";
+  if (!joint.path.empty())
+    out << ", path of " << joint.path.size() << " points, "
+        << number_text(joint::Path(joint.path).length()) << " m long";
   if (joint.pitch != 0.0)
     out << ", " << number_text(joint.pitch) << " m per turn";
   write_start(out, "angle", joint.initial.angle, 180.0 / pi, "deg");

@@ -59,7 +59,7 @@ const joint::JointType spring_type = {"spring", {}, {joint::stretches()}, false}
 joint::Marker make_marker(const model::Scene& scene, const std::string& body, const Vector3& point,
                           const Matrix3& axes) {
   const int index = body_index(scene, body);
-  return {index, index < 0 ? point : point - scene.bodies[index].center_of_gravity, axes};
+  return {index, index < 0 ? point : point - scene.bodies[index].center_of_gravity, axes, nullptr};
 }
 
 /// Adds a joint and its motions.
@@ -82,6 +82,12 @@ void add_joint(const model::Scene& scene, const model::Joint& joint, System& s) 
   j.B = make_marker(scene, joint.body_b, point_b, axes);
   j.parameters.length = joint.length.value_or((point_b - joint.point).norm());
   j.parameters.pitch = joint.pitch;
+  if (!joint.path.empty()) { // its points as the marker has its own
+    std::vector<Vector3> points = joint.path;
+    for (Vector3& p : points)
+      p = make_marker(scene, joint.body_a, p, axes).point;
+    j.A.path = std::make_shared<const joint::Path>(points);
+  }
   const model::JointInitial& start = joint.initial;
   for (int m = add_joint(s, std::move(j)).first_motion; m < static_cast<int>(s.motions.size());
        ++m) {

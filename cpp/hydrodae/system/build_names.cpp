@@ -13,6 +13,8 @@ std::string row_name(const joint::BasicRow& row) {
     return "axes " + axis[row.i] + "-" + axis[row.j];
   case joint::BasicRow::Kind::distance:
     return "distance";
+  case joint::BasicRow::Kind::across:
+    return row.i == 0 ? "gap across the path" : "second gap across the path";
   case joint::BasicRow::Kind::screw:
     break;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
-#include "hydrodae/joint/types.h"
+#include "hydrodae/joint/path.h"
 #include "hydrodae/math/rotation.h"
 #include "hydrodae/model/motion.h"
 
@@ -82,6 +82,14 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
   const Matrix3 R = rotation_matrix<double>(base.p);
   const Vector3 point = base.r + R * (joint.point - reference);
   const Vector3 axis = sign * (R * marker_axes(joint).col(2));
+  if (!joint.path.empty()) { // the point of B to its place on the curve, along the curve
+    const auto [place, tangent] = joint::Path(joint.path).at_arc(start.displacement.value_or(0.0));
+    const Vector3 slide =
+        start.displacement ? Vector3(sign * (R * (place - joint.point))) : Vector3::Zero();
+    move(poses, side, point, Vector3::Zero(), slide, Vector3::Zero(),
+         sign * start.displacement_rate.value_or(0.0) * (R * tangent));
+    return;
+  }
   move(poses, side, point, start.angle.value_or(0.0) * axis,
        start.displacement.value_or(0.0) * axis, start.angle_rate.value_or(0.0) * axis,
        start.displacement_rate.value_or(0.0) * axis);

@@ -141,6 +141,9 @@ Vector6 Observer::row_reaction(const JointData& j, const RowData& row,
   case joint::BasicRow::Kind::distance:
     reaction.head<3>() = lambda / j.parameters.length * (to_marker * (g.e - j.A.point));
     break;
+  case joint::BasicRow::Kind::across: // a force at the point that slides
+    reaction.head<3>() = lambda * (to_marker * j.A.path->across<double>(row.kind.i, g.e).gradient);
+    break;
   case joint::BasicRow::Kind::screw:
     reaction[2] = lambda;
     reaction[5] = -lambda * j.parameters.pitch / (2.0 * pi);

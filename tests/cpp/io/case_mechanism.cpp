@@ -147,7 +147,7 @@ const std::vector<BadInput> bad_inputs = {
      "case.toml:32:1: joint 'rope': a distance joint has no 'pitch'; only a screw joint has"},
     {"body_b = \"wheel\"", "body_b = \"weight\"",
      "case.toml:20:1: joint 'hinge': body 'weight' is a point: it has no rotation for a revolute "
-     "joint to hold; use spherical, distance or sliding"},
+     "joint to hold; use spherical, distance, sliding or path"},
     {"body_b = \"weight\"\npoint_a = [5.0", "body_b = \"wheight\"\npoint_a = [5.0",
      "case.toml:54:1: force 'spring': body_b = 'wheight' is no body; did you mean 'weight'? "
      "(valid: ground, wheel, weight)"},

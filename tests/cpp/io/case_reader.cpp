@@ -120,7 +120,7 @@ TEST_CASE("a wrong value is told with its place and what was expected") {
       {"type = \"revolute\"", "type = \"revolut\"",
        "case.toml:21:1: key 'type' in [[joint]] 'hinge': unknown value 'revolut'; did you mean "
        "'revolute'? (valid: spherical, revolute, prismatic, fixed, universal, cylindrical, planar, "
-       "sliding, screw, distance)"},
+       "sliding, screw, distance, path)"},
       {"end_time = 10.0", "end_time = 0",
        "case.toml:35:1: key 'end_time' in [solver]: must be > 0 s, got 0 s"},
       {"end_time = 10.0", "end_time = 10.0\nmax_order = 9",

@@ -36,6 +36,8 @@ Joint make_joint(const std::string& name, const std::string& type, const std::st
     j.point_b = Vector3(1, 0, -2);
   if (type == "screw")
     j.pitch = 0.1;
+  if (type == "path")
+    j.path = {{0, 0, 0}, {1, 0, 0.2}, {2, 0, 0}};
   return j;
 }
 
@@ -133,11 +135,40 @@ TEST_CASE("every joint of the table is accepted with its own keys and no others"
           (screw ? "joint.j.pitch: joint 'j': a screw joint needs the key 'pitch' "
                    "[m per turn], and not zero"
                  : "joint.j.pitch: joint 'j': " + head + "has no 'pitch'; only a screw joint has"));
+    j = good;
+    if (name == "path")
+      j.path.clear();
+    else
+      j.path = {{0, 0, 0}, {1, 0, 0}};
+    CHECK(verdict_of(j) ==
+          (name == "path"
+               ? "joint.j: joint 'j': a path joint needs the key 'path', the points of "
+                 "the curve that body A carries"
+               : "joint.j.path: joint 'j': " + head + "has no 'path'; only a path joint has"));
   }
   Joint rope = make_joint("rope", "distance", "a", "ground");
   rope.point_b = rope.point;
   CHECK(verdict_of(rope) == "joint.rope.point_b: joint 'rope': point and point_b coincide: their "
                             "distance has no direction");
+}
+
+TEST_CASE("a path says what keeps it from being one") {
+  const auto flaw = [](std::vector<Vector3> points) {
+    Joint j = make_joint("j", "path", "a", "b");
+    j.path = std::move(points);
+    return verdict_of(j);
+  };
+  const std::string head = "joint.j.path: joint 'j': the path ";
+  CHECK(flaw({{0, 0, 0}}) == head + "needs two points or more");
+  CHECK(flaw({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}) == head + "points 2 and 3 are the same");
+  CHECK(flaw({{0, 0, 0}, {1, 0, 0}, {0.2, 0, 0.3}}).find("turns by more than 60 degrees") !=
+        std::string::npos);
+  std::vector<Vector3> circle;
+  for (int k = 0; k < 24; ++k)
+    circle.emplace_back(std::cos(pi * k / 12), 0, std::sin(pi * k / 12));
+  CHECK(flaw(circle).find("comes back near itself") != std::string::npos);
+  circle.resize(16);
+  CHECK(flaw(circle) == "");
 }
 
 TEST_CASE("a point has no rotation that a joint could hold") {
@@ -146,13 +177,14 @@ TEST_CASE("a point has no rotation that a joint could hold") {
     CAPTURE(name);
     const bool joins_points = name == "spherical" || name == "distance";
     const std::string reason = "body 'p' is a point: it has no rotation for a " + name +
-                               " joint to hold; use spherical, distance or sliding";
+                               " joint to hold; use spherical, distance, sliding or path";
     const std::string as_a = verdict_of(make_joint("j", name, "p", "a"));
     const std::string as_b = verdict_of(make_joint("j", name, "ground", "p"));
-    if (name == "sliding") {
+    if (name == "sliding" || name == "path") {
       CHECK(as_b == "");
-      CHECK(as_a == "joint.j.body_a: joint 'j': body 'p' is a point: it cannot carry the axis of a "
-                    "sliding joint; make it body_b");
+      CHECK(as_a == "joint.j.body_a: joint 'j': body 'p' is a point: it cannot carry the " +
+                        std::string(name == "path" ? "curve" : "axis") + " of a " + name +
+                        " joint; make it body_b");
     } else {
       CHECK(as_a == (joins_points ? "" : "joint.j.body_a: joint 'j': " + reason));
       CHECK(as_b == (joins_points ? "" : "joint.j.body_b: joint 'j': " + reason));
