@@ -2,12 +2,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/solve/ida.h"
+#include "hydrodae/solve/integrator.h"
+#include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/recorder.h"
 
@@ -78,11 +81,8 @@ public:
         pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
-    ida_ = std::make_unique<solve::Ida>(system_, pattern_,
-                                        solve::IdaOptions{scene.solver.rtol, scene.solver.end_time,
-                                                          scene.solver.max_step,
-                                                          scene.solver.max_order},
-                                        0.0, y_, yp_);
+    formulate(scene.solver);
+    integrator_ = solve::make_integrator(system_, pattern_, scene.solver, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -109,6 +109,45 @@ public:
   }
 
 private:
+  /// The start is found on the stabilised equations; then the formulation may change.
+  void formulate(const model::SolverOptions& options) {
+    using system::Formulation;
+    static const std::map<std::string, Formulation> formulations = {
+        {"stabilised", Formulation::stabilised},
+        {"index_2", Formulation::index_2},
+        {"index_3", Formulation::index_3},
+        {"index_1", Formulation::index_1}};
+    system_.formulation = formulations.at(options.formulation);
+    if (options.baumgarte_time > 0.0)
+      system_.baumgarte_rate = 1.0 / options.baumgarte_time;
+    if (system_.formulation != Formulation::stabilised)
+      pattern_ = system::find_pattern(system_);
+  }
+
+  /// The rule by which the work over the coming step is summed.
+  void choose_quadrature() {
+    const int nodes = integrator_->quadrature_nodes();
+    if (nodes == quadrature_nodes_)
+      return;
+    quadrature_nodes_ = nodes;
+    const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
+    recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
+  }
+
+  /// Ends a run that went wrong without the integrator's noticing (a branch lost in a singular
+  /// pose, a tolerance too loose): the energy that the equations keep is a witness of its own.
+  void check_energy() const {
+    const double limit = scene_.solver.energy_guard * recorder_->largest_energy();
+    const double error = recorder_->balance_error();
+    if (limit > 0.0 && !(std::abs(error) <= limit))
+      throw SolverError(t_, "stopped at t = " + number_text(t_) +
+                                " s: the energy balance is off by " + number_text(error) +
+                                " J, more than " + number_text(scene_.solver.energy_guard) +
+                                " of the " + number_text(recorder_->largest_energy()) +
+                                " J exchanged (solver.energy_guard): the motion is not to be "
+                                "trusted; a smaller tolerance or step, or another method may help");
+  }
+
   /// Steps until the end; false when the progress callback asked to stop.
   bool march() {
     const double end = scene_.solver.end_time, dt = scene_.output.step;
@@ -118,13 +157,15 @@ private:
     long next = 1, steps_since_asked = 0;
     while (t_ < end) {
       const Clock::time_point before = Clock::now();
-      t_ = ida_->step();
+      t_ = integrator_->step();
       statistics_.solver_time += seconds_since(before);
-      take(ida_->statistics(), statistics_);
+      take(integrator_->statistics(), statistics_);
+      choose_quadrature();
       for (; next <= samples && static_cast<double>(next) * dt <= t_ * (1.0 + 1e-14); ++next)
         if (!sample(std::min(static_cast<double>(next) * dt, t_)))
           return false;
       recorder_->accept(t_, at_);
+      check_energy();
       // Between samples that are far apart in steps, a request to stop is heard as well.
       if (++steps_since_asked >= 1000 && progress_) {
         steps_since_asked = 0;
@@ -137,7 +178,7 @@ private:
 
   bool sample(double t) {
     recorder_->sample(t, at_, row_);
-    const solve::Statistics s = ida_->statistics();
+    const solve::Statistics s = integrator_->statistics();
     row_[row_.size() - 2] = s.last_step;
     row_[row_.size() - 1] = s.last_order;
     if (file_)
@@ -159,14 +200,15 @@ private:
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
-  std::unique_ptr<solve::Ida> ida_;
+  std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
   double t_ = 0.0;
+  int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
-    ida_->interpolate(t, y, yp);
+    integrator_->interpolate(t, y, yp);
   };
 };
 

@@ -79,6 +79,7 @@ void check(const Scene& scene) {
   for (const Constraint& constraint : scene.constraints)
     check_constraint(scene, constraint);
   check_forces(scene);
+  check_solver(scene);
   if (scene.hydro && scene.database)
     check_database(scene);
 }

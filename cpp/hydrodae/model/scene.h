@@ -17,6 +17,7 @@
 #include "hydrodae/force/spring_damper.h"
 #include "hydrodae/hydro/database.h"
 #include "hydrodae/model/drive.h"
+#include "hydrodae/model/solver_options.h"
 
 namespace hydrodae::model {
 
@@ -201,38 +202,6 @@ struct Constraint {
         {"joint_b", &C::joint_b, "-", "Second joint of a coupler."},
         {"coordinate_b", &C::coordinate_b, "-", "Its coordinate; by default the first."},
         {"ratio", &C::ratio, "- or m/rad", "Motion of the second joint per motion of the first."},
-    };
-  }
-};
-
-/// Table [solver].
-struct SolverOptions {
-  std::string method = "ida";
-  double end_time = 0.0;
-  double rtol = 1e-6;
-  double max_step = 0.0;
-  int max_order = 5;
-  std::optional<double> length_scale;
-  std::optional<double> time_scale;
-
-  static Fields<SolverOptions> fields() {
-    using O = SolverOptions;
-    return {
-        {"method", &O::method, "-", "Integrator.", false, any_value, {"ida"}},
-        {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
-        {"rtol", &O::rtol, "-",
-         "Local error tolerance relative to the scales of the scene (see length_scale, "
-         "time_scale).",
-         false, Range{1e-13, 1e-1, false}},
-        {"max_step", &O::max_step, "s", "Longest step; 0: no limit.", false, at_least(0)},
-        {"max_order", &O::max_order, "-", "Highest order of the BDF method.", false, between(1, 5)},
-        {"length_scale", &O::length_scale, "m",
-         "Length that the tolerance of positions refers to; default: from the bodies and joints.",
-         false, more_than(0)},
-        {"time_scale", &O::time_scale, "s",
-         "Time that turns the position scale into the velocity scale; default: from gravity, "
-         "else from the start.",
-         false, more_than(0)},
     };
   }
 };

@@ -13,7 +13,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/system/residual.h"
+#include "hydrodae/solve/equations.h"
 
 namespace hydrodae::solve {
 
@@ -57,50 +57,30 @@ SUNContext make_context() {
   return context;
 }
 
-/// "a (2.1), b (0.4)": the three largest entries of `values` by name.
-std::string worst(const VectorX& values, const std::vector<std::string>& names) {
-  std::vector<Index> order(names.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  const std::size_t count = std::min<std::size_t>(3, order.size());
-  auto size = [&](Index i) { return std::isfinite(values[i]) ? std::abs(values[i]) : HUGE_VAL; };
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                    [&](Index a, Index b) { return size(a) > size(b); });
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < count; ++k)
-    parts.push_back(names[order[k]] + " (" + number_text(values[order[k]]) + ")");
-  return joined(parts);
-}
+class Ida : public Integrator {
+public:
+  Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
+      const VectorX& y0, const VectorX& yp0)
+      : system(s), pattern(p), rtol(options.rtol), equations(s, p, options.rtol), now(y0),
+        now_rate(yp0), out(s.n), end_time(options.end_time), time_scale(equations.time_scale()),
+        guard(0.0, end_time, time_scale) {
+    start(options, y0, yp0);
+  }
+  double step() override;
+  void interpolate(double t, VectorX& y, VectorX& yp) override;
+  Statistics statistics() const override;
 
-/// First step [s]: short enough for order 1 to meet the tolerance, sqrt(tolerance) of the shortest
-/// time in which a body moves, or speeds up by, its own scale; long enough for multipliers, whose
-/// rounding error grows as 1 / step. (IDA's own guess takes uniform motion for an error.)
-double first_step(const system::System& s, double rtol, const VectorX& y, const VectorX& yp) {
-  double time = INFINITY;
-  for (const system::BodyData& b : s.bodies)
-    for (int k = 0; k < b.n_active; ++k) {
-      const Index u = b.u0 + k;
-      const double size = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
-      time = std::min({time, b.time_scale, size / std::max(std::abs(y[u]), 1e-300),
-                       std::sqrt(size / std::max(std::abs(yp[u]), 1e-300))});
-    }
-  return 0.3 * std::sqrt(rtol) * time;
-}
-
-} // namespace
-
-struct Ida::Impl {
+private:
   const system::System& system;
   const system::Pattern& pattern;
   double rtol;
-  system::Workspace<double> workspace;
-  system::JacobianWorkspace jacobian_workspace;
-  system::JacobianParts parts;
-  long residual_calls = 0, jacobian_calls = 0;
-  double t = 0.0, end_time = 0.0;
+  Equations equations;
+  VectorX now, now_rate, out; ///< copies for the calls that take our vectors
+  double t_ = 0.0, end_time = 0.0;
   double first = 0.0;      ///< first step [s]
   double time_scale = 0.0; ///< longest of the bodies [s]
-  long steps = 0;          ///< since `t_checked`
-  double t_checked = 0;    ///< [s]
+  double coordinate_size = 10.0; ///< largest position in units of its scale: what is rounded
+  ProgressGuard guard;
 
   Owned<SUNContext, ContextDeleter> context{make_context()};
   Owned<N_Vector, VectorDeleter> y, yp, id, scratch;
@@ -108,16 +88,12 @@ struct Ida::Impl {
   Owned<SUNLinearSolver, SolverDeleter> linear_solver;
   std::unique_ptr<void, IdaDeleter> memory; // freed before what it refers to
 
-  Impl(const system::System& s, const system::Pattern& p, double tolerance)
-      : system(s), pattern(p), rtol(tolerance), workspace(s), jacobian_workspace(s), parts(p) {}
-
   N_Vector new_vector() const {
     return made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
   }
-  void start(const IdaOptions& options, double t0, const VectorX& y0, const VectorX& yp0);
+  void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
   void accept();
-  void check_progress();
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user);
   static int jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix j,
@@ -125,36 +101,39 @@ struct Ida::Impl {
   static int weights(N_Vector y, N_Vector w, void* user);
 };
 
-int Ida::Impl::residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
-  Impl& self = *static_cast<Impl*>(user);
-  ++self.residual_calls;
-  double* out = N_VGetArrayPointer(r);
-  system::residual<double>(self.system, self.workspace, t, N_VGetArrayPointer(y),
-                           N_VGetArrayPointer(yp), out);
-  // A value that is not finite is recoverable: IDA tries a shorter step.
-  return std::isfinite(Eigen::Map<const VectorX>(out, self.system.n).sum()) ? 0 : 1;
+Eigen::Map<const VectorX> view(N_Vector v, Index n) { return {N_VGetArrayPointer(v), n}; }
+
+int Ida::residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
+  Ida& self = *static_cast<Ida*>(user);
+  self.now = view(y, self.system.n);
+  self.now_rate = view(yp, self.system.n);
+  const bool finite = self.equations.residual(t, self.now, self.now_rate, self.out);
+  std::copy(self.out.begin(), self.out.end(), N_VGetArrayPointer(r));
+  return finite ? 0 : 1; // recoverable: IDA tries a shorter step
 }
 
-int Ida::Impl::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector, SUNMatrix j,
-                        void* user, N_Vector, N_Vector, N_Vector) {
-  Impl& self = *static_cast<Impl*>(user);
-  ++self.jacobian_calls;
-  system::jacobian(self.system, self.pattern, self.jacobian_workspace, t, N_VGetArrayPointer(y),
-                   N_VGetArrayPointer(yp), self.parts);
+int Ida::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector, SUNMatrix j,
+                  void* user, N_Vector, N_Vector, N_Vector) {
+  Ida& self = *static_cast<Ida*>(user);
+  self.now = view(y, self.system.n);
+  self.now_rate = view(yp, self.system.n);
+  self.equations.jacobian(t, self.now, self.now_rate);
   // IDA clears the indices together with the values before each call.
   const system::Pattern& p = self.pattern;
   std::copy(p.column_start.begin(), p.column_start.end(), SUNSparseMatrix_IndexPointers(j));
   std::copy(p.row.begin(), p.row.end(), SUNSparseMatrix_IndexValues(j));
   double* values = SUNSparseMatrix_Data(j);
+  const system::JacobianParts& parts = self.equations.parts;
   for (std::size_t k = 0; k < p.row.size(); ++k)
-    values[k] = self.parts.by_y[k] + alpha * self.parts.by_yp[k];
+    values[k] = parts.by_y[k] + alpha * parts.by_yp[k];
+  self.equations.regularise(alpha, values);
   return 0;
 }
 
 // w_i = 1 / (rtol (scale_i + |y_i|)), without |y_i| for positions, whose origin means nothing. A
 // multiplier is known no better than the velocities, whose rounding it feels divided by the step.
-int Ida::Impl::weights(N_Vector y, N_Vector w, void* user) {
-  Impl& self = *static_cast<Impl*>(user);
+int Ida::weights(N_Vector y, N_Vector w, void* user) {
+  Ida& self = *static_cast<Ida*>(user);
   const Eigen::Map<const VectorX> state(N_VGetArrayPointer(y), self.system.n);
   Eigen::Map<VectorX>(N_VGetArrayPointer(w), self.system.n) =
       (self.rtol * (self.system.scale.array() + self.system.relative.array() * state.array().abs()))
@@ -164,15 +143,13 @@ int Ida::Impl::weights(N_Vector y, N_Vector w, void* user) {
   if (step <= 0.0)
     step = self.first;
   const Index n = self.system.n - self.system.lambda0;
-  const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * self.time_scale / step;
+  const double rounding = 1e2 * self.coordinate_size * std::numeric_limits<double>::epsilon() * self.time_scale / step;
   Eigen::Map<VectorX> all(N_VGetArrayPointer(w), self.system.n);
   all.tail(n) = all.tail(n).cwiseMin((rounding * self.system.scale.tail(n)).cwiseInverse());
   return 0;
 }
 
-void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, const VectorX& yp0) {
-  t = t_checked = t0;
-  end_time = options.end_time;
+void Ida::start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0) {
   y.reset(new_vector());
   yp.reset(new_vector());
   id.reset(new_vector());
@@ -181,13 +158,17 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
   std::copy(yp0.begin(), yp0.end(), N_VGetArrayPointer(yp.get()));
   accept();
   for (Index i = 0; i < system.n; ++i)
-    N_VGetArrayPointer(id.get())[i] = system.is_algebraic(i) ? 0.0 : 1.0;
+    N_VGetArrayPointer(id.get())[i] =
+        system.is_algebraic(i) || (system.formulation == system::Formulation::index_3 &&
+                                   i >= system.u0 && i < system.z0)
+            ? 0.0
+            : 1.0; // in index 3 the velocities behave like multipliers
   memory.reset(made(IDACreate(context.get()), "IDACreate"));
   void* ida = memory.get();
   check(IDASetErrHandlerFn(
             ida, [](int, const char*, const char*, char*, void*) {}, nullptr),
         "IDASetErrHandlerFn"); // our own messages say more
-  check(IDAInit(ida, residual, t0, y.get(), yp.get()), "IDAInit");
+  check(IDAInit(ida, residual, 0.0, y.get(), yp.get()), "IDAInit");
   check(IDASetUserData(ida, this), "IDASetUserData");
   check(IDAWFtolerances(ida, weights), "IDAWFtolerances");
   check(IDASetId(ida, id.get()), "IDASetId");
@@ -196,10 +177,14 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
   check(IDASetStopTime(ida, options.end_time), "IDASetStopTime");
   if (options.max_step > 0.0)
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
-  const double longest = options.max_step > 0.0 ? options.max_step : options.end_time - t0;
-  first = std::min(first_step(system, rtol, y0, yp0), longest);
-  for (const system::BodyData& b : system.bodies)
-    time_scale = std::max(time_scale, b.time_scale);
+  const double longest = options.max_step > 0.0 ? options.max_step : options.end_time;
+  first = std::min(equations.first_step(y0, yp0), longest);
+  const Index n_q = system.n_q;
+  if (n_q > 0)
+    coordinate_size = std::max(coordinate_size, y0.head(n_q)
+                                                    .cwiseAbs()
+                                                    .cwiseQuotient(system.scale.head(n_q))
+                                                    .maxCoeff());
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
                     "SUNSparseMatrix"));
@@ -210,17 +195,15 @@ void Ida::Impl::start(const IdaOptions& options, double t0, const VectorX& y0, c
 }
 
 /// What belongs to accepted steps moves on.
-void Ida::Impl::accept() {
-  if (system.motions.empty())
-    return;
-  system::accept_turns(system, N_VGetArrayPointer(y.get()), N_VGetArrayPointer(yp.get()),
-                       workspace);
-  jacobian_workspace.state.turns = workspace.turns;
+void Ida::accept() {
+  now = view(y.get(), system.n);
+  now_rate = view(yp.get(), system.n);
+  equations.accept(now, now_rate);
 }
 
 /// Which unknowns failed the error test, and which equations Newton could not satisfy, at the point
 /// that IDA tried last.
-std::string Ida::Impl::diagnosis(int flag) {
+std::string Ida::diagnosis(int flag) {
   void* ida = memory.get();
   std::string text;
   VectorX values(system.n);
@@ -233,57 +216,24 @@ std::string Ida::Impl::diagnosis(int flag) {
   }
   N_Vector y_now = nullptr, yp_now = nullptr;
   if (IDAGetCurrentY(ida, &y_now) == IDA_SUCCESS && IDAGetCurrentYp(ida, &yp_now) == IDA_SUCCESS) {
-    system::residual<double>(system, workspace, t, N_VGetArrayPointer(y_now),
-                             N_VGetArrayPointer(yp_now), values.data());
-    text += "\n  worst equations, relative to their scale: " +
-            worst(values.cwiseQuotient(system.row_scale), system.row_names);
-    // A loop that locks shows in reactions that grow without bound.
-    values.setZero();
-    const Eigen::Map<const VectorX> state(N_VGetArrayPointer(y.get()), system.n);
-    values.segment(system.lambda0, system.n_lambda) =
-        state.segment(system.lambda0, system.n_lambda)
-            .cwiseQuotient(system.scale.segment(system.lambda0, system.n_lambda));
-    if (system.n_lambda > 0)
-      text += "\n  largest reactions at the last good step, relative to the weights: " +
-              worst(values, system.names);
+    now = view(y_now, system.n);
+    now_rate = view(yp_now, system.n);
+    now.segment(system.lambda0, system.n_lambda) =
+        view(y.get(), system.n).segment(system.lambda0, system.n_lambda);
+    text += equations.diagnosis(t_, now, now_rate);
   }
   return text;
 }
 
-/// Near a singular pose the steps can shrink without ever failing: a run that would take for ever
-/// ends with that reason.
-void Ida::Impl::check_progress() {
-  constexpr long watch = 5000;
-  constexpr double least = 1e-6; // of the whole run in so many steps, of a body's time in one
-  if (++steps < watch)
-    return;
-  const double gained = t - t_checked;
-  if (gained < least * end_time && gained < watch * least * time_scale && t < end_time)
-    throw SolverError(t, "stopped at t = " + number_text(t) + " s: no progress, " +
-                             std::to_string(watch) + " steps brought only " + number_text(gained) +
-                             " s (a singular pose?)" + diagnosis(IDA_SUCCESS));
-  steps = 0;
-  t_checked = t;
-}
-
-Ida::Ida(const system::System& system, const system::Pattern& pattern, const IdaOptions& options,
-         double t0, const VectorX& y, const VectorX& yp)
-    : impl_(std::make_unique<Impl>(system, pattern, options.rtol)) {
-  impl_->start(options, t0, y, yp);
-}
-
-Ida::~Ida() = default;
-
 double Ida::step() {
-  Impl& m = *impl_;
-  const int flag = IDASolve(m.memory.get(), m.end_time, &m.t, m.y.get(), m.yp.get(), IDA_ONE_STEP);
+  const int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
   if (flag >= 0) {
-    m.accept();
-    m.check_progress();
-    return m.t;
+    accept();
+    guard.after_step(t_, [&] { return diagnosis(IDA_SUCCESS); });
+    return t_;
   }
   double h = 0.0;
-  IDAGetCurrentStep(m.memory.get(), &h);
+  IDAGetCurrentStep(memory.get(), &h);
   static const std::pair<int, const char*> reasons[] = {
       {IDA_ERR_FAIL, "the local error stays too large however short the step"},
       {IDA_CONV_FAIL, "Newton's iteration does not converge however short the step"},
@@ -295,34 +245,40 @@ double Ida::step() {
   for (const auto& [code, words] : reasons)
     if (code == flag)
       reason = std::string(words) + " (" + reason + ")";
-  throw SolverError(m.t, "stopped at t = " + number_text(m.t) + " s: " + reason + ", last step " +
-                             number_text(h) + " s" + m.diagnosis(flag));
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
+                            number_text(h) + " s" + diagnosis(flag));
 }
 
-void Ida::interpolate(double t, VectorX& y, VectorX& yp) const {
-  const Impl& m = *impl_;
+void Ida::interpolate(double t, VectorX& y_out, VectorX& yp_out) {
   for (int derivative = 0; derivative < 2; ++derivative) {
-    check(IDAGetDky(m.memory.get(), t, derivative, m.scratch.get()), "IDAGetDky");
-    (derivative == 0 ? y : yp) =
-        Eigen::Map<const VectorX>(N_VGetArrayPointer(m.scratch.get()), m.system.n);
+    check(IDAGetDky(memory.get(), t, derivative, scratch.get()), "IDAGetDky");
+    (derivative == 0 ? y_out : yp_out) = view(scratch.get(), system.n);
   }
 }
 
 Statistics Ida::statistics() const {
-  void* ida = impl_->memory.get();
+  void* ida = memory.get();
   Statistics s;
   long unused_residuals = 0, setups = 0;
   int next_order = 0;
-  double first_step = 0.0, next_step = 0.0, now = 0.0;
+  double first_step = 0.0, next_step = 0.0, time = 0.0;
   check(IDAGetIntegratorStats(ida, &s.steps, &unused_residuals, &setups, &s.error_test_failures,
                               &s.last_order, &next_order, &first_step, &s.last_step, &next_step,
-                              &now),
+                              &time),
         "IDAGetIntegratorStats");
   check(IDAGetNonlinSolvStats(ida, &s.newton_iterations, &s.convergence_failures),
         "IDAGetNonlinSolvStats");
-  s.residual_calls = impl_->residual_calls;
-  s.jacobian_calls = impl_->jacobian_calls;
+  s.residual_calls = equations.statistics.residual_calls;
+  s.jacobian_calls = equations.statistics.jacobian_calls;
   return s;
+}
+
+} // namespace
+
+std::unique_ptr<Integrator> make_ida(const system::System& system, const system::Pattern& pattern,
+                                     const model::SolverOptions& options, const VectorX& y,
+                                     const VectorX& yp) {
+  return std::make_unique<Ida>(system, pattern, options, y, yp);
 }
 
 } // namespace hydrodae::solve

@@ -17,9 +17,12 @@ using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 /// Collects the places that the assembly visits.
 struct PatternSink {
-  std::vector<std::pair<Index, Index>> visits; ///< (column, row)
+  std::vector<std::pair<Index, Index>> visits, rates; ///< (column, row); rates: those of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
-  void by_yp(Index row, Index column, double) { visits.emplace_back(column, row); }
+  void by_yp(Index row, Index column, double) {
+    visits.emplace_back(column, row);
+    rates.emplace_back(column, row);
+  }
 };
 
 /// Adds the values into the slots found before.
@@ -106,7 +109,7 @@ template <class Sink> struct Assembly {
   }
 
   void constraint_row(const JointData& j, Index lambda, Index mu, const Vector12& gradient,
-                      const Vector12& rate_gradient);
+                      const Matrix12& curvature, const Vector12& u);
   void constraint_curvature(const JointData& j, const Matrix12& by_lambda, const Matrix12& by_mu);
   void joints();
   void couplers();
@@ -130,21 +133,41 @@ template <class Sink> struct Assembly {
 };
 
 /// What one constraint row adds: its own two rows, and its columns in the rows of the bodies.
+/// In index 1 the derivative of u . T u by the pose is left out: it is of the order h^2 u^2 beside
+/// the rest, and only slows Newton's iteration.
 template <class Sink>
 void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
-                                    const Vector12& gradient, const Vector12& rate_gradient) {
+                                    const Vector12& gradient, const Matrix12& curvature,
+                                    const Vector12& u) {
+  const bool level_1 = s.formulation == Formulation::index_1;
+  const bool level_3 = s.formulation == Formulation::index_3 && mu >= 0;
+  Vector12 by_pose = level_3 ? gradient : Vector12(curvature.transpose() * u);
+  Vector12 by_velocity = gradient;
+  if (level_1) {
+    const double b = s.baumgarte_rate;
+    const double rate = mu < 0 ? b : 2.0 * b, gap = mu < 0 ? 0.0 : b * b;
+    const Vector12 u_dot = joint_acceleration<double>(j, ws.state.bodies);
+    by_velocity = curvature * u + by_pose + rate * gradient;
+    by_pose = (curvature.transpose() * u_dot + rate * by_pose + gap * gradient).eval();
+  }
+  if (mu >= 0 && s.formulation != Formulation::stabilised)
+    sink.by_y(mu, mu, 1.0);
   for (int side = 0; side < 2; ++side) {
     const int b = side == 0 ? j.A.body : j.B.body;
     if (b < 0 || s.bodies[b].n_active == 0)
       continue;
     const RowVector6 G = gradient.segment<6>(6 * side).transpose();
-    velocity_columns(lambda, b, G);
-    displacement_columns(lambda, b, rate_gradient.segment<6>(6 * side).transpose());
+    if (!level_3)
+      velocity_columns(lambda, b, by_velocity.segment<6>(6 * side).transpose());
+    if (level_1)
+      acceleration_columns(lambda, b, G);
+    displacement_columns(lambda, b, by_pose.segment<6>(6 * side).transpose());
     for (int k = 0; k < s.bodies[b].n_active; ++k)
       sink.by_y(s.bodies[b].u0 + k, lambda, -G[s.bodies[b].active[k]]);
     if (mu < 0)
       continue;
-    displacement_columns(mu, b, G);
+    if (s.formulation == Formulation::stabilised)
+      displacement_columns(mu, b, G);
     position_rows(b, [&](Index r, const RowVector6& weights) { sink.by_y(r, mu, weights.dot(G)); });
   }
 }
@@ -181,7 +204,7 @@ template <class Sink> void Assembly<Sink>::joints() {
       by_lambda += y[row.lambda] * curvature;
       by_mu += y[row.mu] * curvature;
       shift += y[row.mu] * gradient;
-      constraint_row(j, row.lambda, row.mu, gradient, curvature.transpose() * u);
+      constraint_row(j, row.lambda, row.mu, gradient, curvature, u);
     }
     if (!j.rows.empty())
       constraint_curvature(j, by_lambda, by_mu);
@@ -202,7 +225,7 @@ template <class Sink> void Assembly<Sink>::couplers() {
           term.factor * joint::motion_row<double>(motion.motion, j.A, j.B, g).gradient;
       const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
       constraint_row(j, coupler.lambda, coupler.velocity_level ? -1 : coupler.mu, gradient,
-                     curvature.transpose() * joint_velocity<double>(j, ws.state.bodies));
+                     curvature, joint_velocity<double>(j, ws.state.bodies));
       constraint_curvature(j, y[coupler.lambda] * curvature, mu * curvature);
       add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
     }
@@ -470,6 +493,8 @@ Pattern find_pattern(const System& system) {
   Assembly<PatternSink>{system, ws, y.data(), yp.data(), sink}.run();
 
   std::vector<std::pair<Index, Index>> entries = sink.visits;
+  for (Index i = system.lambda0; i < system.sigma0; ++i)
+    entries.emplace_back(i, i); // zero, a place for what keeps a Newton matrix regular
   std::sort(entries.begin(), entries.end());
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
   Pattern pattern;
@@ -481,9 +506,14 @@ Pattern find_pattern(const System& system) {
   }
   for (Index c = 0; c < system.n; ++c)
     pattern.column_start[c + 1] += pattern.column_start[c];
+  auto place = [&](const std::pair<Index, Index>& visit) -> Index {
+    return std::lower_bound(entries.begin(), entries.end(), visit) - entries.begin();
+  };
   for (const auto& visit : sink.visits)
-    pattern.slots.push_back(std::lower_bound(entries.begin(), entries.end(), visit) -
-                            entries.begin());
+    pattern.slots.push_back(place(visit));
+  pattern.has_rate.assign(entries.size(), false);
+  for (const auto& visit : sink.rates)
+    pattern.has_rate[static_cast<std::size_t>(place(visit))] = true;
   return pattern;
 }
 

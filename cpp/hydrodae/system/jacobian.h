@@ -14,6 +14,7 @@ struct Pattern {
   std::vector<Index> column_start; ///< (n + 1,)
   std::vector<Index> row;          ///< (nonzeros,) ascending in each column
   std::vector<Index> slots;
+  std::vector<bool> has_rate; ///< (nonzeros,) whether dF/dy' has the entry too
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 };
 

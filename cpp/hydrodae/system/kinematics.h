@@ -111,6 +111,17 @@ joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S
   return u;
 }
 
+/// Their rates.
+template <class S>
+joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodyState<S>>& states) {
+  joint::Vec12<S> a = joint::Vec12<S>::Zero();
+  if (j.A.body >= 0)
+    a.template head<6>() << states[j.A.body].v_dot, states[j.A.body].w_dot;
+  if (j.B.body >= 0)
+    a.template tail<6>() << states[j.B.body].v_dot, states[j.B.body].w_dot;
+  return a;
+}
+
 /// Coordinate of a motion with its gradient; angles on the turn nearest to the last accepted step.
 template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>& ws, int motion) {
   const MotionData& m = s.motions[motion];

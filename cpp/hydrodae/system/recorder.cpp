@@ -99,26 +99,50 @@ void Recorder::make_channels() {
               "solver's error.");
 }
 
-/// Work of every component until t: Simpson's rule over [t_, t] on the solver's interpolant. Leaves
-/// the observer at t and the power there in `power`.
+/// Work of every component until t: the rule over [t_, t] on the solver's interpolant. Leaves the
+/// observer at t and the power there in `power`.
 std::vector<double> Recorder::work_until(double t, const Interpolant& at,
                                          std::vector<double>& power) {
-  std::vector<double> work = work_, middle = power_;
-  if (t > t_) {
-    at(0.5 * (t_ + t), y_, yp_);
-    middle = observer_.observe(y_, yp_).powers;
-    at(t, y_, yp_);
-  }
-  power = observer_.observe(y_, yp_).powers;
+  std::vector<double> work = work_;
+  const double h = t - t_;
+  const std::size_t last = rule_.nodes.size() - 1;
   for (std::size_t k = 0; k < work.size(); ++k)
-    work[k] += (t - t_) / 6.0 * (power_[k] + 4.0 * middle[k] + power[k]);
+    work[k] += h * rule_.weights[0] * power_[k];
+  for (std::size_t node = 1; node <= last; ++node) {
+    if (h > 0.0) {
+      at(node == last ? t : t_ + h * rule_.nodes[node], y_, yp_);
+    } else if (node < last) {
+      continue;
+    }
+    power = observer_.observe(y_, yp_).powers;
+    for (std::size_t k = 0; k < work.size(); ++k)
+      work[k] += h * rule_.weights[node] * power[k];
+  }
   return work;
+}
+
+/// Change of the kinetic energies minus the work of all forces; keeps the largest.
+double Recorder::balance(const std::vector<double>& work) {
+  const Observation& o = observer_.observation();
+  const double moving = o.kinetic + o.kinetic_added_mass;
+  double total_work = 0.0, exchanged = std::abs(moving);
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    // The fluid's kinetic energy is on the left-hand side already.
+    if (o.components[k] != "added_mass_inf")
+      total_work += work[k];
+    exchanged = std::max(exchanged, std::abs(work[k]));
+  }
+  const double error = moving - energy0_ - total_work;
+  largest_energy_ = std::max(largest_energy_, exchanged);
+  largest_error_ = std::max(largest_error_, std::abs(error));
+  return error;
 }
 
 void Recorder::accept(double t, const Interpolant& at) {
   std::vector<double> power;
   work_ = work_until(t, at, power);
   power_ = power;
+  balance_error_ = balance(work_);
   std::vector<double> turns;
   for (const auto& motion : observer_.observation().motions)
     turns.push_back(motion[0]);
@@ -169,23 +193,13 @@ void Recorder::fill_joints(double*& out) {
 
 void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
   const Observation& o = observer_.observation();
-  const double moving = o.kinetic + o.kinetic_added_mass;
-  double total_work = 0.0, exchanged = std::abs(moving);
   *out++ = o.kinetic;
   *out++ = o.kinetic_added_mass;
   *out++ = o.potential;
-  *out++ = moving + o.potential;
-  for (std::size_t k = 0; k < work.size(); ++k) {
-    *out++ = work[k];
-    // The fluid's kinetic energy is on the left-hand side already.
-    if (o.components[k] != "added_mass_inf")
-      total_work += work[k];
-    exchanged = std::max(exchanged, std::abs(work[k]));
-  }
-  const double error = moving - energy0_ - total_work;
-  *out++ = error;
-  largest_energy_ = std::max(largest_energy_, exchanged);
-  largest_error_ = std::max(largest_error_, std::abs(error));
+  *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
+  for (double w : work)
+    *out++ = w;
+  *out++ = balance(work);
 }
 
 void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {

@@ -9,6 +9,11 @@
 
 namespace hydrodae::system {
 
+/// Nodes on [0, 1], the ends among them, and weights, by which the work over one step is summed.
+struct Quadrature {
+  std::vector<double> nodes{0.0, 0.5, 1.0}, weights{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+};
+
 /// Integrates the work of every force over the accepted steps, follows angles over turns, and fills
 /// rows of the results. Lives in accepted-step state: call `accept` once a step, in order.
 class Recorder {
@@ -22,6 +27,9 @@ public:
   const std::vector<Channel>& channels() const { return channels_; }
   std::size_t width() const { return width_; }
 
+  /// From now on (between two steps) the work is summed by this rule; Simpson's at first.
+  void set_quadrature(const Quadrature& rule) { rule_ = rule; }
+
   /// Fills one row at time `t` of the current step (or the start). Values of all channels one after
   /// the other; length `width()`.
   void sample(double t, const Interpolant& at, std::span<double> row);
@@ -29,8 +37,13 @@ public:
   /// Closes the step that ends at `t`: work and turns are carried over.
   void accept(double t, const Interpolant& at);
 
-  /// Largest |balance error| so far over the largest energy exchanged so far [-].
+  /// Largest |balance error| so far over the largest energy exchanged so far [-], both taken at the
+  /// ends of steps and at samples.
   double relative_balance_error() const;
+
+  /// Balance error at the end of the last accepted step, and the largest energy exchanged [J].
+  double balance_error() const { return balance_error_; }
+  double largest_energy() const { return largest_energy_; }
 
 private:
   void make_channels();
@@ -40,6 +53,7 @@ private:
   void fill_bodies(double*& out);
   void fill_joints(double*& out);
   void fill_energy(double*& out, const std::vector<double>& work);
+  double balance(const std::vector<double>& work);
 
   const System& s_;
   Observer observer_;
@@ -48,7 +62,8 @@ private:
   double t_;                         ///< end of the last accepted step [s]
   std::vector<double> power_, work_; ///< per component, at t_
   double energy0_ = 0.0;             ///< kinetic energies at the start [J]
-  double largest_energy_ = 0.0, largest_error_ = 0.0;
+  double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
+  Quadrature rule_;
   VectorX y_, yp_;
 };
 

@@ -7,18 +7,66 @@
 
 namespace hydrodae::system {
 
+/// The two rows of a constraint by the formulation (see system.h), from its gap, rate and rate of
+/// the rate; `mu` < 0: a row at velocity level.
+template <class S>
+void constraint_rows(const System& s, const S* y, Index lambda, Index mu, const S& gap,
+                     const S& rate, const S& acceleration, S* residual) {
+  if (mu >= 0)
+    residual[mu] = s.formulation == Formulation::stabilised ? gap : y[mu];
+  if (s.formulation == Formulation::index_3 && mu >= 0) {
+    residual[lambda] = gap;
+  } else if (s.formulation == Formulation::index_1) {
+    const S b = S(s.baumgarte_rate);
+    residual[lambda] =
+        mu < 0 ? acceleration + b * rate : acceleration + S(2) * b * rate + b * b * gap;
+  } else {
+    residual[lambda] = rate;
+  }
+}
+
+/// gradient . u' + u . (d gradient / dt): what index 1 needs, zero elsewhere. (Index 1 is for
+/// comparisons on the kernel's scalar; other scalars only pass through here.)
+template <class S, class Curvature>
+S row_acceleration(const System& s, const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
+                   const joint::Vec12<S>& u_dot, Curvature&& curvature) {
+  if (s.formulation != Formulation::index_1)
+    return S(0);
+  const joint::Vec12<S> turned = curvature().template cast<S>() * u;
+  return gradient.cwiseProduct(u_dot).sum() + u.cwiseProduct(turned).sum();
+}
+
+/// Poses without derivatives, for the hand-written curvature.
+template <class S>
+joint::Geometry<double> geometry_values(const JointData& j, const Workspace<S>& ws) {
+  auto plain = [](const auto& x) {
+    return x.unaryExpr([](const S& v) { return joint::value_of(v); }).eval();
+  };
+  const Vector3 origin = Vector3::Zero();
+  const Matrix3 identity = Matrix3::Identity();
+  const bool a = j.A.body >= 0, b = j.B.body >= 0;
+  return joint::geometry<double>(j.B, a ? Vector3(plain(ws.bodies[j.A.body].r)) : origin,
+                                 a ? Matrix3(plain(ws.bodies[j.A.body].R)) : identity,
+                                 b ? Vector3(plain(ws.bodies[j.B.body].r)) : origin,
+                                 b ? Matrix3(plain(ws.bodies[j.B.body].R)) : identity);
+}
+
 /// Constraint rows, and G^T lambda, G^T mu added to the loads and shifts of the bodies.
 template <class S> void add_joints(const System& s, Workspace<S>& ws, const S* y, S* residual) {
   for (const JointData& j : s.joints) {
     const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
     const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
+    const joint::Vec12<S> u_dot = joint_acceleration<S>(j, ws.bodies);
     joint::Vec12<S> load = joint::Vec12<S>::Zero(), shift = joint::Vec12<S>::Zero();
     for (const RowData& row : j.rows) {
       if (!row.kept())
         continue;
       const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, j.parameters, g);
-      residual[row.mu] = value.value;
-      residual[row.lambda] = value.gradient.cwiseProduct(u).sum();
+      const S acceleration = row_acceleration<S>(s, value.gradient, u, u_dot, [&] {
+        return joint::basic_curvature(row.kind, j.A, j.B, j.parameters, geometry_values(j, ws));
+      });
+      constraint_rows<S>(s, y, row.lambda, row.mu, value.value,
+                         value.gradient.cwiseProduct(u).sum(), acceleration, residual);
       load += y[row.lambda] * value.gradient;
       shift += y[row.mu] * value.gradient;
     }
@@ -36,19 +84,25 @@ void add_couplers(const System& s, Workspace<S>& ws, double t, const S* y, S* re
     const std::array<double, 3> f = coupler.drive(t);
     const bool position = !coupler.velocity_level;
     S value = S(-coupler.offset - f[0]), rate = S(position ? -f[1] : -f[0]);
+    S acceleration = S(position ? -f[2] : -f[1]);
     for (const CouplerData::Term& term : coupler.terms) {
       const JointData& j = s.joints[s.motions[term.motion].joint];
       const joint::Row<S> w = motion_row<S>(s, ws, term.motion);
       const joint::Vec12<S> gradient = S(term.factor) * w.gradient;
       value += S(term.factor) * w.value;
-      rate += gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
+      const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
+      rate += gradient.cwiseProduct(u).sum();
+      acceleration += row_acceleration<S>(
+          s, gradient, u, joint_acceleration<S>(j, ws.bodies), [&]() -> joint::Matrix12 {
+            return term.factor * joint::motion_curvature(s.motions[term.motion].motion, j.A, j.B,
+                                                         geometry_values(j, ws));
+          });
       add_to_bodies<S>(j, y[coupler.lambda] * gradient, ws.loads);
       if (position)
         add_to_bodies<S>(j, y[coupler.mu] * gradient, ws.shifts);
     }
-    residual[coupler.lambda] = rate;
-    if (position)
-      residual[coupler.mu] = value;
+    constraint_rows<S>(s, y, coupler.lambda, position ? coupler.mu : redundant, value, rate,
+                       acceleration, residual);
   }
 }
 

@@ -152,8 +152,18 @@ struct HydroData {
   std::vector<Input> inputs;
 };
 
+/// Which equations the rows of the multipliers hold. In all but the first mu = 0.
+///   stabilised   0 = g, 0 = G u               index 2 (Gear, Gupta and Leimkuhler)
+///   index_2      0 = G u                      the gap g drifts
+///   index_3      0 = g
+///   index_1      0 = G u' + gamma + 2 b (G u) + b^2 g    Baumgarte's rate b [1/s], 0: none
+/// Rows given at velocity level stay there, but in index 1.
+enum class Formulation { stabilised, index_2, index_3, index_1 };
+
 struct System {
   double gravity = 9.81;
+  Formulation formulation = Formulation::stabilised;
+  double baumgarte_rate = 0.0; ///< b of index 1 [1/s]
   std::vector<BodyData> bodies;
   std::vector<JointData> joints;
   std::vector<MotionData> motions;

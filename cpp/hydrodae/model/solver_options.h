@@ -1,0 +1,83 @@
+#pragma once
+/// Table [solver] of a case: which method integrates the scene, and how exactly.
+
+#include <optional>
+#include <string>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::model {
+
+struct SolverOptions {
+  std::string method = "ida";
+  std::string formulation = "stabilised";
+  double end_time = 0.0;
+  double rtol = 1e-6;
+  double step = 0.0;
+  double max_step = 0.0;
+  int max_order = 5;
+  int order = 0;
+  double spectral_radius = 0.8;
+  double baumgarte_time = 0.0;
+  double energy_guard = 0.01;
+  bool force = false;
+  std::optional<double> length_scale;
+  std::optional<double> time_scale;
+
+  static Fields<SolverOptions> fields() {
+    using O = SolverOptions;
+    return {
+        {"method",
+         &O::method,
+         "-",
+         "Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic), generalised "
+         "alpha on the Lie group, or projected explicit Runge-Kutta.",
+         false,
+         any_value,
+         {"ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
+        {"formulation",
+         &O::formulation,
+         "-",
+         "Equations of the constraints: stabilised index 2 (Gear, Gupta, Leimkuhler), plain index "
+         "2, index 3, or index 1; the last three for comparisons.",
+         false,
+         any_value,
+         {"stabilised", "index_2", "index_3", "index_1"}},
+        {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
+        {"rtol", &O::rtol, "-",
+         "Local error tolerance relative to the scales of the scene (see length_scale, "
+         "time_scale).",
+         false, Range{1e-13, 1e-1, false}},
+        {"step", &O::step, "s",
+         "Fixed step; 0: the method chooses. Needed by gauss, lobatto_iiic and generalized_alpha.",
+         false, at_least(0)},
+        {"max_step", &O::max_step, "s", "Longest step; 0: no limit.", false, at_least(0)},
+        {"max_order", &O::max_order, "-", "Highest order of the BDF method.", false, between(1, 5)},
+        {"order", &O::order, "-",
+         "Order of a Runge-Kutta method: radau 1, 3, .. 19, gauss 2, 4, .. 20, lobatto_iiic 2, 4, "
+         ".. 18, explicit_rk 5 or 8; 0: radau chooses among 5, 9 and 13, gauss takes 6, "
+         "lobatto_iiic 4, explicit_rk 8.",
+         false, between(0, 20)},
+        {"spectral_radius", &O::spectral_radius, "-",
+         "Of generalized_alpha for infinitely fast modes: 1 no damping, 0 most.", false,
+         between(0, 1)},
+        {"baumgarte_time", &O::baumgarte_time, "s",
+         "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
+        {"energy_guard", &O::energy_guard, "-",
+         "A run ends as failed when the energy balance is off by more than this part of the energy "
+         "exchanged; 0: no guard.",
+         false, at_least(0)},
+        {"force", &O::force, "-",
+         "Run a pair of method and formulation that is known to fail, for comparisons."},
+        {"length_scale", &O::length_scale, "m",
+         "Length that the tolerance of positions refers to; default: from the bodies and joints.",
+         false, more_than(0)},
+        {"time_scale", &O::time_scale, "s",
+         "Time that turns the position scale into the velocity scale; default: from gravity, "
+         "else from the start.",
+         false, more_than(0)},
+    };
+  }
+};
+
+} // namespace hydrodae::model

@@ -1,0 +1,325 @@
+#include "hydrodae/solve/collocation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/solve/saddle_point.h"
+#include "hydrodae/solve/stage_newton.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+constexpr int fewest = 3, most_stages = 7; ///< of radau when it chooses: order 5, 9, 13
+
+Family family_of(const std::string& method) {
+  if (method == "gauss")
+    return Family::gauss;
+  return method == "radau" ? Family::radau_iia : Family::lobatto_iiic;
+}
+
+int stages_of(Family family, int order) {
+  switch (family) {
+  case Family::radau_iia:
+    return order == 0 ? fewest : (order + 1) / 2;
+  case Family::gauss:
+    return order == 0 ? 3 : order / 2;
+  case Family::lobatto_iiic:
+    break;
+  }
+  return order == 0 ? 3 : order / 2 + 1;
+}
+
+class Collocation : public Integrator {
+public:
+  Collocation(const system::System& system, const system::Pattern& pattern,
+              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
+      : s_(system), e_(system, pattern, options.rtol), family_(family_of(options.method)),
+        fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
+        project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
+        end_(options.end_time),
+        max_step_(options.max_step > 0.0 ? options.max_step : options.end_time), saddle_(e_),
+        guard_(0.0, options.end_time, e_.time_scale()), y_(y), yp_(yp), y0_(y), w_(system.n),
+        error_(system.n), v_(VectorX::Zero(system.n)) {
+    use(stages_of(family_, options.order));
+    // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
+    h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
+    e_.accept(y_, yp_);
+  }
+
+  double step() override;
+  void interpolate(double t, VectorX& y, VectorX& yp) override;
+  Statistics statistics() const override { return e_.statistics; }
+  int quadrature_nodes() const override { return newton_->rk().stages + 2; }
+
+private:
+  void use(int stages);
+  void start_values(double h, bool extrapolate);
+  bool solve_stages(double h);
+  double error(double h, bool refine);
+  void accept(double h);
+  void choose_order();
+  void evaluate(double x, const RungeKutta& rk, VectorX& y) const;
+  [[noreturn]] void fail(const std::string& reason);
+
+  const system::System& s_;
+  Equations e_;
+  const Family family_;
+  const bool fixed_, chooses_order_, project_;
+  const double end_, max_step_;
+  SaddlePoint saddle_;
+  ProgressGuard guard_;
+  std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
+  StageNewton* newton_ = nullptr;
+  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0;
+  VectorX y_, yp_, y0_, w_, error_, v_;
+  MatrixX Z_, start_, rates_; ///< stages of the last step; start values; their rates
+  bool fresh_ = false;        ///< the Jacobian is of this step
+  double factored_ = 0.0;     ///< step of the matrices at hand [s]
+  double contraction_ = 1.0;  ///< of the last step
+  bool was_full_ = false;     ///< the last step took full Newton
+  double last_h_ = 0.0, last_error_ = 1.0;
+  int since_change_ = 0;
+};
+
+void Collocation::use(int stages) {
+  std::unique_ptr<StageNewton>& entry = methods_[stages];
+  if (!entry)
+    entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
+  newton_ = entry.get();
+  newton_->accuracy = 0.01;
+  if (fixed_)
+    newton_->accuracy = 1e-3;
+  factored_ = 0.0;
+  since_change_ = 0;
+}
+
+void Collocation::fail(const std::string& reason) {
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
+                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+}
+
+/// y at x = (t - t0) / h of the last step: through its start and stages; Lobatto's first stage
+/// stands at the start itself, and multipliers of Gauss have no value there.
+void Collocation::evaluate(double x, const RungeKutta& rk, VectorX& y) const {
+  const bool with_start = rk.family != Family::lobatto_iiic;
+  y = y0_;
+  for (int i = 0; i < rk.stages; ++i) {
+    double stages_only = 1.0;
+    for (int j = 0; j < rk.stages; ++j)
+      if (j != i)
+        stages_only *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
+    const double weight = with_start ? stages_only * x / rk.c[i] : stages_only;
+    const Index n = s_.lambda0, m = s_.n - n;
+    y.head(n) += weight * Z_.col(i).head(n);
+    y.tail(m) += (rk.family == Family::gauss ? stages_only : weight) * Z_.col(i).tail(m);
+  }
+}
+
+/// First guess of the stages: the last step's polynomial, or a straight line.
+void Collocation::start_values(double h, bool extrapolate) {
+  const RungeKutta& rk = newton_->rk();
+  start_.resize(s_.n, rk.stages);
+  if (extrapolate && done_ > 0.0) {
+    VectorX y(s_.n);
+    // The polynomial of the last step may be of another order.
+    const RungeKutta& last = methods_.at(static_cast<int>(Z_.cols()))->rk();
+    for (int i = 0; i < rk.stages; ++i) {
+      evaluate(1.0 + rk.c[i] * h / done_, last, y);
+      start_.col(i) = y - y_;
+    }
+    return;
+  }
+  for (int i = 0; i < rk.stages; ++i) {
+    start_.col(i) = rk.c[i] * h * yp_;
+    start_.col(i).tail(s_.n - s_.lambda0).setZero();
+  }
+}
+
+bool Collocation::solve_stages(double h) {
+  const double longest_guess = 3.0; // steps of the last polynomial
+  bool extrapolate = !was_full_ && done_ > 0.0 && h <= longest_guess * done_;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (attempt == 1 && fresh_ && !extrapolate)
+      break; // nothing would differ
+    if (attempt == 1)
+      extrapolate = false;
+    if (!fresh_ && (attempt == 1 || contraction_ > 1e-3 || factored_ == 0.0)) {
+      e_.jacobian(t_, y_, yp_);
+      fresh_ = true;
+      factored_ = 0.0;
+    }
+    if (factored_ != h) {
+      if (!newton_->factorise(h))
+        break;
+      factored_ = h;
+    }
+    start_values(h, extrapolate);
+    if (newton_->simplified(t_, h, y_, w_, start_) == NewtonResult::converged) {
+      contraction_ = newton_->contraction;
+      was_full_ = false;
+      return true;
+    }
+  }
+  start_values(h, false);
+  contraction_ = 1.0;
+  factored_ = 0.0;
+  fresh_ = false; // the Jacobian at hand will be that of a stage
+  was_full_ = newton_->full(t_, h, y_, w_, start_) == NewtonResult::converged;
+  return was_full_;
+}
+
+/// Local error in units of the tolerance: (J + B / (gamma0 h))^-1 (B v + f(t0, y0)),
+/// v = sum error_i Z_i / (gamma0 h); once more from y0 + error where it would reject.
+double Collocation::error(double h, bool refine) {
+  const RungeKutta& rk = newton_->rk();
+  if (was_full_) {
+    e_.jacobian(t_, y_, yp_);
+    if (!newton_->factorise(h))
+      return 0.0; // a singular start: judged by the next steps
+  }
+  v_ = -start_ * rk.error / (rk.gamma0 * h);
+  VectorX at = y_;
+  double size = 0.0;
+  for (int pass = 0; pass < (refine ? 2 : 1); ++pass) {
+    if (!e_.residual(t_, at, v_, error_))
+      return HUGE_VAL;
+    newton_->solve_real(error_);
+    error_ = -error_;
+    size = e_.norm(w_, error_);
+    if (size < 1.0)
+      break;
+    at.head(s_.lambda0) = (y_ + error_).head(s_.lambda0);
+  }
+  return std::max(size, 1e-10);
+}
+
+void Collocation::accept(double h) {
+  const RungeKutta& rk = newton_->rk();
+  Z_ = start_;
+  newton_->rates(h, Z_, rates_);
+  y0_ = y_;
+  t0_ = t_;
+  done_ = h;
+  t_ = end_ - t_ <= h ? end_ : t_ + h;
+  if (rk.stiffly_accurate()) {
+    y_ += Z_.col(rk.stages - 1);
+    yp_ = rates_.col(rk.stages - 1);
+  } else {
+    VectorX at_end(s_.n);
+    evaluate(1.0, rk, at_end);
+    y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
+    y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
+    interpolate(t_, at_end, yp_);
+    if (project_ && (!saddle_.accelerations(t_, y_, yp_) || !saddle_.project(t_, y_) ||
+                     !saddle_.accelerations(t_, y_, yp_)))
+      fail("the constraints cannot be met at the end of the step");
+  }
+  e_.accept(y_, yp_);
+  fresh_ = false;
+  ++e_.statistics.steps;
+  e_.statistics.last_step = h;
+  e_.statistics.last_order = rk.order;
+}
+
+/// More stages where Newton contracts at once, fewer where it struggles (Hairer and Wanner 1999).
+void Collocation::choose_order() {
+  constexpr double up = 0.05, down = 0.8;
+  if (!chooses_order_ || ++since_change_ < 10)
+    return;
+  const int stages = newton_->rk().stages;
+  if (contraction_ <= up && stages < most_stages)
+    use(stages + 2);
+  else if (contraction_ >= down && stages > fewest)
+    use(stages - 2);
+}
+
+double Collocation::step() {
+  constexpr double safety = 0.9, most_growth = 5.0, most_cut = 0.125;
+  bool rejected = done_ == 0.0;
+  for (;;) {
+    const double left = end_ - t_;
+    double h = std::min(h_, left);
+    if (left - h < 0.01 * h)
+      h = left;
+    if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
+      fail("Newton's iteration does not converge, or the local error stays too large, however "
+           "short the step");
+    e_.weights(y_, w_);
+    if (!solve_stages(h)) {
+      ++e_.statistics.convergence_failures;
+      if (fixed_)
+        fail("Newton's iteration does not converge at the fixed step, simplified or full");
+      h_ = 0.5 * h;
+      rejected = true;
+      if (chooses_order_ && newton_->rk().stages > fewest)
+        use(newton_->rk().stages - 2);
+      continue;
+    }
+    if (fixed_) {
+      accept(h);
+      return t_;
+    }
+    const double err = error(h, rejected);
+    const double power = 1.0 / (newton_->rk().stages + 1);
+    double grow = std::clamp(safety * std::pow(err, -power), most_cut, most_growth);
+    if (!(err < 1.0)) {
+      ++e_.statistics.error_test_failures;
+      h_ = h * (std::isfinite(err) ? std::min(grow, 0.9) : most_cut);
+      rejected = true;
+      continue;
+    }
+    if (last_h_ > 0.0) // predictive control of Gustafsson
+      grow = std::min(grow,
+                      std::clamp(h / last_h_ * std::pow(err * err / last_error_, -power) * safety,
+                                 most_cut, most_growth));
+    if (rejected)
+      grow = std::min(grow, 1.0);
+    last_h_ = h;
+    last_error_ = std::max(err, 1e-2);
+    accept(h);
+    if (!(grow >= 1.0 && grow <= 1.2 && contraction_ <= 1e-3)) // else the matrices serve again
+      h_ = std::min(max_step_, h * grow);
+    else
+      h_ = h;
+    choose_order();
+    guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
+    return t_;
+  }
+}
+
+void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
+  if (done_ == 0.0) {
+    y = y_;
+    yp = yp_;
+    return;
+  }
+  const RungeKutta& rk = methods_.at(static_cast<int>(Z_.cols()))->rk();
+  const double x = (t - t0_) / done_;
+  if (t >= t_)
+    y = y_;
+  else
+    evaluate(x, rk, y);
+  yp.setZero(s_.n);
+  for (int i = 0; i < rk.stages; ++i) {
+    double weight = 1.0;
+    for (int j = 0; j < rk.stages; ++j)
+      if (j != i)
+        weight *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
+    yp += weight * rates_.col(i);
+  }
+}
+
+} // namespace
+
+std::unique_ptr<Integrator> make_collocation(const system::System& system,
+                                             const system::Pattern& pattern,
+                                             const model::SolverOptions& options, const VectorX& y,
+                                             const VectorX& yp) {
+  return std::make_unique<Collocation>(system, pattern, options, y, yp);
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,15 @@
+#pragma once
+/// Implicit Runge-Kutta methods (Radau IIA, Gauss, Lobatto IIIC) on F(t, y, y') = 0 after Hairer
+/// and Wanner, Solving ODEs II (1996), sections IV.8 and VII, and J. Comput. Appl. Math. 111
+/// (1999) 93.
+
+#include "hydrodae/solve/integrator.h"
+
+namespace hydrodae::solve {
+
+std::unique_ptr<Integrator> make_collocation(const system::System& system,
+                                             const system::Pattern& pattern,
+                                             const model::SolverOptions& options, const VectorX& y,
+                                             const VectorX& yp);
+
+} // namespace hydrodae::solve

@@ -1,0 +1,246 @@
+#include "hydrodae/solve/explicit_rk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/solve/explicit_tableaux.h"
+#include "hydrodae/solve/saddle_point.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+struct Pair {
+  int stages = 0, order = 0;
+  std::span<const double> a, b, c;
+};
+
+const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
+const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
+
+class ExplicitRk : public Integrator {
+public:
+  ExplicitRk(const system::System& system, const system::Pattern& pattern,
+             const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
+      : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
+        end_(options.end_time),
+        max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
+        e_(system, pattern, options.rtol), saddle_(e_), n_(system.lambda0),
+        guard_(0.0, options.end_time, e_.time_scale()), y_(y), yp_(yp), y0_(y), stage_(y),
+        stage_yp_(yp), trial_(y), trial_yp_(yp), w_(system.n), k_(n_, 17) {
+    // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
+    // could make, as it is for one of order 1.
+    h_ = fixed_ ? options.step
+                : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
+    e_.accept(y_, yp_);
+    if (!saddle_.accelerations(0.0, y_, yp_))
+      throw SolverError(0.0, "no finite accelerations at the start");
+  }
+
+  double step() override;
+  void interpolate(double t, VectorX& y, VectorX& yp) override;
+  Statistics statistics() const override { return e_.statistics; }
+  int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
+
+private:
+  void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
+  bool try_step(double h);
+  double error(double h);
+  void extend();
+  [[noreturn]] void fail(const std::string& reason);
+
+  const Pair& pair_;
+  const bool fixed_;
+  const double end_, max_step_;
+  Equations e_;
+  SaddlePoint saddle_;
+  const Index n_;
+  ProgressGuard guard_;
+  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
+  VectorX y_, yp_, y0_, stage_, stage_yp_, trial_, trial_yp_, w_;
+  MatrixX k_; ///< rates of the stages, one column each
+  bool extended_ = false;
+  double last_error_ = 1e-4;
+};
+
+void ExplicitRk::fail(const std::string& reason) {
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
+                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+}
+
+/// stage_ = start + h sum_j a_j k_j
+void ExplicitRk::set_stage(const VectorX& start, double h, int stages, std::span<const double> a) {
+  stage_.head(n_) = start.head(n_);
+  for (int j = 0; j < stages; ++j)
+    if (a[j] != 0.0)
+      stage_.head(n_) += h * a[j] * k_.col(j);
+}
+
+bool ExplicitRk::try_step(double h) {
+  const int s = pair_.stages;
+  k_.col(0) = yp_.head(n_);
+  for (int i = 1; i < s; ++i) {
+    set_stage(y_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
+    if (!saddle_.accelerations(t_ + pair_.c[i] * h, stage_, stage_yp_))
+      return false;
+    k_.col(i) = stage_yp_.head(n_);
+  }
+  set_stage(y_, h, s, pair_.b);
+  trial_ = stage_;
+  if (!saddle_.accelerations(t_ + h, trial_, trial_yp_))
+    return false;
+  k_.col(s) = trial_yp_.head(n_);
+  return true;
+}
+
+/// Local error in units of the tolerance.
+double ExplicitRk::error(double h) {
+  e_.weights(y_, w_);
+  auto estimate = [&](std::span<const double> weights) {
+    stage_.setZero();
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      if (weights[j] != 0.0)
+        stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
+    return e_.norm(w_, stage_);
+  };
+  if (pair_.order == 5)
+    return estimate(tableaux::rk5_e);
+  const double five = estimate(tableaux::rk8_e5), three = estimate(tableaux::rk8_e3);
+  const double size = std::hypot(five, 0.1 * three);
+  return size > 0.0 ? five * five / size : 0.0;
+}
+
+double ExplicitRk::step() {
+  constexpr double safety = 0.9, least = 0.2, most = 6.0;
+  const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
+  extended_ = false;
+  bool failed = false;
+  for (;;) {
+    const double left = end_ - t_;
+    double h = std::min(h_, left);
+    if (left - h < 0.1 * h)
+      h = left;
+    if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
+      fail(failed ? "the local error stays too large however short the step"
+                  : "the step has become too short");
+    if (!try_step(h)) {
+      ++e_.statistics.convergence_failures;
+      if (fixed_)
+        fail("no finite accelerations within the step");
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
+    const double err = fixed_ ? 0.0 : error(h);
+    bool good = err <= 1.0 && std::isfinite(err);
+    if (good && !saddle_.project(t_ + h, trial_)) {
+      if (fixed_)
+        fail("the constraints cannot be met at the end of the step");
+      ++e_.statistics.convergence_failures;
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
+    if (!good) {
+      ++e_.statistics.error_test_failures;
+      h_ = h * (std::isfinite(err) ? std::max(least, safety * std::pow(err, -power)) : least);
+      failed = true;
+      continue;
+    }
+    y0_ = y_;
+    y_ = trial_;
+    t0_ = t_;
+    done_ = h;
+    t_ = h == left ? end_ : t_ + h;
+    e_.accept(y_, trial_yp_);
+    if (!saddle_.accelerations(t_, y_, yp_))
+      fail("no finite accelerations");
+    k_.col(pair_.stages) = yp_.head(n_);
+    if (!fixed_) {
+      // Proportional-integral control (Gustafsson 1991).
+      const double e = std::max(err, 1e-10);
+      const double grow =
+          std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power), least,
+                     failed ? 1.0 : most);
+      last_error_ = std::max(e, 1e-4);
+      h_ = std::min(max_step_, h * grow);
+    }
+    ++e_.statistics.steps;
+    e_.statistics.last_step = done_;
+    e_.statistics.last_order = pair_.order;
+    guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
+    return t_;
+  }
+}
+
+/// The three further stages that the interpolant of order 7 needs.
+void ExplicitRk::extend() {
+  if (extended_ || pair_.order == 5)
+    return;
+  for (int i = 0; i < 3; ++i) {
+    set_stage(y0_, done_, 13 + i,
+              std::span(tableaux::rk8_extra_a).subspan(static_cast<std::size_t>(16 * i)));
+    if (!saddle_.accelerations(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_yp_))
+      fail("no finite accelerations inside the step");
+    k_.col(13 + i) = stage_yp_.head(n_);
+  }
+  extended_ = true;
+}
+
+void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
+  if (t >= t_ || done_ == 0.0) {
+    y = y_;
+    yp = yp_;
+    return;
+  }
+  const double x = (t - t0_) / done_;
+  y = y0_;
+  yp = yp_;
+  if (pair_.order == 5) {
+    for (int i = 0; i < 7; ++i) {
+      double weight = 0.0, power = x;
+      for (int k = 0; k < 4; ++k, power *= x)
+        weight += tableaux::rk5_p[4 * i + k] * power;
+      y.head(n_) += done_ * weight * k_.col(i);
+    }
+  } else {
+    extend();
+    // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
+    const VectorX dy = y_.head(n_) - y0_.head(n_);
+    VectorX sum = VectorX::Zero(n_);
+    for (int i = 6; i >= 0; --i) {
+      if (i >= 3) {
+        for (int j = 0; j < 16; ++j)
+          if (const double d = tableaux::rk8_d[16 * (i - 3) + j]; d != 0.0)
+            sum += done_ * d * k_.col(j);
+      } else if (i == 2) {
+        sum += 2.0 * dy - done_ * (k_.col(12) + k_.col(0));
+      } else if (i == 1) {
+        sum += done_ * k_.col(0) - dy;
+      } else {
+        sum += dy;
+      }
+      sum *= i % 2 == 0 ? x : 1.0 - x;
+    }
+    y.head(n_) += sum;
+  }
+  if (!saddle_.accelerations(t, y, yp))
+    fail("no finite accelerations inside the step");
+  for (const system::BodyData& b : e_.system.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
+} // namespace
+
+std::unique_ptr<Integrator> make_explicit_rk(const system::System& system,
+                                             const system::Pattern& pattern,
+                                             const model::SolverOptions& options, const VectorX& y,
+                                             const VectorX& yp) {
+  return std::make_unique<ExplicitRk>(system, pattern, options, y, yp);
+}
+
+} // namespace hydrodae::solve

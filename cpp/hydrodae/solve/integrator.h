@@ -1,0 +1,39 @@
+#pragma once
+/// What all integrators have in common: they make steps on F(t, y, y') = 0, and give the solution
+/// inside the last step.
+
+#include <memory>
+#include <string>
+
+#include "hydrodae/model/solver_options.h"
+#include "hydrodae/solve/statistics.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::solve {
+
+class Integrator {
+public:
+  virtual ~Integrator() = default;
+
+  /// Makes one step and returns the time reached [s]. Throws SolverError with the time, the reason,
+  /// and the unknowns or equations that are worst.
+  virtual double step() = 0;
+
+  /// y and y' at a time inside the last step. Of y', the velocities' part is always meant to be
+  /// read; the rest where the method knows it.
+  virtual void interpolate(double t, VectorX& y, VectorX& yp) = 0;
+
+  virtual Statistics statistics() const = 0;
+
+  /// Nodes that a quadrature over one step needs to be as exact as the method.
+  virtual int quadrature_nodes() const { return 3; }
+};
+
+/// The integrator that `options.method` names, at t = 0 with consistent y, y'. The system and the
+/// pattern must outlive it. Throws SolverError when the method cannot start.
+std::unique_ptr<Integrator> make_integrator(const system::System& system,
+                                            const system::Pattern& pattern,
+                                            const model::SolverOptions& options, const VectorX& y,
+                                            const VectorX& yp);
+
+} // namespace hydrodae::solve

@@ -1,0 +1,105 @@
+#include "hydrodae/solve/klu.h"
+
+#include <klu.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "hydrodae/core/error.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth that asks for new pivots
+
+template <class Scalar> constexpr bool is_real = std::is_same_v<Scalar, double>;
+
+double* raw(std::vector<double>& v) { return v.data(); }
+double* raw(std::vector<std::complex<double>>& v) { return reinterpret_cast<double*>(v.data()); }
+
+} // namespace
+
+template <class Scalar> struct SparseLu<Scalar>::Impl {
+  klu_l_common common{};
+  std::vector<SuiteSparse_long> start, row;
+  std::vector<Scalar> values;
+  klu_l_symbolic* symbolic = nullptr;
+  klu_l_numeric* numeric = nullptr;
+
+  ~Impl() {
+    drop();
+    klu_l_free_symbolic(&symbolic, &common);
+  }
+  void drop() {
+    if constexpr (is_real<Scalar>)
+      klu_l_free_numeric(&numeric, &common);
+    else
+      klu_zl_free_numeric(&numeric, &common);
+  }
+  double growth() {
+    const int ok = is_real<Scalar>
+                       ? static_cast<int>(klu_l_rgrowth(start.data(), row.data(), raw(values),
+                                                        symbolic, numeric, &common))
+                       : static_cast<int>(klu_zl_rgrowth(start.data(), row.data(), raw(values),
+                                                         symbolic, numeric, &common));
+    return ok ? common.rgrowth : 0.0;
+  }
+  bool refactorise() {
+    const bool ok =
+        is_real<Scalar>
+            ? klu_l_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common)
+            : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
+    return ok && growth() > bad_pivots;
+  }
+  bool factorise() {
+    if (numeric && refactorise())
+      return true;
+    drop();
+    numeric = is_real<Scalar>
+                  ? klu_l_factor(start.data(), row.data(), raw(values), symbolic, &common)
+                  : klu_zl_factor(start.data(), row.data(), raw(values), symbolic, &common);
+    return numeric && common.status == KLU_OK;
+  }
+};
+
+template <class Scalar>
+SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row)
+    : impl_(std::make_unique<Impl>()) {
+  klu_l_defaults(&impl_->common);
+  impl_->common.ordering = 0; // AMD: COLAMD fills more on these patterns
+  impl_->start.assign(column_start.begin(), column_start.end());
+  impl_->row.assign(row.begin(), row.end());
+  impl_->values.resize(row.size());
+  impl_->symbolic = klu_l_analyze(static_cast<SuiteSparse_long>(column_start.size()) - 1,
+                                  impl_->start.data(), impl_->row.data(), &impl_->common);
+  if (!impl_->symbolic)
+    throw SolverError(0.0, "KLU cannot order the unknowns: the equations are structurally singular "
+                           "or too large for the memory");
+}
+
+template <class Scalar> SparseLu<Scalar>::~SparseLu() = default;
+template <class Scalar> SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = default;
+
+template <class Scalar> std::vector<Scalar>& SparseLu<Scalar>::values() { return impl_->values; }
+
+template <class Scalar> bool SparseLu<Scalar>::factorise() {
+  for (const Scalar& v : impl_->values)
+    if (!std::isfinite(std::abs(v)))
+      return false;
+  return impl_->factorise();
+}
+
+template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {
+  Impl& m = *impl_;
+  const auto n = static_cast<SuiteSparse_long>(m.start.size()) - 1;
+  if constexpr (is_real<Scalar>)
+    klu_l_solve(m.symbolic, m.numeric, n, 1, b, &m.common);
+  else
+    klu_zl_solve(m.symbolic, m.numeric, n, 1, reinterpret_cast<double*>(b), &m.common);
+}
+
+template class SparseLu<double>;
+template class SparseLu<std::complex<double>>;
+
+} // namespace hydrodae::solve

@@ -1,0 +1,184 @@
+#include "hydrodae/solve/saddle_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/system/assemble.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+constexpr double regularisation = 1e-8; ///< e
+constexpr int refinements = 4;
+constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
+constexpr int projections = 8;
+constexpr double closed = 1e-13; ///< gaps in units of their scale
+constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
+
+} // namespace
+
+SaddlePoint::SaddlePoint(Equations& equations)
+    : e_(equations), s_(equations.system), n_(s_.n_u + s_.n_lambda), residual_(s_.n), rhs_(n_),
+      x_(n_), r_(n_), yp0_(VectorX::Zero(s_.n)), y0_(s_.n) {
+  const system::Pattern& p = e_.pattern;
+  auto place = [&](Index i) -> Index { // of a row or column of y in the small matrix
+    if (i >= s_.u0 && i < s_.z0)
+      return i - s_.u0;
+    if (i >= s_.lambda0 && i < s_.mu0)
+      return i - s_.lambda0 + s_.n_u;
+    return -1;
+  };
+  struct Visit {
+    Index column, row, from;
+    bool rate, turned;
+  };
+  std::vector<Visit> visits;
+  for (Index column = 0; column < s_.n; ++column)
+    for (Index k = p.column_start[column]; k < p.column_start[column + 1]; ++k) {
+      const Index row = place(p.row[k]), c = place(column);
+      if (row >= s_.n_u && column < s_.n_q)
+        rates_.push_back({k, row, column});
+      if (row < 0 || c < 0 || (row >= s_.n_u && c >= s_.n_u))
+        continue;
+      const bool mass = row < s_.n_u && c < s_.n_u;
+      if (!mass || p.has_rate[k])
+        visits.push_back({c, row, k, mass, row < s_.n_u && c >= s_.n_u});
+    }
+  for (Index i = s_.n_u; i < n_; ++i)
+    visits.push_back({i, i, -1, false, false});
+  std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
+    return std::tie(a.column, a.row) < std::tie(b.column, b.row);
+  });
+  start_.assign(n_ + 1, 0);
+  mass_.assign(s_.n_u, -1);
+  for (const Visit& v : visits) {
+    const auto slot = static_cast<Index>(row_.size());
+    row_.push_back(v.row);
+    ++start_[v.column + 1];
+    if (v.from >= 0)
+      entries_.push_back({v.from, slot, v.rate, v.turned});
+    else
+      diagonal_.push_back(slot);
+    if (v.row == v.column && v.column < s_.n_u)
+      mass_[v.column] = slot;
+  }
+  for (Index c = 0; c < n_; ++c)
+    start_[c + 1] += start_[c];
+  plain_.resize(row_.size());
+  lu_ = std::make_unique<SparseLu<double>>(start_, row_);
+}
+
+/// K with e > 0 from K; D_i = sum_k G_ik^2 / M_kk.
+bool SaddlePoint::factorise() {
+  std::vector<double>& values = lu_->values();
+  std::copy(plain_.begin(), plain_.end(), values.begin());
+  for (Index i = s_.n_u; i < n_; ++i) {
+    double d = 0.0;
+    for (Index k = start_[i]; k < start_[i + 1]; ++k)
+      if (row_[k] < s_.n_u && plain_[k] != 0.0)
+        d += plain_[k] * plain_[k] / plain_[mass_[row_[k]]];
+    values[diagonal_[i - s_.n_u]] = -regularisation * (d > 0.0 ? d : 1.0);
+  }
+  return lu_->factorise();
+}
+
+void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
+  out.setZero();
+  for (Index c = 0; c < n_; ++c)
+    for (Index k = start_[c]; k < start_[c + 1]; ++k)
+      out[row_[k]] += plain_[k] * x[c];
+}
+
+/// x = K^-1 rhs, the residual taken with e = 0.
+void SaddlePoint::solve(VectorX& x) {
+  x = rhs_;
+  lu_->solve(x.data());
+  for (int i = 0; i < refinements; ++i) {
+    multiply(x, r_);
+    r_ = rhs_ - r_;
+    const double size = rhs_.cwiseAbs().maxCoeff();
+    if (r_.cwiseAbs().maxCoeff() <= converged * size)
+      return;
+    lu_->solve(r_.data());
+    x += r_;
+  }
+}
+
+bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
+  y.tail(s_.n - s_.lambda0).setZero();
+  if (!e_.residual(t, y, yp0_, residual_))
+    return false;
+  // Rows of q and z are y' = (explicit): with y' = 0 the residual is minus the rate.
+  yp.setZero();
+  yp.head(s_.n_q) = -residual_.head(s_.n_q);
+  yp.segment(s_.z0, s_.n_z) = -residual_.segment(s_.z0, s_.n_z);
+  e_.jacobian(t, y, yp0_);
+  for (const Entry& entry : entries_) {
+    const double value = entry.rate ? e_.parts.by_yp[entry.from] : e_.parts.by_y[entry.from];
+    plain_[entry.slot] = entry.turned ? -value : value;
+  }
+  rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
+  rhs_.tail(s_.n_lambda).setZero();
+  for (const Rate& rate : rates_)
+    rhs_[rate.row] -= e_.parts.by_y[rate.from] * yp[rate.column];
+  for (const system::CouplerData& c : s_.couplers)
+    if (c.kept()) // the explicit time derivative of the velocity row: -f'' or -f'
+      rhs_[c.lambda - s_.lambda0 + s_.n_u] += c.drive(t)[c.velocity_level ? 1 : 2];
+  if (!factorise())
+    return false;
+  solve(x_);
+  yp.segment(s_.u0, s_.n_u) = x_.head(s_.n_u);
+  y.segment(s_.lambda0, s_.n_lambda) = -x_.tail(s_.n_lambda);
+  return x_.allFinite();
+}
+
+bool SaddlePoint::project(double t, VectorX& y) {
+  for (const system::BodyData& b : s_.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+  y.tail(s_.n - s_.lambda0).setZero();
+  if (s_.n_lambda == 0)
+    return true;
+  double before = HUGE_VAL;
+  for (int i = 0; i < projections; ++i) {
+    if (!e_.residual(t, y, yp0_, residual_))
+      return false;
+    rhs_.setZero();
+    double gap = 0.0;
+    system::for_each_row(s_, [&](Index lambda, Index mu, bool velocity_level) {
+      if (lambda == system::redundant || velocity_level)
+        return;
+      rhs_[lambda - s_.lambda0 + s_.n_u] = -residual_[mu];
+      gap = std::max(gap, std::abs(residual_[mu]) / s_.row_scale[mu]);
+    });
+    if (gap <= closed || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
+      break;
+    if (i > 1 && gap > 2.0 * before)
+      return false;
+    before = gap;
+    if (i + 1 == projections && gap > 1e-9)
+      return false;
+    solve(x_);
+    y0_ = y;
+    system::retract(s_, x_.head(s_.n_u), y);
+  }
+  for (int i = 0; i < 2; ++i) { // the matrix is of a pose a little off: twice
+    if (!e_.residual(t, y, yp0_, residual_))
+      return false;
+    rhs_.setZero();
+    rhs_.tail(s_.n_lambda) = -residual_.segment(s_.lambda0, s_.n_lambda);
+    solve(x_);
+    y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
+  }
+  if (!e_.residual(t, y, yp0_, residual_))
+    return false;
+  for (Index i = s_.lambda0; i < s_.mu0; ++i)
+    if (std::abs(residual_[i]) >
+        moving * std::max(s_.row_scale[i], y.segment(s_.u0, s_.n_u).cwiseAbs().maxCoeff()))
+      return false;
+  return y.allFinite();
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,56 @@
+#pragma once
+/// Accelerations, reactions and projections from one sparse saddle-point matrix:
+///
+///   [ M   G^T ] [  u'     ]   [ f                ]
+///   [ G   -eD ] [ -lambda ] = [ -gamma (+ drive) ]
+///
+/// D is diag(G M^-1 G^T) roughly, e tiny. It only keeps the matrix regular where rows depend on
+/// each other (singular poses); refinement against e = 0 (the proximal iteration of Bayo and
+/// Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its effect out again and tends to the
+/// minimum-norm reactions.
+
+#include "hydrodae/solve/equations.h"
+#include "hydrodae/solve/klu.h"
+
+namespace hydrodae::solve {
+
+class SaddlePoint {
+public:
+  explicit SaddlePoint(Equations& equations);
+
+  /// Of y only q, u, z are read. Fills y' of them and the reactions lambda of y (mu = sigma = 0).
+  /// False when no finite accelerations exist.
+  bool accelerations(double t, VectorX& y, VectorX& yp);
+
+  /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
+  /// matrix of the last `accelerations`. False when it does not converge.
+  bool project(double t, VectorX& y);
+
+private:
+  bool factorise();
+  void solve(VectorX& x);
+  void multiply(const VectorX& x, VectorX& out) const;
+
+  struct Entry {
+    Index from = 0;                    ///< in the Jacobian
+    Index slot = 0;                    ///< in the matrix
+    bool rate = false, turned = false; ///< from dF/dy'; with the sign changed
+  };
+  struct Rate { ///< d(velocity row)/dq, for gamma
+    Index from = 0, row = 0, column = 0;
+  };
+
+  Equations& e_;
+  const system::System& s_;
+  Index n_ = 0; ///< n_u + n_lambda
+  std::vector<Index> start_, row_;
+  std::vector<Entry> entries_;
+  std::vector<Rate> rates_;
+  std::vector<Index> diagonal_; ///< slots of eD
+  std::vector<Index> mass_;     ///< slots of the diagonal of M
+  std::vector<double> plain_;   ///< values with e = 0
+  std::unique_ptr<SparseLu<double>> lu_;
+  VectorX residual_, rhs_, x_, r_, yp0_, y0_;
+};
+
+} // namespace hydrodae::solve

@@ -1,0 +1,186 @@
+#include "hydrodae/solve/stage_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hydrodae::solve {
+
+namespace {
+constexpr double rounding = 1e2 * std::numeric_limits<double>::epsilon();
+}
+
+StageNewton::StageNewton(Equations& equations, const RungeKutta& rk)
+    : e_(equations), rk_(rk), 
+      real_(std::make_unique<SparseLu<double>>(e_.pattern.column_start, e_.pattern.row)) {
+  const Index n = e_.system.n;
+  for (std::size_t k = 0; k < rk_.pairs.size(); ++k)
+    pairs_.push_back(
+        std::make_unique<SparseLu<std::complex<double>>>(e_.pattern.column_start, e_.pattern.row));
+  stage_ = rate_ = residual_ = work_ = MatrixX::Zero(n, rk_.stages);
+  y_ = yp_ = r_ = VectorX::Zero(n);
+  complex_.resize(static_cast<std::size_t>(n));
+}
+
+bool StageNewton::factorise(double h) {
+  const system::JacobianParts& parts = e_.parts;
+  const double gamma = 1.0 / (rk_.gamma0 * h);
+  for (std::size_t k = 0; k < parts.by_y.size(); ++k)
+    real_->values()[k] = parts.by_y[k] + gamma * parts.by_yp[k];
+  e_.regularise(gamma, real_->values().data());
+  bool good = real_->factorise();
+  for (std::size_t p = 0; p < pairs_.size() && good; ++p) {
+    const std::complex<double> lambda = rk_.pairs[p] / h;
+    std::vector<std::complex<double>>& values = pairs_[p]->values();
+    for (std::size_t k = 0; k < parts.by_y.size(); ++k)
+      values[k] = parts.by_y[k] + lambda * parts.by_yp[k];
+    e_.regularise(std::abs(lambda), values.data());
+    good = pairs_[p]->factorise();
+  }
+  return good;
+}
+
+void StageNewton::rates(double h, const MatrixX& Z, MatrixX& out) const {
+  out.noalias() = Z * rk_.a_inverse.transpose() / h;
+}
+
+bool StageNewton::residuals(double t, double h, const VectorX& y0, const MatrixX& Z) {
+  rates(h, Z, rate_);
+  stage_ = Z.colwise() + y0;
+  for (int i = 0; i < rk_.stages; ++i) {
+    y_ = stage_.col(i);
+    yp_ = rate_.col(i);
+    if (!e_.residual(t + rk_.c[i] * h, y_, yp_, r_))
+      return false;
+    residual_.col(i) = r_;
+  }
+  return true;
+}
+
+/// Root mean square over all stages of positions, velocities and memory states. Multipliers follow
+/// from these linearly; in a singular pose they are not unique, and say nothing.
+double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
+  const Index d = e_.system.lambda0;
+  return std::sqrt((dZ.topRows(d).array().colwise() * w.head(d).array()).square().sum() /
+                   static_cast<double>(std::max<Index>(d * rk_.stages, 1)));
+}
+
+/// Newton with increments by `solve`, which overwrites residual_ with the increment (sign as in
+/// Z -= increment) and returns false where it cannot.
+template <class Solve>
+NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const VectorX& w,
+                                  MatrixX& Z, int most, Solve&& solve) {
+  double before = 0.0;
+  // Rounding of the residual as the unknowns feel it sets a floor.
+  const Index n_q = e_.system.n_q;
+  const double floor =
+      rounding * std::max(1.0 / e_.rtol, y0.head(n_q).cwiseAbs().cwiseProduct(w.head(n_q)).maxCoeff());
+  contraction = 0.0;
+  for (iterations = 1; iterations <= most; ++iterations) {
+    if (!residuals(t, h, y0, Z) || !solve())
+      return NewtonResult::failed;
+    Z -= residual_;
+    ++e_.statistics.newton_iterations;
+    const double now = size(w, residual_);
+    if (!std::isfinite(now))
+      return NewtonResult::failed;
+    
+    if (now <= floor)
+      return NewtonResult::converged;
+    if (iterations > 1) {
+      const double rate = now / before;
+      contraction = iterations == 2 ? rate : std::sqrt(contraction * rate);
+      if (rate < 1.0 && rate / (1.0 - rate) * now <= accuracy)
+        return NewtonResult::converged;
+      if (rate >= 0.98 ||
+          (iterations > 2 && now * std::pow(rate, most - iterations) > accuracy * 10.0))
+        return now <= std::max(10.0 * floor, accuracy) ? NewtonResult::converged : NewtonResult::slow;
+    }
+    before = now;
+  }
+  return NewtonResult::slow;
+}
+
+NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, const VectorX& w,
+                                     MatrixX& Z) {
+  const int most = 7 + rk_.stages;
+  return iterate(t, h, y0, w, Z, most, [&] {
+    // W = (T^-1 x I) dZ decouples: a real system and complex ones, x + i y from the pair's columns.
+    work_.noalias() = residual_ * rk_.T_inverse.transpose();
+    int column = 0;
+    if (!rk_.real.empty())
+      real_->solve(work_.col(column++).data());
+    for (std::unique_ptr<SparseLu<std::complex<double>>>& lu : pairs_) {
+      for (Index k = 0; k < e_.system.n; ++k)
+        complex_[static_cast<std::size_t>(k)] = {work_(k, column), work_(k, column + 1)};
+      lu->solve(complex_.data());
+      for (Index k = 0; k < e_.system.n; ++k) {
+        work_(k, column) = complex_[static_cast<std::size_t>(k)].real();
+        work_(k, column + 1) = complex_[static_cast<std::size_t>(k)].imag();
+      }
+      column += 2;
+    }
+    residual_.noalias() = work_ * rk_.T.transpose();
+    return true;
+  });
+}
+
+/// Pattern of all stages: J and B in the diagonal blocks, B elsewhere.
+void StageNewton::make_full() {
+  const system::Pattern& p = e_.pattern;
+  const int s = rk_.stages;
+  full_ = std::make_unique<Full>();
+  full_->slots.assign(static_cast<std::size_t>(s * s), std::vector<Index>(p.row.size(), -1));
+  full_->start.assign(1, 0);
+  for (int j = 0; j < s; ++j)
+    for (Index c = 0; c < p.n; ++c) {
+      for (int i = 0; i < s; ++i)
+        for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
+          if (i != j && !p.has_rate[static_cast<std::size_t>(k)])
+            continue;
+          full_->slots[static_cast<std::size_t>(i * s + j)][static_cast<std::size_t>(k)] =
+              static_cast<Index>(full_->row.size());
+          full_->row.push_back(i * p.n + p.row[static_cast<std::size_t>(k)]);
+        }
+      full_->start.push_back(static_cast<Index>(full_->row.size()));
+    }
+  full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row);
+}
+
+bool StageNewton::factorise_full(double t, double h, const VectorX&) {
+  const int s = rk_.stages;
+  const std::size_t nonzeros = e_.pattern.row.size();
+  std::vector<double>& values = full_->lu->values();
+  const double alpha = 1.0 / (rk_.gamma0 * h);
+  std::vector<double> regular(nonzeros);
+  for (int i = 0; i < s; ++i) {
+    y_ = stage_.col(i);
+    yp_ = rate_.col(i);
+    e_.jacobian(t + rk_.c[i] * h, y_, yp_);
+    std::copy(e_.parts.by_y.begin(), e_.parts.by_y.end(), regular.begin());
+    e_.regularise(alpha, regular.data());
+    for (int j = 0; j < s; ++j) {
+      const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
+      const double factor = rk_.a_inverse(i, j) / h;
+      for (std::size_t k = 0; k < nonzeros; ++k)
+        if (slots[k] >= 0)
+          values[static_cast<std::size_t>(slots[k])] =
+              (i == j ? regular[k] : 0.0) + factor * e_.parts.by_yp[k];
+    }
+  }
+  return full_->lu->factorise();
+}
+
+NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const VectorX& w,
+                               MatrixX& Z) {
+  if (!full_)
+    make_full();
+  return iterate(t, h, y0, w, Z, 15, [&] {
+    if (!factorise_full(t, h, y0))
+      return false;
+    full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
+    return true;
+  });
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,69 @@
+#pragma once
+/// Newton's iteration on the stages of one step. With increments Z_i = Y_i - y_0 and
+/// Y'_i = sum_j (a^-1)_ij Z_j / h the equations are F(t_i, Y_i, Y'_i) = 0.
+///
+/// Simplified: one Jacobian J + (lambda / h) B for each eigenvalue lambda of a^-1 (one real, the
+/// others complex), J = dF/dy and B = dF/dy' at the start of the step. Full: the Jacobian at every
+/// stage, all stages in one sparse matrix; it passes singular poses where the simplified one fails.
+
+#include <memory>
+#include <vector>
+
+#include "hydrodae/solve/equations.h"
+#include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/runge_kutta.h"
+
+namespace hydrodae::solve {
+
+enum class NewtonResult { converged, slow, failed };
+
+class StageNewton {
+public:
+  StageNewton(Equations& equations, const RungeKutta& rk);
+
+  const RungeKutta& rk() const { return rk_; }
+
+  /// Factorises for the step h with the parts that `Equations::jacobian` left. False: singular.
+  bool factorise(double h);
+
+  /// Iterates on Z (n, s) from what it holds. `w`: weights of the norm.
+  NewtonResult simplified(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z);
+  NewtonResult full(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z);
+
+  /// Z' of the stages, (n, s).
+  void rates(double h, const MatrixX& Z, MatrixX& out) const;
+
+  /// Solves (J + B / (gamma0 h)) x = x, for the error estimate.
+  void solve_real(VectorX& x) { real_->solve(x.data()); }
+
+  /// Contraction of the last iteration, and how many it took.
+  double contraction = 0.0;
+  int iterations = 0;
+  /// Tolerance of the iteration in units of the error tolerance.
+  double accuracy = 1e-2;
+
+private:
+  struct Full {
+    std::vector<Index> start, row;
+    std::vector<std::vector<Index>> slots; ///< [i * s + j][k]: place of entry k of block (i, j), -1
+    std::unique_ptr<SparseLu<double>> lu;
+  };
+  bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
+  double size(const VectorX& w, const MatrixX& dZ) const;
+  void make_full();
+  bool factorise_full(double t, double h, const VectorX& y0);
+  template <class Solve>
+  NewtonResult iterate(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z,
+                       int most, Solve&& solve);
+
+  Equations& e_;
+  RungeKutta rk_;
+  std::unique_ptr<SparseLu<double>> real_;
+  std::vector<std::unique_ptr<SparseLu<std::complex<double>>>> pairs_;
+  std::unique_ptr<Full> full_;
+  MatrixX stage_, rate_, residual_, work_;
+  VectorX y_, yp_, r_;
+  std::vector<std::complex<double>> complex_;
+};
+
+} // namespace hydrodae::solve
