@@ -6,7 +6,9 @@ document of the reference, and returns the errors by name.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -190,6 +192,54 @@ def heavy_top(results: Any, _reference: Reference) -> Errors:
     return {"position": largest(position(results, "top"), exact), "energy": energy(results)}
 
 
+@cache
+def governor_solution(end_time: float, samples: int) -> Array:
+    """(samples,) height of the slider: both rods at one angle b below level, slider at z, and the
+    momentum about the shaft L = J(b) w kept; Radau."""
+    from scipy.integrate import solve_ivp
+
+    rod, ball, slider = 0.3, 5.0, 3.0
+    mass = rod + ball
+    d = (0.5 * rod + ball) / mass  # centre of gravity of a rod with its ball, from its hinge
+    along = rod * 2e-4 / 12
+    across = rod * (1 + 1e-4) / 12 + rod * (d - 0.5) ** 2 + ball * (1 - d) ** 2
+    hinge = across + mass * d**2
+    stiffness, damping, length = 8e5, 4e4, 0.5
+
+    def about_shaft(b: float) -> tuple[float, float]:
+        """J and dJ/db, both rods."""
+        c, s, arm = math.cos(b), math.sin(b), 0.05 + d * math.cos(b)
+        j = along + 0.005 + 2 * (along * s**2 + across * c**2 + mass * arm**2)
+        return j, 2 * (2 * (along - across) * s * c - 2 * mass * arm * d * s)
+
+    start = math.radians(30.0)
+    momentum = about_shaft(start)[0] * 2 * math.pi
+
+    def rates(_time: float, y: Array) -> list[float]:
+        b, z, b_dot, z_dot = y.tolist()
+        j, slope = about_shaft(b)
+        x, h = 0.5 * math.cos(b), 1 - 0.5 * math.sin(b) - z  # from the slider's edge to the rod
+        reach = math.hypot(x, h)
+        by_b, by_z = -0.5 * (x * math.sin(b) + h * math.cos(b)) / reach, -h / reach
+        force = stiffness * (reach - length) + damping * (by_b * b_dot + by_z * z_dot)
+        spin = 0.25 * slope * (momentum / j) ** 2
+        b_ddot = (spin + mass * GRAVITY * d * math.cos(b) - force * by_b) / hinge
+        return [b_dot, z_dot, b_ddot, -GRAVITY - 2 * force * by_z / slider]
+
+    time = np.linspace(0.0, end_time, samples)
+    solution = solve_ivp(
+        rates, (0.0, end_time), [start, 0.5, 0, 0], "Radau", t_eval=time, rtol=1e-9, atol=1e-11
+    )
+    assert solution.success
+    return np.asarray(solution.y[1])
+
+
+def flyball_governor(results: Any, _reference: Reference) -> Errors:
+    ours = position(results, "slider")[:, Z]
+    exact = governor_solution(float(results.time[-1]), len(ours))
+    return {"slider": float(abs(ours - exact).max())}
+
+
 PROBLEMS: dict[str, Callable[[Any, Reference], Errors]] = {
     "simple_pendulum": pendulum,
     "pendulum_1000s": pendulum,
@@ -204,4 +254,5 @@ PROBLEMS: dict[str, Callable[[Any, Reference], Errors]] = {
     "light_joint": light_joint,
     "mass_ratio": mass_ratio,
     "heavy_top": heavy_top,
+    "flyball_governor": flyball_governor,
 }
