@@ -28,6 +28,16 @@ void bind_model(py::module_& module) {
           "text", [](const Scene& s) { return s.text; }, "The case file as it was read.")
       .def_property_readonly(
           "end_time", [](const Scene& s) { return s.solver.end_time; }, "End of the run, s.")
+      .def_property_readonly(
+          "python_drives",
+          [](const Scene& s) {
+            std::vector<std::string> out;
+            for (const model::Constraint& c : s.constraints)
+              if (c.drive.python)
+                out.push_back(c.name);
+            return out;
+          },
+          "Constraints whose drive is a Python function.")
       .def("summary", &model::summary)
       .def("__repr__", [](const Scene& s) {
         return "<hydrodae._core.Scene '" + s.title + "': " + std::to_string(s.bodies.size()) +

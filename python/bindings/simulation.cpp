@@ -1,7 +1,10 @@
 #include "hydrodae/simulation.h"
 
+#include <array>
 #include <exception>
 #include <functional>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include <pybind11/stl.h>
@@ -49,6 +52,49 @@ private:
   std::exception_ptr failure_;
 };
 
+/// Functions of time by the name of their constraint: t -> (f, f', f'').
+using Drives = std::map<std::string, py::function>;
+
+/// Calls Python from inside the residual. Solvers written in C are on the way: an exception waits
+/// until the run, which ends on values that are no numbers, has come back.
+class PythonDrives {
+public:
+  /// A copy of the scene that has the functions.
+  model::Scene join(const model::Scene& scene, const Drives& drives) {
+    model::Scene out = scene;
+    for (model::Constraint& c : out.constraints)
+      if (const auto found = drives.find(c.name); found != drives.end())
+        c.drive.function = [this, call = &found->second](double t) {
+          return value(*call, t); // the map outlives the run; copies need no GIL
+        };
+    return out;
+  }
+
+  /// With the GIL held.
+  void raise_failure() {
+    if (failure_)
+      std::rethrow_exception(std::exchange(failure_, nullptr));
+  }
+
+  bool failed() const { return failure_ != nullptr; }
+
+private:
+  std::array<double, 3> value(const py::function& call, double t) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!failure_) {
+      const py::gil_scoped_acquire gil;
+      try {
+        return call(t).cast<std::array<double, 3>>();
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+    }
+    return {nan, nan, nan};
+  }
+
+  std::exception_ptr failure_;
+};
+
 py::dict as_dict(const RunStatistics& s) {
   using namespace py::literals;
   return py::dict(
@@ -60,23 +106,37 @@ py::dict as_dict(const RunStatistics& s) {
       "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
-py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback) {
+py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
+             const Drives& functions) {
   PythonProgress progress(callback);
+  PythonDrives drives;
+  const model::Scene driven = drives.join(scene, functions);
   RunStatistics statistics;
   try {
     const py::gil_scoped_release release;
-    statistics = simulate(scene, output, std::ref(progress));
+    statistics = simulate(driven, output, [&](double time, double end_time) {
+      return !drives.failed() && progress(time, end_time);
+    });
   } catch (const ModelError& error) {
+    drives.raise_failure();
     throw CaseError(model::located(scene, error));
+  } catch (const Error&) {
+    drives.raise_failure();
+    throw;
   }
+  drives.raise_failure();
   progress.raise_failure();
   return as_dict(statistics);
 }
 
-std::string examine_scene(const model::Scene& scene) {
+std::string examine_scene(const model::Scene& scene, const Drives& functions) {
+  PythonDrives drives;
   try {
-    return examine(scene);
+    const std::string text = examine(drives.join(scene, functions));
+    drives.raise_failure();
+    return text;
   } catch (const ModelError& error) {
+    drives.raise_failure();
     throw CaseError(model::located(scene, error));
   }
 }
@@ -85,11 +145,14 @@ std::string examine_scene(const model::Scene& scene) {
 
 void bind_simulation(py::module_& module) {
   module.def(
-      "examine", &examine_scene, py::arg("scene"),
+      "examine", &examine_scene, py::arg("scene"), py::arg("drives"),
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.\n\n"
+             py::arg("drives"),
+             "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
+             "`drives` has a function t -> (f, f', f'') for every constraint in "
+             "`scene.python_drives`.\n\n"
              "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
              "solver. Raises\nSolverError when the integration fails; the file then holds what was "
              "computed.");

@@ -1,6 +1,6 @@
 """The compiled kernel (python/bindings). Users call it through `Case` and `run`."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 version: str
@@ -20,6 +20,9 @@ class Scene:
     @property
     def end_time(self) -> float:
         """End of the run, s."""
+    @property
+    def python_drives(self) -> list[str]:
+        """Constraints whose drive is a Python function."""
     def summary(self) -> str: ...
 
 def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
@@ -28,14 +31,18 @@ def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
 def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene:
     """Read a case from a string; paths in it are relative to `directory`. Raises CaseError."""
 
-def examine(scene: Scene) -> str:
-    """The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError."""
+def examine(scene: Scene, drives: Mapping[str, Callable[[float], Sequence[float]]]) -> str:
+    """The scene as a tree, what it costs, mobility and redundant rows. Raises CaseError."""
 
 def simulate(
-    scene: Scene, output: str, progress: Callable[[float, float], bool] | None
+    scene: Scene,
+    output: str,
+    progress: Callable[[float, float], bool] | None,
+    drives: Mapping[str, Callable[[float], Sequence[float]]],
 ) -> dict[str, Any]:
     """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
 
+    `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.
     """

@@ -138,8 +138,13 @@ class Case:
         """Return the scene as a short tree: bodies, joints, forces, solver."""
         return self._scene.summary()
 
-    def examine(self) -> str:
-        """Return the summary with unknowns, multipliers, mobility and redundant constraint rows.
+    def examine(self, drives: Mapping[str, Any] | None = None) -> str:
+        """Return the summary with what the case costs, its mobility and redundant rows.
+
+        Parameters
+        ----------
+        drives : mapping from str to callable, optional
+            As in `hydrodae.run`.
 
         Raises
         ------
@@ -147,8 +152,9 @@ class Case:
             The joints cannot be closed near the start.
         """
         from hydrodae import _core
+        from hydrodae.drives import kernel_drives
 
-        return _core.examine(self._scene)
+        return _core.examine(self._scene, kernel_drives(self, drives))
 
     def __repr__(self) -> str:
         changed = "".join(f", {key} = {value}" for key, value in self._overrides.items())

@@ -17,6 +17,7 @@ from typing import Any
 import h5py
 
 from hydrodae.case import Case
+from hydrodae.drives import Drive, Kernel, kernel_drives
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.results import FORMAT, Results
 
@@ -30,6 +31,7 @@ def run(
     *,
     set: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    drives: Mapping[str, Drive] | None = None,
 ) -> Results:
     """Simulate a case from its initial state to its end time.
 
@@ -44,6 +46,11 @@ def run(
         Values that replace those of the case, by dotted key: ``{"solver.rtol": 1e-8}``.
     progress : callable, optional
         Called as ``progress(time, end_time)`` [s] at every output sample; return False to stop.
+    drives : mapping from str to callable, optional
+        Function of time [s] for every constraint with ``drive = { python = true }``, by its name.
+        It returns value, rate and rate of the rate [m or rad, per s, per s2]; or its value only,
+        then it is sampled before the run and a spline gives the rates. Exceptions in it end the run
+        and come back here.
 
     Returns
     -------
@@ -52,7 +59,7 @@ def run(
     Raises
     ------
     CaseError
-        The case cannot be used, or `output` is a file that is no results file.
+        The case or a drive cannot be used, or `output` is a file that is no results file.
     SolverError
         The integration failed. What was computed is kept: the attribute `results` of the exception
         is a `Results`, or None when the run did not even start.
@@ -63,6 +70,7 @@ def run(
         case = Case(path=case, values=set)
     elif set:
         case = case.with_values(set)
+    functions = kernel_drives(case, drives)
     folder = None
     if output is None:
         folder = _TemporaryFolder()
@@ -71,7 +79,7 @@ def run(
         path = Path(output)
         _make_way(path)
     try:
-        status = _integrate(case, path, progress)
+        status = _integrate(case, path, progress, functions)
     except SolverError as error:
         error.results = Results(path, owner=folder) if path.exists() else None
         raise
@@ -83,7 +91,7 @@ def run(
     return results
 
 
-def _integrate(case: Case, path: Path, progress: Progress | None) -> str:
+def _integrate(case: Case, path: Path, progress: Progress | None, drives: dict[str, Kernel]) -> str:
     """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
 
     The kernel always gets a callback: Python handles signals only while it runs Python.
@@ -101,7 +109,7 @@ def _integrate(case: Case, path: Path, progress: Progress | None) -> str:
         return go_on and not interrupt.is_set()
 
     with _interrupt_event() as interrupt:
-        status: str = _core.simulate(case.scene, str(path), report)["status"]
+        status: str = _core.simulate(case.scene, str(path), report, drives)["status"]
     if failure:
         raise failure[0]
     return status

@@ -129,12 +129,18 @@ class Kernel:
             body_names=["base", "flap1", "flap2"],
             joint_names=["hinge1", "hinge2"],
             end_time=10.0,
+            python_drives=[],
             summary=lambda: f"3 bodies, 2 joints, paths from {directory}",
         )
 
     def simulate(
-        self, scene: SimpleNamespace, output: str, progress: Callable[[float, float], bool]
+        self,
+        scene: SimpleNamespace,
+        output: str,
+        progress: Callable[[float, float], bool],
+        drives: dict[str, Any],
     ) -> dict[str, Any]:
+        assert not drives
         self.runs += 1
         times, status, message = [0.0], "completed", ""
         while times[-1] < scene.end_time:

@@ -408,7 +408,7 @@ def test_the_executable_checks_a_case(executable, case):
     run = solve(executable, "--check", case)
     assert run.returncode == 0
     scene = _core.load_case(str(case), {})
-    assert run.stdout == _core.examine(scene)
+    assert run.stdout == _core.examine(scene, {})
     assert run.stdout.startswith(scene.summary())
     assert "mobility: 1 degrees of freedom" in run.stdout
 

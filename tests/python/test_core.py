@@ -132,7 +132,7 @@ def test_a_file_and_its_text_give_the_same_scene(tmp_path):
 
 
 def test_a_run_writes_its_results(output):
-    statistics = _core.simulate(spring(solver__rtol="1e-8"), output, None)
+    statistics = _core.simulate(spring(solver__rtol="1e-8"), output, None, {})
     assert statistics["status"] == "completed"
     assert statistics["end_time"] == 4.0
     assert statistics["steps"] > 0
@@ -155,7 +155,7 @@ def test_a_run_writes_its_results(output):
 
 
 def test_a_run_needs_no_file():
-    assert _core.simulate(spring(), "", None)["status"] == "completed"
+    assert _core.simulate(spring(), "", None, {})["status"] == "completed"
 
 
 def test_progress_hears_of_every_sample(output):
@@ -165,13 +165,13 @@ def test_progress_hears_of_every_sample(output):
         calls.append((t, end))
         return True
 
-    _core.simulate(spring(), output, progress)
+    _core.simulate(spring(), output, progress, {})
     np.testing.assert_allclose([t for t, _ in calls], np.arange(9) * 0.5, atol=1e-14)
     assert {end for _, end in calls} == {4.0}
 
 
 def test_progress_can_stop_the_run(output):
-    assert _core.simulate(spring(), output, lambda t, end: t < 1.9)["status"] == "interrupted"
+    assert _core.simulate(spring(), output, lambda t, end: t < 1.9, {})["status"] == "interrupted"
     with h5py.File(output) as file:
         assert file.attrs["status"] == "interrupted"
         np.testing.assert_allclose(file["time"], [0, 0.5, 1, 1.5, 2], atol=1e-14)
@@ -184,7 +184,7 @@ def test_an_exception_of_progress_ends_the_run_and_comes_back(output):
         return True
 
     with pytest.raises(KeyError, match="mine"):
-        _core.simulate(spring(), output, progress)
+        _core.simulate(spring(), output, progress, {})
     with h5py.File(output) as file:
         assert file.attrs["status"] == "interrupted"
         assert len(file["time"]) == 3
@@ -198,7 +198,7 @@ def test_ctrl_c_interrupts_a_run_without_progress(output):
     signal.signal(signal.SIGALRM, interrupt)
     signal.setitimer(signal.ITIMER_REAL, 0.2)
     scene = spring(solver__end_time="1e9", output__step="100")
-    assert _core.simulate(scene, output, None)["status"] == "interrupted"
+    assert _core.simulate(scene, output, None, {})["status"] == "interrupted"
     with h5py.File(output) as file:
         assert file.attrs["status"] == "interrupted"
         assert file["time"][-1] > 0
@@ -212,13 +212,13 @@ def test_other_exceptions_of_signal_handlers_come_back(output):
     signal.signal(signal.SIGALRM, fail)
     signal.setitimer(signal.ITIMER_REAL, 0.2)
     with pytest.raises(TimeoutError, match="too long"):
-        _core.simulate(spring(solver__end_time="1e9", output__step="100"), output, None)
+        _core.simulate(spring(solver__end_time="1e9", output__step="100"), output, None, {})
 
 
 def test_other_threads_run_meanwhile(output):
     """One long stretch between two samples: with the GIL held nothing else would happen."""
     scene = spring(solver__end_time="20000", output__step="20000", solver__max_step="0.05")
-    run = threading.Thread(target=_core.simulate, args=(scene, output, None))
+    run = threading.Thread(target=_core.simulate, args=(scene, output, None, {}))
     ticks = 0
     start = time.monotonic()
     run.start()
@@ -233,7 +233,7 @@ def test_runs_in_parallel_do_not_disturb_each_other(tmp_path):
     scene = spring(output__step="0.01")
     paths = [tmp_path / f"{i}.h5" for i in range(4)]
     threads = [
-        threading.Thread(target=_core.simulate, args=(scene, str(path), None)) for path in paths
+        threading.Thread(target=_core.simulate, args=(scene, str(path), None, {})) for path in paths
     ]
     for thread in threads:
         thread.start()
@@ -251,7 +251,7 @@ def test_runs_in_parallel_do_not_disturb_each_other(tmp_path):
 def test_a_failed_run_tells_when_and_keeps_its_results(output):
     scene = spring(force__spring__stiffness="[0, 0, -1e4, 0, 0, 0]", output__step="0.05")
     with pytest.raises(SolverError) as caught:  # grows by e^(31.6 t) beyond all precision
-        _core.simulate(scene, output, None)
+        _core.simulate(scene, output, None, {})
     assert 0.1 < caught.value.time < 4.0
     assert "buoy" in str(caught.value)
     with h5py.File(output) as file:
@@ -266,7 +266,7 @@ def test_a_failed_run_tells_when_and_keeps_its_results(output):
 def test_a_results_file_that_cannot_be_made_is_told(tmp_path):
     path = tmp_path / "none" / "results.h5"
     with pytest.raises(CaseError, match="No such file or directory") as caught:
-        _core.simulate(spring(), str(path), None)
+        _core.simulate(spring(), str(path), None, {})
     assert str(path) in str(caught.value)
 
 
@@ -276,7 +276,9 @@ def test_a_killed_run_leaves_a_readable_file(tmp_path):
 import os
 from hydrodae import _core
 scene = _core.parse_case({SPRING!r}, ".", {{"solver.end_time": "1000"}})
-_core.simulate(scene, {str(path)!r}, lambda t, end: os.kill(os.getpid(), 9) if t > 600 else True)
+def progress(t, end):
+    return os.kill(os.getpid(), 9) if t > 600 else True
+_core.simulate(scene, {str(path)!r}, progress, {{}})
 """
     run = subprocess.run([sys.executable, "-c", code], check=False)
     assert run.returncode == -signal.SIGKILL
@@ -301,7 +303,7 @@ scene = _core.parse_case({SPRING!r}, ".", {{}})
 for _ in range(2):
     with h5py.File({str(tmp_path / "other.h5")!r}, "w") as other:
         other["x"] = np.arange(10.0)
-        assert _core.simulate(scene, path, None)["status"] == "completed"
+        assert _core.simulate(scene, path, None, {{}})["status"] == "completed"
         other["y"] = np.array([1 + 2j])
     with h5py.File({str(tmp_path / "other.h5")!r}) as other, h5py.File(path) as results:
         assert other["x"][9] == 9.0 and other["y"][0] == 1 + 2j

@@ -15,8 +15,9 @@
 namespace hydrodae::io {
 namespace {
 
-const std::vector<std::string> top_level_keys = {
-    "title", "environment", "hydro", "body", "joint", "constraint", "force", "solver", "output"};
+const std::vector<std::string> top_level_keys = {"title",  "environment", "hydro",  "body",
+                                                 "joint",  "constraint",  "marker", "force",
+                                                 "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -113,6 +114,9 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   });
   for_each_entry(root, "constraint", positions, [&](const Table& entry) {
     scene.constraints.push_back(read_table<model::Constraint>(entry, positions));
+  });
+  for_each_entry(root, "marker", positions, [&](const Table& entry) {
+    scene.markers.push_back(read_table<model::Marker>(entry, positions));
   });
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });

@@ -63,6 +63,7 @@ void check(const Scene& scene) {
   check_names(names_of(scene.bodies), "body");
   check_names(names_of(scene.joints), "joint");
   check_names(names_of(scene.constraints), "constraint");
+  check_names(names_of(scene.markers), "marker");
   std::vector<std::string> forces;
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   check_names(forces, "force");
@@ -78,6 +79,8 @@ void check(const Scene& scene) {
     check_joint(scene, joint);
   for (const Constraint& constraint : scene.constraints)
     check_constraint(scene, constraint);
+  for (const Marker& marker : scene.markers)
+    check_marker(scene, marker);
   check_forces(scene);
   check_solver(scene);
   if (scene.hydro && scene.database)

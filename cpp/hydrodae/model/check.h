@@ -10,6 +10,7 @@ inline constexpr std::string_view ground = "ground"; ///< the fixed world, as an
 void check_body(const Scene& scene, const Body& body);
 void check_joint(const Scene& scene, const Joint& joint);
 void check_constraint(const Scene& scene, const Constraint& constraint);
+void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_solver(const Scene& scene);
 void check_database(const Scene& scene); ///< only called when the scene has one

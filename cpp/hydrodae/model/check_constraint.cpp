@@ -92,8 +92,8 @@ void check_coupler(const Scene& scene, const Entry& entry, const Constraint& c) 
   const Drive& d = c.drive;
   refuse_if(c.body.has_value(), entry, "body", c.type);
   refuse_if(c.level != "position", entry, "level", c.type);
-  refuse_if(d.constant != 0.0 || d.rate != 0.0 || d.amplitude != 0.0 || !d.time.empty() ||
-                !d.values.empty(),
+  refuse_if(d.constant != 0.0 || d.rate != 0.0 || d.amplitude != 0.0 || d.python ||
+                !d.time.empty() || !d.values.empty(),
             entry, "drive", c.type);
   if (!c.joint || !c.joint_b)
     refuse(entry, "",

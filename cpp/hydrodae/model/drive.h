@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "hydrodae/core/field.h"
@@ -11,9 +12,10 @@ namespace hydrodae::model {
 /// A function of time that a coordinate follows, with its first two derivatives.
 ///
 ///   f(t) = constant + rate t + ramp(t) amplitude sin(2 pi t / period + phase) + table(t)
+///          + function(t)
 ///
 /// ramp(t) = (1 - cos(pi t / T)) / 2 for t < T = `ramp`, then 1. The table is a natural cubic
-/// spline.
+/// spline. The function comes from the program that runs the scene, where `python` asks for it.
 struct Drive {
   double constant = 0.0;
   double rate = 0.0;
@@ -23,6 +25,8 @@ struct Drive {
   double ramp = 0.0;
   std::vector<double> time, values;
   CubicSpline table; ///< of `time` and `values`, made by `prepare`
+  bool python = false;
+  std::function<std::array<double, 3>(double)> function; ///< f, f', f''; must not throw
 
   void prepare() {
     if (!time.empty())
@@ -49,6 +53,11 @@ struct Drive {
       for (std::size_t k = 0; k < 3; ++k)
         f[k] += y[k];
     }
+    if (function) {
+      const std::array<double, 3> y = function(t);
+      for (std::size_t k = 0; k < 3; ++k)
+        f[k] += y[k];
+    }
     return f;
   }
 
@@ -64,6 +73,9 @@ struct Drive {
          at_least(0)},
         {"time", &D::time, "s", "Times of a table, ascending."},
         {"values", &D::values, "m or rad", "Values of the table, joined by a cubic spline."},
+        {"python", &D::python, "-",
+         "true: a Python function of time, given to hydrodae.run(..., drives={name: function}), is "
+         "added."},
     };
   }
 };

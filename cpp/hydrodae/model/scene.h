@@ -206,6 +206,31 @@ struct Constraint {
   }
 };
 
+/// Table [[marker]]: a point of a body whose motion is reported.
+struct Marker {
+  std::string name;
+  std::string body;
+  Vector3 point = Vector3::Zero();
+  std::string axes = "world";
+
+  static Fields<Marker> fields() {
+    using M = Marker;
+    return {
+        {"name", &M::name, "-", "Name of the marker in the results.", true},
+        {"body", &M::body, "-", "Body that carries it.", true},
+        {"point", &M::point, "m", "Where it is in the reference pose, world axes.", true},
+        {"axes",
+         &M::axes,
+         "-",
+         "Axes of the velocity and acceleration that are reported: of the world, or carried by the "
+         "body. The position is in world axes.",
+         false,
+         any_value,
+         {"world", "body"}},
+    };
+  }
+};
+
 /// Table [output].
 struct OutputOptions {
   double step = 0.1;
@@ -228,6 +253,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Constraint> constraints;
+  std::vector<Marker> markers;
   Forces forces;
   SolverOptions solver;
   OutputOptions output;

@@ -64,6 +64,8 @@ std::string function_text(const Drive& drive) {
   if (!drive.time.empty())
     text += std::string(text.empty() ? "" : " + ") + "a table of " +
             std::to_string(drive.time.size()) + " points";
+  if (drive.python)
+    text += std::string(text.empty() ? "" : " + ") + "a Python function";
   return text.empty() ? "0" : text;
 }
 
@@ -78,7 +80,8 @@ void write_constraint(std::ostream& out, const Scene& scene, const Constraint& c
     return;
   }
   const Drive& drive = c.drive;
-  const bool steady = drive.rate == 0.0 && drive.amplitude == 0.0 && drive.time.empty();
+  const bool steady =
+      drive.rate == 0.0 && drive.amplitude == 0.0 && !drive.python && drive.time.empty();
   out << (c.level == "velocity" ? "rate of " : "")
       << (c.joint ? motion(*c.joint, c.coordinate) : *c.coordinate + " of " + *c.body)
       << (steady ? " stays " : " follows ") << function_text(drive) << '\n';

@@ -146,6 +146,12 @@ int joint_motion(const System& s, const std::string& joint,
 
 void add_constraints(const model::Scene& scene, System& s) {
   for (const model::Constraint& c : scene.constraints) {
+    if (c.drive.python && !c.drive.function)
+      throw ModelError("constraint." + c.name + ".drive.python",
+                       "constraint '" + c.name +
+                           "': its drive is a Python function, which nobody gave; run the case as "
+                           "hydrodae.run(case, drives={\"" +
+                           c.name + "\": function})");
     CouplerData coupler;
     coupler.name = c.name;
     coupler.drive = c.drive;
@@ -299,6 +305,10 @@ System build(const model::Scene& scene) {
   add_hydro(scene, s);
   add_constraints(scene, s);
   add_forces(scene, s);
+  for (const model::Marker& m : scene.markers)
+    s.markers.push_back({m.name, body_index(scene, m.body),
+                         m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
+                         m.axes == "body"});
   set_coupler_offsets(scene, s);
   finish(s);
   if (s.n_u == 0)

@@ -43,6 +43,8 @@ void Recorder::make_channels() {
       add_channel(head + "velocity", 3, "m/s", "world", "Of the centre of gravity.");
       add_channel(head + "angular_velocity", 3, "rad/s", "world", "Angular velocity.");
       add_channel(head + "acceleration", 3, "m/s2", "world", "Of the centre of gravity.");
+      add_channel(head + "angular_acceleration", 3, "rad/s2", "world",
+                  "Rate of the angular velocity.");
     }
     if (has_locked(b)) {
       std::string note;
@@ -78,6 +80,14 @@ void Recorder::make_channels() {
     const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
     add_channel("constraints/" + c.name + "/reaction", 1, angle ? "N m" : "N", "-",
                 "Load that the constraint puts on its (first) coordinate.");
+  }
+  for (const MarkerData& m : s_.markers) {
+    const std::string head = "markers/" + m.name + "/", body = s_.bodies[m.body].name;
+    const std::string frame = m.body_axes ? "body " + body : "world";
+    add_channel(head + "position", 3, "m", "world", "Of a point of " + body + ".");
+    add_channel(head + "velocity", 3, "m/s", frame, "Of a point of " + body + ", over the world.");
+    add_channel(head + "acceleration", 3, "m/s2", frame,
+                "Of a point of " + body + ", over the world; without gravity.");
   }
   const Observation& o = observer_.observation();
   for (const ComponentLoad& load : o.loads) {
@@ -164,6 +174,7 @@ void Recorder::fill_bodies(double*& out) {
       put(out, state.v);
       put(out, state.R * state.w);
       put(out, state.v_dot);
+      put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
     }
     if (has_locked(b)) {
       put(out, observer_.observation().supports[i].head<3>());
@@ -191,6 +202,18 @@ void Recorder::fill_joints(double*& out) {
     *out++ = multiplier;
 }
 
+// r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
+void Recorder::fill_markers(double*& out) {
+  for (const MarkerData& m : s_.markers) {
+    const BodyState<double>& b = observer_.bodies()[m.body];
+    const Matrix3 axes = m.body_axes ? Matrix3(b.R.transpose()) : Matrix3(Matrix3::Identity());
+    const Vector3 speed = b.w.cross(m.point);
+    put(out, b.r + b.R * m.point);
+    put(out, axes * (b.v + b.R * speed));
+    put(out, axes * (b.v_dot + b.R * (b.w_dot.cross(m.point) + b.w.cross(speed))));
+  }
+}
+
 void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
   const Observation& o = observer_.observation();
   *out++ = o.kinetic;
@@ -208,6 +231,7 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);
+  fill_markers(out);
   for (const ComponentLoad& load : observer_.observation().loads) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());

@@ -52,6 +52,7 @@ private:
   std::vector<double> work_until(double t, const Interpolant& at, std::vector<double>& power);
   void fill_bodies(double*& out);
   void fill_joints(double*& out);
+  void fill_markers(double*& out);
   void fill_energy(double*& out, const std::vector<double>& work);
   double balance(const std::vector<double>& work);
 

@@ -110,6 +110,14 @@ template <class Law> struct MotionForce {
   Law law;
 };
 
+/// A point of a body whose motion is reported.
+struct MarkerData {
+  std::string name;
+  int body = 0;
+  Vector3 point = Vector3::Zero(); ///< from the centre of gravity, body axes [m]
+  bool body_axes = false;          ///< of velocity and acceleration
+};
+
 using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>>;
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
                                 std::vector<MotionForce<force::SpringDamper::Law>>>;
@@ -168,6 +176,7 @@ struct System {
   std::vector<JointData> joints;
   std::vector<MotionData> motions;
   std::vector<CouplerData> couplers;
+  std::vector<MarkerData> markers;
   std::vector<MotionStart> starts;
   BodyForces body_forces;
   MotionForces motion_forces;

@@ -92,7 +92,8 @@ struct BadInput {
 const std::vector<BadInput> bad_inputs = {
     {"amplitude = 0.1", "amplitud = 0.1",
      "case.toml:38:1: unknown key 'amplitud' in drive of [[constraint]] 'crank'; did you mean "
-     "'amplitude'? (valid: constant, rate, amplitude, period, phase_deg, ramp, time, values)"},
+     "'amplitude'? (valid: constant, rate, amplitude, period, phase_deg, ramp, time, values, "
+     "python)"},
     {"period = 5", "period = 0",
      "case.toml:39:1: key 'period' in drive of [[constraint]] 'crank': must be > 0 s, got 0 s"},
     {"period = 5\n", "",
@@ -134,7 +135,7 @@ const std::vector<BadInput> bad_inputs = {
      "mean 'coordinate'? (valid: coordinate, coupler)"},
     {"[[force]]\nname = \"spring\"", "[constraints]\n[[force]]\nname = \"spring\"",
      "case.toml:50:2: unknown key 'constraints' in the case; did you mean 'constraint'? (valid: "
-     "title, environment, hydro, body, joint, constraint, force, solver, output)"},
+     "title, environment, hydro, body, joint, constraint, marker, force, solver, output)"},
     {"point_b = [0.0, 0.0, -2.0]\nlength = 1.5\n", "",
      "case.toml:24:1: joint 'rope': a distance joint needs the key 'point_b', the point on body "
      "B"},

@@ -77,7 +77,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, body, joint, constraint, force, solver, output)"},
+       "environment, hydro, body, joint, constraint, marker, force, solver, output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate, displacement, displacement_rate)"},

@@ -360,7 +360,7 @@ TEST_CASE("a summary tells what joints keep and what constraints follow") {
   motor.name = "motor";
   motor.coordinate = "displacement_2";
   motor.level = "velocity";
-  motor.drive = {-0.5, 2.0, -3.0, 4.0, -pi / 6, 8.0, {0, 10}, {1, 1}, {}};
+  motor.drive = {-0.5, 2.0, -3.0, 4.0, -pi / 6, 8.0, {0, 10}, {1, 1}, {}, false, {}};
   Constraint lock = coordinate("tube");
   lock.name = "lock";
   Constraint lift = lock;

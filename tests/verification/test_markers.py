@@ -1,0 +1,87 @@
+"""Marker channels against the closed forms of a pendulum and of a turning body."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import hydrodae
+
+GRAVITY = 9.81
+ARM = 1.2  # m, the centre of gravity from the hinge
+TIP = 2.0  # m, the marker from the hinge
+
+PENDULUM = f"""
+[[body]]
+name = "rod"
+motion = "rigid"
+mass = 3.0
+center_of_gravity = [0.0, 0.0, {-ARM}]
+inertia = [0.49, 0.5, 0.02]
+
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "rod"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+initial.angle_deg = 70.0
+
+[[marker]]
+name = "tip"
+body = "rod"
+point = [0.0, 0.3, {-TIP}]
+
+[[marker]]
+name = "accelerometer"
+body = "rod"
+point = [0.0, 0.3, {-TIP}]
+axes = "body"
+
+[solver]
+end_time = 5.0
+rtol = 1e-9
+"""
+
+
+def test_tip_of_a_pendulum() -> None:
+    results = hydrodae.run(hydrodae.Case.from_text(PENDULUM))
+    angle = results["joints/hinge/angle"].values
+    rate = results["joints/hinge/angle_rate"].values
+    acceleration = -3.0 * GRAVITY * ARM * np.sin(angle) / (0.5 + 3.0 * ARM**2)
+    # About y the tip hangs along u = (-sin a, 0, -cos a) and moves along w = du/da.
+    u = np.column_stack([-np.sin(angle), 0 * angle, -np.cos(angle)])
+    w = np.column_stack([-np.cos(angle), 0 * angle, np.sin(angle)])
+    tip = {
+        kind: results[f"markers/tip/{kind}"] for kind in ("position", "velocity", "acceleration")
+    }
+    np.testing.assert_allclose(tip["position"], TIP * u + [0, 0.3, 0], atol=1e-7)
+    np.testing.assert_allclose(tip["velocity"], TIP * rate[:, None] * w, atol=1e-6)
+    expected = TIP * (acceleration[:, None] * w - (rate**2)[:, None] * u)
+    np.testing.assert_allclose(tip["acceleration"], expected, atol=1e-5)
+    turning = results["bodies/rod/angular_acceleration"].values[:, 1]
+    np.testing.assert_allclose(turning, acceleration, atol=1e-5)
+    # In body axes: along and across the rod.
+    own = results["markers/accelerometer/acceleration"]
+    assert own.attrs["frame"] == "body rod"
+    np.testing.assert_allclose(own.values[:, 0], -TIP * acceleration, atol=1e-5)
+    np.testing.assert_allclose(own.values[:, 2], TIP * rate**2, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            'body = "rod"\npoint = [0.0, 0.3',
+            'body = "rot"\npoint = [0.0, 0.3',
+            "did you mean 'rod'",
+        ),
+        ('axes = "body"', 'axes = "bodi"', "did you mean 'body'"),
+        ('name = "accelerometer"', 'name = "tip"', "two marker entries have the name 'tip'"),
+        ('motion = "rigid"', 'motion = "fixed"', "nothing can move"),
+    ],
+)
+def test_wrong_markers_are_refused(old: str, new: str, message: str) -> None:
+    with pytest.raises(hydrodae.CaseError, match=message):
+        hydrodae.Case.from_text(PENDULUM.replace(old, new, 1))
