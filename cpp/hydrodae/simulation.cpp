@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -11,7 +10,6 @@
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
-#include "hydrodae/system/assemble.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -213,23 +211,6 @@ private:
 };
 
 } // namespace
-
-std::string examine(const model::Scene& scene) {
-  const system::System s = system::build(scene);
-  const system::Pattern pattern = system::find_pattern(s);
-  std::ostringstream out;
-  out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
-      << s.n_u << " velocities + " << s.n_z << " memory states + " << s.n_lambda << " + " << s.n_mu
-      << " multipliers";
-  if (s.n > s.sigma0)
-    out << " + " << s.n - s.sigma0 << " of quaternion norms";
-  out << "; " << pattern.nonzeros() << " nonzeros in the Jacobian\n"
-      << "  mobility: " << system::mobility(s) << " degrees of freedom left by " << s.n_lambda
-      << " constraint rows\n";
-  for (const std::string& note : s.notes)
-    out << "  note: " << note << "\n";
-  return out.str();
-}
 
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress) {

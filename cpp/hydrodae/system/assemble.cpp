@@ -15,15 +15,6 @@ namespace {
 
 constexpr double closed = 1e-12; ///< gaps, in units of their scale, that count as none
 
-/// What one unit of each velocity coordinate means as a displacement [m or rad].
-VectorX displacement_scale(const System& s) {
-  VectorX scale(s.n_u);
-  for (const BodyData& b : s.bodies)
-    for (int k = 0; k < b.n_active; ++k)
-      scale[b.u0 - s.u0 + k] = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
-  return scale;
-}
-
 /// All kept rows at a pose, measured by the scales of the scene; row i belongs to lambda0 + i.
 /// After them come the motions whose start is given, one row each.
 class Constraints {
@@ -202,6 +193,14 @@ void write_back(System& s, const VectorX& y) {
 
 } // namespace
 
+VectorX displacement_scale(const System& s) {
+  VectorX scale(s.n_u);
+  for (const BodyData& b : s.bodies)
+    for (int k = 0; k < b.n_active; ++k)
+      scale[b.u0 - s.u0 + k] = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
+  return scale;
+}
+
 void retract(const System& s, const VectorX& step, VectorX& y) {
   for (const BodyData& b : s.bodies) {
     for (int k = 0; k < b.n_active; ++k)
@@ -236,6 +235,16 @@ void assemble(System& s) {
   }
   close_velocities(s, constraints, y);
   write_back(s, y);
+}
+
+bool close(const System& s, VectorX& y) {
+  System free = s; // elsewhere than the start
+  free.starts.clear();
+  Constraints constraints(free);
+  if (!(close_positions(free, constraints, y) < 1e-8))
+    return false;
+  close_velocities(free, constraints, y);
+  return true;
 }
 
 SparseMatrix constraint_gradient(const System& s, const VectorX& y) {

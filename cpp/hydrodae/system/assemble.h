@@ -16,6 +16,12 @@ void retract(const System& system, const VectorX& step, VectorX& y);
 /// there is no such pose near.
 void assemble(System& system);
 
+/// Moves y to the nearest pose and velocities that keep all constraints; false where none is near.
+bool close(const System& system, VectorX& y);
+
+/// What one unit of each velocity coordinate means as a displacement [m or rad], (n_u,).
+VectorX displacement_scale(const System& system);
+
 /// Marks constraint rows that follow from the others in every closed pose near the start (rank of
 /// the scaled gradient, there and at perturbed closed poses). A rank that is lost in
 /// the pose of the start alone is a singular pose: noted, nothing dropped.
