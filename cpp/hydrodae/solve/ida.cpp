@@ -77,8 +77,8 @@ private:
   Equations equations;
   VectorX now, now_rate, out; ///< copies for the calls that take our vectors
   double t_ = 0.0, end_time = 0.0;
-  double first = 0.0;      ///< first step [s]
-  double time_scale = 0.0; ///< longest of the bodies [s]
+  double first = 0.0;            ///< first step [s]
+  double time_scale = 0.0;       ///< longest of the bodies [s]
   double coordinate_size = 10.0; ///< largest position in units of its scale: what is rounded
   ProgressGuard guard;
 
@@ -143,7 +143,8 @@ int Ida::weights(N_Vector y, N_Vector w, void* user) {
   if (step <= 0.0)
     step = self.first;
   const Index n = self.system.n - self.system.lambda0;
-  const double rounding = 1e2 * self.coordinate_size * std::numeric_limits<double>::epsilon() * self.time_scale / step;
+  const double rounding =
+      1e2 * self.coordinate_size * std::numeric_limits<double>::epsilon() * self.time_scale / step;
   Eigen::Map<VectorX> all(N_VGetArrayPointer(w), self.system.n);
   all.tail(n) = all.tail(n).cwiseMin((rounding * self.system.scale.tail(n)).cwiseInverse());
   return 0;
@@ -181,10 +182,8 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
   first = std::min(equations.first_step(y0, yp0), longest);
   const Index n_q = system.n_q;
   if (n_q > 0)
-    coordinate_size = std::max(coordinate_size, y0.head(n_q)
-                                                    .cwiseAbs()
-                                                    .cwiseQuotient(system.scale.head(n_q))
-                                                    .maxCoeff());
+    coordinate_size = std::max(
+        coordinate_size, y0.head(n_q).cwiseAbs().cwiseQuotient(system.scale.head(n_q)).maxCoeff());
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
                     "SUNSparseMatrix"));
