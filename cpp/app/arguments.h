@@ -9,13 +9,15 @@
 namespace hydrodae::app {
 
 inline constexpr const char* usage =
-    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--quiet]
+    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet]
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --version | --help
 
   -o RESULTS       results file (HDF5), replaced if it exists
   --set KEY=VALUE  replace a value of the case, for example --set solver.rtol=1e-8 or
                    --set joint.hinge1.initial.angle_deg=5
+  --method NAME    the same as --set solver.method="NAME": ida, radau, explicit_rk, ...
+  --force          run a pair of method and formulation that is known to fail
   --check          read and check the case, print what is in it, do not run
   --quiet          no progress on stderr
 
@@ -67,6 +69,10 @@ inline Arguments parse(int argc, char** argv) {
       arguments.output = next_value(argc, argv, i);
     else if (word == "--set")
       add_override(next_value(argc, argv, i), arguments.overrides);
+    else if (word == "--method")
+      arguments.overrides["solver.method"] = '"' + next_value(argc, argv, i) + '"';
+    else if (word == "--force")
+      arguments.overrides["solver.force"] = "true";
     else if (word.starts_with("-") || !arguments.case_path.empty())
       throw CaseError("unexpected argument '" + word + "'; see hydrodae-solve --help");
     else

@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/recorder.h"
@@ -88,6 +89,10 @@ public:
     if (!output_path.empty())
       file_ =
           std::make_unique<io::ResultsFile>(output_path, channels, header(scene, system_.notes));
+    for (const system::BodyData& b : system_.bodies) {
+      const double speed = b.length_scale / b.time_scale;
+      least_energy_ = std::max(least_energy_, 100.0 * scene.solver.rtol * b.mass * speed * speed);
+    }
     statistics_.unknowns = system_.n;
     statistics_.nonzeros = pattern_.nonzeros();
     statistics_.notes = system_.notes;
@@ -134,16 +139,23 @@ private:
 
   /// Ends a run that went wrong without the integrator's noticing (a branch lost in a singular
   /// pose, a tolerance too loose): the energy that the equations keep is a witness of its own.
-  void check_energy() const {
-    const double limit = scene_.solver.energy_guard * recorder_->largest_energy();
-    const double error = recorder_->balance_error();
-    if (limit > 0.0 && !(std::abs(error) <= limit))
-      throw SolverError(t_, "stopped at t = " + number_text(t_) +
-                                " s: the energy balance is off by " + number_text(error) +
-                                " J, more than " + number_text(scene_.solver.energy_guard) +
-                                " of the " + number_text(recorder_->largest_energy()) +
-                                " J exchanged (solver.energy_guard): the motion is not to be "
-                                "trusted; a smaller tolerance or step, or another method may help");
+  void check_energy() {
+    const double part = scene_.solver.energy_guard, error = recorder_->balance_error();
+    if (part == 0.0 || std::abs(error) <= part * recorder_->largest_energy() + least_energy_)
+      return;
+    VectorX reactions = VectorX::Zero(system_.n);
+    at_(t_, y_, yp_);
+    for (Index i = system_.lambda0; i < system_.mu0; ++i)
+      reactions[i] = y_[i] / system_.scale[i];
+    throw SolverError(
+        t_, "stopped at t = " + number_text(t_) + " s: the energy balance is off by " +
+                number_text(error) + " J, more than " + number_text(part) + " of the " +
+                number_text(recorder_->largest_energy()) +
+                " J exchanged (solver.energy_guard): the motion is not to be trusted; a smaller "
+                "tolerance or step, or another method may help" +
+                (system_.n_lambda > 0 ? "\n  largest reactions, relative to the weights: " +
+                                            solve::worst(reactions, system_.names)
+                                      : ""));
   }
 
   /// Steps until the end; false when the progress callback asked to stop.
@@ -204,6 +216,7 @@ private:
   std::vector<double> row_;
   RunStatistics statistics_;
   double t_ = 0.0;
+  double least_energy_ = 0.0; ///< balance errors below say nothing [J]
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);

@@ -63,6 +63,12 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         default=[],
         help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
     )
+    run.add_argument("--method", metavar="NAME", help="integrator: the same as --set solver.method")
+    run.add_argument(
+        "--force",
+        action="store_true",
+        help="run a pair of method and formulation that is known to fail",
+    )
     run.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     run.set_defaults(call=_run)
 
@@ -125,7 +131,12 @@ def _run(arguments: argparse.Namespace) -> int:
     from hydrodae.progress import ProgressLine
     from hydrodae.simulate import run
 
-    case = Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
+    values = dict(map(parse_assignment, arguments.set))
+    if arguments.method:
+        values["solver.method"] = arguments.method
+    if arguments.force:
+        values["solver.force"] = True
+    case = Case(path=arguments.case, values=values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
     if arguments.quiet:
         run(case, output)

@@ -3,15 +3,13 @@
 At the default tolerance each problem meets the `criterion` of its reference, at rtol 1e-11 (one
 tolerance for all, no other option) the tighter figure. Problems with singular poses either meet
 theirs or stop with a SolverError. A run that completes with a wrong motion always fails.
-
-What is known to miss its bound is marked as a strict expected failure with what was measured, so
-that the mark must go when the kernel improves.
+One-step methods pass the singular poses.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -61,52 +59,22 @@ SINGULAR_TIGHT: dict[str, dict[str, float]] = {
 }
 
 
-# Known misses, each strict: a test that passes after all fails until its line here goes.
-MISSES: dict[str, str] = {}
-MISSES_TIGHT = {"andrews": "stops at the start: Newton's iteration does not converge"}
-MISSES_SINGULAR: dict[tuple[str, float | None], str] = {
-    ("slider_crank_equal", None): "completes with an error of 3.5e-3 m, BDF at the dead points",
-}
-
-
-def marked(names: Iterable[str], misses: Mapping[str, str]) -> list[Any]:
-    """Parameters, those known to fail marked."""
-    return [
-        pytest.param(
-            name,
-            marks=[pytest.mark.xfail(strict=True, reason=misses[name])] if name in misses else [],
-        )
-        for name in names
-    ]
-
-
-def marked_singular() -> list[Any]:
-    """Name and tolerance."""
-    return [
-        pytest.param(
-            name,
-            rtol,
-            marks=[pytest.mark.xfail(strict=True, reason=MISSES_SINGULAR[name, rtol])]
-            if (name, rtol) in MISSES_SINGULAR
-            else [],
-        )
-        for name in SINGULAR
-        for rtol in (None, TIGHT)
-    ]
-
-
 @pytest.fixture(scope="session")
 def cases(repository: Path) -> Path:
     return repository / "cases" / "benchmarks"
 
 
-def errors(cases: Path, reference: Path, name: str, rtol: float | None = None) -> dict[str, float]:
+def errors(
+    cases: Path, reference: Path, name: str, rtol: float | None = None, method: str = "ida"
+) -> dict[str, float]:
     """Errors of one run; without `rtol` at the default tolerance."""
     document: Mapping[str, Any] = {}
     if name not in ("heavy_top", "flyball_governor"):  # by definition only
         path = reference / "multibody" / f"{name}.json"
         document = json.loads(path.read_text(encoding="utf-8"))
-    values = {} if rtol is None else {"solver.rtol": rtol}
+    values: dict[str, Any] = {"solver.method": method}
+    if rtol is not None:
+        values["solver.rtol"] = rtol
     results = hydrodae.run(cases / f"{name}.toml", set=values)
     return multibody.PROBLEMS[name](results, document)
 
@@ -116,17 +84,41 @@ def beyond(found: Mapping[str, float], bounds: Mapping[str, float]) -> dict[str,
     return {what: found[what] for what, bound in bounds.items() if not found[what] < bound}
 
 
-@pytest.mark.parametrize("name", marked(CRITERIA, MISSES))
+@pytest.mark.parametrize("name", CRITERIA)
 def test_default_tolerance_meets_the_criterion(cases: Path, reference: Path, name: str) -> None:
     assert not beyond(errors(cases, reference, name), CRITERIA[name])
 
 
-@pytest.mark.parametrize("name", marked(TIGHT_CRITERIA, MISSES_TIGHT))
+@pytest.mark.parametrize("name", TIGHT_CRITERIA)
 def test_one_tight_tolerance_for_all(cases: Path, reference: Path, name: str) -> None:
     assert not beyond(errors(cases, reference, name, TIGHT), TIGHT_CRITERIA[name])
 
 
-@pytest.mark.parametrize(("name", "rtol"), marked_singular())
+@pytest.mark.parametrize("name", [*TIGHT_CRITERIA, *SINGULAR_TIGHT])
+def test_explicit_runge_kutta_with_one_tight_tolerance_for_all(
+    cases: Path, reference: Path, name: str
+) -> None:
+    found = errors(cases, reference, name, TIGHT, "explicit_rk")
+    assert not beyond(found, {**TIGHT_CRITERIA, **SINGULAR_TIGHT}[name])
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "bounds"),
+    [
+        ("n_four_bar_2", "radau", {"position": 1e-4, "energy": 1e-4}),
+        ("n_four_bar_2", "explicit_rk", {"position": 1e-5, "energy": 1e-4}),
+        ("slider_crank_equal", "radau", {"position": 1e-4, "energy": 1e-3}),
+        ("slider_crank_equal", "explicit_rk", {"position": 1e-4, "energy": 1e-3}),
+    ],
+)
+def test_one_step_methods_pass_singular_poses(
+    cases: Path, reference: Path, name: str, method: str, bounds: dict[str, float]
+) -> None:
+    assert not beyond(errors(cases, reference, name, 1e-7, method), bounds)
+
+
+@pytest.mark.parametrize("rtol", [None, TIGHT])
+@pytest.mark.parametrize("name", SINGULAR)
 def test_singular_poses_are_passed_or_refused(
     cases: Path, reference: Path, name: str, rtol: float | None
 ) -> None:

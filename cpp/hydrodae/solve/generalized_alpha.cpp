@@ -96,7 +96,7 @@ bool GeneralizedAlpha::refresh(double t, double h) {
 }
 
 bool GeneralizedAlpha::newton(double t, double h) {
-  constexpr int most = 12;
+  constexpr int most = 12, stale = 4;
   constexpr double accuracy = 1e-2;
   double before = 0.0;
   for (int i = 0; i < most; ++i) {
@@ -105,9 +105,10 @@ bool GeneralizedAlpha::newton(double t, double h) {
       return false;
     // The rows of q are q' - E (u + G^T mu), and q' = 0 here.
     for (const system::BodyData& b : s_.bodies) {
-      for (int k = 0; k < b.n_active; ++k)
+      const bool free = b.rotation == system::BodyData::Rotation::free;
+      for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
         velocity_[b.u0 - s_.u0 + k] = -residual_[b.q0 + k] - trial_[b.u0 + k];
-      if (b.rotation != system::BodyData::Rotation::free)
+      if (!free)
         continue;
       const Index q = b.q0 + b.n_translations, u = b.u0 + b.n_translations;
       velocity_.segment<3>(u - s_.u0) =
@@ -120,6 +121,20 @@ bool GeneralizedAlpha::newton(double t, double h) {
     lu_.solve(residual_.data());
     ++e_.statistics.newton_iterations;
     a_new_ -= residual_.segment(s_.u0, n_x_) / (h * gamma_);
+    // What the increment of mu adds to the velocity of q: c_q dq - du.
+    const double by_q = gamma_ / (beta_ * h), share = beta_ / gamma_;
+    for (const system::BodyData& b : s_.bodies) {
+      const bool free = b.rotation == system::BodyData::Rotation::free;
+      for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+        velocity_[b.u0 - s_.u0 + k] -= share * (by_q * residual_[b.q0 + k] - residual_[b.u0 + k]);
+      if (!free)
+        continue;
+      const Index q = b.q0 + b.n_translations, u = b.u0 + b.n_translations;
+      const Vector3 turn =
+          2.0 * quaternion_rate_matrix<double>(Vector4(trial_.segment<4>(q))).transpose() *
+          residual_.segment<4>(q);
+      velocity_.segment<3>(u - s_.u0) -= share * (by_q * turn - residual_.segment<3>(u));
+    }
     trial_.segment(s_.lambda0, s_.n_lambda) -= residual_.segment(s_.lambda0, s_.n_lambda);
     trial_.segment(s_.mu0, s_.n_mu) -= beta_ / gamma_ * residual_.segment(s_.mu0, s_.n_mu);
     const double size = e_.norm(w_, residual_);
@@ -128,6 +143,8 @@ bool GeneralizedAlpha::newton(double t, double h) {
     const double rate = i > 0 ? size / before : 1.0;
     if (size * std::min(1.0, rate / std::max(1.0 - rate, 0.1)) <= accuracy && i > 0) {
       update(h);
+      if (i >= stale)
+        factored_ = 0.0; // a new Jacobian at the next step
       return true;
     }
     if (i > 1 && rate > 0.9)

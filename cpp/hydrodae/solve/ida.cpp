@@ -61,9 +61,9 @@ class Ida : public Integrator {
 public:
   Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
       const VectorX& y0, const VectorX& yp0)
-      : system(s), pattern(p), rtol(options.rtol), equations(s, p, options.rtol), now(y0),
-        now_rate(yp0), out(s.n), end_time(options.end_time), time_scale(equations.time_scale()),
-        guard(0.0, end_time, time_scale) {
+      : system(s), pattern(p), rtol(options.rtol), equations(s, p, options.rtol), good(y0),
+        good_rate(yp0), now(y0), now_rate(yp0), out(s.n), end_time(options.end_time),
+        time_scale(equations.time_scale()), guard(0.0, end_time, time_scale) {
     start(options, y0, yp0);
   }
   double step() override;
@@ -75,11 +75,15 @@ private:
   const system::Pattern& pattern;
   double rtol;
   Equations equations;
+  VectorX good, good_rate; ///< at the last accepted step
+  double t_good = 0.0;
+  int restarts = 0;
+  Statistics before;          ///< of the starts before the last
   VectorX now, now_rate, out; ///< copies for the calls that take our vectors
   double t_ = 0.0, end_time = 0.0;
   double first = 0.0;      ///< first step [s]
   double time_scale = 0.0; ///< longest of the bodies [s]
-  double coordinate_size = 10.0; ///< largest position in units of its scale: what is rounded
+  double rounding = 1e3;   ///< of the multipliers, in units of the machine epsilon
   ProgressGuard guard;
 
   Owned<SUNContext, ContextDeleter> context{make_context()};
@@ -94,6 +98,8 @@ private:
   void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
   void accept();
+  bool restart();
+  Statistics counts() const;
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user);
   static int jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix j,
@@ -143,7 +149,8 @@ int Ida::weights(N_Vector y, N_Vector w, void* user) {
   if (step <= 0.0)
     step = self.first;
   const Index n = self.system.n - self.system.lambda0;
-  const double rounding = 1e2 * self.coordinate_size * std::numeric_limits<double>::epsilon() * self.time_scale / step;
+  const double rounding =
+      self.rounding * std::numeric_limits<double>::epsilon() * self.time_scale / step;
   Eigen::Map<VectorX> all(N_VGetArrayPointer(w), self.system.n);
   all.tail(n) = all.tail(n).cwiseMin((rounding * self.system.scale.tail(n)).cwiseInverse());
   return 0;
@@ -179,12 +186,6 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
   const double longest = options.max_step > 0.0 ? options.max_step : options.end_time;
   first = std::min(equations.first_step(y0, yp0), longest);
-  const Index n_q = system.n_q;
-  if (n_q > 0)
-    coordinate_size = std::max(coordinate_size, y0.head(n_q)
-                                                    .cwiseAbs()
-                                                    .cwiseQuotient(system.scale.head(n_q))
-                                                    .maxCoeff());
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
                     "SUNSparseMatrix"));
@@ -225,9 +226,33 @@ std::string Ida::diagnosis(int flag) {
   return text;
 }
 
+/// Where loops are ill-conditioned the multipliers are rounded more than foreseen, and Newton's
+/// iteration cannot satisfy their weights: from the last good point once more with weaker ones (the
+/// multipliers only), by tenfolds up to 1e6 epsilon. The motion keeps its tolerance.
+bool Ida::restart() {
+  constexpr double most = 1e6;
+  if (rounding >= most)
+    return false;
+  rounding *= 10.0;
+  ++restarts;
+  std::copy(good.begin(), good.end(), N_VGetArrayPointer(y.get()));
+  std::copy(good_rate.begin(), good_rate.end(), N_VGetArrayPointer(yp.get()));
+  before += counts();
+  t_ = t_good;
+  first = std::min(equations.first_step(good, good_rate), end_time - t_);
+  check(IDAReInit(memory.get(), t_, y.get(), yp.get()), "IDAReInit");
+  check(IDASetInitStep(memory.get(), first), "IDASetInitStep");
+  return true;
+}
+
 double Ida::step() {
-  const int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
+  int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
+  while (flag == IDA_CONV_FAIL && restart())
+    flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
   if (flag >= 0) {
+    good = view(y.get(), system.n);
+    good_rate = view(yp.get(), system.n);
+    t_good = t_;
     accept();
     guard.after_step(t_, [&] { return diagnosis(IDA_SUCCESS); });
     return t_;
@@ -256,7 +281,8 @@ void Ida::interpolate(double t, VectorX& y_out, VectorX& yp_out) {
   }
 }
 
-Statistics Ida::statistics() const {
+/// Of the integration since the last start.
+Statistics Ida::counts() const {
   void* ida = memory.get();
   Statistics s;
   long unused_residuals = 0, setups = 0;
@@ -268,6 +294,12 @@ Statistics Ida::statistics() const {
         "IDAGetIntegratorStats");
   check(IDAGetNonlinSolvStats(ida, &s.newton_iterations, &s.convergence_failures),
         "IDAGetNonlinSolvStats");
+  return s;
+}
+
+Statistics Ida::statistics() const {
+  Statistics s = counts();
+  s += before;
   s.residual_calls = equations.statistics.residual_calls;
   s.jacobian_calls = equations.statistics.jacobian_calls;
   return s;

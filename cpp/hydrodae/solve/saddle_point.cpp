@@ -15,7 +15,11 @@ constexpr int refinements = 4;
 constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
 constexpr int projections = 8;
 constexpr double closed = 1e-13; ///< gaps in units of their scale
-constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
+template <class Vector> double largest(const Vector& v) {
+  return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
+}
+
+constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
 
 } // namespace
 
@@ -98,8 +102,10 @@ void SaddlePoint::solve(VectorX& x) {
   for (int i = 0; i < refinements; ++i) {
     multiply(x, r_);
     r_ = rhs_ - r_;
-    const double size = rhs_.cwiseAbs().maxCoeff();
-    if (r_.cwiseAbs().maxCoeff() <= converged * size)
+    // Forces and gaps are of different units, and converge each by their own size.
+    const double load = largest(rhs_.head(s_.n_u)), motion = largest(x.head(s_.n_u));
+    if (largest(r_.head(s_.n_u)) <= converged * load &&
+        largest(r_.tail(s_.n_lambda)) <= converged * motion)
       return;
     lu_->solve(r_.data());
     x += r_;

@@ -11,7 +11,7 @@ constexpr double rounding = 1e2 * std::numeric_limits<double>::epsilon();
 }
 
 StageNewton::StageNewton(Equations& equations, const RungeKutta& rk)
-    : e_(equations), rk_(rk), 
+    : e_(equations), rk_(rk),
       real_(std::make_unique<SparseLu<double>>(e_.pattern.column_start, e_.pattern.row)) {
   const Index n = e_.system.n;
   for (std::size_t k = 0; k < rk_.pairs.size(); ++k)
@@ -74,7 +74,8 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
   // Rounding of the residual as the unknowns feel it sets a floor.
   const Index n_q = e_.system.n_q;
   const double floor =
-      rounding * std::max(1.0 / e_.rtol, y0.head(n_q).cwiseAbs().cwiseProduct(w.head(n_q)).maxCoeff());
+      rounding *
+      std::max(1.0 / e_.rtol, y0.head(n_q).cwiseAbs().cwiseProduct(w.head(n_q)).maxCoeff());
   contraction = 0.0;
   for (iterations = 1; iterations <= most; ++iterations) {
     if (!residuals(t, h, y0, Z) || !solve())
@@ -84,7 +85,7 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
     const double now = size(w, residual_);
     if (!std::isfinite(now))
       return NewtonResult::failed;
-    
+
     if (now <= floor)
       return NewtonResult::converged;
     if (iterations > 1) {
@@ -94,7 +95,8 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
         return NewtonResult::converged;
       if (rate >= 0.98 ||
           (iterations > 2 && now * std::pow(rate, most - iterations) > accuracy * 10.0))
-        return now <= std::max(10.0 * floor, accuracy) ? NewtonResult::converged : NewtonResult::slow;
+        return now <= std::max(10.0 * floor, accuracy) ? NewtonResult::converged
+                                                       : NewtonResult::slow;
     }
     before = now;
   }

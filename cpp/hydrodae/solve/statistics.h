@@ -12,6 +12,17 @@ struct Statistics {
   long convergence_failures = 0;
   double last_step = 0.0; ///< [s]
   int last_order = 0;
+
+  /// Adds the counts of another part of the same run; the last step stays.
+  Statistics& operator+=(const Statistics& other) {
+    steps += other.steps;
+    residual_calls += other.residual_calls;
+    jacobian_calls += other.jacobian_calls;
+    newton_iterations += other.newton_iterations;
+    error_test_failures += other.error_test_failures;
+    convergence_failures += other.convergence_failures;
+    return *this;
+  }
 };
 
 } // namespace hydrodae::solve
