@@ -14,7 +14,7 @@ using namespace hydrodae;
 const std::string solver = "\n[solver]\nend_time = 1.0\n";
 
 std::string body(const std::string& name, const std::string& extra) {
-  return "[[body]]\nname = '" + name + "'\nmass = 2.0\ninertia = [0.1, 0.2, 0.3]\n" + extra + "\n";
+  return "[[body]]\nname = '" + name + "'\nmass = 2.0\ninertia = [0.15, 0.2, 0.3]\n" + extra + "\n";
 }
 
 std::string joined_by(const std::string& name, const std::string& type, const std::string& a,
