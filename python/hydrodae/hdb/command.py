@@ -1,4 +1,4 @@
-"""The command line of databases: `hydrodae hdb import | fit | show | export`."""
+"""The command line of databases: `hydrodae hdb import | fit | show | export | doctor`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import files
+from hydrodae.hdb import doctor, files
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
@@ -95,6 +95,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     export.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
     export.add_argument("-o", "--output", metavar="FILE", required=True, help="ends in .h5 or .nc")
     _density_option(export)
+    doctor.add_arguments(actions)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -115,7 +116,13 @@ def run(args: argparse.Namespace) -> int:
     HydrodaeError
         Bad arguments or data.
     """
-    actions = {"import": _import, "fit": _fit, "show": _show, "export": _export}
+    actions = {
+        "import": _import,
+        "fit": _fit,
+        "show": _show,
+        "export": _export,
+        "doctor": doctor.run,
+    }
     return actions[args.hdb_action](args)
 
 
@@ -138,8 +145,8 @@ def _import(args: argparse.Namespace) -> int:
     database, report = import_database(
         args.source,
         names=names,
-        reference_points=dict(_point("--cog", text) for text in args.cog),
-        source_points=dict(_point("--origin", text) for text in args.origin),
+        reference_points=dict(parse_point("--cog", text) for text in args.cog),
+        source_points=dict(parse_point("--origin", text) for text in args.origin),
         rho=args.rho,
     )
     if args.keep:
@@ -229,7 +236,8 @@ def _numbers(what: str, text: str, count: int) -> list[float]:
     return values
 
 
-def _point(option: str, text: str) -> tuple[str, list[float]]:
+def parse_point(option: str, text: str) -> tuple[str, list[float]]:
+    """Read NAME=X,Y,Z [m]; raise CaseError if it is something else."""
     name, equals, values = text.partition("=")
     if not equals:
         raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")

@@ -15,8 +15,8 @@ Array = NDArray[np.float64]
 REST = 1e-3
 
 
-def envelope_length(time: Array, kernel: Array) -> Array:
-    """Smallest time after which no more than `REST` of int |K| dt is left, column by column.
+def envelope_length(time: Array, kernel: Array, rest: float = REST) -> Array:
+    """Smallest time after which no more than `rest` of int |K| dt is left, column by column.
 
     Parameters
     ----------
@@ -24,6 +24,8 @@ def envelope_length(time: Array, kernel: Array) -> Array:
         Equally spaced, from 0 [s].
     kernel : (nt, m) array
         K(t); |K(t)| itself says little, it crosses zero.
+    rest : float
+        Share that may be left [-].
 
     Returns
     -------
@@ -32,7 +34,7 @@ def envelope_length(time: Array, kernel: Array) -> Array:
     """
     size = np.abs(kernel)
     left = np.cumsum(size[::-1], axis=0)[::-1]
-    over = left > REST * left[0]
+    over = left > rest * left[0]
     return np.asarray(time[np.maximum(over.sum(axis=0) - 1, 0)], dtype=float)
 
 
