@@ -1,4 +1,4 @@
-"""The command line of databases: `hydrodae hdb import | fit | show | export | doctor`."""
+"""The command line of databases: `hydrodae hdb import | fit | show | export | doctor | compute`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import doctor, files
+from hydrodae.hdb import compute_command, doctor, files
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
@@ -96,6 +96,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     export.add_argument("-o", "--output", metavar="FILE", required=True, help="ends in .h5 or .nc")
     _density_option(export)
     doctor.add_arguments(actions)
+    compute_command.add_arguments(actions)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -122,6 +123,7 @@ def run(args: argparse.Namespace) -> int:
         "show": _show,
         "export": _export,
         "doctor": doctor.run,
+        "compute": compute_command.run,
     }
     return actions[args.hdb_action](args)
 
@@ -226,7 +228,8 @@ def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         print(f"fit {name}: {fit_summary(fit)}")
 
 
-def _numbers(what: str, text: str, count: int) -> list[float]:
+def parse_numbers(what: str, text: str, count: int) -> list[float]:
+    """Read numbers separated by commas; raise CaseError if they are not `count` finite ones."""
     try:
         values = [float(v) for v in text.split(",")]
     except ValueError:
@@ -241,11 +244,11 @@ def parse_point(option: str, text: str) -> tuple[str, list[float]]:
     name, equals, values = text.partition("=")
     if not equals:
         raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
-    return name.strip(), _numbers(option, values, 3)
+    return name.strip(), parse_numbers(option, values, 3)
 
 
 def _band(text: str) -> tuple[float, float]:
-    low, high = _numbers("--band", text, 2)
+    low, high = parse_numbers("--band", text, 2)
     if not 0.0 <= low < high:
         raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]")
     return low, high

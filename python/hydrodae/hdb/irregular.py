@@ -59,7 +59,11 @@ def suspect_rows(database: HydroDatabase) -> NDArray[np.bool_]:
     from hydrodae.hdb.checks import scaled_damping_eigenvalues
 
     worst = ogilvie_residual(database).max(axis=1, initial=0.0)
-    spike = worst - median_filter(worst, size=min(WINDOW, worst.size), mode="nearest")
+    smooth = median_filter(worst, size=min(WINDOW, worst.size), mode="nearest")
+    # narrow: above both sides, not the rise towards the end of the table
+    at, half = np.arange(worst.size), WINDOW // 2
+    left, right = worst[np.maximum(at - half, 0)], worst[np.minimum(at + half, at[-1])]
+    spike = worst - np.maximum(smooth, np.maximum(left, right))
     middle = np.median(spike)
     spread = 1.4826 * float(np.median(np.abs(spike - middle)))
     found = spike - middle > max(SPREADS * spread, LEAST)
