@@ -1,4 +1,4 @@
-"""The command line of databases: `hydrodae hdb import | fit | show | export | doctor | compute`."""
+"""The command line of databases: `hydrodae hdb import | fit | show | export | ...`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import compute_command, doctor, files
+from hydrodae.hdb import compare, compute_command, doctor, files
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
@@ -97,6 +97,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _density_option(export)
     doctor.add_arguments(actions)
     compute_command.add_arguments(actions)
+    compare.add_arguments(actions)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -124,6 +125,7 @@ def run(args: argparse.Namespace) -> int:
         "export": _export,
         "doctor": doctor.run,
         "compute": compute_command.run,
+        "compare": compare.run,
     }
     return actions[args.hdb_action](args)
 
