@@ -80,7 +80,7 @@ def test_another_setting_is_another_folder(computed, monkeypatch):
     folder, netcdf = computed
     asked = solves(monkeypatch)
     shallow = dataclasses.replace(SETTINGS, water_depth=12.0)
-    other = bem.compute([hemisphere()], shallow, folder)
+    other = bem.compute([hemisphere(2.5)], shallow, folder)
     assert asked == [0.4, 0.8, 1.2, 1.6, np.inf]
     assert other.parent != netcdf.parent
     assert hdb.read(other).water_depth == 12.0

@@ -12,7 +12,7 @@ from hydrodae.hdb.checks import check
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import SEVERITIES, CheckReport
 from hydrodae.hdb.read import import_database
-from hydrodae.hdb.repair import REPAIRS, repair
+from hydrodae.hdb.repair import repair
 
 DONE, BAD_DATA = 0, 2
 TITLES = {
@@ -44,7 +44,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="A,B,...",
         help="symmetrise (mean of both halves of A and B), irregular (leave out frequencies that "
         "break causality or energy), tail (append frequencies along the power law of B); "
-        "in this order of the list given; needs -o",
+        "applied in the order given; needs -o",
     )
     doctor.add_argument("-o", "--output", metavar="FILE", help="hydro.h5 for the repaired database")
     doctor.add_argument("--rho", metavar="R", type=float, help="density [kg/m3], if not in FILE")
@@ -126,6 +126,6 @@ def _repair(database: HydroDatabase, what: list[str]) -> tuple[HydroDatabase, Ch
     for text in done or ("nothing to do",):
         print("\n".join(textwrap.wrap(text, 96, initial_indent="  - ", subsequent_indent="    ")))
     report = check(repaired)
-    print(f"\nafter the repairs ({', '.join(REPAIRS)} are known):\n")
+    print("\nafter the repairs\n")
     print(examination(report))
     return repaired, report
