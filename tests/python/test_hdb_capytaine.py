@@ -126,6 +126,13 @@ def test_few_nan_rows_are_dropped_and_reported_many_are_an_error(tmp_path):
         hdb.read(save(ds, tmp_path / "many.nc", 3))
 
 
+def test_old_files_state_the_sea_bottom(tmp_path):
+    old = dataset(2, OMEGA).drop_vars("water_depth").assign_coords(sea_bottom=-30.0)
+    assert hdb.read(save(old, tmp_path / "x.nc", 2)).water_depth == 30.0
+    with pytest.raises(DatabaseError, match="needs one value of 'water_depth'"):
+        hdb.read(save(old.drop_vars("sea_bottom"), tmp_path / "y.nc", 2))
+
+
 def test_study_dimensions_must_be_selected(tmp_path):
     ds = dataset(3, OMEGA)
     two = xr.concat([ds, ds.assign_coords(rho=1000.0)], dim="rho", data_vars="all")

@@ -1,4 +1,4 @@
-"""netCDF files of Capytaine 2 and 3.
+"""netCDF files of Capytaine 1 to 3.
 
 Capytaine's phasors are e^{-iwt}: forces are conjugated here. Everything is taken by the name of the
 dimension and by the label of the degree of freedom, never by position: the order of influenced_dof
@@ -81,7 +81,7 @@ def read_capytaine(path: Path) -> SourceData:
         reference_points={},
         rho=_number(path, ds, "rho"),
         gravity=_number(path, ds, "g"),
-        water_depth=_number(path, ds, "water_depth"),
+        water_depth=_depth(path, ds),
         name=path.name,
         title=f"Capytaine {ds.attrs.get('capytaine_version', '?')}, {path.name}",
         added_mass_inf=a_inf,
@@ -143,7 +143,7 @@ def _to_omega(path: Path, ds: xr.Dataset, axis: str, given: Array) -> Array:
     if axis == "freq":
         return 2.0 * np.pi * given
     k = given if axis == "wavenumber" else 2.0 * np.pi / given
-    return frequency(k, _number(path, ds, "water_depth"), _number(path, ds, "g"))
+    return frequency(k, _depth(path, ds), _number(path, ds, "g"))
 
 
 def _coordinates(
@@ -294,6 +294,13 @@ def _number(path: Path, ds: xr.Dataset, name: str) -> float:
     if name not in ds or ds[name].size != 1:
         raise DatabaseError(f"{path}: needs one value of {name!r}")
     return float(ds[name].values.item())
+
+
+def _depth(path: Path, ds: xr.Dataset) -> float:
+    """Water depth; versions before 1.5 state the height of the sea bottom instead."""
+    if "water_depth" not in ds and "sea_bottom" in ds:
+        return -_number(path, ds, "sea_bottom")
+    return _number(path, ds, "water_depth")
 
 
 def _text(value: Any) -> str:

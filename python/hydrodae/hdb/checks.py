@@ -1,8 +1,8 @@
 """Automatic checks of a database: what it says must agree with the physics it claims.
 
 Every check is cheap and has caught something in real files. Oracles: long-wave limits of the
-excitation (hydrostatics, displacement, phase), energy (damping and A_inf positive semidefinite),
-causality (Ogilvie's relation).
+excitation (hydrostatics, displacement, phase), energy (damping and A_inf positive semidefinite,
+damping from excitation), causality (Ogilvie's relation, irregular frequencies), length of memory.
 """
 
 from __future__ import annotations
@@ -13,7 +13,11 @@ from numpy.typing import NDArray
 from hydrodae import irf
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.energy import energy_findings
 from hydrodae.hdb.findings import CheckReport, Finding
+from hydrodae.hdb.fits import fit_findings
+from hydrodae.hdb.irregular import irregular_findings, ogilvie_residual
+from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_time
 from hydrodae.hdb.longwave import long_wave_findings
 
 Array = NDArray[np.float64]
@@ -29,13 +33,18 @@ def check(database: HydroDatabase) -> CheckReport:
     Returns
     -------
     CheckReport
-        In the order grid, energy, causality, long waves.
+        In the order grid, memory, symmetry, energy, causality, fits, long waves.
     """
     return CheckReport(
         [
             *_grid(database),
+            *_memory(database),
+            *_symmetry(database),
             *_energy(database),
+            *energy_findings(database),
             *_causality(database),
+            *irregular_findings(database),
+            *fit_findings(database),
             *long_wave_findings(database),
         ]
     )
@@ -126,6 +135,64 @@ def _grid(db: HydroDatabase) -> list[Finding]:
     return found
 
 
+def _memory(db: HydroDatabase) -> list[Finding]:
+    """Length of the radiation memory against the image that the frequency step makes."""
+    used = np.flatnonzero(scales(db) > 0.0)
+    if used.size == 0:
+        return []
+    time, kernel = diagonal_kernels(db)
+    lengths = envelope_length(time, kernel)
+    i, resolved = int(lengths.argmax()), resolved_time(db)
+    # the end of the kernel over its largest value: what is left there is noise or an image
+    rest = np.abs(kernel[int(0.9 * time.size) :]).max(axis=0) / np.abs(kernel).max(axis=0)
+    tail = irf.fit_tail(db.omega, db.radiation_damping[:, used, used])
+    powers = [f"{p:.1f}" if u else "none" for p, u in zip(tail.power, tail.used, strict=True)]
+    names = ", ".join(
+        f"{db.coordinates[c]} {p}" for c, p in list(zip(used, powers, strict=True))[:8]
+    )
+    return [
+        Finding(
+            "warning" if rest.max() > 0.02 else "info",
+            "memory length",
+            f"K(t) lasts {lengths[i]:.3g} s ({db.coordinates[used[i]]}; 99.9 % of int |K| dt) of "
+            f"the {min(resolved, time[-1]):.3g} s that the frequency step resolves; "
+            f"{rest.max():.1g} of its peak is left at the end",
+            value=float(lengths[i]),
+        ),
+        Finding(
+            "info",
+            "tail",
+            f"powers n of B ~ w^-n at the last frequencies: {names}"
+            + (" ..." if len(powers) > 8 else ""),
+            value=float(np.mean(tail.used)),
+            omega=float(db.omega[-1]),
+        ),
+    ]
+
+
+def _symmetry(db: HydroDatabase) -> list[Finding]:
+    """A and B of the database itself (readers symmetrise and report what they found)."""
+    found = []
+    for name in ("added_mass", "radiation_damping"):
+        table = getattr(db, name)
+        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
+        scale = np.outer(size, size)
+        scale[scale <= 1e-6 * scale.max()] = np.inf
+        error = (np.abs(table - table.transpose(0, 2, 1)) / scale).max(axis=(1, 2))
+        at = int(error.argmax())
+        if error[at] > 1e-6:
+            found.append(
+                Finding(
+                    "warning" if error[at] > 0.02 else "info",
+                    f"{name} symmetric",
+                    f"largest asymmetry {error[at]:.2g} of the diagonal",
+                    float(error[at]),
+                    float(db.omega[at]),
+                )
+            )
+    return found
+
+
 def _energy(db: HydroDatabase) -> list[Finding]:
     lowest = scaled_damping_eigenvalues(db)
     at = int(lowest.argmin())
@@ -165,11 +232,8 @@ def _causality(db: HydroDatabase) -> list[Finding]:
     if used.size == 0:
         return []
     a = db.added_mass[:, used, used]
-    b = db.radiation_damping[:, used, used]
-    estimates = irf.added_mass_inf_estimates(db.omega, a, b)
-    estimates -= db.added_mass_inf[used, used]
     # the end of the grid depends on what B does beyond it
-    residual = (np.abs(estimates) / np.abs(a).max(axis=0))[db.omega < 0.95 * db.omega[-1]]
+    residual = ogilvie_residual(db)[db.omega < 0.95 * db.omega[-1]]
     worst = residual.max(axis=1)
     at = int(worst.argmax())
     level, peak = float(np.quantile(worst, 0.9)), float(worst[at])

@@ -1,4 +1,4 @@
-"""The command line of databases: `hydrodae hdb import | fit | show`."""
+"""The command line of databases: `hydrodae hdb import | fit | show | export | ...`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import files
+from hydrodae.hdb import compare, compute_command, doctor, files
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
@@ -21,16 +21,21 @@ DONE, BAD_DATA = 0, 2
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the subcommands import, fit and show to the parser of `hydrodae hdb`."""
+    """Add the subcommands to the parser of `hydrodae hdb`."""
     actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
 
     add = actions.add_parser(
         "import",
-        help="read a Nemoh folder or Capytaine file, check it, write hydro.h5",
-        description="Read a Nemoh folder or a netCDF file of Capytaine, print what the checks "
-        "found, and write hydro.h5. Nothing is written if a check finds an error.",
+        help="read files of Nemoh, Capytaine, WAMIT or BEMIO, check them, write hydro.h5",
+        description="Read a Nemoh folder, a netCDF file of Capytaine, the output of WAMIT or a "
+        "BEMIO file, print what the checks found, and write hydro.h5. Nothing is written if a "
+        "check finds an error.",
     )
-    add.add_argument("source", metavar="SOURCE", help="folder with Nemoh.cal, or Capytaine .nc")
+    add.add_argument(
+        "source",
+        metavar="SOURCE",
+        help="folder with Nemoh.cal, Capytaine .nc, WAMIT .1, BEMIO .h5",
+    )
     add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
     add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
     add.add_argument(
@@ -47,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="the point [m] of the moments in the source, where it does not say",
     )
+    _density_option(add)
     add.add_argument(
         "--keep", metavar="SPEC", help="coordinates to keep, e.g. base.planar,flap1.pitch"
     )
@@ -78,6 +84,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     show = actions.add_parser("show", help="say what is in a database")
     show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
     show.add_argument("--check", action="store_true", help="also run the checks")
+    _density_option(show)
+
+    export = actions.add_parser(
+        "export",
+        help="write a database for other programs: BEMIO .h5 or Capytaine .nc",
+        description="Write a database as a BEMIO file (.h5, for WEC-Sim) or as a netCDF file as "
+        "Capytaine makes them (.nc). Moments are about the reference points of the database.",
+    )
+    export.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
+    export.add_argument("-o", "--output", metavar="FILE", required=True, help="ends in .h5 or .nc")
+    _density_option(export)
+    doctor.add_arguments(actions)
+    compute_command.add_arguments(actions)
+    compare.add_arguments(actions)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -98,8 +118,22 @@ def run(args: argparse.Namespace) -> int:
     HydrodaeError
         Bad arguments or data.
     """
-    actions = {"import": _import, "fit": _fit, "show": _show}
+    actions = {
+        "import": _import,
+        "fit": _fit,
+        "show": _show,
+        "export": _export,
+        "doctor": doctor.run,
+        "compute": compute_command.run,
+        "compare": compare.run,
+    }
     return actions[args.hdb_action](args)
+
+
+def _density_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--rho", metavar="R", type=float, help="density [kg/m3], where the source does not say"
+    )
 
 
 def _fit_options(parser: argparse.ArgumentParser) -> None:
@@ -115,8 +149,9 @@ def _import(args: argparse.Namespace) -> int:
     database, report = import_database(
         args.source,
         names=names,
-        reference_points=dict(_point("--cog", text) for text in args.cog),
-        source_points=dict(_point("--origin", text) for text in args.origin),
+        reference_points=dict(parse_point("--cog", text) for text in args.cog),
+        source_points=dict(parse_point("--origin", text) for text in args.origin),
+        rho=args.rho,
     )
     if args.keep:
         database = database.select(expand(args.keep, database.coordinates))
@@ -144,13 +179,25 @@ def _fit(args: argparse.Namespace) -> int:
 
 def _show(args: argparse.Namespace) -> int:
     if args.check and kind(args.database) != "hydro":
-        database, report = import_database(args.database)
+        database, report = import_database(args.database, rho=args.rho)
     else:
-        database = read(args.database)
+        database = read(args.database, rho=args.rho)
         report = check(database) if args.check else CheckReport()
     print(database.summary())
     if args.check:
         print(report)
+    return DONE
+
+
+def _export(args: argparse.Namespace) -> int:
+    from hydrodae.hdb import export
+
+    writers = {".h5": export.write_bemio, ".nc": export.write_capytaine}
+    suffix = Path(args.output).suffix.lower()
+    if suffix not in writers:
+        raise CaseError(f"-o {args.output!r}: expected a name that ends in .h5 (BEMIO) or .nc")
+    writers[suffix](read(args.database, rho=args.rho), args.output)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
     return DONE
 
 
@@ -183,7 +230,8 @@ def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         print(f"fit {name}: {fit_summary(fit)}")
 
 
-def _numbers(what: str, text: str, count: int) -> list[float]:
+def parse_numbers(what: str, text: str, count: int) -> list[float]:
+    """Read numbers separated by commas; raise CaseError if they are not `count` finite ones."""
     try:
         values = [float(v) for v in text.split(",")]
     except ValueError:
@@ -193,15 +241,16 @@ def _numbers(what: str, text: str, count: int) -> list[float]:
     return values
 
 
-def _point(option: str, text: str) -> tuple[str, list[float]]:
+def parse_point(option: str, text: str) -> tuple[str, list[float]]:
+    """Read NAME=X,Y,Z [m]; raise CaseError if it is something else."""
     name, equals, values = text.partition("=")
     if not equals:
         raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
-    return name.strip(), _numbers(option, values, 3)
+    return name.strip(), parse_numbers(option, values, 3)
 
 
 def _band(text: str) -> tuple[float, float]:
-    low, high = _numbers("--band", text, 2)
+    low, high = parse_numbers("--band", text, 2)
     if not 0.0 <= low < high:
         raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]")
     return low, high

@@ -82,6 +82,8 @@ class HydroDatabase:
         False if the source gives the total only: then it all stands in `diffraction`.
     source, source_sha256, generator, title : str
         Provenance.
+    repairs : tuple of str
+        What `hydrodae.hdb.repair` changed, one sentence each.
     kernel_time, kernel : (nt,) and (nt, n, n) arrays, optional
         Stored radiation kernel K(t) [s], [N/m, N, N m].
     memory : dict of ExponentialMemory
@@ -107,6 +109,7 @@ class HydroDatabase:
     source_sha256: str = ""
     generator: str = ""
     title: str = ""
+    repairs: tuple[str, ...] = ()
     kernel_time: Array | None = None
     kernel: Array | None = None
     memory: dict[str, ExponentialMemory] = field(default_factory=dict)

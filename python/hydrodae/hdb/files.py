@@ -114,6 +114,7 @@ def _write_tables(f: h5py.File, db: HydroDatabase, *, kernel: bool, single: bool
         f.attrs[name] = float(getattr(db, name))
     for name in ROOT_TEXT:
         f.attrs[name] = str(getattr(db, name))
+    f.attrs["repairs"] = "\n".join(db.repairs)
     f.create_dataset("coordinates", data=_labels(db.coordinates))
     real, cplx = (np.float32, np.complex64) if single else (np.float64, np.complex128)
     for name, unit in UNITS.items():
@@ -173,6 +174,7 @@ def _read(f: h5py.File) -> HydroDatabase:
         kernel_time=None if stored is None else stored["time"][()].astype(float),
         kernel=None if stored is None else stored["kernel"][()].astype(float),
         memory={name: _read_fit(name, fits[name]) for name in fits},
+        repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
         **values,
     )

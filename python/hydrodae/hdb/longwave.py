@@ -138,18 +138,27 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     depth, z = db.water_depth, float(hs.center_of_buoyancy[2])
     if wave.k * max(abs(z) * 2.0, np.sqrt(hs.waterplane_area)) > 0.3:
         return []
-    decay = np.exp(wave.k * z)
-    if np.isfinite(depth):
-        decay = np.cosh(wave.k * (z + depth)) / np.cosh(wave.k * depth)
     added = 0.0 if split else _total_mass(db, body, dof)
-    volume = (abs(force) / (wave.k * db.gravity * abs(factor)) - added) / (db.rho * decay)
+
+    def volume_in(depth: float) -> float:
+        k = float(wavenumber(wave.omega, depth, db.gravity))
+        decay = np.exp(k * z)
+        if np.isfinite(depth):
+            decay = np.cosh(k * (z + depth)) / np.cosh(k * depth)
+        return float((abs(force) / (k * db.gravity * abs(factor)) - added) / (db.rho * decay))
+
+    volume = volume_in(depth)
     error = abs(volume / hs.displaced_volume - 1.0)
+    hint = ""
+    deep = volume_in(np.inf)
+    if error > 0.05 and np.isfinite(depth) and abs(deep / hs.displaced_volume - 1.0) < 0.02:
+        hint = f"; {deep:.5g} m3 if it was computed in deep water, not in {depth:g} m"
     return [
         Finding(
             "error" if error > 0.3 else "warning" if error > 0.05 else "info",
             "displacement",
             f"{body.name}: {hs.displaced_volume:.5g} m3 by hydrostatics, {volume:.5g} m3 by the "
-            f"long-wave {dof} force",
+            f"long-wave {dof} force{hint}",
             error,
             wave.omega,
         )

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import files
+from hydrodae.hdb.bemio import is_bemio_file, read_bemio
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import bodies_of, check_body, nearest
 from hydrodae.hdb.database import HydroDatabase
@@ -18,10 +19,11 @@ from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.nemoh_hydrostatics import find
 from hydrodae.hdb.source import SourceData, finish
+from hydrodae.hdb.wamit import read_wamit, wamit_stem
 
 
 def kind(source: str | Path) -> str:
-    """Return "hydro", "nemoh" or "capytaine" for a source, by its content.
+    """Return "hydro", "nemoh", "capytaine", "bemio" or "wamit" for a source, by its content.
 
     Raises
     ------
@@ -32,9 +34,11 @@ def kind(source: str | Path) -> str:
     if path.is_dir():
         if find(path, "Nemoh.cal") is not None:
             return "nemoh"
-        inside = sorted(p.name for p in path.glob("*.nc"))
+        if wamit_stem(path) is not None:
+            return "wamit"
+        inside = sorted(p.name for e in ("*.nc", "*.h5", "*.1") for p in path.glob(e))
         hint = f"; did you mean {path / inside[0]}?" if inside else ""
-        raise DatabaseError(f"{path}: a folder without Nemoh.cal{hint}")
+        raise DatabaseError(f"{path}: a folder without Nemoh.cal or one WAMIT run{hint}")
     if not path.is_file():
         near = _similar(path)
         raise DatabaseError(f"{path}: no such file or folder{near}")
@@ -50,38 +54,67 @@ def kind(source: str | Path) -> str:
         with h5py.File(path, "r") as f:
             if "added_mass" in f and "radiating_dof" in f:
                 return "capytaine"
-            if "simulation_parameters" in f:
-                raise DatabaseError(f"{path}: a BEMIO file; this version does not read BEMIO files")
+            if is_bemio_file(f):
+                return "bemio"
+            holds = ", ".join(sorted(f)[:6]) or "nothing"
+        raise DatabaseError(f"{path}: an HDF5 file of another kind (it holds {holds})")
+    if wamit_stem(path) is not None:
+        return "wamit"
     raise DatabaseError(
-        f"{path}: not a Nemoh folder, a netCDF file of Capytaine or a hydro.h5 of hydrodae"
+        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or a "
+        f"hydro.h5 of hydrodae"
     )
 
 
-def read_source(source: str | Path) -> SourceData:
-    """Read a Nemoh folder or a Capytaine file as it is.
-
-    Raises
-    ------
-    DatabaseError
-        Missing or wrong files; the message names file and line.
-    """
-    path = Path(source)
-    if kind(path) == "nemoh":
-        from hydrodae.hdb.nemoh import read_nemoh
-
-        return read_nemoh(path)
-    from hydrodae.hdb.capytaine import read_capytaine
-
-    return read_capytaine(path)
-
-
-def read(source: str | Path) -> HydroDatabase:
-    """Read any supported source: `hydro.h5`, Nemoh folder, Capytaine netCDF.
+def read_source(source: str | Path, *, rho: float | None = None) -> SourceData:
+    """Read a Nemoh folder, or files of Capytaine, BEMIO or WAMIT, as they are.
 
     Parameters
     ----------
     source : path
         File or folder.
+    rho : float, optional
+        Density of the water [kg/m3], where the source does not say (WAMIT).
+
+    Raises
+    ------
+    DatabaseError
+        Missing or wrong files, or `rho` contradicts the source; the message names file and line.
+    """
+    path = Path(source)
+    what = kind(path)
+    if what == "wamit":
+        return read_wamit(path, rho)
+    if what == "nemoh":
+        from hydrodae.hdb.nemoh import read_nemoh
+
+        data = read_nemoh(path)
+    elif what == "bemio":
+        data = read_bemio(path)
+    elif what == "capytaine":
+        from hydrodae.hdb.capytaine import read_capytaine
+
+        data = read_capytaine(path)
+    else:
+        raise DatabaseError(f"{path}: a finished hydro.h5, not a source")
+    _check_density(path, data.rho, rho)
+    return data
+
+
+def _check_density(path: Path, stated: float, given: float | None) -> None:
+    if given is not None and not np.isclose(given, stated, rtol=1e-3):
+        raise DatabaseError(f"{path}: the density there is {stated:g} kg/m3, not {given:g}")
+
+
+def read(source: str | Path, *, rho: float | None = None) -> HydroDatabase:
+    """Read any supported source: `hydro.h5`, Nemoh folder, Capytaine, BEMIO or WAMIT files.
+
+    Parameters
+    ----------
+    source : path
+        File or folder.
+    rho : float, optional
+        Density of the water [kg/m3], where the source does not say (WAMIT).
 
     Returns
     -------
@@ -94,8 +127,10 @@ def read(source: str | Path) -> HydroDatabase:
         Missing or wrong files.
     """
     if kind(source) == "hydro":
-        return files.read(source)
-    return finish(read_source(source))
+        database = files.read(source)
+        _check_density(Path(source), database.rho, rho)
+        return database
+    return finish(read_source(source, rho=rho))
 
 
 def import_database(
@@ -105,6 +140,7 @@ def import_database(
     reference_points: Mapping[str, ArrayLike] | None = None,
     source_points: Mapping[str, ArrayLike] | None = None,
     hydrostatics: Mapping[str, Hydrostatics] | None = None,
+    rho: float | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Read a source, check it, rename its bodies and move it to the scene's reference points.
 
@@ -121,6 +157,8 @@ def import_database(
         Points about which the moments of the source are, where the source does not say [m].
     hydrostatics : dict of Hydrostatics, optional
         Where the source has none, or wrong ones; waterplane moments about `reference_points`.
+    rho : float, optional
+        Density of the water [kg/m3], where the source does not say (WAMIT).
 
     Returns
     -------
@@ -134,9 +172,9 @@ def import_database(
         Missing or wrong files, unknown bodies, points that cannot be moved.
     """
     if kind(source) == "hydro":
-        database, noticed = files.read(source), list[Finding]()
+        database, noticed = read(source, rho=rho), list[Finding]()
     else:
-        data = read_source(source)
+        data = read_source(source, rho=rho)
         new = {name: name for name in bodies_of(data.coordinates)}
         new.update(_renaming(list(new), names))
         _state_points(data, {v: k for k, v in new.items()}, source_points or {})
@@ -147,6 +185,8 @@ def import_database(
         database = database.moved_to(reference_points)
     if hydrostatics:
         database = database.with_hydrostatics(hydrostatics)
+        if set(hydrostatics) == set(database.bodies):  # what the source lacks does not matter
+            noticed = [f for f in noticed if f.check != "hydrostatics"]
     return database, CheckReport([*noticed, *check(database).findings])
 
 

@@ -33,6 +33,7 @@ def summary(db: HydroDatabase) -> str:
         lines.append(f"  kernel     K(t), {db.kernel_time.size} times to {db.kernel_time[-1]:g} s")
     for name, fit in db.memory.items():
         lines.append(f"  memory     {name}: {fit_summary(fit)}")
+    lines += [f"  repaired   {text}" for text in db.repairs]
     return "\n".join(lines)
 
 

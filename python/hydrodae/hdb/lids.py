@@ -1,0 +1,153 @@
+"""Panels on the inner water plane of a body, which remove irregular frequencies.
+
+Capytaine 3.0 makes lids too, but takes no point below a triangle or on the edge of a panel for one
+inside the hull: the lid of a mesh of triangles comes out empty, that of a fine one with holes.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+
+Array = NDArray[np.float64]
+#: Share of the inner water plane that a lid must cover.
+LEAST = 0.5
+#: A grid that covers more than this is good enough.
+GOOD = 0.95
+
+
+def lid(panels: Array) -> Array:
+    """Make a lid at z = 0, its panels no longer than the mean side of those of the hull.
+
+    A grid over the water plane keeps the cells that lie inside (a box is covered exactly); round
+    water planes are covered by rings instead.
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+        Wetted surface, open at z = 0.
+
+    Returns
+    -------
+    (m, 4, 3) array
+        Normals downwards; empty if the body is submerged.
+
+    Raises
+    ------
+    DatabaseError
+        The water line is not closed, or the lid would cover less than half of the water plane.
+    """
+    loops = water_line(panels)
+    if not loops:
+        return np.zeros((0, 4, 3))
+    sides = np.linalg.norm(panels - np.roll(panels, 1, axis=1), axis=2)
+    size = float(sides[sides > 0.0].mean())
+    area = abs(sum(_shoelace(loop) for loop in loops))
+    found = _grid(loops, size)
+    if _area(found) < GOOD * area and len(loops) == 1:
+        rings = _rings(loops[0], size)
+        found = found if rings is None else rings
+    covered = _area(found)
+    if covered < LEAST * area:
+        raise DatabaseError(
+            f"the lid would cover {covered:.3g} of {area:.3g} m2 of the inner water plane: "
+            f"irregular frequencies would stay (finer panels may help; --no-lid computes without)"
+        )
+    flat = np.concatenate([found, np.zeros((*found.shape[:2], 1))], axis=2)
+    upwards = np.array([_shoelace(p) > 0.0 for p in found])
+    flat[upwards] = flat[upwards][:, [1, 0, 3, 2]]
+    return flat
+
+
+def water_line(panels: Array) -> list[Array]:
+    """Closed loops (k, 2) of the panel sides that lie in z = 0.
+
+    Raises
+    ------
+    DatabaseError
+        They do not close.
+    """
+    following = np.roll(panels, -1, axis=1)
+    size = float(np.abs(panels).max())
+    flat = (np.abs(panels[..., 2]) < 1e-7 * size) & (np.abs(following[..., 2]) < 1e-7 * size)
+    flat &= np.linalg.norm(panels - following, axis=2) > 1e-7 * size
+    starts, ends = panels[flat][:, :2], following[flat][:, :2]
+    digits = 6 - int(np.floor(np.log10(size)))
+    after = {tuple(a.round(digits) + 0.0): b for a, b in zip(starts, ends, strict=True)}
+    if len(after) < len(starts):
+        raise DatabaseError("the water line touches itself: no lid can be made (--no-lid)")
+    loops = []
+    while after:
+        key = first = next(iter(after))
+        points = []
+        while True:
+            if key not in after:
+                raise DatabaseError(
+                    f"the water line is not closed at x, y = {key[0]:g}, {key[1]:g} m: the hull "
+                    f"has a hole there, or panels whose sides do not match"
+                )
+            point = after.pop(key)
+            points.append(point)
+            key = tuple(point.round(digits) + 0.0)
+            if key == first:
+                break
+        loops.append(np.array(points))
+    return loops
+
+
+def _grid(loops: list[Array], size: float) -> Array:
+    """Cells (m, 4, 2) of a grid over the bounding box that lie inside the loops."""
+    every = np.concatenate(loops)
+    low, high = every.min(axis=0), every.max(axis=0)
+    u, v = (
+        np.linspace(a, b, max(1, int(np.ceil((b - a) / size - 1e-9))) + 1)
+        for a, b in zip(low, high, strict=True)
+    )
+    x, y = np.meshgrid(u, v, indexing="ij")
+    points = np.stack([x, y], axis=2)
+    cells = np.stack([points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]], axis=2)
+    cells = cells.reshape(-1, 4, 2)
+    center = cells.mean(axis=1, keepdims=True)
+    inner = center + 0.999 * (cells - center)
+    return np.asarray(cells[_inside(inner.reshape(-1, 2), loops).reshape(-1, 4).all(axis=1)])
+
+
+def _inside(points: Array, loops: list[Array]) -> NDArray[np.bool_]:
+    """Even-odd rule: holes (moonpools) are outside."""
+    odd = np.zeros(len(points), dtype=bool)
+    for loop in loops:
+        for (xa, ya), (xb, yb) in zip(loop, np.roll(loop, -1, axis=0), strict=True):
+            across = (ya > points[:, 1]) != (yb > points[:, 1])
+            if yb != ya:
+                crossing = xa + (points[:, 1] - ya) * (xb - xa) / (yb - ya)
+                odd ^= across & (points[:, 0] < crossing)
+    return odd
+
+
+def _rings(loop: Array, size: float) -> Array | None:
+    """Rings (m, 4, 2) around the middle; None if not every point of the loop is seen from there."""
+    turned = loop if _shoelace(loop) > 0.0 else loop[::-1]
+    arm = turned - turned.mean(axis=0)
+    other = np.roll(arm, -1, axis=0)
+    if np.any(arm[:, 0] * other[:, 1] - arm[:, 1] * other[:, 0] <= 0.0):
+        return None
+    count = max(2, int(np.ceil(np.linalg.norm(arm, axis=1).mean() / size - 1e-9)))
+    scale = np.linspace(0.0, 1.0, count + 1)
+    parts = []
+    for inner, outer in pairwise(scale):
+        # the middle stands last: a triangle repeats its last corner
+        parts.append(np.stack([outer * arm, outer * other, inner * other, inner * arm], axis=1))
+    return np.asarray(np.concatenate(parts) + turned.mean(axis=0))
+
+
+def _shoelace(loop: Array) -> float:
+    x, y = loop.T
+    return float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+
+
+def _area(cells: Array) -> float:
+    return float(sum(abs(_shoelace(c)) for c in cells))

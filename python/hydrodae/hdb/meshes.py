@@ -1,0 +1,201 @@
+"""Mesh files: STL, GDF of WAMIT, Nemoh, GMSH (ASCII 2.2 and 4.1).
+
+All are read into panels (n, 4, 3) [m], triangles with their last corner repeated.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+
+Array = NDArray[np.float64]
+_TRIANGLE, _QUAD = 2, 3
+#: Corners that come first of GMSH's elements of higher order.
+_CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
+
+
+def read_mesh(path: str | Path) -> Array:
+    """Read a mesh file; what it is is told by its content.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    (n, 4, 3) array
+        Symmetric halves that the file leaves out (Nemoh, GDF) are added.
+
+    Raises
+    ------
+    DatabaseError
+        Missing or wrong; the message names file and line.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise DatabaseError(f"{file}: no such mesh file")
+    raw = file.read_bytes()
+    if raw[:11] == b"$MeshFormat":
+        return _gmsh(file, raw.decode(errors="replace").splitlines())
+    if len(raw) >= 84 and len(raw) == 84 + 50 * int.from_bytes(raw[80:84], "little"):
+        return _stl_binary(raw)
+    lines = raw.decode(errors="replace").splitlines()
+    if raw[:5].lower() == b"solid":
+        return _stl_text(file, lines)
+    first = lines[0].split() if lines else []
+    if len(first) == 2 and first[0] == "2" and first[1] in ("0", "1"):
+        return _nemoh(file, lines)
+    if file.suffix.lower() == ".gdf":
+        return _gdf(file, lines)
+    raise DatabaseError(f"{file}: expected a mesh of STL, GDF, Nemoh or GMSH")
+
+
+def _stl_binary(raw: bytes) -> Array:
+    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    triangles = np.frombuffer(raw, record, offset=84)["corners"].astype(float)
+    return _quads(triangles)
+
+
+def _stl_text(path: Path, lines: list[str]) -> Array:
+    corners = []
+    for i, line in enumerate(lines, start=1):
+        words = line.split()
+        if words[:1] == ["vertex"]:
+            corners.append(_floats(path, i, words[1:], 3, "vertex x y z"))
+    if not corners or len(corners) % 3:
+        raise DatabaseError(f"{path}: {len(corners)} corners: expected three a facet")
+    return _quads(np.array(corners).reshape(-1, 3, 3))
+
+
+def _nemoh(path: Path, lines: list[str]) -> Array:
+    """`2 s`, then `i x y z` up to a line of zeros, then four corners a panel up to zeros."""
+    points: dict[int, list[float]] = {}
+    panels, in_points = [], True
+    for i, line in enumerate(lines[1:], start=2):
+        words = line.split()
+        if not words:
+            continue
+        values = _floats(path, i, words, 4, "4 numbers")
+        if in_points:
+            if values[0] == 0.0:
+                in_points = False
+            else:
+                points[int(values[0])] = values[1:]
+            continue
+        if values[0] == 0.0:
+            break
+        panels.append([_point(path, i, points, int(v)) for v in values])
+    return _with_mirrored(path, panels, [1] if lines[0].split()[1] == "1" else [])
+
+
+def _gdf(path: Path, lines: list[str]) -> Array:
+    """Title, `ULEN GRAV`, `ISX ISY`, number of panels, then 12 numbers a panel in any lines."""
+    _floats(path, 2, lines[1].split()[:2] if len(lines) > 1 else [], 2, "ULEN GRAV")
+    symmetric = _floats(path, 3, lines[2].split()[:2] if len(lines) > 2 else [], 2, "ISX ISY")
+    (count,) = _floats(path, 4, lines[3].split()[:1] if len(lines) > 3 else [], 1, "panels")
+    numbers: list[float] = []
+    for i, line in enumerate(lines[4:], start=5):
+        words = line.replace(",", " ").split()
+        numbers += _floats(path, i, words, len(words), "coordinates")
+    if len(numbers) < 12 * count:
+        raise DatabaseError(
+            f"{path}: {len(numbers)} coordinates for {count:g} panels: expected 12 a panel"
+        )
+    found = np.array(numbers[: 12 * int(count)]).reshape(-1, 4, 3).tolist()
+    return _with_mirrored(path, found, [axis for axis in (0, 1) if symmetric[axis] == 1.0])
+
+
+def _gmsh(path: Path, lines: list[str]) -> Array:
+    words = lines[1].split() if len(lines) > 1 else []
+    version = words[0] if words else "?"
+    if len(words) < 2 or words[1] != "0" or version not in ("2.2", "4.1"):
+        raise DatabaseError(f"{path}:2: expected an ASCII file of GMSH 2.2 or 4.1, got {version}")
+    sections = {line.strip(): i for i, line in enumerate(lines) if line.startswith("$")}
+    for name in ("$Nodes", "$Elements"):
+        if name not in sections:
+            raise DatabaseError(f"{path}: no section {name}")
+    reader = _gmsh_2 if version == "2.2" else _gmsh_4
+    panels = reader(path, lines, sections["$Nodes"] + 1, sections["$Elements"] + 1)
+    return _with_mirrored(path, panels, [])
+
+
+def _gmsh_2(path: Path, lines: list[str], nodes: int, elements: int) -> list[list[list[float]]]:
+    points = {}
+    for i in range(nodes + 1, nodes + 1 + int(lines[nodes])):
+        values = _floats(path, i + 1, lines[i].split(), 4, "node x y z")
+        points[int(values[0])] = values[1:]
+    panels = []
+    for i in range(elements + 1, elements + 1 + int(lines[elements])):
+        words = [int(w) for w in lines[i].split()]
+        corners = _CORNERS.get(words[1])
+        if corners is not None:
+            first = 3 + words[2]
+            panels.append([_point(path, i + 1, points, n) for n in words[first : first + corners]])
+    return panels
+
+
+def _gmsh_4(path: Path, lines: list[str], nodes: int, elements: int) -> list[list[list[float]]]:
+    points = {}
+    row = nodes + 1
+    for _ in range(int(lines[nodes].split()[0])):
+        count = int(lines[row].split()[3])
+        for j in range(count):
+            i = row + 1 + count + j
+            points[int(lines[row + 1 + j])] = _floats(path, i + 1, lines[i].split()[:3], 3, "x y z")
+        row += 1 + 2 * count
+    panels = []
+    row = elements + 1
+    for _ in range(int(lines[elements].split()[0])):
+        words = [int(w) for w in lines[row].split()]
+        corners = _CORNERS.get(words[2])
+        for i in range(row + 1, row + 1 + words[3]):
+            if corners is not None:
+                tags = [int(w) for w in lines[i].split()][1 : 1 + corners]
+                panels.append([_point(path, i + 1, points, n) for n in tags])
+        row += 1 + words[3]
+    return panels
+
+
+def _with_mirrored(path: Path, panels: list[list[list[float]]], axes: list[int]) -> Array:
+    """Panels as one array, and their mirror images across the planes normal to `axes`."""
+    if not panels:
+        raise DatabaseError(f"{path}: no panels in it")
+    result = np.array([p if len(p) == 4 else [*p, p[-1]] for p in panels], dtype=float)
+    result = _triangles_last(result)
+    for axis in axes:
+        mirrored = result[:, [1, 0, 3, 2]].copy()
+        mirrored[..., axis] *= -1.0
+        result = np.concatenate([result, _triangles_last(mirrored)])
+    return result
+
+
+def _triangles_last(panels: Array) -> Array:
+    """Turn triangles, which may repeat any corner, until the pair stands last."""
+    same = np.linalg.norm(panels - np.roll(panels, -1, axis=1), axis=2) < 1e-12
+    for i in np.flatnonzero(same.any(axis=1)):
+        panels[i] = np.roll(panels[i], -(int(same[i].argmax()) + 2), axis=0)
+    return panels
+
+
+def _quads(triangles: Array) -> Array:
+    return np.concatenate([triangles, triangles[:, 2:]], axis=1)
+
+
+def _point(path: Path, line: int, points: dict[int, list[float]], number: int) -> list[float]:
+    if number not in points:
+        raise DatabaseError(f"{path}:{line}: no point {number}")
+    return points[number]
+
+
+def _floats(path: Path, line: int, words: list[str], count: int, meaning: str) -> list[float]:
+    try:
+        values = [float(w.upper().replace("D", "E")) for w in words]
+    except ValueError:
+        values = []
+    if len(values) != count:
+        raise DatabaseError(f"{path}:{line}: expected {meaning}, got {' '.join(words)[:60]!r}")
+    return values

@@ -1,0 +1,256 @@
+"""Wetted surfaces of simple shapes as flat panels, and hydrostatics of any closed surface.
+
+A surface is an array (n, 4, 3) [m] of corners, counter-clockwise seen from the water; a triangle
+repeats its last corner. Surfaces are open at the water plane z = 0 and closed everywhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.hydrostatics import Hydrostatics
+
+Array = NDArray[np.float64]
+#: Largest difference of the volumes by the three axes of a closed surface.
+LEAK = 0.01
+
+
+def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Array:
+    """Wetted part of a sphere about (x, y, z), with its exact water plane area and volume.
+
+    Polygons around the axis have the area of their circle; a vertical stretch (about the water
+    plane, or about the centre if submerged) makes up for the meridian.
+
+    Parameters
+    ----------
+    size : float
+        Largest length of a panel's side [m].
+    radius, x, y, z : float
+        [m].
+
+    Returns
+    -------
+    (n, 4, 3) array
+
+    Raises
+    ------
+    CaseError
+        Not in the water, or a length is not > 0.
+    """
+    _positive(size=size, radius=radius)
+    if z >= radius:
+        raise CaseError(f"sphere: centre at z = {z:g} m, radius {radius:g} m: not in the water")
+    height = min(radius - z, 2.0 * radius)
+    top = np.arccos(np.clip((height - radius) / radius, -1.0, 1.0))  # from the upper pole
+    rows = _count(radius * (np.pi - top), size)
+    theta = np.linspace(top, np.pi, rows + 1)
+    levels, radii = radius * np.cos(theta), radius * np.sin(theta)
+    panels = _revolution(radii, levels + z, size)
+    exact = np.pi * height**2 * (3.0 * radius - height) / 3.0
+    middle = z if z <= -radius else 0.0
+    stretch = exact / hydrostatics(panels, np.zeros(3)).displaced_volume
+    panels[..., 2] = middle + stretch * (panels[..., 2] - middle)
+    return np.asarray(panels + np.array([x, y, 0.0]))
+
+
+def cylinder(
+    size: float,
+    *,
+    radius: float,
+    draft: float,
+    top: float = 0.0,
+    x: float = 0.0,
+    y: float = 0.0,
+) -> Array:
+    """Vertical cylinder from z = top down to z = -draft; its polygons have the area of the circle.
+
+    Parameters
+    ----------
+    size : float
+        Largest length of a panel's side [m].
+    radius, draft, top, x, y : float
+        [m]; top <= 0, and the upper end is closed where it is below the water plane.
+
+    Returns
+    -------
+    (n, 4, 3) array
+
+    Raises
+    ------
+    CaseError
+        A length is not > 0, or top > 0 or below -draft.
+    """
+    _positive(size=size, radius=radius, draft=draft)
+    _check_top("cylinder", top, draft)
+    side, disc = _count(draft + top, size), _count(radius, size)
+    inner = np.linspace(0.0, radius, disc + 1)
+    radii = [np.full(side + 1, radius), inner[-2::-1]]
+    levels = [np.linspace(top, -draft, side + 1), np.full(disc, -draft)]
+    if top < 0.0:
+        radii.insert(0, inner[:-1])
+        levels.insert(0, np.full(disc, top))
+    panels = _revolution(np.concatenate(radii), np.concatenate(levels), size)
+    return np.asarray(panels + np.array([x, y, 0.0]))
+
+
+def box(
+    size: float,
+    *,
+    length: float,
+    width: float,
+    draft: float,
+    top: float = 0.0,
+    x: float = 0.0,
+    y: float = 0.0,
+) -> Array:
+    """Box of length (along x) and width (along y) from z = top down to z = -draft.
+
+    Parameters
+    ----------
+    size : float
+        Largest length of a panel's side [m].
+    length, width, draft, top, x, y : float
+        [m]; top <= 0, and the upper side is closed where it is below the water plane.
+
+    Returns
+    -------
+    (n, 4, 3) array
+
+    Raises
+    ------
+    CaseError
+        A length is not > 0, or top > 0 or below -draft.
+    """
+    _positive(size=size, length=length, width=width, draft=draft)
+    _check_top("box", top, draft)
+    half = np.array([0.5 * length, 0.5 * width])
+    u, v = (np.linspace(-h, h, _count(2.0 * h, size) + 1) for h in half)
+    w = np.linspace(-draft, top, _count(draft + top, size) + 1)
+    sides = [
+        _plane(1, half[1], u, w)[:, ::-1],
+        _plane(1, -half[1], u, w),
+        _plane(0, half[0], v, w),
+        _plane(0, -half[0], v, w)[:, ::-1],
+        _plane(2, -draft, u, v)[:, ::-1],
+    ]
+    if top < 0.0:
+        sides.append(_plane(2, top, u, v))
+    panels = np.concatenate(sides)
+    panels[..., 0] += x
+    panels[..., 1] += y
+    return panels
+
+
+SHAPES: dict[str, Callable[..., Array]] = {"sphere": sphere, "cylinder": cylinder, "box": box}
+
+
+def build(shape: str, size: float, lengths: dict[str, float]) -> Array:
+    """Panels of a shape by its name.
+
+    Raises
+    ------
+    CaseError
+        Unknown shape or length, or one that is missing; the message names the nearest.
+    """
+    if shape not in SHAPES:
+        raise CaseError(f"no shape {shape!r}{nearest(shape, SHAPES)}")
+    known = SHAPES[shape].__kwdefaults__ or {}
+    names = [n for n in SHAPES[shape].__annotations__ if n not in ("size", "return")]
+    for name in lengths:
+        if name not in names:
+            raise CaseError(f"{shape} has no {name!r}{nearest(name, names)}")
+    missing = [n for n in names if n not in known and n not in lengths]
+    if missing:
+        raise CaseError(f"{shape} needs {', '.join(missing)}, as in {shape}:{missing[0]}=5")
+    return SHAPES[shape](size, **lengths)
+
+
+def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
+    """Integrate a surface exactly: polynomials of second degree over flat triangles.
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+        Closed below the water plane.
+    point : (3,) array
+        Reference point [m] of the waterplane moments.
+
+    Returns
+    -------
+    Hydrostatics
+
+    Raises
+    ------
+    DatabaseError
+        The surface has holes, or its normals point inwards.
+    """
+    corners = np.asarray(panels, dtype=float)
+    triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    # exact to second degree: the middles of the three sides
+    middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
+    mean = middle.mean(axis=1)
+    by_axis = (mean * area).sum(axis=0)
+    volume = float(by_axis[2])
+    if volume <= 0.0:
+        raise DatabaseError(
+            "the surface displaces no water: it is dry, or its normals point inwards"
+        )
+    if np.abs(by_axis - volume).max() > LEAK * volume:
+        shown = ", ".join(f"{v:.5g}" for v in by_axis)
+        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
+    squares = (middle**2).mean(axis=1)
+    center = 0.5 * (squares * area).sum(axis=0) / volume
+    x, y = middle[..., 0] - np.asarray(point)[0], middle[..., 1] - np.asarray(point)[1]
+    down = -area[:, 2]  # the water plane closes the surface: int n_z over the hull = - A_w
+    moments = [(f.mean(axis=1) * down).sum() for f in (x, y, x * x, y * y, x * y)]
+    return Hydrostatics(volume, center, float(down.sum()), np.array(moments))
+
+
+def _positive(**lengths: float) -> None:
+    for name, value in lengths.items():
+        if not (np.isfinite(value) and value > 0.0):
+            raise CaseError(f"{name} = {value:g}: expected a length > 0 [m]")
+
+
+def _check_top(shape: str, top: float, draft: float) -> None:
+    if not -draft < top <= 0.0:
+        raise CaseError(f"{shape}: top = {top:g} m must lie between -draft and 0")
+
+
+def _count(length: float, size: float) -> int:
+    return max(2, int(np.ceil(length / size - 1e-9)))
+
+
+def _revolution(radii: Array, levels: Array, size: float) -> Array:
+    """Surface of a meridian that runs downwards and inwards (radius 0 gives triangles)."""
+    around = 4 * max(2, int(np.ceil(0.5 * np.pi * radii.max() / size - 1e-9)))
+    sector = 2.0 * np.pi / around
+    radii = radii * np.sqrt(sector / np.sin(sector))  # polygons with the area of the circle
+    angle = np.linspace(0.0, 2.0 * np.pi, around + 1)
+    grid = np.empty((radii.size, angle.size, 3))
+    grid[..., 0] = np.outer(radii, np.cos(angle))
+    grid[..., 1] = np.outer(radii, np.sin(angle))
+    grid[..., 2] = levels[:, None]
+    cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2)
+    cells = np.ascontiguousarray(cells.reshape(-1, 4, 3))
+    # put the two corners on the axis last: a triangle repeats its last corner
+    lengths = np.linalg.norm(cells - np.roll(cells, -1, axis=1), axis=2)
+    for i in np.flatnonzero(lengths.min(axis=1) < 1e-9 * radii.max()):
+        cells[i] = np.roll(cells[i], -(int(lengths[i].argmin()) + 2), axis=0)
+    return cells
+
+
+def _plane(axis: int, along: float, u: Array, v: Array) -> Array:
+    """Rectangle normal to `axis`, divided at u and v of the other two axes."""
+    grid = np.empty((u.size, v.size, 3))
+    first, second = [i for i in range(3) if i != axis]
+    grid[..., axis] = along
+    grid[..., first], grid[..., second] = u[:, None], v
+    cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2)
+    return cells.reshape(-1, 4, 3)

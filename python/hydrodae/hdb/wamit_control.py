@@ -1,0 +1,200 @@
+"""What WAMIT's tables leave out, from `.pot`, `.cfg`, `.mmx`, `.gdf` and `.out` beside them.
+
+Depth and body axes stand in `.pot`, gravity and the length scale in `.mmx`, `.out` or the `.gdf`,
+volumes and centres in `.mmx` or `.out`, the density in `.out` only.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path, PureWindowsPath
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+
+Array = NDArray[np.float64]
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
+_NUMBERS = re.compile(_NUMBER)
+#: WAMIT prints the density 1 when it was not told one.
+LEAST_DENSITY = 100.0
+
+
+@dataclass
+class Statics:
+    """Of one body, in its own axes: volume [m3], centres [m], mass over the density [m3]."""
+
+    volume: float | None = None
+    center_of_buoyancy: Array | None = None
+    center_of_gravity: Array | None = None
+    mass_over_rho: float | None = None
+
+
+@dataclass
+class Control:
+    """Settings of a run; None where no file says."""
+
+    depth: float | None = None
+    gravity: float | None = None
+    length: float | None = None
+    rho: float | None = None
+    first_column: int | None = None
+    points: list[Array] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    statics: list[Statics] = field(default_factory=list)
+    frequencies: int | None = None
+    files: list[Path] = field(default_factory=list)
+
+
+def read_control(stem: Path) -> Control:
+    """Read what is there of `<stem>.pot`, `.cfg`, `.mmx`, `.out`, and the `.gdf` files they name.
+
+    Raises
+    ------
+    DatabaseError
+        A file is wrong; the message names file and line.
+    """
+    control = Control()
+    for suffix, reader in ((".cfg", _cfg), (".pot", _pot), (".mmx", _listing), (".out", _listing)):
+        path = beside(stem, suffix)
+        if path is not None:
+            reader(path, control)
+            control.files.append(path)
+    if control.gravity is None or control.length is None:
+        for name in control.names or [stem.name]:
+            path = beside(stem.with_name(name), ".gdf")
+            if path is not None:
+                _gdf(path, control)
+                control.files.append(path)
+                break
+    return control
+
+
+def beside(stem: Path, suffix: str) -> Path | None:
+    """Return the file `<stem><suffix>` whatever the case of its name, or None."""
+    wanted = (stem.name + suffix).lower()
+    if not stem.parent.is_dir():
+        return None
+    return next((p for p in sorted(stem.parent.iterdir()) if p.name.lower() == wanted), None)
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(n.upper().replace("D", "E")) for n in _NUMBERS.findall(text)]
+
+
+def _leading(line: str) -> list[float]:
+    """Numbers at the start of a line, up to the first word that is none."""
+    found = []
+    for word in line.replace(",", " ").split():
+        if not re.fullmatch(_NUMBER, word):
+            break
+        found.append(float(word.upper().replace("D", "E")))
+    return found
+
+
+def _cfg(path: Path, control: Control) -> None:
+    for line in path.read_text(errors="replace").splitlines():
+        found = re.match(r"\s*IPEROUT\s*=\s*(\d+)", line, re.IGNORECASE)
+        if found:
+            control.first_column = int(found[1])
+    if control.first_column is None:
+        control.first_column = 1
+
+
+def _pot(path: Path, control: Control) -> None:
+    """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
+    lines = path.read_text(errors="replace").splitlines()
+    values = [_leading(line) for line in lines]
+
+    def expect(row: int, count: int, what: str) -> list[float]:
+        if row >= len(lines) or len(values[row]) < count:
+            raise DatabaseError(f"{path}:{row + 1}: expected {count} numbers: {what}")
+        return values[row][:count]
+
+    (depth,) = expect(1, 1, "HBOT")
+    control.depth = np.inf if depth <= 0.0 else depth
+    if len(values[1]) >= 5:
+        control.points.append(_point(path, 1, values[1][1:5]))
+        return
+    row = 3
+    count = int(expect(row, 1, "NPER")[0])
+    control.frequencies = abs(count)
+    row = _skip(values, row + 1, abs(count) if count > 0 else 2 * (count < 0))
+    headings = int(expect(row, 1, "NBETA")[0])
+    row = _skip(values, row + 1, abs(headings) if headings > 0 else 2 * (headings < 0))
+    bodies = int(expect(row, 1, "NBODY")[0])
+    row += 1
+    for _ in range(bodies):
+        if row >= len(lines) or not lines[row].strip():
+            raise DatabaseError(f"{path}:{row + 1}: expected the .gdf file of a body")
+        control.names.append(PureWindowsPath(lines[row].split()[0]).stem)
+        control.points.append(_point(path, row + 1, expect(row + 1, 4, "XBODY(1-4)")))
+        expect(row + 2, 6, "MODE(1-6)")
+        row += 3
+        # form 2 may hold lines of new modes (NEWMDS) between the bodies
+        while row < len(lines) and len(values[row]) == 1:
+            row += 1
+
+
+def _skip(values: list[list[float]], row: int, count: int) -> int:
+    """Row after the next `count` numbers."""
+    while count > 0 and row < len(values):
+        count -= len(values[row])
+        row += 1
+    return row
+
+
+def _point(path: Path, row: int, xbody: list[float]) -> Array:
+    if xbody[3] != 0.0:
+        raise DatabaseError(
+            f"{path}:{row + 1}: body axes turned by XBODY(4) = {xbody[3]:g} deg; run it with 0"
+        )
+    return np.array(xbody[:3])
+
+
+def _listing(path: Path, control: Control) -> None:
+    """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
+    seen = 0
+    for line in path.read_text(errors="replace").splitlines():
+        if line.strip().startswith("Gravity:"):
+            found = _numbers(line.split("Gravity:")[1])
+            control.gravity = found[0]
+            if len(found) > 1:
+                control.length = found[1]
+        density = re.search(rf"Water density:\s*({_NUMBER})", line)
+        if density and float(density[1]) > LEAST_DENSITY:
+            control.rho = float(density[1])
+        depth = re.search(rf"Water depth:\s*(infinite|{_NUMBER})", line, re.IGNORECASE)
+        if depth and control.depth is None:
+            infinite = depth[1].lower() == "infinite"
+            control.depth = np.inf if infinite else float(depth[1])
+        if "VOLX,VOLY,VOLZ" in line:
+            seen += 1
+            if len(control.statics) < seen:
+                control.statics.append(Statics())
+            control.statics[seen - 1].volume = float(np.median(_after(path, line)))
+        elif seen and "Center of Buoyancy" in line:
+            control.statics[seen - 1].center_of_buoyancy = _after(path, line)
+        elif seen and "Center of Gravity" in line:
+            control.statics[seen - 1].center_of_gravity = _after(path, line)
+        elif seen and re.match(r"\s*3\s+3\s+\S+\s*$", line) and path.suffix.lower() == ".mmx":
+            control.statics[seen - 1].mass_over_rho = _numbers(line)[2]
+
+
+def _after(path: Path, line: str) -> Array:
+    """Three numbers behind the brackets and the colon."""
+    found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
+    if len(found) != 3:
+        raise DatabaseError(f"{path}: expected 3 numbers in {line.strip()!r}")
+    return np.array(found)
+
+
+def _gdf(path: Path, control: Control) -> None:
+    lines = path.read_text(errors="replace").splitlines()
+    found = _leading(lines[1]) if len(lines) > 1 else []
+    if len(found) < 2:
+        raise DatabaseError(f"{path}:2: expected 2 numbers: ULEN and GRAV")
+    control.length, control.gravity = found[0], found[1]

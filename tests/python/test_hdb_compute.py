@@ -1,0 +1,184 @@
+"""`hydrodae hdb compute` on small meshes: theory of the hemisphere, resumption, NaN, lids."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from hydrodae import hdb
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb import bem, command, shapes
+
+cpt = pytest.importorskip("capytaine", reason="needs the extra bem")
+SETTINGS = bem.Settings(omega=np.array([0.4, 0.8, 1.2, 1.6]), rho=1000.0)
+
+
+def call(*words):
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return command.run(parser.parse_args([str(w) for w in words]))
+
+
+def hemisphere(size=1.2, **place):
+    panels = shapes.sphere(size, radius=5.0, **place)
+    return bem.WettedBody("buoy", panels, np.array([0.0, 0.0, -2.0]))
+
+
+def solves(monkeypatch):
+    """Frequencies that are computed from now on."""
+    asked: list[float] = []
+    solve = bem._solve
+
+    def remember(cpt, device, omega, settings, solver):
+        asked.append(omega)
+        return solve(cpt, device, omega, settings, solver)
+
+    monkeypatch.setattr(bem, "_solve", remember)
+    return asked
+
+
+@pytest.fixture(scope="module")
+def computed(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bem")
+    return folder, bem.compute([hemisphere()], SETTINGS, folder)
+
+
+def test_hemisphere_of_two_hundred_panels(computed, reference):
+    db = hdb.read(computed[1])
+    mass = 1000.0 * 2 / 3 * np.pi * 125
+    assert db.added_mass_inf[2, 2] / mass == pytest.approx(0.5, abs=0.025)
+    assert db.added_mass_inf_origin == "source"
+    fine = hdb.read(reference / "hdb" / "own" / "sphere.nc")
+    at = [int(np.abs(fine.omega - w).argmin()) for w in db.omega]
+    for i in (0, 2, 4):
+        for name in ("added_mass", "radiation_damping"):
+            a, b = getattr(db, name)[:, i, i], getattr(fine, name)[at, i, i]
+            assert np.abs(a - b).max() < 0.06 * np.abs(b).max(), (i, name)
+        assert (
+            np.abs(db.excitation[:, 0, i] - fine.excitation[at, 0, i]).max()
+            < 0.05 * np.abs(fine.excitation[at, 0, i]).max()
+        )
+
+
+def test_what_is_done_is_kept(computed, monkeypatch):
+    folder, netcdf = computed
+    asked = solves(monkeypatch)
+    assert bem.compute([hemisphere()], SETTINGS, folder) == netcdf
+    assert asked == []
+    (netcdf.parent / "omega_1.200000.nc").unlink()
+    steps: list[tuple[int, int]] = []
+    bem.compute([hemisphere()], SETTINGS, folder, progress=lambda *a: steps.append(a[:2]))
+    assert asked == [1.2]
+    assert steps == [(5, 5)]
+
+
+def test_another_setting_is_another_folder(computed, monkeypatch):
+    folder, netcdf = computed
+    asked = solves(monkeypatch)
+    shallow = dataclasses.replace(SETTINGS, water_depth=12.0)
+    other = bem.compute([hemisphere(2.5)], shallow, folder)
+    assert asked == [0.4, 0.8, 1.2, 1.6, np.inf]
+    assert other.parent != netcdf.parent
+    assert hdb.read(other).water_depth == 12.0
+
+
+def test_nan_is_counted(computed, tmp_path):
+    assert bem.count_nan(computed[1]) == {}
+    with xr.open_dataset(computed[1]) as opened:
+        ds = opened.load()
+    ds["radiation_damping"][1, 2] = np.nan
+    ds.to_netcdf(tmp_path / "x.nc")
+    assert bem.count_nan(tmp_path / "x.nc") == {"radiation_damping": 6}
+
+
+def test_two_bodies_and_a_submerged_one_without_lid(tmp_path):
+    deep = bem.WettedBody("deep", shapes.box(2.0, length=4, width=4, draft=8, top=-4), np.zeros(3))
+    far = bem.WettedBody(
+        "buoy", shapes.sphere(2.5, radius=5.0, x=30.0), np.array([30.0, 0.0, -2.0])
+    )
+    data = bem.compute([deep, far], SETTINGS, tmp_path)
+    db = hdb.read(data)
+    assert db.coordinates[8] == "buoy.heave"
+    assert list(db.bodies) == ["deep", "buoy"]
+    np.testing.assert_allclose(db.reference_point("buoy"), [30, 0, -2])
+    # waves pass the far body later
+    k = 0.8**2 / 9.81
+    turn = np.angle(db.froude_krylov[1, 0, 6] / db.froude_krylov[1, 0, 0])
+    assert np.exp(1j * turn) == pytest.approx(np.exp(-30j * k), abs=1e-6)
+    coupling = np.abs(db.added_mass[:, 2, 8]).max()
+    assert 0.0 < coupling < 0.1 * db.added_mass[:, 2, 2].max()
+
+
+def test_a_lid_removes_the_irregular_frequency(reference, tmp_path):
+    omega = np.array([2.15, 2.2, 2.25, 2.3, 2.35])
+    fine = hdb.read(reference / "hdb" / "own" / "sphere.nc")
+    exact = np.interp(omega, fine.omega, fine.added_mass[:, 2, 2])
+    error = {}
+    for lid in (True, False):
+        settings = bem.Settings(omega=omega, rho=1000.0, lid=lid)
+        db = hdb.read(bem.compute([hemisphere(1.6)], settings, tmp_path))
+        error[lid] = np.abs(db.added_mass[:, 2, 2] / exact - 1.0).max()
+    assert error[True] < 0.08
+    assert error[False] > 0.15
+
+
+def test_what_is_above_the_water_is_cut_off():
+    whole = shapes.sphere(1.6, radius=5.0, z=-6.0) + np.array([0.0, 0.0, 6.0])
+    cut = bem.immersed(whole[:, ::-1])
+    hs = shapes.hydrostatics(cut, np.zeros(3))
+    assert hs.displaced_volume == pytest.approx(0.5 * 4 / 3 * np.pi * 125, rel=0.01)
+    assert cut[..., 2].max() == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(DatabaseError, match="not in the water"):
+        bem.immersed(whole + np.array([0.0, 0.0, 6.0]))
+
+
+def test_command_from_a_mesh_file(tmp_path, capsys):
+    panels = shapes.cylinder(1.5, radius=3.0, draft=4.0)
+    lines = ["solid c"]
+    for t in np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]]):
+        lines += [f"vertex {x:.9g} {y:.9g} {z:.9g}" for x, y, z in t]
+    stl = tmp_path / "c.stl"
+    stl.write_text("\n".join(lines))
+    out = tmp_path / "hydro.h5"
+    words = [
+        "compute", "--body", f"can={stl}:x=2", "--cog", "can=2,0,-1.5", "--omega", "0.4,1.6,5",
+        "--heading-deg", "0,90", "--depth", "20", "-o", out, "-q",
+    ]  # fmt: skip
+    assert call(*words) == 0
+    text = capsys.readouterr().out
+    assert "displaces 113." in text
+    assert "not in the file" not in text
+    db = hdb.read(out)
+    assert db.water_depth == 20.0
+    assert db.omega.size == 5
+    np.testing.assert_allclose(np.degrees(db.heading), [0, 90])
+    np.testing.assert_allclose(db.reference_point("can"), [2, 0, -1.5])
+    assert db.hydrostatic_stiffness("can")[2, 2] == pytest.approx(1025 * 9.81 * np.pi * 9, rel=0.03)
+    assert hdb.check(db).ok
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--body", "b=sphere:radius=5"], "needs --cog b=X,Y,Z"),
+        (["--body", "sphere:radius=5"], "expected NAME=SHAPE"),
+        (["--body", "b=spere:radius=5", "--cog", "b=0,0,0"], "did you mean 'sphere'"),
+        (["--body", "b=sphere:radius=five", "--cog", "b=0,0,0"], "expected a number"),
+        (["--body", "b=none.stl", "--cog", "b=0,0,0"], "no such mesh file"),
+        (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--cog", "c=0,0,0"], "no body 'c'"),
+        (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--omega", "1,2"], "expected 3 num"),
+        (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--omega", "2,1,9"], "LO < HI"),
+        (
+            ["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--panel", "0.1"],
+            "panels, 6000 are allowed",
+        ),
+    ],
+)
+def test_bad_arguments_of_compute(tmp_path, words, message):
+    given = words if "--omega" in words else [*words, "--omega", "0.5,2,4"]
+    with pytest.raises((CaseError, DatabaseError), match=message):
+        call("compute", *given, "-o", tmp_path / "x.h5", "-q")

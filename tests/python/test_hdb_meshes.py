@@ -1,0 +1,234 @@
+"""Shapes against closed forms, and one box written in every mesh format."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+import pytest
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb import shapes
+from hydrodae.hdb.lids import lid, water_line
+from hydrodae.hdb.meshes import read_mesh
+
+POINT = np.array([1.0, 2.0, -3.0])
+
+
+def test_hemisphere():
+    panels = shapes.sphere(0.5, radius=5.0, x=1.0, y=2.0)
+    hs = shapes.hydrostatics(panels, POINT)
+    assert hs.displaced_volume == pytest.approx(2 / 3 * np.pi * 125, rel=1e-12)
+    np.testing.assert_allclose(hs.center_of_buoyancy, [1.0, 2.0, -15 / 8], atol=0.01)
+    assert hs.waterplane_area == pytest.approx(np.pi * 25, rel=1e-12)
+    np.testing.assert_allclose(hs.waterplane_moments[:2], 0.0, atol=1e-9)
+    np.testing.assert_allclose(hs.waterplane_moments[2:4], np.pi * 625 / 4, rtol=1e-3)
+    sides = np.linalg.norm(panels - np.roll(panels, 1, axis=1), axis=2)
+    assert sides.max() <= 0.51
+
+
+@pytest.mark.parametrize("z", [-6.0, -4.0, 3.0])
+def test_spheres_at_other_depths(z):
+    hs = shapes.hydrostatics(shapes.sphere(0.5, radius=5.0, z=z), np.zeros(3))
+    h = min(5.0 - z, 10.0)
+    assert hs.displaced_volume == pytest.approx(np.pi * h**2 * (15.0 - h) / 3, rel=1e-12)
+    expected = np.pi * max(25.0 - z**2, 0.0)
+    assert hs.waterplane_area == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+def test_cylinders_and_boxes():
+    hs = shapes.hydrostatics(shapes.cylinder(0.7, radius=2.0, draft=3.0, x=1.0, y=2.0), POINT)
+    assert hs.displaced_volume == pytest.approx(np.pi * 12)
+    np.testing.assert_allclose(hs.center_of_buoyancy, [1.0, 2.0, -1.5])
+    hs = shapes.hydrostatics(shapes.box(0.7, length=4.0, width=2.0, draft=1.0), np.zeros(3))
+    np.testing.assert_allclose(
+        hs.waterplane_moments, [0, 0, 2 * 64 / 12, 4 * 8 / 12, 0], atol=1e-12
+    )
+    for shape in (
+        shapes.cylinder(0.7, radius=2.0, draft=5.0, top=-2.0),
+        shapes.box(0.7, length=4.0, width=np.pi, draft=5.0, top=-2.0),
+    ):
+        hs = shapes.hydrostatics(shape, np.zeros(3))
+        assert hs.displaced_volume == pytest.approx(12 * np.pi)
+        assert hs.waterplane_area == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("shape", "lengths", "message"),
+    [
+        ("spere", {}, "did you mean 'sphere'"),
+        ("sphere", {}, "needs radius"),
+        ("sphere", {"radius": 5, "draught": 2}, "has no 'draught'"),
+        ("sphere", {"radius": 5, "z": 6}, "not in the water"),
+        ("cylinder", {"radius": -5, "draft": 2}, "expected a length > 0"),
+        ("box", {"length": 1, "width": 1, "draft": 2, "top": 1}, "between -draft and 0"),
+    ],
+)
+def test_bad_shapes(shape, lengths, message):
+    with pytest.raises(CaseError, match=message):
+        shapes.build(shape, 1.0, lengths)
+
+
+def test_holes_and_inner_normals_are_errors():
+    panels = shapes.box(0.5, length=4.0, width=2.0, draft=1.0)
+    with pytest.raises(DatabaseError, match="has holes"):
+        shapes.hydrostatics(np.delete(panels, slice(0, 4), axis=0), np.zeros(3))
+    with pytest.raises(DatabaseError, match="normals point inwards"):
+        shapes.hydrostatics(panels[:, ::-1], np.zeros(3))
+
+
+# lids
+
+
+def lid_area(found):
+    d1, d2 = found[:, 2] - found[:, 0], found[:, 3] - found[:, 1]
+    down = -0.5 * np.cross(d1, d2)[:, 2]
+    assert np.all(down > 0.0)
+    return down.sum()
+
+
+@pytest.mark.parametrize("sides", [3, 4])
+def test_lids_close_the_water_plane(sides):
+    can = shapes.cylinder(0.8, radius=4.0, draft=3.0, x=20.0, y=-5.0)
+    crate = shapes.box(0.3, length=8.0, width=0.5, draft=3.0)
+    for panels in (can, crate, shapes.sphere(0.7, radius=3.0, z=1.0)):
+        if sides == 3:
+            split = np.concatenate([panels[:, [0, 1, 2, 2]], panels[:, [0, 2, 3, 3]]])
+            edges = split[:, 1:3] - split[:, :1]
+            panels = split[np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) > 1e-9]
+        area = shapes.hydrostatics(panels, np.zeros(3)).waterplane_area
+        found = lid(panels)
+        assert lid_area(found) == pytest.approx(area, rel=1e-9)
+        assert np.abs(found[..., 2]).max() == 0.0
+
+
+def test_lid_with_a_moonpool():
+    outer = shapes.box(0.5, length=8.0, width=8.0, draft=2.0)
+    inner = shapes.box(0.5, length=4.0, width=4.0, draft=2.0)[:, ::-1]
+    # the bottoms of both would close it: only the sides matter for a lid
+    both = np.concatenate([p[np.ptp(p[..., 2], axis=1) > 0] for p in (outer, inner)])
+    assert len(water_line(both)) == 2
+    assert lid_area(lid(both)) == pytest.approx(64.0 - 16.0)
+
+
+def test_no_lid_where_none_can_be():
+    assert len(lid(shapes.box(0.5, length=2.0, width=2.0, draft=4.0, top=-1.0))) == 0
+    open_hull = shapes.box(0.5, length=2.0, width=2.0, draft=4.0)[1:]
+    open_hull = open_hull[~((open_hull[..., 1] == 1.0).all(axis=1))]
+    with pytest.raises(DatabaseError, match="the water line is not closed at x, y"):
+        lid(open_hull)
+
+
+# mesh files: a box 4 x 2 x 1 m
+
+PANELS = shapes.box(0.5, length=4.0, width=2.0, draft=1.0)
+
+
+def triangles():
+    return np.concatenate([PANELS[:, [0, 1, 2]], PANELS[:, [0, 2, 3]]])
+
+
+def stl_text(path):
+    lines = ["solid box"]
+    for t in triangles():
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += [f"vertex {x:.9g} {y:.9g} {z:.9g}" for x, y, z in t]
+        lines += ["endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid"]))
+
+
+def stl_binary(path):
+    found = triangles()
+    body = b"".join(struct.pack("<12fH", 0, 0, 0, *t.ravel(), 0) for t in found)
+    path.write_bytes(b"x" * 80 + struct.pack("<I", len(found)) + body)
+
+
+def numbered(panels):
+    points, index = np.unique(panels.reshape(-1, 3).round(9), axis=0, return_inverse=True)
+    return points, index.reshape(-1, 4) + 1
+
+
+def half(panels, axis):
+    return panels[panels[..., axis].min(axis=1) > -1e-9]
+
+
+def nemoh(path):
+    points, index = numbered(half(PANELS, 1))
+    lines = ["2 1", *(f"{i} {p[0]} {p[1]} {p[2]}" for i, p in enumerate(points, 1)), "0 0. 0. 0."]
+    lines += [" ".join(map(str, row)) for row in index]
+    path.write_text("\n".join([*lines, "0 0 0 0"]))
+
+
+def gdf(path):
+    quarter = half(half(PANELS, 0), 1)
+    lines = ["box", "1.0 9.81", "1 1", str(len(quarter))]
+    lines += [" ".join(map(str, corner)) for panel in quarter for corner in panel]
+    path.write_text("\n".join(lines))
+
+
+def gmsh_2(path):
+    points, index = numbered(PANELS)
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
+    lines += [f"{i} {p[0]} {p[1]} {p[2]}" for i, p in enumerate(points, 1)]
+    lines += ["$EndNodes", "$Elements", str(len(index) + 1), "1 15 2 0 1 1"]
+    lines += [f"{i} 3 2 0 1 {' '.join(map(str, row))}" for i, row in enumerate(index, 2)]
+    path.write_text("\n".join([*lines, "$EndElements"]))
+
+
+def gmsh_4(path):
+    points, index = numbered(PANELS)
+    n, m = len(points), len(index)
+    lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$Nodes", f"1 {n} 1 {n}", f"2 1 0 {n}"]
+    lines += [str(i) for i in range(1, n + 1)] + [f"{p[0]} {p[1]} {p[2]}" for p in points]
+    lines += ["$EndNodes", "$Elements", f"2 {m + 1} 1 {m + 1}", "0 1 15 1", "1 1", f"2 1 3 {m}"]
+    lines += [f"{i} {' '.join(map(str, row))}" for i, row in enumerate(index, 2)]
+    path.write_text("\n".join([*lines, "$EndElements"]))
+
+
+WRITERS = {
+    "a.stl": stl_text,
+    "b.stl": stl_binary,
+    "mesh.dat": nemoh,
+    "box.gdf": gdf,
+    "two.msh": gmsh_2,
+    "four.msh": gmsh_4,
+}
+
+
+@pytest.mark.parametrize("name", list(WRITERS))
+def test_one_box_in_every_format(tmp_path, name):
+    WRITERS[name](tmp_path / name)
+    hs = shapes.hydrostatics(read_mesh(tmp_path / name), np.zeros(3))
+    assert hs.displaced_volume == pytest.approx(8.0, rel=1e-6)
+    np.testing.assert_allclose(hs.center_of_buoyancy, [0, 0, -0.5], atol=1e-6)
+    assert hs.waterplane_moments[2] == pytest.approx(2 * 64 / 12, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "text", "message"),
+    [
+        ("mesh.dat", 5, "4 0.0 zero 0.0", r"mesh.dat:5: expected 4 numbers"),
+        ("mesh.dat", 999, "1 2 3 4000", r"no point 4000"),
+        ("box.gdf", 3, "1", r"box.gdf:3: expected ISX ISY"),
+        ("box.gdf", 4, "900", r"coordinates for 900 panels"),
+        ("two.msh", 2, "3.0 0 8", r"two.msh:2: expected an ASCII file of GMSH"),
+        ("two.msh", 4, "$Knots", r"no section \$Nodes"),
+        ("a.stl", 4, "vertex 1 2", r"a.stl:4: expected vertex x y z"),
+    ],
+)
+def test_bad_mesh_files_name_file_and_line(tmp_path, name, line, text, message):
+    path = tmp_path / name
+    WRITERS[name](path)
+    lines = path.read_text().splitlines()
+    lines[-2 if line == 999 else line - 1] = text
+    path.write_text("\n".join(lines))
+    with pytest.raises(DatabaseError, match=message):
+        read_mesh(path)
+
+
+def test_other_files_are_refused(tmp_path):
+    with pytest.raises(DatabaseError, match="no such mesh file"):
+        read_mesh(tmp_path / "none.stl")
+    (tmp_path / "x.stl").write_text("hello")
+    with pytest.raises(DatabaseError, match="expected a mesh of STL, GDF, Nemoh or GMSH"):
+        read_mesh(tmp_path / "x.stl")

@@ -1,0 +1,188 @@
+"""The WAMIT reader: real runs, scaling with another length, special periods, bad lines."""
+
+from __future__ import annotations
+
+import shutil
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hydrodae import hdb
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.read import kind, read_source
+
+POT = """two floats
+{depth}  HBOT
+1 1 IRAD, IDIFF
+ -5 NPER
+ -0.5 0.5 PER
+ 1 NBETA
+ 0.0 BETA
+ {bodies} NBODY
+"""
+BODY = """dir\\{name}.gdf
+ {x} 0.0 -1.0 {turn} XBODY(1-4)
+ 1 1 1 1 1 1 IMODE(1-6)
+"""
+
+
+def write_run(folder, *, bodies=2, length=2.0, ipero=1, turn=0.0, depth=-1.0, names=("a", "b")):
+    """A_ij = (1000 d_ij + 10 i + j + w) and F_i = (i + 1) e^{i w} in SI with rho = 1000, g = 10."""
+    folder.mkdir(exist_ok=True)
+    pot = POT.format(depth=depth, bodies=bodies)
+    for i in range(bodies):
+        pot += BODY.format(name=names[i], x=3.0 * i, turn=turn)
+    (folder / "run.pot").write_text(pot)
+    (folder / "run.cfg").write_text(f" IPEROUT={ipero}\n")
+    (folder / f"{names[0].upper()}.GDF").write_text(f"title\n {length} 10.0 ULEN GRAV\n 0 0\n 0\n")
+    omega, n = [0.0, np.inf, 0.5, 1.0, 1.5], 6 * bodies
+    one, three = ["title of run.1"], ["title of run.3"]
+    for w in omega:
+        first = w if ipero == 2 else {0.0: -1.0, np.inf: 0.0}.get(w, 2 * np.pi / w if w else 0.0)
+        if ipero == 2 and np.isinf(w):
+            first = -1.0
+        usual = np.isfinite(w) and w > 0
+        for i in range(n):
+            for j in range(n):
+                k = 3 + (i % 6 >= 3) + (j % 6 >= 3)
+                a = 1000.0 * (i == j) + 10 * i + j + (w if np.isfinite(w) else 9.0)
+                row = [a / (1000.0 * length**k)]
+                if usual:
+                    row.append((5.0 + w) * (i == j) / (1000.0 * w * length**k))
+                values = " ".join(f"{v:.12E}" for v in row)
+                one.append(f" {first:.10E} {i + 1} {j + 1} {values}")
+            if usual:
+                m = 2 + (i % 6 >= 3)
+                f = (i + 1) * np.exp(1j * w) / (1000.0 * 10.0 * length**m)
+                parts = [abs(f), np.degrees(np.angle(f)), f.real, f.imag]
+                text = " ".join(f"{v:.12E}" for v in parts)
+                three.append(f" {first:.10E} 0.0 {i + 1} {text}")
+    (folder / "run.1").write_text("\n".join(one) + "\n")
+    (folder / "run.3").write_text("\n".join(three) + "\n")
+    return folder / "run.1"
+
+
+@pytest.mark.parametrize("ipero", [1, 2])
+def test_lengths_and_special_periods(tmp_path, ipero):
+    data: Any = read_source(write_run(tmp_path, ipero=ipero), rho=1000.0)
+    np.testing.assert_allclose(data.omega, [0.5, 1.0, 1.5], rtol=1e-9)
+    assert data.coordinates[8] == "b.heave"
+    assert data.added_mass[1, 8, 3] == pytest.approx(83.0 + 1.0)
+    assert data.added_mass_inf[3, 3] == pytest.approx(1033.0 + 9.0)
+    assert data.radiation_damping[2, 4, 4] == pytest.approx(6.5)
+    assert data.excitation[1, 0, 4] == pytest.approx(5 * np.exp(1j))
+    assert data.water_depth == np.inf
+    np.testing.assert_allclose(data.reference_points["b"], [3.0, 0.0, -1.0])
+
+
+def test_froude_krylov_and_scattering_are_kept_apart(tmp_path):
+    path = write_run(tmp_path)
+    for suffix, factor in ((".3fk", 0.25), (".3sc", 0.75)):
+        lines = (tmp_path / "run.3").read_text().splitlines()
+        rows = [line.split() for line in lines[1:]]
+        scaled = [
+            [*r[:3], f"{factor * float(r[3])}", r[4], *(f"{factor * float(v)}" for v in r[5:])]
+            for r in rows
+        ]
+        path.with_suffix(suffix).write_text("\n".join(" ".join(r) for r in scaled))
+    data: Any = read_source(path, rho=1000.0)
+    np.testing.assert_allclose(data.froude_krylov, 0.25 * data.excitation, rtol=1e-9)
+    np.testing.assert_allclose(data.froude_krylov + data.diffraction, data.excitation, rtol=1e-9)
+
+
+def test_any_file_of_the_run_and_its_folder_are_recognised(tmp_path):
+    path = write_run(tmp_path)
+    for source in (tmp_path, path, path.with_suffix(".3"), path.with_suffix(".pot")):
+        assert kind(source) == "wamit"
+
+
+def edit(path, line, text):
+    lines = path.read_text().splitlines()
+    lines[line - 1] = text
+    path.write_text("\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "text", "message"),
+    [
+        ("run.1", 5, " 1.0 1 oops 2.0", r"run.1:5: not numbers"),
+        ("run.1", 5, " 1.0 1", r"run.1:5: 2 numbers, expected 4 or 5"),
+        ("run.1", 300, " 6.2831853072 1 1 2.0", r"run.1:300: no damping|missing at"),
+        ("run.3", 9, " 1.0 0.0 1 2.0", r"run.3:9: 4 numbers, expected 7"),
+        ("run.pot", 8, " NBODY", r"run.pot:8: expected 1 numbers: NBODY"),
+        ("run.pot", 10, " 0 0 -1 30 XBODY", r"run.pot:10: body axes turned"),
+        ("A.GDF", 2, " one two", r"A.GDF:2: expected 2 numbers: ULEN and GRAV"),
+        ("run.cfg", 1, " IPEROUT=7", r"IPEROUT = 7"),
+    ],
+)
+def test_errors_name_file_and_line(tmp_path, file, line, text, message):
+    path = write_run(tmp_path)
+    edit(tmp_path / file, line, text)
+    with pytest.raises(DatabaseError, match=message):
+        hdb.read(path, rho=1000.0)
+
+
+@pytest.mark.parametrize(
+    ("gone", "message"),
+    [("run.pot", "water depth is in run.pot"), ("A.GDF", "gravity and the length scale")],
+)
+def test_what_the_tables_leave_out_is_not_guessed(tmp_path, gone, message):
+    path = write_run(tmp_path)
+    (tmp_path / gone).unlink()
+    with pytest.raises(DatabaseError, match=message):
+        hdb.read(path, rho=1000.0)
+
+
+def test_density_is_stated_once(tmp_path):
+    path = write_run(tmp_path)
+    with pytest.raises(DatabaseError, match=r"--rho 1025"):
+        hdb.read(path)
+    (tmp_path / "run.out").write_text(" Water depth: infinite    Water density:   1025.0\n")
+    assert read_source(path).rho == 1025.0
+    with pytest.raises(DatabaseError, match="is 1025 kg/m3, not 1000"):
+        hdb.read(path, rho=1000.0)
+
+
+def test_a_density_that_contradicts_the_source_is_refused(reference):
+    with pytest.raises(DatabaseError, match=r"1000 kg/m3, not 1025"):
+        hdb.read(reference / "hdb" / "own" / "sphere.nc", rho=1025.0)
+
+
+# real files
+
+
+def test_sphere_of_wamit_has_the_hydrostatics_of_nemoh(reference):
+    wamit = hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
+    nemoh = hdb.read(reference / "hdb" / "sphere_nemoh_v2.3")
+    assert wamit.water_depth == 50.0
+    assert wamit.omega.size == 420
+    assert wamit.added_mass_inf_origin == "source"
+    k = wamit.hydrostatic_stiffness("sphere")
+    expected = nemoh.hydrostatic_stiffness(next(iter(nemoh.bodies)))
+    np.testing.assert_allclose(np.diag(k)[2:5], np.diag(expected)[2:5], rtol=0.02)
+
+
+def test_rm3_of_wamit(reference):
+    db, report = hdb.import_database(reference / "hdb" / "rm3_wamit", rho=1000.0)
+    assert list(db.bodies) == ["float", "spar"]
+    assert db.water_depth == np.inf
+    assert not db.excitation_split
+    np.testing.assert_allclose(db.reference_point("spar"), [0.0, 0.0, -21.29])
+    volumes = [db.bodies[n].hydrostatics.displaced_volume for n in db.bodies]  # type: ignore[union-attr]
+    assert volumes == pytest.approx([725.833, 886.687])
+    nemoh = hdb.read(reference / "hdb" / "rm3_nemoh_v2.3")
+    at = [10, 30, 60]
+    a, b = db.added_mass[at, 2, 2], nemoh.added_mass[at, 2, 2]
+    np.testing.assert_allclose(a, b, rtol=0.03)
+    assert report.find("phase convention")[0].severity == "info"
+
+
+def test_a_run_of_another_number_of_frequencies_is_noticed(reference, tmp_path):
+    folder = tmp_path / "sphere"
+    shutil.copytree(reference / "hdb" / "sphere_wamit", folder)
+    for name in ("sphere.1", "sphere.3"):
+        rows = (folder / name).read_text().splitlines(keepends=True)
+        (folder / name).write_text("".join(r for r in rows if "3.141593E+02" not in r))
+    _, report = hdb.import_database(folder, rho=1000.0)
+    assert "asks for 422" in report.find("frequency grid")[0].message
