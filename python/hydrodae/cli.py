@@ -12,6 +12,7 @@ import platform
 import sys
 from collections.abc import Sequence
 
+from hydrodae import chart_command
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
 
 DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
@@ -108,9 +109,24 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     plot.add_argument("--list", action="store_true", help="list the channels and draw nothing")
     plot.set_defaults(call=_plot)
 
+    chart_command.add_arguments(commands)
+
     hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
     if command == ["hdb"]:
         _add_hdb(hdb)
+
+    stability = commands.add_parser(
+        "stability-map",
+        help="run the methods on hard scenes and map which pass, stop or go wrong",
+        description="Run the methods on hard scenes. A cell shows the error of a run that passed, "
+        "or that it stopped, was refused (-), or returned success with a wrong motion. Exit code 1 "
+        "if one did.",
+    )
+    if command == ["stability-map"]:
+        from hydrodae.stability import command as stability_command
+
+        stability_command.add_arguments(stability)
+        stability.set_defaults(call=stability_command.run)
 
     version = commands.add_parser("version", help="print the versions")
     version.set_defaults(call=_version)

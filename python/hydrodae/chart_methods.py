@@ -1,0 +1,169 @@
+"""Methods of a chart: how their names are written, and what is turned to make them more exact."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from hydrodae.errors import CaseError
+
+#: Orders that each method has, (lowest, highest, increment) or a set; none: no choice of order.
+_ORDERS: dict[str, tuple[int, ...]] = {
+    "ida": tuple(range(1, 6)),
+    "radau": tuple(range(1, 20, 2)),
+    "explicit_rk": (5, 8),
+    "generalized_alpha": (),
+    "gauss": tuple(range(2, 21, 2)),
+    "lobatto_iiic": tuple(range(2, 19, 2)),
+}
+#: Methods that choose their step by a tolerance; the others have a fixed step.
+_ADAPTIVE = ("ida", "radau", "explicit_rk")
+#: Tolerance of Newton's iteration in the fixed-step Runge-Kutta methods, below any useful error.
+_NEWTON = 1e-10
+
+#: What a chart compares unless told otherwise.
+METHODS = (
+    "ida",
+    "radau",
+    "radau:5",
+    "radau:9",
+    "radau:13",
+    "explicit_rk",
+    "explicit_rk:5",
+    "generalized_alpha",
+)
+#: Relative tolerances of the adaptive methods.
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+
+
+@dataclass(frozen=True)
+class Method:
+    """An integrator, at a fixed order or at one of its own choice.
+
+    Attributes
+    ----------
+    name : str
+        As the key `method` of [solver].
+    order : int
+        0: the method chooses. For ida the highest order.
+    """
+
+    name: str
+    order: int = 0
+
+    @property
+    def label(self) -> str:
+        """Name and order as on the command line, such as "radau:13"."""
+        return f"{self.name}:{self.order}" if self.order else self.name
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether a tolerance chooses the step."""
+        return self.name in _ADAPTIVE
+
+    @property
+    def knob(self) -> str:
+        """The key of [solver] that trades accuracy for time: rtol [-] or step [s]."""
+        return "rtol" if self.adaptive else "step"
+
+    def solver(self, setting: float) -> dict[str, Any]:
+        """Keys of [solver] that run this method with `setting`, an rtol [-] or a step [s]."""
+        keys: dict[str, Any] = {"method": self.name}
+        if self.order:
+            keys["max_order" if self.name == "ida" else "order"] = self.order
+        if self.name in ("gauss", "lobatto_iiic"):
+            keys["rtol"] = _NEWTON
+        keys[self.knob] = float(setting)
+        return keys
+
+    def values(self, setting: float) -> dict[str, Any]:
+        """Values by dotted key for a `Case`, so that nothing of the case's own method stays."""
+        clean = {"step": 0.0, "order": 0, "max_order": 5}
+        return {f"solver.{key}": value for key, value in {**clean, **self.solver(setting)}.items()}
+
+
+def parse_method(spec: str) -> Method:
+    """Read "name" or "name:order".
+
+    Raises
+    ------
+    CaseError
+        There is no such method, or it has no such order.
+
+    Examples
+    --------
+    >>> parse_method("radau:13").solver(1e-6)
+    {'method': 'radau', 'order': 13, 'rtol': 1e-06}
+    """
+    name, colon, order = (part.strip() for part in spec.partition(":"))
+    if name not in _ORDERS:
+        near = difflib.get_close_matches(name, _ORDERS, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(_ORDERS)}"
+        raise CaseError(f"{spec!r}: no such method; {hint}")
+    if not colon:
+        return Method(name)
+    orders = _ORDERS[name]
+    if not orders:
+        raise CaseError(f"{spec!r}: {name} has one order only; leave out ':{order}'")
+    if not order.isdecimal() or int(order) not in orders:
+        known = ", ".join(map(str, orders))
+        raise CaseError(f"{spec!r}: {name} has no order {order!r}; it has {known}")
+    return Method(name, int(order))
+
+
+def parse_methods(specs: Iterable[str]) -> list[Method]:
+    """Read several methods, each once; raises CaseError as `parse_method`, or if there is none."""
+    methods = list(dict.fromkeys(map(parse_method, specs)))
+    if not methods:
+        raise CaseError("a chart needs a method at least")
+    return methods
+
+
+def check_ladder(values: Iterable[float], what: str, lowest: float, highest: float) -> list[float]:
+    """The rungs from loose to tight, each once.
+
+    Raises
+    ------
+    CaseError
+        There are none, or one lies outside `lowest` to `highest`.
+    """
+    ladder = sorted({float(value) for value in values}, reverse=True)
+    if not ladder:
+        raise CaseError(f"{what}: at least one is needed")
+    for value in ladder:
+        if not lowest <= value <= highest:
+            raise CaseError(f"{what}: {value:g} is not between {lowest:g} and {highest:g}")
+    return ladder
+
+
+def step_ladder(mean_step: float, output_step: float, rungs: int) -> list[float]:
+    """Fixed steps from about 4 times `mean_step` down, each half the one before.
+
+    Parameters
+    ----------
+    mean_step : float, s
+        What an adaptive method takes on the average at a middling tolerance.
+    output_step : float, s
+        Interval of the output. The steps are this by a whole number, or a whole number of this, so
+        that short ones meet the output times and nothing is interpolated.
+    rungs : int
+
+    Returns
+    -------
+    list of float, s
+        Longest first.
+
+    Examples
+    --------
+    >>> step_ladder(0.03, 0.05, 4)
+    [0.1, 0.05, 0.025, 0.0125]
+    """
+    first = 4.0 * mean_step
+    power = 0
+    while output_step * 2.0**power < first / 1.5:
+        power += 1
+    while output_step * 2.0**power > first * 1.5:
+        power -= 1
+    return [output_step * 2.0 ** (power - k) for k in range(rungs)]

@@ -1,0 +1,190 @@
+"""Run methods on scenes and judge every run: pass, stopped, refused or wrong."""
+
+from __future__ import annotations
+
+import math
+import re
+import tempfile
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from hydrodae.case import Case
+from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
+from hydrodae.results import Results
+from hydrodae.simulate import run
+from hydrodae.stability import mechanics, water
+from hydrodae.stability.methods import METHODS, Method
+from hydrodae.stability.scene import Scene
+
+PASS, STOPPED, REFUSED, WRONG = "pass", "stopped", "refused", "wrong"
+
+#: What the case format cannot express yet.
+NOT_MODELLED = {
+    "slack_snap": "a rope that goes slack and snaps taut: no one-sided force",
+    "stick_slip": "dry friction: no friction force",
+    "delayed_controller": "a controller with delay: no controllers",
+    "short_memory": "a radiation kernel cut too short: memory is exponential only, none is cut",
+}
+
+#: A run that must stop at a lock may notice it this much late [s].
+LOCK_MARGIN = 0.01
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One method on one scene.
+
+    Attributes
+    ----------
+    scene, method : str
+        Names.
+    outcome : str
+        "pass", "stopped", "refused" or "wrong".
+    reason : str
+        Why it is not a plain pass.
+    error, allowance : float or None
+        Largest error over the run, or over the part before it stopped, and the largest one of a
+        right motion, in the unit of the scene.
+    time_s : float
+        Wall time [s].
+    reached_s : float
+        Simulated time [s].
+    balance : float or None
+        Largest error of the energy balance over the largest energy exchanged.
+    """
+
+    scene: str
+    method: str
+    outcome: str
+    reason: str = ""
+    error: float | None = None
+    time_s: float = 0.0
+    allowance: float | None = None
+    reached_s: float = 0.0
+    balance: float | None = None
+
+    def record(self) -> dict[str, Any]:
+        """Return the cell for JSON; an error that is not finite becomes None."""
+        values = asdict(self)
+        for key in ("error", "allowance", "balance"):
+            if values[key] is not None and not math.isfinite(values[key]):
+                values[key] = None
+        return values
+
+
+def all_scenes() -> dict[str, Scene]:
+    """Return the scenes of the map by name."""
+    return {scene.name: scene for scene in (*mechanics.scenes(), *water.scenes())}
+
+
+def all_methods() -> dict[str, Method]:
+    """Return the methods of the map by name."""
+    return {method.name: method for method in METHODS}
+
+
+def stability_map(
+    scenes: Iterable[Scene] | None = None,
+    methods: Iterable[Method] | None = None,
+    *,
+    time_limit: float = 5.0,
+    report: Callable[[Cell], None] | None = None,
+) -> list[Cell]:
+    """Run every method on every scene.
+
+    Parameters
+    ----------
+    scenes, methods : iterable, optional
+        Rows and columns; by default all.
+    time_limit : float
+        Wall time [s] after which a run counts as stopped.
+    report : callable, optional
+        Called with each cell when it is known.
+
+    Returns
+    -------
+    list of Cell
+    """
+    columns = list(all_methods().values() if methods is None else methods)
+    cells = []
+    with tempfile.TemporaryDirectory(prefix="hydrodae-stability-") as folder:
+        for scene in all_scenes().values() if scenes is None else scenes:
+            for method in columns:
+                cells.append(run_cell(scene, method, Path(folder), time_limit))
+                if report is not None:
+                    report(cells[-1])
+    return cells
+
+
+def run_cell(scene: Scene, method: Method, folder: Path, time_limit: float) -> Cell:
+    """Run one method on one scene and judge the motion.
+
+    Parameters
+    ----------
+    scene : Scene
+        Row.
+    method : Method
+        Column.
+    folder : path
+        Takes the scene's hydrodynamic database.
+    time_limit : float
+        Wall time [s].
+    """
+    started = time.perf_counter()
+    results: Results | None
+    complaint = ""
+    try:
+        results = _run(scene.case(method.keys(scene), folder), time_limit)
+    except CaseError as error:
+        return Cell(scene.name, method.name, REFUSED, _first_line(error))
+    except RunInterrupted as error:
+        results, complaint = error.results, "time limit"
+    except SolverError as error:
+        results, complaint = error.results, _first_line(error)
+        if results is None or len(results.time) == 0:  # did not even start
+            return Cell(scene.name, method.name, STOPPED, complaint)
+    except HydrodaeError as error:
+        return Cell(scene.name, method.name, STOPPED, _first_line(error))
+    assert results is not None
+    spent = time.perf_counter() - started
+    outcome, reason, off = _judge(scene, method, results, complaint)
+    balance = results.statistics.get("relative_balance_error")
+    return Cell(
+        scene.name, method.name, outcome, reason, off, spent, method.allowance(scene),
+        results.end_time, None if balance is None else float(balance),
+    )  # fmt: skip
+
+
+def _run(case: Case, time_limit: float) -> Results:
+    deadline = time.monotonic() + time_limit
+    return run(case, progress=lambda _time, _end: time.monotonic() < deadline)
+
+
+def _judge(
+    scene: Scene, method: Method, results: Results, complaint: str
+) -> tuple[str, str, float | None]:
+    """Outcome, reason and error of a run that left results; `complaint` if it did not complete."""
+    if complaint and scene.lock_time is None:
+        return STOPPED, complaint, scene.error(results)
+    if scene.impossible:
+        return WRONG, f"completes although {scene.impossible}", None
+    off, allowed = scene.error(results), method.allowance(scene)
+    if scene.lock_time is not None:
+        late = results.end_time - scene.lock_time
+        if late > LOCK_MARGIN + results.time[1]:
+            return WRONG, f"passes the lock by {late:.3g} s", late
+        if complaint == "time limit" or late < -LOCK_MARGIN:
+            return STOPPED, complaint, off
+        if off > allowed:
+            return WRONG, f"off by {off:.2g} {scene.unit} before the lock", off
+        return PASS, f"stops at the lock: {complaint}", off
+    if off > allowed:
+        return WRONG, f"off by {off:.2g} {scene.unit}, more than {allowed:.2g}", off
+    return PASS, "", off
+
+
+def _first_line(error: Exception) -> str:
+    line = next(iter(str(error).splitlines()), "")
+    return re.sub(r"^<?string>?:\s*", "", line)

@@ -1,0 +1,103 @@
+"""The map as a table, a picture and a JSON document."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hydrodae.stability.grid import NOT_MODELLED, PASS, REFUSED, STOPPED, WRONG, Cell
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+STYLES = {PASS: "green", STOPPED: "yellow", REFUSED: "bright_black", WRONG: "bold white on red"}
+COLOURS = {PASS: "#8fca8f", STOPPED: "#f3d27a", REFUSED: "#d5d5d5", WRONG: "#d9534f"}
+
+
+def _names(cells: Sequence[Cell]) -> tuple[list[str], list[str]]:
+    scenes = list(dict.fromkeys(cell.scene for cell in cells))
+    return scenes, list(dict.fromkeys(cell.method for cell in cells))
+
+
+def label(cell: Cell) -> str:
+    """Return the few characters of a cell: its error if it passed, else its outcome."""
+    if cell.outcome == PASS and cell.error is not None:
+        return f"{cell.error:.0e}"
+    if cell.outcome == STOPPED:
+        return "limit" if cell.reason == "time limit" else "stops"
+    if cell.outcome == WRONG and cell.error is not None:
+        return f"WRONG {cell.error:.0e}"
+    return {REFUSED: "-", WRONG: "WRONG"}.get(cell.outcome, cell.outcome)
+
+
+def table(cells: Sequence[Cell]) -> Table:
+    """Return the map as a table: methods down, scenes across would be too wide for terminals."""
+    from rich.table import Table
+    from rich.text import Text
+
+    scenes, methods = _names(cells)
+    found = {(cell.scene, cell.method): cell for cell in cells}
+    shown = Table(title="Methods against hard scenes", caption=_legend(cells))
+    shown.add_column("scene", no_wrap=True)
+    for method in methods:
+        shown.add_column(method.replace(":", "\n").replace("_", "\n"), justify="right")
+    for scene in scenes:
+        row = [found.get((scene, method)) for method in methods]
+        shown.add_row(
+            scene,
+            *(Text(label(c), style=STYLES[c.outcome]) if c else Text() for c in row),
+        )
+    return shown
+
+
+def _legend(cells: Sequence[Cell]) -> str:
+    counts = {name: sum(cell.outcome == name for cell in cells) for name in STYLES}
+    return ", ".join(f"{count} {name}" for name, count in counts.items())
+
+
+def reasons(cells: Sequence[Cell]) -> list[str]:
+    """Return one line for each cell that is neither a plain pass nor a time limit."""
+    quiet = ("", "time limit")
+    return [f"{c.scene}, {c.method}: {c.outcome}: {c.reason}" for c in cells
+            if c.reason not in quiet]  # fmt: skip
+
+
+def write_json(cells: Sequence[Cell], path: str | Path) -> None:
+    """Write the cells, and what is not modelled, as JSON."""
+    document = {
+        "cells": [cell.record() for cell in cells],
+        "not_modelled": [{"scene": name, "reason": why} for name, why in NOT_MODELLED.items()],
+    }
+    Path(path).write_text(json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def write_picture(cells: Sequence[Cell], path: str | Path) -> None:
+    """Draw the map as a coloured grid."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch, Rectangle
+
+    scenes, methods = _names(cells)
+    figure = Figure(
+        figsize=(2.0 + 0.62 * len(methods), 1.9 + 0.34 * len(scenes)), layout="constrained"
+    )
+    axes = figure.add_subplot()
+    for cell in cells:
+        x, y = methods.index(cell.method), scenes.index(cell.scene)
+        box = Rectangle((x, y), 1, 1, facecolor=COLOURS[cell.outcome], edgecolor="white")
+        axes.add_patch(box)
+        axes.text(x + 0.5, y + 0.5, label(cell).replace(" ", "\n"), ha="center", va="center",
+                  fontsize=6.5)  # fmt: skip
+    axes.set(xlim=(0, len(methods)), ylim=(len(scenes), 0))
+    axes.set_xticks([i + 0.5 for i in range(len(methods))], methods, rotation=45, ha="left")
+    axes.set_yticks([i + 0.5 for i in range(len(scenes))], scenes)
+    axes.xaxis.tick_top()
+    axes.tick_params(length=0)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    figure.legend(
+        handles=[Patch(color=colour, label=name) for name, colour in COLOURS.items()],
+        loc="outside lower center", ncols=4, frameon=False,
+    )  # fmt: skip
+    figure.savefig(path, dpi=150)

@@ -1,0 +1,147 @@
+"""No method may return success with a wrong motion on a hard scene, and the map would see it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hydrodae import cli
+from hydrodae.stability import Cell, Scene, all_methods, all_scenes, run_cell, show, stability_map
+from hydrodae.stability.grid import NOT_MODELLED
+from hydrodae.stability.truths import BRICARD_STEP
+
+SCENES, METHODS = all_scenes(), all_methods()
+SHORT = ("ida:1e-6", "ida:1e-3", "radau:1e-6", "radau:1e-3", "explicit_rk:1e-6")
+REST = tuple(name for name in METHODS if name not in SHORT)
+
+# File of the full reference of a truth, and its columns in our axes.
+REFERENCES: Mapping[str, tuple[str, tuple[str, ...]]] = {
+    "pendulum": ("simple_pendulum", ("x", "y")),
+    "four_bar": ("n_four_bar_2", ("B0x", "B0y")),
+    "dead_point": ("slider_crank_equal", ("slider_x",)),
+    "door": ("door", ("angle",)),
+    "bricard": ("bricard", ("P3z", "P3x", "P3y")),
+    "mass_ratio": ("mass_ratio", ("bob_x", "bob_y")),
+    "light_joint": ("light_joint", ("xend", "yend")),
+    "fast_rotor": ("fast_rotor", ("comx", "comy", "comz")),
+}
+
+
+def wrong(cells: list[Cell]) -> list[str]:
+    return [f"{c.scene}, {c.method}: {c.reason}" for c in cells if c.outcome == "wrong"]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_run_returns_success_with_a_wrong_motion(name: str) -> None:
+    cells = stability_map([SCENES[name]], [METHODS[m] for m in SHORT], time_limit=1.0)
+    assert not wrong(cells)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("method", REST)
+@pytest.mark.parametrize("name", SCENES)
+def test_nor_does_any_other_method(name: str, method: str) -> None:
+    assert not wrong(stability_map([SCENES[name]], [METHODS[method]], time_limit=10.0))
+
+
+@pytest.mark.parametrize("name", [n for n, s in SCENES.items() if not s.impossible])
+def test_the_default_method_takes_every_scene(name: str, tmp_path: Path) -> None:
+    assert SCENES[name].case({}, tmp_path).end_time > 0.0
+
+
+def test_a_wrong_truth_is_seen(tmp_path: Path) -> None:
+    scene = SCENES["pendulum"]
+    assert scene.truth is not None
+    truth = scene.truth
+    shifted = replace(scene, truth=lambda time: truth(time) + np.array([0.01, 0.0]))
+    method = METHODS["ida:1e-6"]
+    assert run_cell(scene, method, tmp_path, 10.0).outcome == "pass"
+    cell = run_cell(shifted, method, tmp_path, 10.0)
+    assert cell.outcome == "wrong"
+    assert cell.error == pytest.approx(0.01, rel=0.1)
+
+
+def test_values_that_are_not_finite_are_wrong(tmp_path: Path) -> None:
+    broken = replace(SCENES["pendulum"], measured=lambda r: np.full((len(r.time), 2), np.nan))
+    assert run_cell(broken, METHODS["ida:1e-6"], tmp_path, 10.0).outcome == "wrong"
+
+
+def test_a_lock_that_comes_too_early_is_passed(tmp_path: Path) -> None:
+    early = replace(SCENES["lock"], lock_time=0.4, judged_until=0.3)
+    assert run_cell(early, METHODS["ida:1e-6"], tmp_path, 10.0).outcome == "wrong"
+
+
+def test_a_run_out_of_time_counts_as_stopped(tmp_path: Path) -> None:
+    cell = run_cell(SCENES["pendulum"], METHODS["ida:1e-6"], tmp_path, 0.0)
+    assert (cell.outcome, cell.reason) == ("stopped", "time limit")
+
+
+def test_a_known_bad_pair_is_refused(tmp_path: Path) -> None:
+    cell = run_cell(SCENES["pendulum"], METHODS["ida:index_3"], tmp_path, 10.0)
+    assert cell.outcome == "refused"
+    assert "index 3" in cell.reason
+
+
+def test_the_allowance_follows_tolerance_and_step() -> None:
+    scene = Scene("s", "", {"solver": {"end_time": 10.0}}, size=2.0, time_scale=1.0, source="")
+    assert scene.allowance(rtol=1e-6) == pytest.approx(2e-3)
+    assert scene.allowance(rtol=1e-9) == pytest.approx(2e-3)
+    assert scene.allowance(rtol=1e-4) == pytest.approx(2e-2)
+    assert scene.allowance(step=0.01) == pytest.approx(2e-3)
+    assert scene.allowance(rtol=1e-1) == scene.allowance(step=1.0) == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("name", REFERENCES)
+def test_the_truths_agree_with_the_references(name: str, reference: Path) -> None:
+    file, columns = REFERENCES[name]
+    document = json.loads((reference / "multibody" / f"{file}.json").read_text(encoding="utf-8"))
+    rows = np.array(document["rows"], dtype=float)
+    time = rows[:, document["columns"].index("t")]
+    exact = rows[:, [document["columns"].index(c) for c in columns]]
+    if name == "door":
+        exact = exact - exact[0]
+    if name == "bricard":
+        kept = np.isclose(np.rint(time / BRICARD_STEP) * BRICARD_STEP, time)
+        time, exact = time[kept], exact[kept]
+    truth = SCENES[name].truth
+    assert truth is not None
+    assert np.abs(truth(time) - exact).max() < 1e-7
+
+
+def test_two_carts_move_as_one_on_a_rigid_spring() -> None:
+    time = np.linspace(0.0, 5.0, 50)
+    truth = SCENES["stiff_1e12"].truth
+    assert truth is not None
+    assert np.abs(truth(time) - np.cos(np.sqrt(10.0) * time)[:, None]).max() < 1e-9
+
+
+def test_the_command_writes_json_and_a_picture(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data, picture = tmp_path / "map.json", tmp_path / "map.png"
+    arguments = ["stability-map", "--scenes", "pendulum", "--methods", "ida:1e-6", "ida:index_3"]
+    assert cli.main([*arguments, "--json", str(data), "--picture", str(picture)]) == 0
+    document: dict[str, Any] = json.loads(data.read_text(encoding="utf-8"))
+    keys = {"scene", "method", "outcome", "reason", "error", "time_s"}
+    assert [c["outcome"] for c in document["cells"]] == ["pass", "refused"]
+    assert all(keys <= set(cell) for cell in document["cells"])
+    assert {entry["scene"] for entry in document["not_modelled"]} == set(NOT_MODELLED)
+    assert picture.stat().st_size > 1000
+    assert "pendulum" in capsys.readouterr().out
+
+
+def test_an_unknown_scene_is_named_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["stability-map", "--scenes", "pendulm"]) == 2
+    assert "did you mean pendulum?" in capsys.readouterr().err
+
+
+def test_a_wrong_cell_stands_out() -> None:
+    cell = Cell("s", "m", "wrong", "off by 1 m", 1.0)
+    assert show.label(cell) == "WRONG 1e+00"
+    assert show.reasons([cell]) == ["s, m: wrong: off by 1 m"]
