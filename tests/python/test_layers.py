@@ -8,7 +8,7 @@ from pathlib import Path
 LAYERS = [
     {"core"},
     {"math"},
-    {"hydro"},
+    {"sea", "hydro"},
     {"joint", "force"},
     {"model"},
     {"io", "system"},

@@ -66,6 +66,7 @@ void check(const Scene& scene) {
   std::vector<std::string> forces;
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   check_names(forces, "force");
+  check_names(names_of(scene.waves), "wave");
 
   for (const Body& body : scene.bodies) {
     if (body.name == ground)
@@ -79,6 +80,7 @@ void check(const Scene& scene) {
   for (const Constraint& constraint : scene.constraints)
     check_constraint(scene, constraint);
   check_forces(scene);
+  check_sea(scene);
   if (scene.hydro && scene.database)
     check_database(scene);
 }

@@ -11,6 +11,7 @@ void check_body(const Scene& scene, const Body& body);
 void check_joint(const Scene& scene, const Joint& joint);
 void check_constraint(const Scene& scene, const Constraint& constraint);
 void check_forces(const Scene& scene);
+void check_sea(const Scene& scene);
 void check_database(const Scene& scene); ///< only called when the scene has one
 
 /// The entry that is being checked: [[kind]] with this name.
