@@ -7,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/ida.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/recorder.h"
@@ -74,8 +75,9 @@ const std::vector<Channel> solver_channels = {
 class Run {
 public:
   Run(const model::Scene& scene, const std::string& output_path, const Progress& progress)
-      : scene_(scene), progress_(progress), started_(Clock::now()), system_(system::build(scene)),
-        pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
+      : scene_(scene), progress_(progress), started_(Clock::now()),
+        system_(solve::starting_system(scene)), pattern_(system::find_pattern(system_)),
+        y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     ida_ = std::make_unique<solve::Ida>(system_, pattern_,

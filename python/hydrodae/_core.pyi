@@ -3,6 +3,9 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 version: str
 
 class Scene:
@@ -15,11 +18,16 @@ class Scene:
     @property
     def joint_names(self) -> list[str]: ...
     @property
+    def wave_names(self) -> list[str]: ...
+    @property
     def text(self) -> str:
         """The case file as it was read."""
     @property
     def end_time(self) -> float:
         """End of the run, s."""
+    @property
+    def database_path(self) -> str:
+        """The hydrodynamic database, "" without."""
     def summary(self) -> str: ...
 
 def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
@@ -30,6 +38,15 @@ def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene
 
 def examine(scene: Scene) -> str:
     """The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError."""
+
+def linearize(scene: Scene) -> dict[str, Any]:
+    """The static equilibrium of the scene in still water and its linear model there.
+
+    Raises CaseError.
+    """
+
+def wave_components(scene: Scene) -> NDArray[np.float64]:
+    """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
 
 def simulate(
     scene: Scene, output: str, progress: Callable[[float, float], bool] | None

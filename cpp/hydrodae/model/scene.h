@@ -214,6 +214,7 @@ struct Constraint {
 /// Table [solver].
 struct SolverOptions {
   std::string method = "ida";
+  std::string start = "given";
   double end_time = 0.0;
   double rtol = 1e-6;
   double max_step = 0.0;
@@ -225,6 +226,14 @@ struct SolverOptions {
     using O = SolverOptions;
     return {
         {"method", &O::method, "-", "Integrator.", false, any_value, {"ida"}},
+        {"start",
+         &O::start,
+         "-",
+         "Start from the given pose, or at rest from the static equilibrium in still water near "
+         "it.",
+         false,
+         any_value,
+         {"given", "equilibrium"}},
         {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
         {"rtol", &O::rtol, "-",
          "Local error tolerance relative to the scales of the scene (see length_scale, "
