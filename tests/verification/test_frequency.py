@@ -197,3 +197,21 @@ def test_irregular_sea_in_both_domains(repository: Path) -> None:
     deviation, _ = LinearModel(case).irregular()
     heave = hydrodae.run(case)["bodies/sphere/position"].values[200:, 2]
     assert heave.std() == pytest.approx(deviation["bodies/sphere/heave"], rel=0.03)
+
+
+def test_commands(repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from hydrodae.cli import main
+
+    path = str(repository / "cases" / "f3of" / "rao.toml")
+    assert main(["equilibrium", path]) == 0
+    assert "-0.0231" in capsys.readouterr().out
+    table = tmp_path / "rao.csv"
+    assert main(["rao", path, "--periods", "14,11", "-o", str(table)]) == 0
+    out = capsys.readouterr().out
+    assert "mode    8.99" in out
+    assert "sea/elevation" in out
+    head, first, *_ = table.read_text().splitlines()
+    column = head.split(",").index("bodies/base/pitch amplitude [rad/m]")
+    assert np.degrees(float(first.split(",")[column])) == pytest.approx(1.0502, rel=0.05)
+    assert main(["rao", path, "--periods", "1"]) == 2
+    assert "outside the database" in capsys.readouterr().err

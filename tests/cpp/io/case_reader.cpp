@@ -177,7 +177,8 @@ TEST_CASE("a wrong override is told with its key") {
   CHECK(message("joint.hing.type", "\"fixed\"") ==
         "--set joint.hing.type: no joint 'hing'; did you mean 'hinge'? (valid: hinge)");
   CHECK(message("solver.rtoll", "1") ==
-        "--set solver.rtoll: unknown key 'rtoll' in [solver]; did you mean 'rtol'? (valid: method, start, "
+        "--set solver.rtoll: unknown key 'rtoll' in [solver]; did you mean 'rtol'? (valid: method, "
+        "start, "
         "end_time, rtol, max_step, max_order, length_scale, time_scale)");
   CHECK(
       message("solvr.rtol", "1").starts_with("--set solvr.rtol: unknown key 'solvr' in the case"));
