@@ -9,6 +9,7 @@
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equations.h"
+#include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/recorder.h"
@@ -76,8 +77,9 @@ const std::vector<Channel> solver_channels = {
 class Run {
 public:
   Run(const model::Scene& scene, const std::string& output_path, const Progress& progress)
-      : scene_(scene), progress_(progress), started_(Clock::now()), system_(system::build(scene)),
-        pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
+      : scene_(scene), progress_(progress), started_(Clock::now()),
+        system_(solve::starting_system(scene)), pattern_(system::find_pattern(system_)),
+        y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     formulate(scene.solver);

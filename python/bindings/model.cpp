@@ -24,6 +24,7 @@ void bind_model(py::module_& module) {
       .def_property_readonly("title", [](const Scene& s) { return s.title; })
       .def_property_readonly("body_names", [](const Scene& s) { return names(s.bodies); })
       .def_property_readonly("joint_names", [](const Scene& s) { return names(s.joints); })
+      .def_property_readonly("wave_names", [](const Scene& s) { return names(s.waves); })
       .def_property_readonly(
           "text", [](const Scene& s) { return s.text; }, "The case file as it was read.")
       .def_property_readonly(
@@ -38,6 +39,10 @@ void bind_model(py::module_& module) {
             return out;
           },
           "Constraints whose drive is a Python function.")
+      .def_property_readonly(
+          "database_path",
+          [](const Scene& s) { return s.database ? s.database->path : std::string(); },
+          "The hydrodynamic database, \"\" without.")
       .def("summary", &model::summary)
       .def("__repr__", [](const Scene& s) {
         return "<hydrodae._core.Scene '" + s.title + "': " + std::to_string(s.bodies.size()) +

@@ -9,4 +9,5 @@ PYBIND11_MODULE(_core, module) {
   bind_model(module);
   bind_io(module);
   bind_simulation(module);
+  bind_analysis(module);
 }

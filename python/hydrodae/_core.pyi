@@ -3,6 +3,9 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 version: str
 
 class Scene:
@@ -15,6 +18,8 @@ class Scene:
     @property
     def joint_names(self) -> list[str]: ...
     @property
+    def wave_names(self) -> list[str]: ...
+    @property
     def text(self) -> str:
         """The case file as it was read."""
     @property
@@ -23,6 +28,9 @@ class Scene:
     @property
     def python_drives(self) -> list[str]:
         """Constraints whose drive is a Python function."""
+    @property
+    def database_path(self) -> str:
+        """The hydrodynamic database, "" without."""
     def summary(self) -> str: ...
 
 def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
@@ -33,6 +41,15 @@ def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene
 
 def examine(scene: Scene, drives: Mapping[str, Callable[[float], Sequence[float]]]) -> str:
     """The scene as a tree, what it costs, mobility and redundant rows. Raises CaseError."""
+
+def linearize(scene: Scene) -> dict[str, Any]:
+    """The static equilibrium of the scene in still water and its linear model there.
+
+    Raises CaseError.
+    """
+
+def wave_components(scene: Scene) -> NDArray[np.float64]:
+    """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
 
 def simulate(
     scene: Scene,

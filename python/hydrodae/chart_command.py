@@ -29,6 +29,7 @@ def run_chart(arguments: argparse.Namespace) -> int:
     with ProgressLine(f"chart of {case.title}, simulated") as progress:
         made = chart(case, progress=progress, **options)
     console = Console(highlight=False, soft_wrap=True)
+    console.width = max(console.width, 100)  # no outcome broken over two lines
     console.print(output.heading(made), markup=False)
     console.print()
     console.print(output.table(made))

@@ -49,7 +49,7 @@ class Solution:
         return largest
 
     def at(self, time: NDArray[np.float64]) -> Solution:
-        """This solution at other times within its own [s]; by cubic spline where they differ."""
+        """The solution at other times within its own [s]; by cubic spline where they differ."""
         if len(time) == len(self.time) and np.allclose(time, self.time, rtol=1e-12, atol=1e-12):
             return self
         from scipy.interpolate import CubicSpline

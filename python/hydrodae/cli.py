@@ -83,6 +83,28 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     check.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
     check.set_defaults(call=_check)
 
+    equilibrium = commands.add_parser(
+        "equilibrium",
+        help="find the static pose of a case in still water",
+        description="Solve for the static pose of the whole constrained scene in still water; "
+        "print the offsets of the bodies and the reactions of the joints.",
+    )
+    equilibrium.add_argument("case", metavar="CASE", help="case file (TOML)")
+    equilibrium.add_argument(
+        "--set", metavar="KEY=VALUE", action="append", default=[], help="as in run"
+    )
+    equilibrium.set_defaults(call=_equilibrium)
+
+    rao = commands.add_parser(
+        "rao",
+        help="response to waves in the frequency domain",
+        description="Natural modes and response amplitude operators of a case, linearised about "
+        "its static equilibrium, from the frequency tables of its database; beside them, if asked "
+        "for, runs in regular waves.",
+    )
+    if command == ["rao"]:
+        _add_rao(rao)
+
     plot = commands.add_parser(
         "plot",
         help="draw results",
@@ -138,6 +160,21 @@ def _add_hdb(parser: argparse.ArgumentParser) -> None:
 
     command.add_arguments(parser)
     parser.set_defaults(call=command.run)
+
+
+def _add_rao(parser: argparse.ArgumentParser) -> None:
+    from hydrodae import rao
+
+    rao.add_arguments(parser)
+    parser.set_defaults(call=rao.run)
+
+
+def _equilibrium(arguments: argparse.Namespace) -> int:
+    from hydrodae.case import Case, parse_assignment
+    from hydrodae.equilibrium import report
+
+    print(report(Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))))
+    return DONE
 
 
 def _run(arguments: argparse.Namespace) -> int:

@@ -61,6 +61,15 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
   fit.added_mass_inf = db->added_mass_inf;
   fit.states = 5;
   db->fits.push_back(fit);
+  db->water_depth = 20.0;
+  db->omega = Vector3(0.5, 1.0, 2.0);
+  db->heading = Eigen::Vector2d(-0.5, 0.5);
+  for (int h = 0; h < 2; ++h)
+    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, 12));
+  for (int w = 0; w < 3; ++w) {
+    db->added_mass.push_back((1.0 + 0.1 * w) * db->added_mass_inf);
+    db->damping.push_back(0.2 * (1.0 + w) * db->added_mass_inf);
+  }
   return db;
 }
 
@@ -162,6 +171,15 @@ inline void add_hydro(model::Scene& scene, const std::string& axes, const std::s
   scene.hydro = model::HydroOptions{};
   scene.hydro->axes = axes;
   scene.hydro->radiation = radiation;
+  if (radiation == "constant")
+    scene.hydro->frequency = 1.2;
+  sea::Wave wave;
+  wave.name = "swell";
+  wave.type = "regular";
+  wave.height = 1.0;
+  wave.period = 5.0;
+  wave.heading = 0.2;
+  scene.waves.push_back(wave);
   for (model::Body& body : scene.bodies)
     body.hydro = body.name;
 }
@@ -179,13 +197,14 @@ inline std::vector<NamedScene> all_scenes() {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean"}) {
+      for (const std::string hydro : {"dry", "body", "mean", "constant"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
-          add_hydro(scene, hydro, "exponential", random);
+          add_hydro(scene, hydro == "mean" ? "mean" : "body",
+                    hydro == "constant" ? "constant" : "exponential", random);
         add_every_force(scene, random);
         scenes.push_back({std::string(type.name) + ", " + motion[0] +
                               (motion.size() > 1 ? "..." : "") + ", " + hydro,

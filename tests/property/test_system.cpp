@@ -78,11 +78,11 @@ TEST_CASE("added mass in body axes conserves energy: power of its load is minus 
     system::Observer observer(s);
     auto fluid = [&](double h) { // kinetic energy of the fluid along the motion
       const VectorX moved = y + h * yp;
-      return observer.observe(moved, yp).kinetic_added_mass;
+      return observer.observe(0.0, moved, yp).kinetic_added_mass;
     };
     const double h = 1e-5;
     const double rate = (fluid(h) - fluid(-h)) / (2.0 * h);
-    const system::Observation& o = observer.observe(y, yp);
+    const system::Observation& o = observer.observe(0.0, y, yp);
     const auto index = std::find(o.components.begin(), o.components.end(), "added_mass_inf");
     const double power = o.powers[index - o.components.begin()];
     CHECK(power == doctest::Approx(-rate).epsilon(1e-7));

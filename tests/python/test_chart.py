@@ -94,7 +94,9 @@ def test_failures_are_marked_with_a_reason(repository):
     assert failed[0].time is failed[0].error is None
     assert 0 < failed[0].reached < 1.5
     assert failed[0].reason in footing(made)
-    assert any("no convergence" in text.get_text() for text in draw(made).axes[0].legend_.texts)
+    assert any(
+        "no convergence" in label for label in draw(made).axes[0].get_legend_handles_labels()[1]
+    )
 
 
 def test_a_scene_that_no_method_finishes_is_all_failures(repository):
@@ -125,7 +127,7 @@ def test_a_refused_pair_is_marked(pendulum):
         tolerances=[1e-4],
         steps=[0.01],
         repeat=1,
-        set={"solver.end_time": 0.5, "solver.formulation": "index_3"},
+        set={"solver.end_time": 0.5, "solver.method": "radau", "solver.formulation": "index_3"},
     )
     assert [run.outcome for run in made.runs if run.method == "gauss"] == ["refused"]
 
@@ -143,7 +145,7 @@ def test_recommended_setting_meets_the_error_when_it_is_run(pendulum):
         set={"solver.end_time": 2.0},
     )
     assert again.runs[0].error == pytest.approx(found.run.error)
-    assert again.runs[0].error <= 1e-4
+    assert (again.runs[0].error or 1.0) <= 1e-4
     assert found.runner_up is not None
     assert found.runner_up.method != found.run.method
 
@@ -157,8 +159,19 @@ def test_command_writes_table_picture_and_complete_json(pendulum, tmp_path, caps
     channels = "bodies/bob/position.x=x,bodies/bob/position.z=z"
     options = ["--methods", "ida,radau:9", "--tolerances", "1e-3,1e-6", "--repeat", "1"]
     code = cli.main(
-        ["chart", str(pendulum), "-o", str(prefix), *options, "--reference", str(reference)]
-        + ["--channels", channels, "--set", "solver.end_time=1"]
+        [
+            "chart",
+            str(pendulum),
+            "-o",
+            str(prefix),
+            *options,
+            "--reference",
+            str(reference),
+            "--channels",
+            channels,
+            "--set",
+            "solver.end_time=1",
+        ]
     )
     printed = capsys.readouterr().out
     assert code == 0

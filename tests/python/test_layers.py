@@ -8,12 +8,12 @@ from pathlib import Path
 LAYERS = [
     {"core"},
     {"math"},
-    {"hydro"},
+    {"sea", "hydro"},
     {"joint", "force"},
     {"model"},
     {"io", "system"},
     {"solve"},
-    {"simulation.h", "examine.h"},
+    {"simulation.h", "analysis.h", "examine.h"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

@@ -14,7 +14,7 @@ import pytest
 from hydrodae import cli
 from hydrodae.stability import Cell, Scene, all_methods, all_scenes, run_cell, show, stability_map
 from hydrodae.stability.grid import NOT_MODELLED
-from hydrodae.stability.truths import BRICARD_STEP
+from hydrodae.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
 
 SCENES, METHODS = all_scenes(), all_methods()
 SHORT = ("ida:1e-6", "ida:1e-3", "radau:1e-6", "radau:1e-3", "explicit_rk:1e-6")
@@ -31,6 +31,7 @@ REFERENCES: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "light_joint": ("light_joint", ("xend", "yend")),
     "fast_rotor": ("fast_rotor", ("comx", "comy", "comz")),
 }
+STORED = {"bricard": BRICARD_STEP, "light_joint": LIGHT_JOINT_STEP}  # s between points
 
 
 def wrong(cells: list[Cell]) -> list[str]:
@@ -106,8 +107,8 @@ def test_the_truths_agree_with_the_references(name: str, reference: Path) -> Non
     exact = rows[:, [document["columns"].index(c) for c in columns]]
     if name == "door":
         exact = exact - exact[0]
-    if name == "bricard":
-        kept = np.isclose(np.rint(time / BRICARD_STEP) * BRICARD_STEP, time)
+    if name in STORED:
+        kept = np.isclose(np.rint(time / STORED[name]) * STORED[name], time)
         time, exact = time[kept], exact[kept]
     truth = SCENES[name].truth
     assert truth is not None

@@ -49,6 +49,12 @@ struct Database {
   std::vector<DatabaseBody> bodies;
   MatrixX added_mass_inf; ///< (n, n), estimate from the frequency data, used without memory
   std::vector<MemoryFit> fits;
+
+  // Tables over frequency; each is read only for a scene that uses it.
+  VectorX omega;                            ///< (nw,) ascending [rad/s]
+  VectorX heading;                          ///< (nh,) ascending directions of travel [rad]
+  std::vector<Eigen::MatrixXcd> excitation; ///< per heading (nw, n), per metre of amplitude
+  std::vector<MatrixX> added_mass, damping; ///< A(w), B(w): per frequency (n, n)
 };
 
 } // namespace hydrodae::hydro

@@ -15,9 +15,9 @@
 namespace hydrodae::io {
 namespace {
 
-const std::vector<std::string> top_level_keys = {"title",  "environment", "hydro",  "body",
-                                                 "joint",  "constraint",  "marker", "force",
-                                                 "solver", "output"};
+const std::vector<std::string> top_level_keys = {"title",  "environment", "hydro",  "sea",
+                                                 "wave",   "body",        "joint",  "constraint",
+                                                 "marker", "force",       "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -120,6 +120,10 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   });
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });
+  read_single(root, "sea", positions, scene.sea);
+  for_each_entry(root, "wave", positions, [&](const Table& entry) {
+    scene.waves.push_back(read_table<sea::Wave>(entry, positions));
+  });
   if (!read_single(root, "solver", positions, scene.solver))
     throw CaseError(name + ":1:1: missing table [solver]");
   read_single(root, "output", positions, scene.output);
@@ -131,7 +135,8 @@ std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
   const std::filesystem::path path = std::filesystem::path(directory) / scene.hydro->database;
   try {
     return std::make_shared<const hydro::Database>(
-        read_hydro_file(path.lexically_normal().string()));
+        read_hydro_file(path.lexically_normal().string(),
+                        {!scene.waves.empty(), scene.hydro->radiation == "constant"}));
   } catch (const CaseError& error) {
     throw CaseError(scene.positions.at("hydro.database") +
                     ": key 'database' in [hydro]: " + error.what());

@@ -217,6 +217,33 @@ MatrixX Input::matrix(const std::string& dataset, std::size_t rows, std::size_t 
   return out;
 }
 
+std::vector<double> Input::list(const std::string& dataset) const {
+  const Source source = open_dataset(dataset);
+  if (source.shape.size() != 1)
+    refuse(dataset, "expected a list");
+  return finite_numbers(source, source.shape);
+}
+
+std::vector<double> Input::table(const std::string& dataset,
+                                 const std::vector<std::size_t>& shape) const {
+  return finite_numbers(open_dataset(dataset), {shape.begin(), shape.end()});
+}
+
+std::vector<double> Input::finite_numbers(const Source& source,
+                                          const std::vector<hsize_t>& shape) const {
+  std::vector<double> out = numbers(source, shape);
+  if (!std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); }))
+    refuse(source.name, "holds values that are not finite");
+  return out;
+}
+
+std::vector<std::complex<double>>
+Input::complex_table(const std::string& dataset, const std::vector<std::size_t>& shape) const {
+  const Source source = open_dataset(dataset);
+  require_shape(source, {shape.begin(), shape.end()});
+  return complex_numbers(source);
+}
+
 Eigen::VectorXcd Input::complex_list(const std::string& dataset) const {
   const Source source = open_dataset(dataset);
   if (source.shape.size() != 1)

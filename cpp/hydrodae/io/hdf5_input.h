@@ -32,6 +32,12 @@ public:
   Eigen::MatrixXcd complex_matrix(const std::string& dataset, std::size_t rows,
                                   std::size_t columns) const;
 
+  std::vector<double> list(const std::string& dataset) const;
+  std::vector<double> table(const std::string& dataset,
+                            const std::vector<std::size_t>& shape) const; ///< row by row
+  std::vector<std::complex<double>> complex_table(const std::string& dataset,
+                                                  const std::vector<std::size_t>& shape) const;
+
   /// Throws CaseError "<file>: <object>: <message>".
   [[noreturn]] void refuse(const std::string& object, const std::string& message) const;
 
@@ -40,6 +46,7 @@ private:
   Source open_dataset(const std::string& dataset) const;
   Source open_attribute(const std::string& object, const std::string& attribute) const;
   std::vector<double> numbers(const Source& source, const std::vector<hsize_t>& shape) const;
+  std::vector<double> finite_numbers(const Source& source, const std::vector<hsize_t>& shape) const;
   std::vector<std::complex<double>> complex_numbers(const Source& source) const;
   std::vector<std::string> strings(const Source& source) const;
   void require_shape(const Source& source, const std::vector<hsize_t>& shape) const;

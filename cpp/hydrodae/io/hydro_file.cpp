@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 
 #include "hydrodae/core/text.h"
@@ -133,9 +135,58 @@ hydro::MemoryFit read_fit(const Input& file, const std::string& name,
   return fit;
 }
 
+/// Frequencies, headings and Froude-Krylov plus diffraction; headings in ascending order.
+void read_excitation(const Input& file, hydro::Database& database) {
+  const std::vector<double> heading = file.list("/heading");
+  const auto nw = static_cast<std::size_t>(database.omega.size()), nh = heading.size();
+  const std::size_t n = database.coordinates.size();
+  if (nh == 0)
+    file.refuse("/heading", "there is none");
+  std::vector<std::size_t> order(nh);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return heading[a] < heading[b]; });
+  const auto froude_krylov = file.complex_table("/excitation/froude_krylov", {nw, nh, n});
+  const auto diffraction = file.complex_table("/excitation/diffraction", {nw, nh, n});
+  database.heading.resize(static_cast<Eigen::Index>(nh));
+  for (std::size_t h = 0; h < nh; ++h) {
+    const auto row = static_cast<Eigen::Index>(h);
+    database.heading[row] = heading[order[h]];
+    if (h > 0 && !(database.heading[row] > database.heading[row - 1]))
+      file.refuse("/heading", "a heading stands there twice");
+    Eigen::MatrixXcd force(nw, n);
+    for (std::size_t w = 0; w < nw; ++w)
+      for (std::size_t c = 0; c < n; ++c) {
+        const std::size_t k = (w * nh + order[h]) * n + c;
+        force(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(c)) =
+            froude_krylov[k] + diffraction[k];
+      }
+    database.excitation.push_back(force);
+  }
+}
+
+std::vector<MatrixX> read_matrices(const Input& file, const std::string& dataset, std::size_t nw,
+                                   std::size_t n) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const std::vector<double> values = file.table(dataset, {nw, n, n});
+  const auto size = static_cast<Eigen::Index>(n);
+  std::vector<MatrixX> out;
+  for (std::size_t w = 0; w < nw; ++w)
+    out.emplace_back(Eigen::Map<const RowMajor>(values.data() + w * n * n, size, size));
+  return out;
+}
+
+void read_frequencies(const Input& file, hydro::Database& database) {
+  const std::vector<double> omega = file.list("/omega");
+  database.omega = Eigen::Map<const VectorX>(omega.data(), static_cast<Eigen::Index>(omega.size()));
+  if (omega.size() < 2 || !(omega.front() > 0.0) ||
+      !std::is_sorted(omega.begin(), omega.end(), std::less_equal<>()))
+    file.refuse("/omega", "must be two or more ascending frequencies > 0 rad/s");
+}
+
 } // namespace
 
-hydro::Database read_hydro_file(const std::string& path) {
+hydro::Database read_hydro_file(const std::string& path, const HydroTables& tables) {
   const Input file(path);
   check_format(file);
   hydro::Database database;
@@ -154,6 +205,15 @@ hydro::Database read_hydro_file(const std::string& path) {
   database.added_mass_inf = file.matrix("/added_mass_inf", n, n);
   for (const std::string& name : file.members("/memory"))
     database.fits.push_back(read_fit(file, name, coordinates));
+  if (tables.excitation || tables.radiation)
+    read_frequencies(file, database);
+  if (tables.excitation)
+    read_excitation(file, database);
+  if (tables.radiation) {
+    const auto nw = static_cast<std::size_t>(database.omega.size());
+    database.added_mass = read_matrices(file, "/added_mass", nw, n);
+    database.damping = read_matrices(file, "/radiation_damping", nw, n);
+  }
   return database;
 }
 

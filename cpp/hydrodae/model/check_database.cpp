@@ -71,6 +71,13 @@ void check_database(const Scene& scene) {
     throw ModelError("hydro.database",
                      database.path + " lacks coordinates that move: " + joined(missing));
   memory_fit(scene);
+  const HydroOptions& hydro = *scene.hydro;
+  if ((hydro.radiation == "constant") != hydro.frequency.has_value())
+    throw ModelError(hydro.frequency ? "hydro.frequency" : "hydro.radiation",
+                     hydro.frequency
+                         ? "'frequency' belongs to radiation = \"constant\"; the radiation is " +
+                               in_quotes(hydro.radiation)
+                         : "radiation = \"constant\" needs the key 'frequency' [rad/s]");
 }
 
 } // namespace hydrodae::model

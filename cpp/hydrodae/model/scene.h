@@ -15,9 +15,11 @@
 #include "hydrodae/force/mooring_matrix.h"
 #include "hydrodae/force/pto_linear.h"
 #include "hydrodae/force/spring_damper.h"
+#include "hydrodae/force/viscous_damping.h"
 #include "hydrodae/hydro/database.h"
 #include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
+#include "hydrodae/sea/wave.h"
 
 namespace hydrodae::model {
 
@@ -37,6 +39,7 @@ struct HydroOptions {
   std::string axes = "body";
   std::string radiation = "exponential";
   std::optional<std::string> fit;
+  std::optional<double> frequency;
 
   static Fields<HydroOptions> fields() {
     using H = HydroOptions;
@@ -53,10 +56,14 @@ struct HydroOptions {
         {"radiation",
          &H::radiation,
          "-",
-         "Radiation memory: none (added mass only) or the fitted exponential memory.",
+         "Radiation: none (added mass at infinite frequency only), constant (added mass and "
+         "damping "
+         "at one frequency) or the fitted exponential memory.",
          false,
          any_value,
-         {"none", "exponential"}},
+         {"none", "constant", "exponential"}},
+        {"frequency", &H::frequency, "rad/s",
+         "Frequency of added mass and damping of constant radiation.", false, more_than(0)},
         {"fit", &H::fit, "-",
          "Name of the exponential fit; by default the one with the fewest states that covers the "
          "coordinates that move."},
@@ -244,7 +251,8 @@ struct OutputOptions {
 /// Every kind of force, in the order in which the case reader and the system visit them. A new kind
 /// is one header in force/ and one entry here.
 using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>,
-                          std::vector<force::SpringDamper>, std::vector<force::ConstantLoad>>;
+                          std::vector<force::SpringDamper>, std::vector<force::ConstantLoad>,
+                          std::vector<force::ViscousDamping>>;
 
 struct Scene {
   std::string title;
@@ -255,6 +263,8 @@ struct Scene {
   std::vector<Constraint> constraints;
   std::vector<Marker> markers;
   Forces forces;
+  sea::Sea sea;
+  std::vector<sea::Wave> waves;
   SolverOptions solver;
   OutputOptions output;
   std::shared_ptr<const hydro::Database> database; ///< null without [hydro]

@@ -11,6 +11,7 @@ namespace hydrodae::model {
 struct SolverOptions {
   std::string method = "ida";
   std::string formulation = "stabilised";
+  std::string start = "given";
   double end_time = 0.0;
   double rtol = 1e-6;
   double step = 0.0;
@@ -43,6 +44,14 @@ struct SolverOptions {
          false,
          any_value,
          {"stabilised", "index_2", "index_3", "index_1"}},
+        {"start",
+         &O::start,
+         "-",
+         "Start from the given pose, or at rest from the static equilibrium in still water near "
+         "it.",
+         false,
+         any_value,
+         {"given", "equilibrium"}},
         {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
         {"rtol", &O::rtol, "-",
          "Local error tolerance relative to the scales of the scene (see length_scale, "

@@ -52,13 +52,24 @@ void Equations::find_multipliers() {
       return;
     Multiplier& m = multipliers_[static_cast<std::size_t>(row - system.lambda0)];
     const bool velocity_row = row < system.mu0;
-    if (row == column)
-      m.diagonal = k;
-    else if (velocity_row && column >= system.u0 && column < system.z0)
+    if (velocity_row && column >= system.u0 && column < system.z0)
       m.gradient.emplace_back(k, mass[static_cast<std::size_t>(column)]);
     else if (!velocity_row && column < system.n_q)
       m.gradient.emplace_back(k, -1);
   });
+}
+
+void Equations::regularisation(double alpha, VectorX& out) const {
+  constexpr double e = 1e-10;
+  for (std::size_t i = 0; i < multipliers_.size(); ++i) {
+    double d = 0.0;
+    for (const auto& [entry, mass] : multipliers_[i].gradient) {
+      const double G = parts.by_y[entry];
+      if (G != 0.0)
+        d += G * G / (mass < 0 ? 1.0 : parts.by_yp[static_cast<std::size_t>(mass)]);
+    }
+    out[static_cast<Index>(i)] = e * d / alpha;
+  }
 }
 
 bool Equations::residual(double t, const VectorX& y, const VectorX& yp, VectorX& r) {

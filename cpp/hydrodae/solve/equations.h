@@ -25,23 +25,12 @@ public:
   /// dF/dy and dF/dy' into `parts`.
   void jacobian(double t, const VectorX& y, const VectorX& yp);
 
-  /// Adds e D / |alpha| to the diagonal of the multipliers in a Newton matrix dF/dy + alpha dF/dy'
-  /// (values in the pattern's order) made of the last `jacobian`: D = diag(G M^-1 G^T) roughly, e
-  /// tiny. In a singular pose, where the multipliers are not unique, it keeps the matrix regular;
-  /// the solution that the iteration tends to is that of the equations unchanged (the proximal
-  /// iteration of Bayo and Ledesma, Nonlinear Dynamics 9 (1996) 113).
-  template <class Scalar> void regularise(double alpha, Scalar* values) const {
-    constexpr double e = 1e-10;
-    for (const Multiplier& m : multipliers_) {
-      double d = 0.0;
-      for (const auto& [entry, mass] : m.gradient) {
-        const double G = parts.by_y[entry];
-        if (G != 0.0)
-          d += G * G / (mass < 0 ? 1.0 : parts.by_yp[mass]);
-      }
-      values[m.diagonal] += e * d / alpha;
-    }
-  }
+  /// e D / |alpha| for each multiplier, to be added to the diagonal of a Newton matrix
+  /// dF/dy + alpha dF/dy' made of the last `jacobian`: D = diag(G M^-1 G^T) roughly, e tiny. In a
+  /// singular pose, where the multipliers are not unique, it keeps the matrix regular; the solution
+  /// that the iteration tends to is that of the equations unchanged (the proximal iteration of Bayo
+  /// and Ledesma, Nonlinear Dynamics 9 (1996) 113).
+  void regularisation(double alpha, VectorX& out) const;
 
   /// What belongs to accepted steps moves on (angles over turns).
   void accept(const VectorX& y, const VectorX& yp);
@@ -64,7 +53,6 @@ public:
 
 private:
   struct Multiplier {
-    std::size_t diagonal = 0;
     std::vector<std::pair<std::size_t, Index>> gradient; ///< entry of G, of the mass (-1: one)
   };
   void find_multipliers();

@@ -90,7 +90,6 @@ bool GeneralizedAlpha::refresh(double t, double h) {
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
       values[k] = e_.parts.by_y[k] + (c < s_.n_q ? by_q : by_x) * e_.parts.by_yp[k];
-  e_.regularise(by_x, values.data());
   factored_ = h;
   return lu_.factorise();
 }

@@ -27,14 +27,12 @@ bool StageNewton::factorise(double h) {
   const double gamma = 1.0 / (rk_.gamma0 * h);
   for (std::size_t k = 0; k < parts.by_y.size(); ++k)
     real_->values()[k] = parts.by_y[k] + gamma * parts.by_yp[k];
-  e_.regularise(gamma, real_->values().data());
   bool good = real_->factorise();
   for (std::size_t p = 0; p < pairs_.size() && good; ++p) {
     const std::complex<double> lambda = rk_.pairs[p] / h;
     std::vector<std::complex<double>>& values = pairs_[p]->values();
     for (std::size_t k = 0; k < parts.by_y.size(); ++k)
       values[k] = parts.by_y[k] + lambda * parts.by_yp[k];
-    e_.regularise(std::abs(lambda), values.data());
     good = pairs_[p]->factorise();
   }
   return good;
@@ -144,6 +142,10 @@ void StageNewton::make_full() {
               static_cast<Index>(full_->row.size());
           full_->row.push_back(i * p.n + p.row[static_cast<std::size_t>(k)]);
         }
+      if (c >= e_.system.lambda0 && c < e_.system.sigma0) {
+        full_->diagonal.push_back(static_cast<Index>(full_->row.size()));
+        full_->row.push_back(j * p.n + c);
+      }
       full_->start.push_back(static_cast<Index>(full_->row.size()));
     }
   full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row);
@@ -154,20 +156,21 @@ bool StageNewton::factorise_full(double t, double h, const VectorX&) {
   const std::size_t nonzeros = e_.pattern.row.size();
   std::vector<double>& values = full_->lu->values();
   const double alpha = 1.0 / (rk_.gamma0 * h);
-  std::vector<double> regular(nonzeros);
+  VectorX regular(e_.system.sigma0 - e_.system.lambda0);
   for (int i = 0; i < s; ++i) {
     y_ = stage_.col(i);
     yp_ = rate_.col(i);
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
-    std::copy(e_.parts.by_y.begin(), e_.parts.by_y.end(), regular.begin());
-    e_.regularise(alpha, regular.data());
+    e_.regularisation(alpha, regular);
+    for (Index m = 0; m < regular.size(); ++m)
+      values[static_cast<std::size_t>(full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)])] = regular[m];
     for (int j = 0; j < s; ++j) {
       const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
       const double factor = rk_.a_inverse(i, j) / h;
       for (std::size_t k = 0; k < nonzeros; ++k)
         if (slots[k] >= 0)
           values[static_cast<std::size_t>(slots[k])] =
-              (i == j ? regular[k] : 0.0) + factor * e_.parts.by_yp[k];
+              (i == j ? e_.parts.by_y[k] : 0.0) + factor * e_.parts.by_yp[k];
     }
   }
   return full_->lu->factorise();

@@ -237,6 +237,8 @@ void add_forces(const model::Scene& scene, System& s) {
     wrenches.push_back({m.name, body_index(scene, m.body), m.law()});
   for (const force::ConstantLoad& c : std::get<std::vector<force::ConstantLoad>>(scene.forces))
     wrenches.push_back({c.name, body_index(scene, c.body), c.law()});
+  for (const force::ViscousDamping& v : std::get<std::vector<force::ViscousDamping>>(scene.forces))
+    std::get<1>(s.body_forces).push_back({v.name, body_index(scene, v.body), v.law()});
   for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces))
     std::get<0>(s.motion_forces).push_back({p.name, joint_motion(s, p.joint, {}), p.law()});
   for (const force::SpringDamper& d : std::get<std::vector<force::SpringDamper>>(scene.forces)) {
@@ -303,6 +305,7 @@ System build(const model::Scene& scene) {
   set_body_scales(scene, s);
   select_rows(s);
   add_hydro(scene, s);
+  add_sea(scene, s);
   add_constraints(scene, s);
   add_forces(scene, s);
   for (const model::Marker& m : scene.markers)

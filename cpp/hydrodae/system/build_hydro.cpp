@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/build_parts.h"
 
@@ -132,6 +134,18 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& 
   h.output = moving_rows(h, h.output_all);
 }
 
+/// A(w) or B(w) at the frequency of constant radiation.
+MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
+  const hydro::Database& db = *scene.database;
+  const double omega = *scene.hydro->frequency;
+  if (!hydro::covers_frequency(db, omega))
+    throw ModelError("hydro.frequency", "frequency = " + number_text(omega) +
+                                            " rad/s is outside the database, " +
+                                            number_text(db.omega[0]) + " to " +
+                                            number_text(db.omega[db.omega.size() - 1]) + " rad/s");
+  return hydro::at_frequency(db, table, omega);
+}
+
 } // namespace
 
 void add_hydro(const model::Scene& scene, System& s) {
@@ -153,7 +167,14 @@ void add_hydro(const model::Scene& scene, System& s) {
     add_memory(scene, *fit, s);
     note_uncovered(scene, fit->outputs, s);
   } else {
-    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates, db.added_mass_inf);
+    const bool constant = scene.hydro->radiation == "constant";
+    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates,
+                           constant ? table_at(scene, db.added_mass) : db.added_mass_inf);
+    if (constant) {
+      h.damped = true;
+      h.damping_all = cut(scene, h, db.coordinates, db.coordinates, table_at(scene, db.damping));
+      h.damping = moving_rows(h, h.damping_all);
+    }
     h.output = MatrixX::Zero(h.n_moving, 0);
     h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
     note_uncovered(scene, db.coordinates, s);

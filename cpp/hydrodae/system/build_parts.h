@@ -21,4 +21,7 @@ void set_names(System& system);
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, System& system);
 
+/// Excitation of the sea (build_sea.cpp); needs `add_hydro`. Throws ModelError.
+void add_sea(const model::Scene& scene, System& system);
+
 } // namespace hydrodae::system

@@ -1,10 +1,10 @@
 #pragma once
-/// Added mass at infinite frequency and radiation memory as loads on the bodies.
+/// Added mass at infinite frequency, radiation memory and wave excitation as loads on the bodies.
 ///
 /// In axes carried by the bodies, with U = (R^T v, w), P = A_inf U = (p, h) and y = C z, the fluid
 /// takes from body i the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p + R y (Kirchhoff;
 /// Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when y = 0. In mean axes U = (v, R w) and
-/// the load is A_inf U' + y.
+/// the load is A_inf U' + y. The excitation f(t) acts in the same axes: it is taken off y.
 
 #include "hydrodae/system/kinematics.h"
 
@@ -80,21 +80,37 @@ Vec6<S> hydro_load(bool body_axes, const BodyState<S>& state, const Vec6<S>& rat
   return load;
 }
 
-/// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
-/// z' - A_r z - B_r U = 0. Only coordinates that move are visited.
-template <class S>
-void add_hydrodynamics(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
+/// A_inf U' + C z + B U - f_ex(t) into `ws.inertia_force`, A_inf U into `ws.momentum`.
+template <class S> void hydro_loads(const System& s, Workspace<S>& ws, double t, const S* z) {
   const HydroData& h = s.hydro;
-  if (h.n_moving == 0)
-    return;
   hydro_motion(s, ws);
   multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
   multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
-  const S* z = y + h.z0;
   if (h.n_states > 0) {
     multiply<S>(h.output, z, ws.U_dot); // U' is no longer needed
     ws.inertia_force += ws.U_dot;
   }
+  if (h.damped) {
+    multiply<S>(h.damping, ws.U.data(), ws.U_dot);
+    ws.inertia_force += ws.U_dot;
+  }
+  if (!h.excitation.empty()) {
+    h.excitation(t, ws.excitation);
+    for (int u = 0; u < h.n_moving; ++u)
+      ws.inertia_force[u] -= S(ws.excitation[u]);
+  }
+}
+
+/// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
+/// z' - A_r z - B_r U = 0. Only coordinates that move are visited.
+template <class S>
+void add_hydrodynamics(const System& s, Workspace<S>& ws, double t, const S* y, const S* yp,
+                       S* residual) {
+  const HydroData& h = s.hydro;
+  if (h.n_moving == 0)
+    return;
+  const S* z = y + h.z0;
+  hydro_loads<S>(s, ws, t, z);
   for (const HydroBody& hb : h.bodies) {
     if (!hb.moves)
       continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hydrodae/system/hydro_gradient.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
@@ -13,7 +14,6 @@ using joint::Matrix12;
 using joint::Vector12;
 using RowVector3 = Eigen::Matrix<double, 1, 3>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;
-using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 /// Collects the places that the assembly visits.
 struct PatternSink {
@@ -39,6 +39,7 @@ struct ValueSink {
 template <class Sink> struct Assembly {
   const System& s;
   JacobianWorkspace& ws;
+  const double t;
   const double* y;
   const double* yp;
   Sink& sink;
@@ -312,52 +313,13 @@ template <class Sink> void Assembly<Sink>::body_rows() {
   }
 }
 
-/// The block of A_inf between two hydrodynamic bodies, zero where a coordinate does not move.
-Matrix6 added_mass_block(const HydroData& h, const HydroBody& i, const HydroBody& j) {
-  Matrix6 block = Matrix6::Zero();
-  for (int m = 0; m < 6; ++m)
-    for (int n = 0; n < 6; ++n)
-      if (i.moving[m] >= 0 && j.moving[n] >= 0)
-        block(m, n) = h.added_mass(i.moving[m], j.moving[n]);
-  return block;
-}
-
-/// dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc d(v', w').
-struct HydroMotionGradient {
-  Matrix63 U_phi = Matrix63::Zero(), U_v = Matrix63::Zero(), U_w = Matrix63::Zero();
-  Matrix63 a_phi = Matrix63::Zero(), a_v = Matrix63::Zero(), a_w = Matrix63::Zero();
-  Matrix6 a_acc = Matrix6::Zero();
-};
-
-HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState<double>& b) {
-  HydroMotionGradient d;
-  const Matrix3 wx = skew<double>(b.w), R_T = b.R.transpose();
-  if (body_axes) {
-    const Matrix3 Vx = skew<double>(R_T * b.v);
-    d.U_phi.topRows<3>() = Vx;
-    d.U_v.topRows<3>() = R_T;
-    d.U_w.bottomRows<3>().setIdentity();
-    d.a_phi.topRows<3>() = skew<double>(R_T * b.v_dot) - wx * Vx;
-    d.a_v.topRows<3>() = -wx * R_T;
-    d.a_w.topRows<3>() = Vx;
-    d.a_acc.topLeftCorner<3, 3>() = R_T;
-    d.a_acc.bottomRightCorner<3, 3>().setIdentity();
-  } else {
-    d.U_phi.bottomRows<3>() = -b.R * wx;
-    d.U_v.topRows<3>().setIdentity();
-    d.U_w.bottomRows<3>() = b.R;
-    d.a_phi.bottomRows<3>() = -b.R * skew<double>(b.w_dot);
-    d.a_acc.topLeftCorner<3, 3>().setIdentity();
-    d.a_acc.bottomRightCorner<3, 3>() = b.R;
-  }
-  return d;
-}
-
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
-  const Matrix6 A = added_mass_block(s.hydro, i, j);
-  const Matrix6 LA = L * A, QA = Q * A;
+  const Matrix6 A = hydro_block(s.hydro.added_mass, i, j), LA = L * A;
+  Matrix6 QA = Q * A; // what multiplies dU
+  if (s.hydro.damped)
+    QA += L * hydro_block(s.hydro.damping, i, j);
   const HydroMotionGradient d = hydro_motion_gradient(s.hydro.body_axes, state(j.body));
   Matrix6 by_velocity;
   by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
@@ -451,10 +413,7 @@ template <class Sink> void Assembly<Sink>::hydrodynamics() {
   if (h.n_moving == 0)
     return;
   Workspace<double>& w = ws.state;
-  hydro_motion(s, w);
-  w.momentum.noalias() = h.added_mass * w.U;
-  w.inertia_force.noalias() = h.added_mass * w.U_dot;
-  w.inertia_force.noalias() += h.output * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  hydro_loads<double>(s, w, t, y + h.z0);
   for (const HydroBody& i : h.bodies) {
     if (!i.moves)
       continue;
@@ -490,11 +449,9 @@ Pattern find_pattern(const System& system) {
   const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
   prepare(system, ws, y.data(), yp.data());
   PatternSink sink;
-  Assembly<PatternSink>{system, ws, y.data(), yp.data(), sink}.run();
+  Assembly<PatternSink>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
 
   std::vector<std::pair<Index, Index>> entries = sink.visits;
-  for (Index i = system.lambda0; i < system.sigma0; ++i)
-    entries.emplace_back(i, i); // zero, a place for what keeps a Newton matrix regular
   std::sort(entries.begin(), entries.end());
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
   Pattern pattern;
@@ -517,13 +474,13 @@ Pattern find_pattern(const System& system) {
   return pattern;
 }
 
-void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double /*t*/,
+void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
               const double* y, const double* yp, JacobianParts& out) {
   std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
   std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);
   prepare(system, ws, y, yp);
   ValueSink sink{pattern.slots.data(), out};
-  Assembly<ValueSink>{system, ws, y, yp, sink}.run();
+  Assembly<ValueSink>{system, ws, t, y, yp, sink}.run();
 }
 
 } // namespace hydrodae::system

@@ -21,11 +21,13 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
+  VectorX excitation;        ///< on the coordinates of U
   std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
 
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
+        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
         turns(s.motions.size()) {
     for (std::size_t m = 0; m < turns.size(); ++m)
       turns[m] = s.motions[m].start;

@@ -41,9 +41,12 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {
       plan("added_mass_inf", hb.body);
-      if (s_.hydro.n_states > 0)
+      if (s_.hydro.n_states > 0 || s_.hydro.damped)
         plan("radiation", hb.body);
     }
+  if (!s_.hydro.excitation.empty())
+    for (const HydroBody& hb : s_.hydro.bodies)
+      plan("excitation", hb.body);
   out_.components.push_back("constraints");
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
@@ -61,6 +64,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   totals_.resize(s_.bodies.size());
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
+  excitation_ = VectorX::Zero(s_.hydro.excitation.size());
 }
 
 /// Takes the next planned load: into the list, the power of its component, and the balance.
@@ -106,6 +110,8 @@ void Observer::observe_hydrodynamics(const double* y) {
   momentum_.noalias() = h.added_mass_all * ws_.U;
   rate_.noalias() = h.added_mass_all * ws_.U_dot;
   memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  if (h.damped)
+    memory_.noalias() += h.damping_all * ws_.U;
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
     out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
@@ -116,12 +122,25 @@ void Observer::observe_hydrodynamics(const double* y) {
     const Vector6 added =
         hydro_load<double>(h.body_axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
     add_load(-to_world(state, added));
-    if (h.n_states == 0)
+    if (h.n_states == 0 && !h.damped)
       continue;
     const Vector6 radiation =
         hydro_load<double>(h.body_axes, state, memory_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
   }
+}
+
+void Observer::observe_excitation(double t) {
+  const HydroData& h = s_.hydro;
+  if (h.excitation.empty())
+    return;
+  h.excitation(t, excitation_);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
+    const Vector6 force = excitation_.segment<6>(h.n_moving + 6 * static_cast<Eigen::Index>(i));
+    add_load(to_world(state, hydro_load<double>(h.body_axes, state, force, Vector6::Zero())));
+  }
+  out_.elevation = excitation_[excitation_.size() - 1];
 }
 
 /// Reaction of one row on B: force along the marker's axes of A, moment about the marker of B.
@@ -238,7 +257,7 @@ void Observer::observe_energy() {
   }
 }
 
-const Observation& Observer::observe(const VectorX& y, const VectorX& yp) {
+const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
   unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
   std::fill(totals_.begin(), totals_.end(), Vector6(Vector6::Zero()));
   std::fill(out_.powers.begin(), out_.powers.end(), 0.0);
@@ -246,6 +265,7 @@ const Observation& Observer::observe(const VectorX& y, const VectorX& yp) {
   next_load_ = 0;
   observe_forces(y.data());
   observe_hydrodynamics(y.data());
+  observe_excitation(t);
   observe_joints(y.data());
   observe_energy();
   return out_;

@@ -26,6 +26,7 @@ struct Observation {
   std::vector<double> constraints;            ///< per coupler: multiplier [N or N m]
   double kinetic = 0.0;                       ///< of the bodies [J]
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
+  double elevation = 0.0;                     ///< of the waves at the origin [m]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
 };
 
@@ -34,8 +35,8 @@ class Observer {
 public:
   explicit Observer(const System& system);
 
-  /// Fills `observation()` from y, y'. No allocation after the first call.
-  const Observation& observe(const VectorX& y, const VectorX& yp);
+  /// Fills `observation()` from t, y, y'. No allocation after the first call.
+  const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
@@ -46,6 +47,7 @@ private:
   void add_load(const Vector6& world_load);
   void observe_forces(const double* y);
   void observe_hydrodynamics(const double* y);
+  void observe_excitation(double t);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
                        double lambda) const;
@@ -57,7 +59,7 @@ private:
   Workspace<double> ws_;
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
-  VectorX rate_, momentum_, memory_;
+  VectorX rate_, momentum_, memory_, excitation_;
   std::size_t next_load_ = 0;
   std::vector<int> redundant_joints_; ///< joints with rows that follow from others
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant

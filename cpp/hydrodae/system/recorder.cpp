@@ -18,7 +18,7 @@ void put(double*& out, const Vector3& v) {
 
 Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), y_(y), yp_(yp) {
-  const Observation& o = observer_.observe(y, yp);
+  const Observation& o = observer_.observe(t0, y, yp);
   power_ = o.powers;
   work_.assign(power_.size(), 0.0);
   energy0_ = o.kinetic + o.kinetic_added_mass;
@@ -97,6 +97,8 @@ void Recorder::make_channels() {
     add_channel(head + "moment", 3, "N m", "world",
                 "Moment on the body about its centre of gravity.");
   }
+  if (!s_.hydro.excitation.empty())
+    add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
   add_channel("energy/potential", 1, "J", "-",
@@ -119,12 +121,12 @@ std::vector<double> Recorder::work_until(double t, const Interpolant& at,
   for (std::size_t k = 0; k < work.size(); ++k)
     work[k] += h * rule_.weights[0] * power_[k];
   for (std::size_t node = 1; node <= last; ++node) {
-    if (h > 0.0) {
-      at(node == last ? t : t_ + h * rule_.nodes[node], y_, yp_);
-    } else if (node < last) {
+    if (h == 0.0 && node < last)
       continue;
-    }
-    power = observer_.observe(y_, yp_).powers;
+    const double time = node == last ? t : t_ + h * rule_.nodes[node];
+    if (h > 0.0)
+      at(time, y_, yp_);
+    power = observer_.observe(time, y_, yp_).powers;
     for (std::size_t k = 0; k < work.size(); ++k)
       work[k] += h * rule_.weights[node] * power[k];
   }
@@ -236,6 +238,8 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }
+  if (!s_.hydro.excitation.empty())
+    *out++ = observer_.observation().elevation;
   fill_energy(out, work);
 }
 

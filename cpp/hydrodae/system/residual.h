@@ -179,7 +179,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   add_couplers<S>(s, ws, t, y, residual);
   for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
-  add_hydrodynamics<S>(s, ws, y, yp, residual);
+  add_hydrodynamics<S>(s, ws, t, y, yp, residual);
   body_rows<S>(s, ws, y, yp, residual);
 }
 

@@ -18,6 +18,7 @@
 
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/sea/signals.h"
 
 namespace hydrodae::system {
 
@@ -118,7 +119,8 @@ struct MarkerData {
   bool body_axes = false;          ///< of velocity and acceleration
 };
 
-using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>>;
+using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
+                              std::vector<BodyForce<force::ViscousDamping::Law>>>;
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
                                 std::vector<MotionForce<force::SpringDamper::Law>>>;
 
@@ -130,7 +132,8 @@ struct HydroBody {
 };
 
 /// Added mass at infinite frequency and radiation memory of all bodies.
-///   loads on body-axes coordinates: -(A_inf U)' - C z,   z' = A_r z + B_r U
+///   loads on body-axes coordinates: -(A_inf U)' - C z - B U + f_ex(t),   z' = A_r z + B_r U
+/// B is the damping of the constant rung; then A(w) stands in place of A_inf.
 struct HydroData {
   bool body_axes = true; ///< false: earth axes of the reference pose ("mean")
   std::vector<HydroBody> bodies;
@@ -141,9 +144,12 @@ struct HydroData {
   int n_moving = 0;                    ///< length of U
   MatrixX added_mass;                  ///< (n_moving, n_moving)
   MatrixX
-      added_mass_all; ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
-  MatrixX output;     ///< C (n_moving, n_states)
-  MatrixX output_all; ///< (6 n_bodies, n_states)
+      added_mass_all;  ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
+  MatrixX output;      ///< C (n_moving, n_states)
+  MatrixX output_all;  ///< (6 n_bodies, n_states)
+  bool damped = false; ///< constant damping; else the next two are empty
+  MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
+  sea::Signals excitation; ///< (n_moving + 6 n_bodies + 1): on U, on all coordinates; elevation [m]
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
   int n_states = 0;

@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     from hydrodae.stability import grid, show
 
     scenes, methods = grid.all_scenes(), grid.all_methods()
-    console = Console()
+    console = Console(emoji=False)
     if arguments.list:
         for name, scene in scenes.items():
             console.print(f"{name:16} {scene.title}", markup=False, highlight=False)

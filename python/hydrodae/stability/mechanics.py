@@ -231,8 +231,9 @@ def _light_joint() -> Scene:
     ]
     return Scene(
         "light_joint", "nearly massless link: 1e-6 kg between two rods",
-        {"body": bodies, "joint": joints, **_times(5.0, 0.05)},
-        1.0, 0.4, MINIMAL + ", two angles", truths.light_joint, _position("bob", 0, 2),
+        {"body": bodies, "joint": joints, **_times(5.0, truths.LIGHT_JOINT_STEP)},
+        1.0, 0.4, "stored points of a run of DOP853 in two angles",
+        truths.light_joint, _position("bob", 0, 2),
     )  # fmt: skip
 
 

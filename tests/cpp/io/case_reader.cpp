@@ -77,7 +77,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, body, joint, constraint, marker, force, solver, output)"},
+       "environment, hydro, sea, wave, body, joint, constraint, marker, force, solver, output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate, displacement, displacement_rate)"},
@@ -89,10 +89,11 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
       {"[solver]", "[[solver]]", "case.toml:34:1: 'solver' must be one table: write [solver]"},
       {"type = \"pto_linear\"\n", "",
        "case.toml:28:1: missing key 'type' in [[force]] 'pto1' (Kind of force: mooring_matrix, "
-       "pto_linear, spring_damper, constant_load)"},
+       "pto_linear, spring_damper, constant_load, viscous_damping)"},
       {"type = \"pto_linear\"", "type = \"pto_liner\"",
        "case.toml:30:1: key 'type' in [[force]] 'pto1': unknown value 'pto_liner'; did you mean "
-       "'pto_linear'? (valid: mooring_matrix, pto_linear, spring_damper, constant_load)"},
+       "'pto_linear'? (valid: mooring_matrix, pto_linear, spring_damper, constant_load, "
+       "viscous_damping)"},
       {"initial = { angle_deg = 90.0 }", "initial = 90.0",
        "case.toml:26:1: initial of [[joint]] 'hinge' must be a table, such as initial = { ... }"},
   });
@@ -177,7 +178,7 @@ TEST_CASE("a wrong override is told with its key") {
         "--set joint.hing.type: no joint 'hing'; did you mean 'hinge'? (valid: hinge)");
   CHECK(message("solver.rtoll", "1") ==
         "--set solver.rtoll: unknown key 'rtoll' in [solver]; did you mean 'rtol'? (valid: method, "
-        "formulation, end_time, rtol, step, max_step, max_order, order, spectral_radius, "
+        "formulation, start, end_time, rtol, step, max_step, max_order, order, spectral_radius, "
         "baumgarte_time, energy_guard, force, length_scale, time_scale)");
   CHECK(
       message("solvr.rtol", "1").starts_with("--set solvr.rtol: unknown key 'solvr' in the case"));

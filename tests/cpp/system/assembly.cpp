@@ -65,7 +65,7 @@ std::vector<Vector6> reactions(const system::System& s) {
   VectorX y = system::initial_state(s), yp;
   solve::consistent_start(s, pattern, y, yp);
   system::Observer observer(s);
-  return observer.observe(y, yp).reactions;
+  return observer.observe(0.0, y, yp).reactions;
 }
 
 } // namespace

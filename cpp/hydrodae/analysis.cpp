@@ -1,0 +1,174 @@
+#include "hydrodae/analysis.h"
+
+#include "hydrodae/model/motion.h"
+#include "hydrodae/sea/components.h"
+#include "hydrodae/solve/equilibrium.h"
+#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/hydro_gradient.h"
+#include "hydrodae/system/observer.h"
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae {
+
+namespace {
+
+using system::System;
+
+/// Row (1, n_u) of a gradient by the virtual displacements of the two bodies of a joint.
+Eigen::RowVectorXd joint_row(const System& s, const system::JointData& j,
+                             const joint::Vector12& gradient) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(s.n_u);
+  for (int side = 0; side < 2; ++side) {
+    const int body = side == 0 ? j.A.body : j.B.body;
+    if (body < 0)
+      continue;
+    const system::BodyData& b = s.bodies[static_cast<std::size_t>(body)];
+    for (int k = 0; k < b.n_active; ++k)
+      row[b.u0 - s.u0 + k] += gradient[6 * side + b.active[static_cast<std::size_t>(k)]];
+  }
+  return row;
+}
+
+void add_row(MatrixX& matrix, const Eigen::RowVectorXd& row) {
+  matrix.conservativeResize(matrix.rows() + 1, row.size());
+  matrix.bottomRows<1>() = row;
+}
+
+void add_bodies(const System& s, const system::Workspace<double>& ws, const VectorX& y,
+                LinearModel& out) {
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[i];
+    const Vector6 xi = system::displacement<double>(b, ws.bodies[i], y.data());
+    out.bodies.push_back(b.name);
+    out.offsets.emplace_back(xi.head<3>());
+    out.rotations.emplace_back(xi.tail<3>());
+    for (int k = 0; k < b.n_active; ++k)
+      out.coordinates.push_back("bodies/" + b.name + "/" +
+                                std::string(model::coordinate_names[static_cast<std::size_t>(
+                                    b.active[static_cast<std::size_t>(k)])]));
+  }
+}
+
+void add_hydro_map(const model::Scene& scene, const System& s, const system::Workspace<double>& ws,
+                   LinearModel& out) {
+  for (const system::HydroBody& hb : s.hydro.bodies) {
+    const auto body = static_cast<std::size_t>(hb.body);
+    const system::BodyData& b = s.bodies[body];
+    const auto d = system::hydro_motion_gradient(s.hydro.body_axes, ws.bodies[body]);
+    Matrix6 by_velocity;
+    by_velocity << d.U_v, d.U_w;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if (hb.moving[c] < 0)
+        continue;
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(s.n_u);
+      for (int k = 0; k < b.n_active; ++k)
+        row[b.u0 - s.u0 + k] =
+            by_velocity(static_cast<Eigen::Index>(c), b.active[static_cast<std::size_t>(k)]);
+      add_row(out.hydro_map, row);
+      out.hydro_labels.push_back(*scene.bodies[body].hydro + "." +
+                                 std::string(model::coordinate_names[c]));
+    }
+  }
+}
+
+void add_motions(const System& s, const system::Workspace<double>& ws, LinearModel& out) {
+  for (std::size_t m = 0; m < s.motions.size(); ++m) {
+    const system::JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
+    if (j.hidden)
+      continue;
+    out.motions.push_back("joints/" + j.name + "/" + s.motions[m].name);
+    add_row(out.motion_map,
+            joint_row(s, j, system::motion_row<double>(s, ws, static_cast<int>(m)).gradient));
+  }
+  system::for_each_element(s.motion_forces, [&](const auto& f) {
+    const system::JointData& j =
+        s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(f.motion)].joint)];
+    const auto w = system::motion_row<double>(s, ws, f.motion);
+    out.dampers.push_back(f.component);
+    out.damper_damping.push_back(-f.law.gradient(w.value, 0.0).second);
+    add_row(out.damper_map, joint_row(s, j, w.gradient));
+  });
+}
+
+/// All reactions (6 n_joints,) of the joints that are reported.
+VectorX reactions(const System& s, system::Observer& observer, const VectorX& y) {
+  const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
+  VectorX out(0);
+  for (std::size_t j = 0; j < s.joints.size(); ++j) {
+    if (s.joints[j].hidden)
+      continue;
+    out.conservativeResize(out.size() + 6);
+    out.tail<6>() = o.reactions[j];
+  }
+  return out;
+}
+
+/// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
+/// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
+void add_reactions(const System& s, const VectorX& y, LinearModel& out) {
+  system::Observer observer(s);
+  for (const system::JointData& j : s.joints)
+    if (!j.hidden)
+      for (const char* part : {"force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z"})
+        out.reactions.push_back("joints/" + j.name + "/reaction_" + part);
+  out.reaction = reactions(s, observer, y);
+  out.reaction_by_xi.resize(out.reaction.size(), s.n_u);
+  out.reaction_by_lambda.resize(out.reaction.size(), s.n_lambda);
+  VectorX unloaded = y;
+  unloaded.segment(s.lambda0, s.n_lambda).setZero();
+  for (Index k = 0; k < s.n_lambda; ++k) {
+    VectorX loaded = unloaded;
+    loaded[s.lambda0 + k] = 1.0;
+    out.reaction_by_lambda.col(k) = reactions(s, observer, loaded);
+  }
+  constexpr double h = 1e-5;
+  for (Index k = 0; k < s.n_u; ++k) {
+    VectorX plus = y, minus = y;
+    system::retract(s, h * VectorX::Unit(s.n_u, k), plus);
+    system::retract(s, -h * VectorX::Unit(s.n_u, k), minus);
+    out.reaction_by_xi.col(k) =
+        (reactions(s, observer, plus) - reactions(s, observer, minus)) / (2.0 * h);
+  }
+}
+
+} // namespace
+
+LinearModel linearize(const model::Scene& scene) {
+  model::Scene still = scene;
+  still.waves.clear();
+  if (still.hydro) {
+    still.hydro->radiation = "none";
+    still.hydro->frequency.reset();
+  }
+  System s = system::build(still);
+  s.hydro.added_mass.setZero();
+  s.hydro.added_mass_all.setZero();
+  const VectorX y = solve::move_to_equilibrium(s);
+  const solve::LinearMatrices m = solve::linear_matrices(s, system::find_pattern(s), y);
+  LinearModel out;
+  out.mass = m.mass;
+  out.damping = m.damping;
+  out.stiffness = m.stiffness;
+  out.constraints = m.constraints;
+  out.notes = s.notes;
+  out.hydro_map = out.motion_map = out.damper_map = MatrixX(0, s.n_u);
+  system::Workspace<double> ws(s);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
+  add_bodies(s, ws, y, out);
+  add_hydro_map(still, s, ws, out);
+  add_motions(s, ws, out);
+  add_reactions(s, y, out);
+  return out;
+}
+
+MatrixX wave_components(const model::Scene& scene) {
+  MatrixX out(0, 4);
+  for (const sea::Wave& wave : scene.waves)
+    for (const sea::Component& c :
+         sea::components(wave, scene.database->water_depth, scene.database->gravity))
+      add_row(out, Eigen::RowVector4d(c.omega, c.heading, c.amplitude, c.phase));
+  return out;
+}
+
+} // namespace hydrodae

@@ -1,0 +1,45 @@
+#pragma once
+/// Static pose and linear model of a scene: what the frequency domain is made from.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/types.h"
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae {
+
+/// A scene at rest in its static equilibrium in still water, and its equations linearised there.
+///
+///   M xi'' + C xi' + K xi + T^T (hydrodynamic loads) = G^T dlambda + T^T f,   G xi = 0
+///
+/// xi: virtual displacements, translations in world axes [m], rotations in body axes [rad]. Added
+/// mass and radiation are left to the caller: their velocities are U = T xi'.
+struct LinearModel {
+  std::vector<std::string> coordinates;  ///< (n_u,) "bodies/flap1/pitch"
+  MatrixX mass, damping, stiffness;      ///< M, C, K (n_u, n_u), without hydrodynamics but C_hs
+  MatrixX constraints;                   ///< G (n_lambda, n_u)
+  std::vector<std::string> hydro_labels; ///< (m,) labels of the database that move
+  MatrixX hydro_map;                     ///< T (m, n_u)
+  std::vector<std::string> motions;      ///< (n_m,) "joints/hinge1/angle"
+  MatrixX motion_map;                    ///< (n_m, n_u) of the joint coordinates
+  std::vector<std::string> dampers;      ///< (n_d,) forces with damping along a joint coordinate
+  std::vector<double> damper_damping;    ///< (n_d,) [N s/m or N m s]
+  MatrixX damper_map;                    ///< (n_d, n_u) of their coordinates
+  std::vector<std::string> reactions;    ///< (6 n_joints,) "joints/hinge1/reaction_force.x"
+  MatrixX reaction_by_xi, reaction_by_lambda; ///< (6 n_joints, n_u), (6 n_joints, n_lambda)
+
+  std::vector<std::string> bodies;
+  std::vector<Vector3> offsets, rotations; ///< per body, from the reference pose [m], [rad]
+  VectorX reaction;                        ///< (6 n_joints,) in equilibrium [N], [N m]
+  std::vector<std::string> notes;
+};
+
+/// Throws ModelError when there is no equilibrium near the start of the scene.
+LinearModel linearize(const model::Scene& scene);
+
+/// Components of all wave systems of a scene, one a row: frequency [rad/s], heading [rad],
+/// amplitude [m], phase [rad].
+MatrixX wave_components(const model::Scene& scene);
+
+} // namespace hydrodae

@@ -1,0 +1,58 @@
+#pragma once
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::force {
+
+/// Viscous damping of one body, linear and quadratic, about its centre of gravity.
+///
+///   W = -C v - Q (v |v|)      v = [velocity; angular velocity] [m/s; rad/s], world axes
+///
+/// v |v| is taken component by component. W holds force [N] and moment [N m]. The derivative is
+/// continuous, the second one jumps where a component changes sign.
+struct ViscousDamping {
+  static constexpr std::string_view type = "viscous_damping";
+  std::string name;
+  std::string body;
+  Matrix6 linear = Matrix6::Zero();
+  Matrix6 quadratic = Matrix6::Zero();
+
+  /// The law that the system evaluates.
+  struct Law {
+    Matrix6 linear, quadratic;
+
+    template <class S> Vec6<S> apply(const Vec6<S>&, const Vec6<S>& twist) const {
+      using std::abs;
+      Vec6<S> square;
+      for (int k = 0; k < 6; ++k)
+        square[k] = twist[k] * abs(twist[k]);
+      return -(linear.cast<S>() * twist) - quadratic.cast<S>() * square;
+    }
+
+    /// dW/dxi and dW/dtwist.
+    void gradient(const Vector6&, const Vector6& twist, Matrix6& by_xi, Matrix6& by_twist) const {
+      by_xi.setZero();
+      by_twist = -linear - quadratic * (2.0 * twist.cwiseAbs()).asDiagonal();
+    }
+
+    double potential(const Vector6&) const { return 0.0; }
+  };
+  Law law() const { return {linear, quadratic}; }
+
+  static Fields<ViscousDamping> fields() {
+    using V = ViscousDamping;
+    return {
+        {"name", &V::name, "-", "Name of this force in the results.", true},
+        {"body", &V::body, "-", "Body that is damped.", true},
+        {"linear", &V::linear, "N s/m, N s, N m s",
+         "C: six numbers (diagonal: surge, sway, heave, roll, pitch, yaw) or a 6x6 matrix."},
+        {"quadratic", &V::quadratic, "N s2/m2, N s2, N m s2",
+         "Q: six numbers (diagonal) or a 6x6 matrix."},
+    };
+  }
+};
+
+} // namespace hydrodae::force

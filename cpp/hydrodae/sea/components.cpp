@@ -1,0 +1,108 @@
+#include "hydrodae/sea/components.h"
+
+#include <cmath>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/sea/dispersion.h"
+#include "hydrodae/sea/random.h"
+#include "hydrodae/sea/spectrum.h"
+
+namespace hydrodae::sea {
+namespace {
+
+constexpr double cut_below = 1e-3, cut_above = 5e-3; ///< parts of the energy outside the range
+
+/// Angles from the mean heading at equal steps of the integral of cos^2s(theta/2) over +-90 deg.
+class Directions {
+public:
+  explicit Directions(double s) {
+    for (std::size_t i = 0; i <= cells; ++i)
+      cumulative_[i] =
+          i == 0 ? 0.0
+                 : cumulative_[i - 1] + 0.5 * (density(s, angle(i - 1)) + density(s, angle(i)));
+  }
+
+  /// Inverse of the cumulative distribution, u in [0, 1).
+  double operator()(double u) const {
+    const double wanted = u * cumulative_.back();
+    std::size_t i = 0;
+    while (i + 1 < cells && cumulative_[i + 1] < wanted)
+      ++i;
+    const double step = cumulative_[i + 1] - cumulative_[i];
+    const double x = step > 0.0 ? (wanted - cumulative_[i]) / step : 0.5;
+    return angle(i) + x * (angle(i + 1) - angle(i));
+  }
+
+private:
+  static constexpr std::size_t cells = 2000;
+  static double angle(std::size_t i) {
+    return pi * (static_cast<double>(i) / static_cast<double>(cells) - 0.5);
+  }
+  static double density(double s, double theta) { return std::pow(std::cos(0.5 * theta), 2.0 * s); }
+  std::vector<double> cumulative_ = std::vector<double>(cells + 1);
+};
+
+} // namespace
+
+std::vector<Component> components(const Wave& wave, double depth, double gravity,
+                                  std::string* note) {
+  if (wave.type == "regular") {
+    const double w = 2.0 * pi / *wave.period;
+    return {{w, wavenumber(w, depth, gravity), wave.heading, 0.5 * *wave.height, wave.phase}};
+  }
+  const Spectrum s = spectrum(wave, gravity);
+  if (!(s.m0 > 0.0))
+    return {};
+  double low = s.energy_below(s.omega.front()), high = s.cumulative.back();
+  if (!wave.frequency_range.empty()) {
+    low = s.energy_below(wave.frequency_range[0]);
+    high = s.energy_below(wave.frequency_range[1]);
+  } else if (wave.type != "table") {
+    low = cut_below * s.m0;
+    high = (1.0 - cut_above) * s.m0;
+  }
+  const double w_low = s.frequency_at(low), w_high = s.frequency_at(high);
+  Random random(static_cast<std::uint64_t>(wave.seed));
+  std::vector<Component> out;
+  for (int i = 0; i < wave.components; ++i) {
+    const double a = static_cast<double>(i) / wave.components;
+    const double b = static_cast<double>(i + 1) / wave.components;
+    const double u = random.uniform(), phase = 2.0 * pi * random.uniform();
+    double energy = (high - low) / wave.components, w = 0.0;
+    if (wave.spacing == "energy") {
+      w = s.frequency_at(low + (high - low) * (a + u * (b - a)));
+    } else {
+      w = w_low + (w_high - w_low) * (a + u * (b - a));
+      energy = s.energy_below(w_low + (w_high - w_low) * b) -
+               s.energy_below(w_low + (w_high - w_low) * a);
+    }
+    if (energy > 0.0)
+      out.push_back(
+          {w, wavenumber(w, depth, gravity), wave.heading, std::sqrt(2.0 * energy), phase});
+  }
+  if (wave.spreading) {
+    const Directions directions(*wave.spreading);
+    double u = random.uniform();
+    for (Component& c : out) {
+      c.heading += directions(u);
+      u += 0.5 * (std::sqrt(5.0) - 1.0);
+      u -= std::floor(u);
+    }
+  }
+  if (note)
+    *note = "wave " + in_quotes(wave.name) + ": " + std::to_string(out.size()) +
+            " components from " + number_text(w_low) + " to " + number_text(w_high) +
+            " rad/s hold " + number_text(100.0 * (high - low) / s.m0) + " % of the energy";
+  return out;
+}
+
+double ramp(double t, double duration) {
+  if (duration <= 0.0 || t >= duration)
+    return 1.0;
+  if (t <= 0.0)
+    return 0.0;
+  const double x = t / duration;
+  return x * x * x * x * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
+}
+
+} // namespace hydrodae::sea

@@ -1,0 +1,94 @@
+#include "hydrodae/sea/signals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/sea/components.h"
+
+namespace hydrodae::sea {
+namespace {
+
+/// Largest step that keeps the error of the quintic Hermite polynomial within the tolerance.
+double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients) {
+  double step = INFINITY;
+  for (Eigen::Index r = 0; r < coefficients.rows(); ++r) {
+    const VectorX power = coefficients.row(r).cwiseAbs2().transpose();
+    const double sigma = std::sqrt(power.sum());
+    const double sigma_6 = std::sqrt(power.cwiseProduct(omega.array().pow(12.0).matrix()).sum());
+    if (sigma_6 > 0.0)
+      step = std::min(
+          step, std::pow(46080.0 * Signals::tolerance * 2.0 * sigma / (4.0 * sigma_6), 1.0 / 6.0));
+  }
+  return step;
+}
+
+} // namespace
+
+Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp)
+    : omega_(std::move(omega)), coefficients_(std::move(coefficients)), ramp_(ramp) {
+  const Eigen::Index n = omega_.size(), rows = coefficients_.rows();
+  const double longest = table_step(omega_, coefficients_);
+  if (n <= few || !std::isfinite(longest))
+    return;
+  const auto cells = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(end / longest)));
+  step_ = end / static_cast<double>(cells);
+  // Re(C e) = [Re C, -Im C] [cos; sin], and the same for its derivatives, C i w and -C w^2.
+  MatrixX parts(3 * rows, 2 * n);
+  Eigen::MatrixXcd scaled = coefficients_;
+  for (int d = 0; d < 3; ++d) {
+    parts.block(d * rows, 0, rows, n) = scaled.real();
+    parts.block(d * rows, n, rows, n) = -scaled.imag();
+    scaled = scaled * (std::complex<double>(0.0, step_) * omega_).asDiagonal();
+  }
+  table_.resize(3 * rows, cells + 1);
+  constexpr Eigen::Index chunk = 256;
+  MatrixX phasors(2 * n, chunk);
+  for (Eigen::Index first = 0; first <= cells; first += chunk) {
+    const Eigen::Index count = std::min(chunk, cells + 1 - first);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto angle = (static_cast<double>(first + k) * step_ * omega_).array();
+      phasors.col(k).head(n) = angle.cos();
+      phasors.col(k).tail(n) = angle.sin();
+    }
+    table_.middleCols(first, count).noalias() = parts * phasors.leftCols(count);
+  }
+}
+
+void Signals::operator()(double t, Eigen::Ref<VectorX> out) const {
+  const double growth = ramp(t, ramp_);
+  if (growth == 0.0) {
+    out.setZero();
+    return;
+  }
+  const double place = step_ > 0.0 ? t / step_ : -1.0;
+  if (place < 0.0 || place > static_cast<double>(table_.cols() - 1)) {
+    sum(t, out);
+  } else {
+    const auto k = std::min(static_cast<Eigen::Index>(place), table_.cols() - 2);
+    const double x = place - static_cast<double>(k), y = 1.0 - x;
+    const double x3 = x * x * x, y3 = y * y * y;
+    // Basis of the right end in x; that of the left end is its mirror image.
+    const double right0 = x3 * (10.0 - 15.0 * x + 6.0 * x * x), left0 = 1.0 - right0;
+    const double right1 = x3 * (-4.0 + 7.0 * x - 3.0 * x * x);
+    const double left1 = -y3 * (-4.0 + 7.0 * y - 3.0 * y * y);
+    const double right2 = 0.5 * x3 * y * y, left2 = 0.5 * y3 * x * x;
+    const Eigen::Index n = out.size(), rows = size();
+    const auto a = table_.col(k), b = table_.col(k + 1);
+    out.noalias() = left0 * a.segment(0, n) + right0 * b.segment(0, n) +
+                    left1 * a.segment(rows, n) + right1 * b.segment(rows, n) +
+                    left2 * a.segment(2 * rows, n) + right2 * b.segment(2 * rows, n);
+  }
+  if (growth != 1.0)
+    out *= growth;
+}
+
+void Signals::sum(double t, Eigen::Ref<VectorX> out) const {
+  out.setZero();
+  for (Eigen::Index i = 0; i < omega_.size(); ++i) {
+    const double c = std::cos(omega_[i] * t), s = std::sin(omega_[i] * t);
+    for (Eigen::Index r = 0; r < out.size(); ++r)
+      out[r] += coefficients_(r, i).real() * c - coefficients_(r, i).imag() * s;
+  }
+}
+
+} // namespace hydrodae::sea

@@ -1,0 +1,46 @@
+#pragma once
+/// Several functions of time made of the same wave components, at a cost that does not depend on
+/// their number.
+
+#include <complex>
+
+#include "hydrodae/core/types.h"
+
+namespace hydrodae::sea {
+
+/// f_r(t) = ramp(t) Re sum_i C_ri exp(i w_i t)
+///
+/// With few components the sum itself; with many, a table on equal time steps with f, f' and f''
+/// joined by quintic Hermite polynomials: two continuous derivatives. The step is chosen so that
+/// four standard deviations of the error, h^6 w^6 / 46080 of each component, are below 1e-8 of the
+/// significant value (two standard deviations) of each f_r. Outside [0, end] the sum itself.
+class Signals {
+public:
+  static constexpr double tolerance = 1e-8;
+  static constexpr Eigen::Index few = 4; ///< so many components are summed directly
+
+  Signals() = default;
+
+  /// @param omega (n,) [rad/s]
+  /// @param coefficients C (n_signals, n)
+  /// @param end the table covers 0 <= t <= end [s]
+  /// @param ramp duration of the growth at the start [s]
+  Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp);
+
+  /// The first `out.size()` of the functions at time t [s]. No allocation.
+  void operator()(double t, Eigen::Ref<VectorX> out) const;
+
+  Eigen::Index size() const { return coefficients_.rows(); }
+  bool empty() const { return coefficients_.rows() == 0; }
+  double step() const { return step_; } ///< of the table [s]; 0 without table
+
+private:
+  void sum(double t, Eigen::Ref<VectorX> out) const;
+
+  VectorX omega_;
+  Eigen::MatrixXcd coefficients_;
+  double ramp_ = 0.0, step_ = 0.0;
+  MatrixX table_; ///< (3 n_signals, points): f, h f', h^2 f''
+};
+
+} // namespace hydrodae::sea

@@ -1,0 +1,101 @@
+#pragma once
+/// Tables [sea] and [[wave]]: the sea is the sum of its wave systems; without any it is still.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::sea {
+
+/// Table [sea]: what all wave systems share.
+struct Sea {
+  double ramp = 0.0;
+
+  static Fields<Sea> fields() {
+    return {{"ramp", &Sea::ramp, "s",
+             "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
+             "continuous derivatives).",
+             false, at_least(0)}};
+  }
+};
+
+/// Table [[wave]]: one wave system.
+///
+///   regular:            eta = H/2 cos(w t - k.x + phase)
+///   jonswap:            S ~ w^-5 exp(-5/4 (wp/w)^4) gamma^exp(-(w/wp - 1)^2 / (2 s^2)), s = 0.07
+///                       below wp and 0.09 above (Hasselmann et al. 1973), m0 = Hs^2/16
+///   bretschneider:      the same with gamma = 1
+///   pierson_moskowitz:  the same with gamma = 1 and wp from Hs: m0 = 0.0081 g^2 / (5 wp^4)
+///   ochi_hubble:        S ~ (wp^4/w^(4l+1)) exp(-(l + 1/4) (wp/w)^4), l = shape (one of the two
+///                       parts of Ochi and Hubble 1976; the other is a wave system of its own)
+///   table:              S given point by point, straight lines between, m0 as given
+struct Wave {
+  std::string name;
+  std::string type;
+  std::optional<double> height, period;
+  double phase = 0.0;
+  std::optional<double> significant_height, peak_period;
+  double gamma = 3.3;
+  double shape = 1.0;
+  std::vector<double> frequency, density;
+  double heading = 0.0;
+  std::optional<double> spreading;
+  int components = 200;
+  std::string spacing = "energy";
+  std::vector<double> frequency_range;
+  int seed = 1;
+
+  static Fields<Wave> fields() {
+    using W = Wave;
+    return {
+        {"name", &W::name, "-", "Name of the wave system.", true},
+        {"type",
+         &W::type,
+         "-",
+         "Regular wave, or the spectrum of an irregular one.",
+         true,
+         any_value,
+         {"regular", "jonswap", "bretschneider", "pierson_moskowitz", "ochi_hubble", "table"}},
+        {"height", &W::height, "m", "Height H of a regular wave, crest to trough.", false,
+         at_least(0)},
+        {"period", &W::period, "s", "Period of a regular wave.", false, more_than(0)},
+        {"phase_deg", &W::phase, "deg",
+         "Phase of a regular wave: its crest passes the origin when w t = -phase."},
+        {"significant_height", &W::significant_height, "m", "Hs = 4 sqrt(m0).", false, at_least(0)},
+        {"peak_period", &W::peak_period, "s", "Period at which the spectrum is highest.", false,
+         more_than(0)},
+        {"gamma", &W::gamma, "-", "Peak enhancement of JONSWAP.", false, between(1, 20)},
+        {"shape", &W::shape, "-", "Shape l of Ochi-Hubble.", false, between(0.5, 20)},
+        {"frequency", &W::frequency, "rad/s", "Frequencies of a table, ascending.", false,
+         more_than(0)},
+        {"density", &W::density, "m2 s/rad", "Spectral density S at these frequencies.", false,
+         at_least(0)},
+        {"heading_deg", &W::heading, "deg", "Mean direction of travel; 0 = +x, 90 = +y.", false,
+         between(-360, 360)},
+        {"spreading", &W::spreading, "-",
+         "Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90 deg; "
+         "without it all waves travel along the heading.",
+         false, between(0.5, 1000)},
+        {"components", &W::components, "-", "Number of components of an irregular wave.", false,
+         between(2, 100000)},
+        {"spacing",
+         &W::spacing,
+         "-",
+         "Bins of equal energy or of equal width in frequency; each has one component at a "
+         "frequency drawn at random in its bin, so that the sea does not repeat.",
+         false,
+         any_value,
+         {"energy", "frequency"}},
+        {"frequency_range", &W::frequency_range, "rad/s",
+         "Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 % "
+         "above.",
+         false, more_than(0)},
+        {"seed", &W::seed, "-", "Seed of the random phases, frequencies and directions.", false,
+         at_least(0)},
+    };
+  }
+};
+
+} // namespace hydrodae::sea

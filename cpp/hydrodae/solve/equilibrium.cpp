@@ -1,0 +1,178 @@
+#include "hydrodae/solve/equilibrium.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+using system::BodyData;
+using system::System;
+
+constexpr double balanced = 1e-10; ///< of weights and lengths
+constexpr double longest = 3.0;    ///< largest step of Newton's method, in length scales
+constexpr int most_steps = 200;
+
+/// Gaps of all rows at position level, in the order of lambda; the others 0.
+VectorX gaps_of(const System& s, const VectorX& r) {
+  VectorX gaps = VectorX::Zero(s.n_lambda);
+  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
+    if (lambda != system::redundant && !velocity_level)
+      gaps[lambda - s.lambda0] = r[mu];
+  });
+  return gaps;
+}
+
+VectorX gap_sizes(const System& s) {
+  VectorX sizes = VectorX::Ones(s.n_lambda);
+  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
+    if (lambda != system::redundant)
+      sizes[lambda - s.lambda0] = s.row_scale[velocity_level ? lambda : mu];
+  });
+  return sizes;
+}
+
+/// Takes positions from y into the start of the bodies and motions, at rest.
+void take_start(System& s, const VectorX& y) {
+  system::Workspace<double> ws(s);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    BodyData& b = s.bodies[i];
+    b.position = ws.bodies[i].r;
+    b.velocity = b.angular_velocity = Vector3::Zero();
+    if (b.rotation == BodyData::Rotation::about_axis)
+      b.orientation =
+          quaternion_from_rotation_vector(y[b.q0 + b.n_translations] * Vector3::Unit(b.axis));
+    if (b.rotation == BodyData::Rotation::free)
+      b.orientation = ws.bodies[i].p.normalized();
+  }
+  for (int m = 0; m < static_cast<int>(s.motions.size()); ++m)
+    s.motions[static_cast<std::size_t>(m)].start = system::motion_row<double>(s, ws, m).value;
+}
+
+/// Notes a direction, free of the constraints, in which the forces drive the scene away.
+void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) {
+  const MatrixX G = m.constraints * scale.asDiagonal();
+  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
+  if (G.rows() > 0) {
+    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
+    free = svd.matrixV().rightCols(s.n_u - svd.rank());
+  }
+  if (free.cols() == 0)
+    return;
+  const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
+  const VectorX values =
+      Eigen::SelfAdjointEigenSolver<MatrixX>(0.5 * (K + K.transpose())).eigenvalues();
+  if (values[0] < -1e-6 * values.cwiseAbs().maxCoeff())
+    s.notes.push_back("the equilibrium is unstable: the smallest displacement moves the scene away "
+                      "from it");
+}
+
+[[noreturn]] void refuse(const System& s, const VectorX& forces) {
+  Index worst = 0;
+  forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
+      .cwiseAbs()
+      .maxCoeff(&worst);
+  throw ModelError("solver.start",
+                   "no static equilibrium near the start: " + s.row_names[s.u0 + worst] +
+                       " is off by " + number_text(forces[worst]) + " N or N m");
+}
+
+} // namespace
+
+LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, const VectorX& y) {
+  const VectorX rest = VectorX::Zero(s.n);
+  system::JacobianWorkspace ws(s);
+  system::JacobianParts parts(pattern);
+  system::jacobian(s, pattern, ws, 0.0, y.data(), rest.data(), parts);
+  MatrixX by_y = MatrixX::Zero(s.n, s.z0), by_yp = MatrixX::Zero(s.n, s.z0);
+  for (Index c = 0; c < s.z0; ++c)
+    for (Index k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+      by_y(pattern.row[k], c) += parts.by_y[k];
+      by_yp(pattern.row[k], c) += parts.by_yp[k];
+    }
+  LinearMatrices out;
+  const MatrixX E = -by_y.block(0, s.u0, s.n_q, s.n_u); // rows q' - E u
+  out.mass = by_yp.block(s.u0, s.u0, s.n_u, s.n_u);
+  out.damping = by_y.block(s.u0, s.u0, s.n_u, s.n_u);
+  out.stiffness = by_y.block(s.u0, 0, s.n_u, s.n_q) * E;
+  out.constraints = by_y.block(s.lambda0, s.u0, s.n_lambda, s.n_u);
+  system::Workspace<double> state(s);
+  VectorX r(s.n);
+  system::residual<double>(s, state, 0.0, y.data(), rest.data(), r.data());
+  out.forces = -r.segment(s.u0, s.n_u);
+  return out;
+}
+
+VectorX move_to_equilibrium(System& system) {
+  System s = system; // without waves
+  s.hydro.excitation = sea::Signals();
+  const system::Pattern pattern = system::find_pattern(s);
+  VectorX y = system::initial_state(s);
+  if (!y.segment(s.u0, s.n_u).isZero(0.0))
+    throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
+                                     "initial velocities");
+  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s), rest = VectorX::Zero(s.n);
+  const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
+  const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
+  system::Workspace<double> ws(s);
+  VectorX r(s.n);
+  LinearMatrices m;
+  for (int step = 0;; ++step) {
+    system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
+    m = linear_matrices(s, pattern, y);
+    const VectorX gaps = gaps_of(s, r);
+    const double force_error = m.forces.cwiseQuotient(weights).cwiseAbs().maxCoeff();
+    const double gap_error = s.n_lambda > 0 ? gaps.cwiseQuotient(sizes).cwiseAbs().maxCoeff() : 0.0;
+    if (force_error <= balanced && gap_error <= balanced)
+      break;
+    if (step == most_steps)
+      refuse(s, m.forces);
+    const Index n = s.n_u + s.n_lambda;
+    MatrixX kkt = MatrixX::Zero(n, n);
+    kkt.topLeftCorner(s.n_u, s.n_u) =
+        weights.cwiseInverse().asDiagonal() * m.stiffness * scale.asDiagonal();
+    kkt.topRightCorner(s.n_u, s.n_lambda) =
+        -(weights.cwiseInverse().asDiagonal() * m.constraints.transpose() * units.asDiagonal());
+    kkt.bottomLeftCorner(s.n_lambda, s.n_u) =
+        sizes.cwiseInverse().asDiagonal() * m.constraints * scale.asDiagonal();
+    VectorX rhs(n);
+    rhs << m.forces.cwiseQuotient(weights), -gaps.cwiseQuotient(sizes);
+    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
+    cod.setThreshold(1e-12);
+    cod.compute(kkt);
+    VectorX x = cod.solve(rhs);
+    const double length = x.head(s.n_u).cwiseAbs().maxCoeff();
+    if (!x.allFinite())
+      refuse(s, m.forces);
+    if (length > longest) // the reactions are taken whole: they are linear
+      x.head(s.n_u) *= longest / length;
+    system::retract(s, x.head(s.n_u).cwiseProduct(scale), y);
+    y.segment(s.lambda0, s.n_lambda) += x.tail(s.n_lambda).cwiseProduct(units);
+  }
+  for (const system::CouplerData& c : s.couplers)
+    if (c.kept() && std::abs(r[c.lambda]) > 0.0)
+      throw ModelError("constraint." + c.name,
+                       "constraint '" + c.name + "' moves at the start: there is no equilibrium");
+  note_instability(system, m, scale);
+  take_start(system, y);
+  return y;
+}
+
+System starting_system(const model::Scene& scene) {
+  System s = system::build(scene);
+  if (scene.solver.start == "equilibrium")
+    move_to_equilibrium(s);
+  return s;
+}
+
+} // namespace hydrodae::solve

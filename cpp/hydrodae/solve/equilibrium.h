@@ -1,0 +1,33 @@
+#pragma once
+/// The static pose of the whole constrained scene in still water.
+
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::solve {
+
+/// Matrices of the equations linearised about a pose at rest, in virtual displacements xi (n_u,):
+/// translations in world axes, rotations in body axes.
+///
+///   M xi'' + C xi' + K xi - G^T dlambda = 0,   G xi = 0
+///
+/// K holds the geometric stiffness of the reactions in `y`. Memory states are left out.
+struct LinearMatrices {
+  MatrixX mass, damping, stiffness; ///< M, C, K (n_u, n_u)
+  MatrixX constraints;              ///< G (n_lambda, n_u)
+  VectorX forces;                   ///< (n_u,) G^T lambda plus all loads: zero in equilibrium
+};
+
+/// At (t = 0, y, y' = 0); y must be at rest.
+LinearMatrices linear_matrices(const system::System& system, const system::Pattern& pattern,
+                               const VectorX& y);
+
+/// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves
+/// and with the smallest motion along directions in which nothing holds a body. Moves the start of
+/// the system there, at rest, and returns y with the reactions. An unstable pose is noted.
+/// Throws ModelError when there is no equilibrium near, or velocities are given.
+VectorX move_to_equilibrium(system::System& system);
+
+/// `build`, with the start moved to the equilibrium where the scene asks for it.
+system::System starting_system(const model::Scene& scene);
+
+} // namespace hydrodae::solve

@@ -1,0 +1,77 @@
+/// Wave excitation of all hydrodynamic bodies as functions of time, computed ahead of the run.
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/hydro/frequency.h"
+#include "hydrodae/model/motion.h"
+#include "hydrodae/sea/components.h"
+#include "hydrodae/system/build_parts.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+std::string degrees(double angle) { return number_text(angle * 180.0 / pi) + " deg"; }
+
+/// Refuses components that the database does not cover.
+void check_coverage(const hydro::Database& db, const sea::Wave& wave,
+                    const std::vector<sea::Component>& components) {
+  const std::string head = "wave " + in_quotes(wave.name) + ": ", key = "wave." + wave.name;
+  for (const sea::Component& c : components) {
+    if (!hydro::covers_frequency(db, c.omega))
+      throw ModelError(key + (wave.type == "regular" ? ".period" : ".frequency_range"),
+                       head + "a component at " + number_text(c.omega) +
+                           " rad/s is outside the database, " + number_text(db.omega[0]) + " to " +
+                           number_text(db.omega[db.omega.size() - 1]) + " rad/s" +
+                           (wave.type == "regular" ? "" : "; set 'frequency_range'"));
+    if (hydro::covered_heading(db, c.heading))
+      continue;
+    const double last = db.heading[db.heading.size() - 1];
+    throw ModelError(key + (wave.spreading ? ".spreading" : ".heading_deg"),
+                     head + "a component travels towards " + degrees(c.heading) +
+                         ", outside the headings of the database, " +
+                         (db.heading.size() > 1 ? degrees(db.heading[0]) + " to " + degrees(last)
+                                                : "which is " + degrees(last) + " alone"));
+  }
+}
+
+} // namespace
+
+void add_sea(const model::Scene& scene, System& s) {
+  if (scene.waves.empty())
+    return;
+  const hydro::Database& db = *scene.database;
+  HydroData& h = s.hydro;
+  std::vector<sea::Component> all;
+  for (const sea::Wave& wave : scene.waves) {
+    std::string note;
+    const std::vector<sea::Component> own =
+        sea::components(wave, db.water_depth, db.gravity, &note);
+    check_coverage(db, wave, own);
+    all.insert(all.end(), own.begin(), own.end());
+    if (!note.empty())
+      s.notes.push_back(note);
+  }
+  std::vector<std::string> labels;
+  for (const HydroBody& hb : h.bodies)
+    for (std::string_view dof : model::coordinate_names)
+      labels.push_back(*scene.bodies[hb.body].hydro + "." + std::string(dof));
+  const hydro::Excitation excitation(db, labels);
+  const auto n = static_cast<Eigen::Index>(all.size());
+  const auto rows = static_cast<Eigen::Index>(labels.size());
+  VectorX omega(n);
+  Eigen::MatrixXcd coefficients(h.n_moving + rows + 1, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const sea::Component& c = all[static_cast<std::size_t>(i)];
+    const std::complex<double> elevation = std::polar(c.amplitude, c.phase);
+    omega[i] = c.omega;
+    const Eigen::VectorXcd force =
+        elevation * excitation(c.omega, *hydro::covered_heading(db, c.heading));
+    for (int u = 0; u < h.n_moving; ++u)
+      coefficients(u, i) = force[6 * h.coordinates[u].hydro_body + h.coordinates[u].component];
+    coefficients.col(i).segment(h.n_moving, rows) = force;
+    coefficients(h.n_moving + rows, i) = elevation;
+  }
+  h.excitation = sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp);
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,44 @@
+#include "hydrodae/analysis.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bindings.h"
+#include "hydrodae/core/error.h"
+
+namespace py = pybind11;
+
+namespace hydrodae::bindings {
+namespace {
+
+py::dict linear_model(const model::Scene& scene) {
+  using namespace py::literals;
+  LinearModel m;
+  try {
+    const py::gil_scoped_release release;
+    m = linearize(scene);
+  } catch (const ModelError& error) {
+    throw CaseError(model::located(scene, error));
+  }
+  return py::dict("coordinates"_a = m.coordinates, "mass"_a = m.mass, "damping"_a = m.damping,
+                  "stiffness"_a = m.stiffness, "constraints"_a = m.constraints,
+                  "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map,
+                  "motions"_a = m.motions, "motion_map"_a = m.motion_map, "dampers"_a = m.dampers,
+                  "damper_damping"_a = m.damper_damping, "damper_map"_a = m.damper_map,
+                  "reactions"_a = m.reactions, "reaction_by_xi"_a = m.reaction_by_xi,
+                  "reaction_by_lambda"_a = m.reaction_by_lambda, "bodies"_a = m.bodies,
+                  "offsets"_a = m.offsets, "rotations"_a = m.rotations, "reaction"_a = m.reaction,
+                  "notes"_a = m.notes);
+}
+
+} // namespace
+
+void bind_analysis(py::module_& module) {
+  module.def("linearize", &linear_model, py::arg("scene"),
+             "The static equilibrium of the scene in still water and its linear model there; see "
+             "cpp/hydrodae/analysis.h.\nRaises CaseError.");
+  module.def("wave_components", &wave_components, py::arg("scene"),
+             "Components of all wave systems, (n, 4): frequency, heading, amplitude, phase.");
+}
+
+} // namespace hydrodae::bindings

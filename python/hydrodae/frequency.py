@@ -1,0 +1,352 @@
+"""Frequency domain of a case: the same scene, linearised at its static equilibrium.
+
+With virtual displacements xi (translations in world axes, rotations in body axes), the velocities
+U = T xi' of the hydrodynamic coordinates and phasors x(t) = Re(X e^{+iwt}):
+
+    [-w^2 (M + T^T A(w) T) + iw (C + T^T B(w) T) + K] xi - G^T lambda = T^T F(w),    G xi = 0
+
+A(w), B(w) and F(w) come from the database itself, without any memory fit.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
+from scipy.linalg import eigh, null_space
+
+from hydrodae.case import Case
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A mode of free motion.
+
+    Attributes
+    ----------
+    period : float
+        Undamped natural period with the added mass at that period [s].
+    damping_ratio : float
+        Radiation and other linear damping over critical damping [-], of this mode alone.
+    shape : dict
+        Share of each coordinate [m or rad], the largest is 1.
+    """
+
+    period: float
+    damping_ratio: float
+    shape: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Response:
+    """Response per metre of wave amplitude.
+
+    Attributes
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    heading : float
+        Direction of travel [rad].
+    names : tuple of str
+        Coordinates of bodies and joints and reactions, as channels.
+    units : tuple of str
+        Unit of each per metre of amplitude.
+    values : (nw, n) complex array
+        Phasors; phase zero when the crest passes the origin.
+    power : dict of (nw,) arrays
+        Mean power that each damper takes [W/m2].
+    excitation_power, radiated_power : (nw,) arrays
+        Mean power from the waves, and into radiated waves [W/m2].
+    """
+
+    omega: Array
+    heading: float
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    values: Complex
+    power: dict[str, Array]
+    excitation_power: Array
+    radiated_power: Array
+
+    def __getitem__(self, name: str) -> Complex:
+        """Phasors (nw,) of one channel."""
+        if name not in self.names:
+            raise CaseError(f"no response {name!r}; there are: {', '.join(self.names)}")
+        return np.asarray(self.values[:, self.names.index(name)])
+
+
+class LinearModel:
+    """Linear model of a case about its static equilibrium in still water.
+
+    Parameters
+    ----------
+    case : Case
+        The scene; its waves and its start beyond the equilibrium do not matter.
+
+    Raises
+    ------
+    CaseError
+        There is no equilibrium near the start of the case.
+    """
+
+    def __init__(self, case: Case | str | os.PathLike[str]) -> None:
+        from hydrodae import _core
+
+        self.case = case if isinstance(case, Case) else Case.read(case)
+        model: dict[str, Any] = _core.linearize(self.case.scene)
+        self.coordinates: list[str] = model["coordinates"]
+        self.mass: Array = model["mass"]
+        self.damping: Array = model["damping"]
+        self.stiffness: Array = model["stiffness"]
+        self.constraints: Array = model["constraints"]
+        self.offsets = dict(zip(model["bodies"], np.array(model["offsets"]), strict=True))
+        self.rotations = dict(zip(model["bodies"], np.array(model["rotations"]), strict=True))
+        self.reactions = dict(zip(model["reactions"], model["reaction"], strict=True))
+        self.notes: list[str] = model["notes"]
+        self._model = model
+        # A basis of the motions that the constraints leave, coordinates in their own units.
+        n = len(self.coordinates)
+        self._free: Array = null_space(self.constraints) if len(self.constraints) else np.eye(n)
+        self._constraints_inverse: Array = np.linalg.pinv(self.constraints.T)
+
+    @cached_property
+    def database(self) -> HydroDatabase | None:
+        """The hydrodynamic database of the case."""
+        path = self.case.scene.database_path
+        return HydroDatabase.read(path) if path else None
+
+    @cached_property
+    def _labels(self) -> NDArray[np.intp]:
+        assert self.database is not None
+        return self.database.index(self._model["hydro_labels"])
+
+    @cached_property
+    def _radiation(self) -> CubicSpline:
+        """A and B of the moving coordinates over frequency, side by side."""
+        db = self.database
+        assert db is not None
+        i = self._labels
+        tables = np.stack([m[:, i][:, :, i] for m in (db.added_mass, db.radiation_damping)], axis=1)
+        return CubicSpline(db.omega, tables, bc_type="natural")
+
+    def _added(self, omega: Array) -> tuple[Array, Array]:
+        """T^T A T and T^T B T at frequencies inside the database; (nw, n_u, n_u) each."""
+        n = len(self.coordinates)
+        if self.database is None or not self._model["hydro_labels"]:
+            return np.zeros((omega.size, n, n)), np.zeros((omega.size, n, n))
+        self._check_frequencies(omega)
+        tables = self._radiation(omega)
+        t = self._model["hydro_map"]
+        moved = t.T @ tables @ t
+        return moved[:, 0], moved[:, 1]
+
+    def _check_frequencies(self, omega: Array) -> None:
+        assert self.database is not None
+        low, high = self.database.omega[0], self.database.omega[-1]
+        if omega.size == 0 or omega.min() < low * (1 - 1e-9) or omega.max() > high * (1 + 1e-9):
+            raise DatabaseError(
+                f"frequencies {omega.min():g} to {omega.max():g} rad/s are outside the database, "
+                f"{low:g} to {high:g} rad/s (periods {2 * np.pi / high:g} to "
+                f"{2 * np.pi / low:g} s)"
+            )
+
+    def _lag(self, omega: Array, heading: Array) -> Array:
+        """Phase k.x of the waves at the reference points, (nw, nh, m) [rad]."""
+        db = self.database
+        assert db is not None
+        points = np.array(
+            [db.reference_point(label.rpartition(".")[0]) for label in self._model["hydro_labels"]]
+        )
+        along = np.multiply.outer(np.cos(heading), points[:, 0])
+        along += np.multiply.outer(np.sin(heading), points[:, 1])
+        return np.asarray(wavenumber(omega, db.water_depth, db.gravity)[:, None, None] * along)
+
+    @cached_property
+    def _smooth_excitation(self) -> CubicSpline:
+        """Excitation over frequency with the phase at the reference points taken off."""
+        db = self.database
+        assert db is not None
+        smooth = db.excitation[:, :, self._labels] * np.exp(1j * self._lag(db.omega, db.heading))
+        return CubicSpline(db.omega, smooth, bc_type="natural")
+
+    def excitation(self, omega: ArrayLike, heading: float) -> Complex:
+        """T^T F, loads (nw, n_u) per metre of wave amplitude, phase zero at the origin.
+
+        The phase at each body's reference point is taken off, natural cubic splines go through the
+        tables in frequency and heading, and the phase is put back.
+
+        Raises
+        ------
+        DatabaseError
+            A frequency or the heading is outside the database, or the case has no database.
+        """
+        w = np.asarray(omega, dtype=float)
+        db = self.database
+        if db is None:
+            raise DatabaseError("the case has no hydrodynamic database")
+        self._check_frequencies(w)
+        heading = _covered_heading(db, heading)
+        at_omega = self._smooth_excitation(w)
+        if db.heading.size > 1:
+            at_omega = CubicSpline(db.heading, at_omega, axis=1, bc_type="natural")(heading)
+        else:
+            at_omega = at_omega[:, 0]
+        force = at_omega * np.exp(-1j * self._lag(w, np.array([heading])))[:, 0]
+        return np.asarray(force @ self._model["hydro_map"])
+
+    def response(self, omega: ArrayLike, heading: float = 0.0) -> Response:
+        """Response to waves of unit amplitude.
+
+        Parameters
+        ----------
+        omega : (nw,) array
+            Frequencies [rad/s].
+        heading : float
+            Direction of travel [rad].
+
+        Raises
+        ------
+        DatabaseError
+            Outside the database.
+        """
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        force = self.excitation(w, heading)
+        added, radiation = self._added(w)
+        free, iw = self._free, 1j * w[:, None, None]
+        z = -(w**2)[:, None, None] * (self.mass + added) + iw * (self.damping + radiation)
+        z = z + self.stiffness
+        reduced = free.T @ z @ free
+        xi = np.linalg.solve(reduced, (force @ free)[:, :, None])[:, :, 0] @ free.T
+        # G^T lambda = Z xi - F has a solution: the constraints left are independent.
+        multipliers = ((z @ xi[:, :, None])[:, :, 0] - force) @ self._constraints_inverse.T
+        m = self._model
+        joints = xi @ m["motion_map"].T
+        reactions = xi @ m["reaction_by_xi"].T + multipliers @ m["reaction_by_lambda"].T
+        rates = np.abs(1j * w[:, None] * (xi @ m["damper_map"].T)) ** 2
+        power = {
+            name: 0.5 * c * rates[:, k]
+            for k, (name, c) in enumerate(zip(m["dampers"], m["damper_damping"], strict=True))
+            if c != 0.0
+        }
+        velocity = 1j * w[:, None] * xi
+        return Response(
+            omega=w,
+            heading=heading,
+            names=(*self.coordinates, *m["motions"], *m["reactions"]),
+            units=tuple(map(_unit, (*self.coordinates, *m["motions"], *m["reactions"]))),
+            values=np.hstack([xi, joints, reactions]),
+            power=power,
+            excitation_power=0.5 * np.sum(force.conj() * velocity, axis=1).real,
+            radiated_power=0.5
+            * np.einsum("wi,wij,wj->w", velocity.conj(), radiation, velocity).real,
+        )
+
+    def modes(self) -> list[Mode]:
+        """Natural modes of the constrained system, longest period first.
+
+        Each frequency is found together with the added mass at that frequency (fixed point). Modes
+        without restoring force, and those outside the frequencies of the database, are left out.
+        """
+        found: list[Mode] = []
+        count = self._free.shape[1]
+        for k in range(count):
+            mode = self._mode(k)
+            if mode is not None:
+                found.append(mode)
+        return sorted(found, key=lambda mode: -mode.period)
+
+    def _mode(self, k: int) -> Mode | None:
+        """Mode with the k-th eigenvalue, added mass at its own frequency."""
+        free = self._free
+        stiffness = free.T @ self.stiffness @ free
+        omega = np.array([1.0])
+        if self.database is not None:
+            low, high = self.database.omega[[0, -1]]
+            omega = np.array([np.sqrt(low * high)])
+        for _ in range(200):
+            added, radiation = self._added(omega)
+            mass = free.T @ (self.mass + added[0]) @ free
+            values, vectors = eigh(0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T))
+            if values[k] <= 1e-9 * np.abs(values).max():
+                return None
+            new = np.sqrt(values[k])
+            if self.database is not None:
+                new = np.clip(new, low, high)
+            if abs(new - omega[0]) <= 1e-10 * new:
+                break
+            omega = np.array([0.5 * (omega[0] + new)])
+        if self.database is not None and omega[0] in (low, high):
+            return None
+        shape = free @ vectors[:, k]
+        damping = shape @ (self.damping + radiation[0]) @ shape
+        ratio = damping / (2.0 * omega[0])  # vectors have unit modal mass
+        shape = shape / shape[np.argmax(np.abs(shape))]
+        return Mode(
+            period=float(2.0 * np.pi / omega[0]),
+            damping_ratio=float(ratio),
+            shape=dict(zip(self.coordinates, shape.tolist(), strict=True)),
+        )
+
+    def irregular(self) -> tuple[dict[str, float], dict[str, float]]:
+        """Response in the sea of the case, from the same components as in the time domain.
+
+        Returns
+        -------
+        standard_deviation : dict
+            Of every channel of `Response` and of "sea/elevation" [m].
+        power : dict
+            Mean power of every damper [W].
+
+        Raises
+        ------
+        CaseError
+            The case has no waves.
+        """
+        from hydrodae import _core
+
+        waves = np.asarray(_core.wave_components(self.case.scene))
+        if len(waves) == 0:
+            raise CaseError("the case has no [[wave]]: there is no sea to respond to")
+        variance: dict[str, float] = {"sea/elevation": 0.5 * float(np.sum(waves[:, 2] ** 2))}
+        power: dict[str, float] = {}
+        for heading in np.unique(waves[:, 1]):
+            mine = waves[waves[:, 1] == heading]
+            response = self.response(mine[:, 0], float(heading))
+            squares = 0.5 * (mine[:, 2] ** 2) @ np.abs(response.values) ** 2
+            for name, value in zip(response.names, squares, strict=True):
+                variance[name] = variance.get(name, 0.0) + float(value)
+            for name, per_square in response.power.items():
+                power[name] = power.get(name, 0.0) + float(mine[:, 2] ** 2 @ per_square)
+        return {name: float(np.sqrt(value)) for name, value in variance.items()}, power
+
+
+def _covered_heading(db: HydroDatabase, heading: float) -> float:
+    low, high = db.heading[0], db.heading[-1]
+    turned = heading - 2.0 * np.pi * np.floor((heading - low + 1e-9) / (2.0 * np.pi))
+    if turned > high + 1e-9:
+        raise DatabaseError(
+            f"heading {np.degrees(heading):g} deg is outside the headings of the database, "
+            f"{np.degrees(low):g} to {np.degrees(high):g} deg"
+        )
+    return float(np.clip(turned, low, high))
+
+
+def _unit(name: str) -> str:
+    last = name.rpartition("/")[2]
+    if last.startswith("reaction_force"):
+        return "N/m"
+    if last.startswith("reaction_moment"):
+        return "N m/m"
+    angle = last.startswith("angle") or last in ("roll", "pitch", "yaw")
+    return "rad/m" if angle else "m/m"
