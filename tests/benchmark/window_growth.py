@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "benchmarks"))
 
-from four_bar import four_bar  # noqa: E402
+from four_bar import four_bar  # type: ignore[import-not-found]  # noqa: E402
 
 import hydrodae  # noqa: E402
 from hydrodae.plot import save  # noqa: E402
@@ -41,10 +41,13 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("-o", "--output", type=Path, default=Path("build/window_growth.png"))
     arguments = parser.parse_args()
-    windows, per_step, setup = np.array(sorted(arguments.windows)), [], []
+    windows = np.array(sorted(arguments.windows))
+    per_step: list[float] = []
+    setup: list[float] = []
     print("windows  unknowns  steps  us/step  us/step/window  set-up ms")
     for n in windows:
-        steps, seconds = [], []
+        steps: list[int] = []
+        seconds: list[float] = []
         for end_time in END_TIMES:
             case = hydrodae.Case.from_text(four_bar(int(n), end_time, end_time))
             runs = [hydrodae.run(case).statistics for _ in range(arguments.repeats)]
@@ -59,10 +62,10 @@ def main() -> None:
     curves = {"time per step": np.array(per_step), "set-up": np.array(setup)}
     figure = Figure(figsize=(7.0, 4.2), layout="constrained")
     axes = figure.subplots()
-    for name, seconds in curves.items():
-        label = f"{name}, slope {slope(windows, seconds):.2f}"
+    for name, curve in curves.items():
+        label = f"{name}, slope {slope(windows, curve):.2f}"
         print(f"{label} (N >= {FITTED_FROM})")
-        axes.loglog(windows, seconds, "o-", label=label)
+        axes.loglog(windows, curve, "o-", label=label)
     axes.set_xlabel("four-bar windows N [-]")
     axes.set_ylabel("time [s]")
     axes.set_title("Chain of N four-bar windows, default tolerance")
