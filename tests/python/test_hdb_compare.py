@@ -11,7 +11,7 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import command
-from hydrodae.hdb.compare import compare, sensitivity
+from hydrodae.hdb.compare import compare, other_water, sensitivity
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +42,12 @@ def test_what_cannot_be_compared(sphere):
         compare(sphere, sphere.renamed({"sphere": "buoy"}))
     with pytest.raises(DatabaseError, match="move one"):
         compare(sphere, sphere.moved_to({"sphere": (0, 0, -1)}))
+
+
+def test_twins_in_other_water_are_told_apart(sphere, reference):
+    assert other_water(sphere, sphere) == []
+    other = hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
+    assert other_water(sphere, other) == ["water depth: inf m and 50 m"]
 
 
 def test_sensitivity_of_the_sphere(sphere):

@@ -94,6 +94,20 @@ def compare(a: HydroDatabase, b: HydroDatabase) -> list[Difference]:
     return found
 
 
+def other_water(a: HydroDatabase, b: HydroDatabase) -> list[str]:
+    """Say in which of depth, density and gravity two databases differ: they are no twins then."""
+    pairs = (
+        ("water depth", a.water_depth, b.water_depth, "m"),
+        ("density", a.rho, b.rho, "kg/m3"),
+        ("gravity", a.gravity, b.gravity, "m/s2"),
+    )
+    return [
+        f"{name}: {x:g} {unit} and {y:g} {unit}"
+        for name, x, y, unit in pairs
+        if not (x == y or np.isclose(x, y, rtol=1e-6))
+    ]
+
+
 def sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
     """How K(t) and added_mass_inf answer to a coarser, narrower or shorter database.
 
@@ -176,8 +190,11 @@ def run(args: argparse.Namespace) -> int:
     """
     a = read(args.database, rho=args.rho)
     if args.other is not None:
+        b = read(args.other, rho=args.rho)
         print(f"largest differences of {args.database} from {args.other}")
-        for difference in compare(a, read(args.other, rho=args.rho)):
+        for text in other_water(a, b):
+            print(f"  {text}")
+        for difference in compare(a, b):
             print(f"  {difference}")
         return 0
     print(f"{args.database}: what changes when the table is")
