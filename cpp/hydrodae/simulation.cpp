@@ -10,6 +10,7 @@
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/equilibrium.h"
+#include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/recorder.h"
@@ -83,6 +84,13 @@ public:
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     formulate(scene.solver);
+    if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
+      drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
+    if (scene.solver.branch_guard) {
+      branch_guard_ = std::make_unique<solve::BranchGuard>(system_);
+      if (!branch_guard_->active())
+        branch_guard_.reset();
+    }
     integrator_ = solve::make_integrator(system_, pattern_, scene.solver, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
@@ -160,6 +168,17 @@ private:
                                       : ""));
   }
 
+  /// The other witnesses: constraints that drift, velocities that jump.
+  void check_motion() {
+    if (!drift_guard_ && !branch_guard_)
+      return;
+    at_(t_, y_, yp_);
+    if (branch_guard_)
+      branch_guard_->check(t_, y_);
+    if (drift_guard_)
+      drift_guard_->check(t_, y_, yp_);
+  }
+
   /// Steps until the end; false when the progress callback asked to stop.
   bool march() {
     const double end = scene_.solver.end_time, dt = scene_.output.step;
@@ -178,6 +197,7 @@ private:
           return false;
       recorder_->accept(t_, at_);
       check_energy();
+      check_motion();
       // Between samples that are far apart in steps, a request to stop is heard as well.
       if (++steps_since_asked >= 1000 && progress_) {
         steps_since_asked = 0;
@@ -213,6 +233,8 @@ private:
   system::Pattern pattern_;
   VectorX y_, yp_;
   std::unique_ptr<solve::Integrator> integrator_;
+  std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
+  std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;

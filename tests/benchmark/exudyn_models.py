@@ -184,7 +184,7 @@ class Model:
         rows = np.asarray(self.system.GetSensorStoredData(self.sensor))
         times = np.arange(len(rows)) * self.output_step
         if not np.allclose(rows[:, 0], times, rtol=0.0, atol=1e-3 * step):
-            raise RuntimeError("Exudyn kept other times than those of the output")
+            raise ValueError("Exudyn kept other times than those of the output")
         return rows[:, 1:3] if self.planar else rows[:, 1:4], seconds
 
 

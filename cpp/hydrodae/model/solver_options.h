@@ -21,6 +21,7 @@ struct SolverOptions {
   double spectral_radius = 0.8;
   double baumgarte_time = 0.0;
   double energy_guard = 0.01;
+  bool branch_guard = true;
   bool force = false;
   std::optional<double> length_scale;
   std::optional<double> time_scale;
@@ -76,8 +77,13 @@ struct SolverOptions {
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard.",
          false, at_least(0)},
+        {"branch_guard", &O::branch_guard, "-",
+         "A run of a scene with closed loops ends as failed when its velocities jump though "
+         "nothing "
+         "strikes: at a singular pose the motion left its branch."},
         {"force", &O::force, "-",
-         "Run a pair of method and formulation that is known to fail, for comparisons."},
+         "Run what is known to fail, for comparisons: a pair of method and formulation, a memory "
+         "that is not passive."},
         {"length_scale", &O::length_scale, "m",
          "Length that the tolerance of positions refers to; default: from the bodies and joints.",
          false, more_than(0)},

@@ -121,7 +121,8 @@ VectorX move_to_equilibrium(System& system) {
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
                                      "initial velocities");
-  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s), rest = VectorX::Zero(s.n);
+  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s),
+                rest = VectorX::Zero(s.n);
   const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
   const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
   system::Workspace<double> ws(s);

@@ -163,7 +163,8 @@ bool StageNewton::factorise_full(double t, double h, const VectorX&) {
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
     e_.regularisation(alpha, regular);
     for (Index m = 0; m < regular.size(); ++m)
-      values[static_cast<std::size_t>(full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)])] = regular[m];
+      values[static_cast<std::size_t>(
+          full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)])] = regular[m];
     for (int j = 0; j < s; ++j) {
       const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
       const double factor = rk_.a_inverse(i, j) / h;

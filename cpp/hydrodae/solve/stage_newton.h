@@ -45,7 +45,8 @@ public:
 private:
   struct Full {
     std::vector<Index> start, row;
-    std::vector<Index> diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
+    std::vector<Index>
+        diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
     std::vector<std::vector<Index>> slots; ///< [i * s + j][k]: place of entry k of block (i, j), -1
     std::unique_ptr<SparseLu<double>> lu;
   };

@@ -1,5 +1,6 @@
 /// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "hydrodae/core/error.h"
@@ -148,6 +149,38 @@ MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
 
 } // namespace
 
+/// Mass and added mass together must be positive: else a push moves the body towards the hand.
+void check_mass(const System& s) {
+  const HydroData& h = s.hydro;
+  MatrixX mass = 0.5 * (h.added_mass + h.added_mass.transpose());
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const BodyData& b = s.bodies[h.bodies[i].body];
+    Matrix6 own = Matrix6::Zero();
+    own.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
+    own.bottomRightCorner<3, 3>() = b.inertia;
+    for (int m = 0; m < 6; ++m)
+      for (int n = 0; n < 6; ++n)
+        if (h.bodies[i].moving[m] >= 0 && h.bodies[i].moving[n] >= 0)
+          mass(h.bodies[i].moving[m], h.bodies[i].moving[n]) += own(m, n);
+  }
+  // Units differ: judged with a unit diagonal.
+  for (Eigen::Index k = 0; k < mass.rows(); ++k)
+    if (!(mass(k, k) > 0.0)) {
+      const HydroData::Coordinate& c = h.coordinates[k];
+      throw ModelError(
+          "hydro.database",
+          "mass and added mass of body '" + s.bodies[h.bodies[c.hydro_body].body].name + "' in " +
+              std::string(model::coordinate_names[static_cast<std::size_t>(c.component)]) +
+              " are " + number_text(mass(k, k)) + " together, and must be positive");
+    }
+  const VectorX size = mass.diagonal().cwiseSqrt().cwiseInverse();
+  mass = size.asDiagonal() * mass * size.asDiagonal();
+  if (mass.llt().info() != Eigen::Success)
+    throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
+                                       "positive definite together: a push somewhere moves the "
+                                       "bodies towards the hand");
+}
+
 void add_hydro(const model::Scene& scene, System& s) {
   if (!scene.hydro || !scene.database)
     return;
@@ -180,6 +213,7 @@ void add_hydro(const model::Scene& scene, System& s) {
     note_uncovered(scene, db.coordinates, s);
   }
   h.added_mass = moving_rows(h, h.added_mass_all);
+  check_mass(s);
 }
 
 } // namespace hydrodae::system

@@ -32,6 +32,7 @@ Six six(const char* text) { // "101010"
 
 hydro::MemoryFit fit(const std::string& name, std::vector<std::string> inputs, int states) {
   hydro::MemoryFit f;
+  f.passive = true;
   f.name = name;
   f.inputs = f.outputs = std::move(inputs);
   f.states = states;
@@ -90,6 +91,15 @@ TEST_CASE("axes that move are the free coordinates closed under rotation") {
   Body turned = body({"heave"});
   turned.initial.rotation = Vector3(0, 0.1, 0);
   CHECK(moving_axes(turned) == six("111000"));
+}
+
+TEST_CASE("a memory that is not passive is refused unless forced") {
+  Wet wet;
+  for (hydro::MemoryFit& f : wet.database->fits)
+    f.passive = false;
+  CHECK(contains(verdict(wet.scene), "the memory fit is not passive"));
+  wet.scene.solver.force = true;
+  CHECK(verdict(wet.scene) == "");
 }
 
 TEST_CASE("masses and inertias are physical") {
@@ -263,7 +273,7 @@ TEST_CASE("a summary shows what is in the scene") {
   const std::string text = model::summary(Wet().scene);
   CHECK(contains(text, "buoy: planar, 2 kg, hydro 'float'"));
   CHECK(contains(text, "6 coordinates, 3 move, body axes"));
-  CHECK(contains(text, "fit 'small' with 4 states for 3 coordinates, not passive"));
+  CHECK(contains(text, "fit 'small' with 4 states for 3 coordinates, passive"));
 }
 
 TEST_CASE("model errors are located by the longest key that is known") {

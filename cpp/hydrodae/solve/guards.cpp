@@ -1,0 +1,104 @@
+#include "hydrodae/solve/guards.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+constexpr double allowed_gap = 1e-2; ///< of the scale of the row
+constexpr double allowed_jump = 0.1; ///< of the largest kinetic energy so far
+constexpr double window = 3e-3;      ///< of the shortest time scale of a body
+
+system::System stabilised(system::System s) {
+  s.formulation = system::Formulation::stabilised;
+  return s;
+}
+
+/// Do the joints close a loop through moving bodies and the ground?
+bool has_loop(const system::System& s) {
+  const int ground = static_cast<int>(s.bodies.size());
+  std::vector<int> root(s.bodies.size() + 1);
+  std::iota(root.begin(), root.end(), 0);
+  auto find = [&](int i) {
+    while (root[static_cast<std::size_t>(i)] != i)
+      i = root[static_cast<std::size_t>(i)];
+    return i;
+  };
+  auto place = [&](int body) {
+    return body < 0 || s.bodies[static_cast<std::size_t>(body)].n_active == 0 ? ground : body;
+  };
+  for (const system::JointData& j : s.joints) {
+    if (j.rows.empty())
+      continue;
+    const int a = find(place(j.A.body)), b = find(place(j.B.body));
+    if (a == b && place(j.A.body) != place(j.B.body))
+      return true;
+    root[static_cast<std::size_t>(a)] = b;
+  }
+  return false;
+}
+
+} // namespace
+
+DriftGuard::DriftGuard(const system::System& system)
+    : stabilised_(stabilised(system)), workspace_(stabilised_), residual_(system.n) {}
+
+void DriftGuard::check(double t, const VectorX& y, const VectorX& yp) {
+  system::residual<double>(stabilised_, workspace_, t, y.data(), yp.data(), residual_.data());
+  for (Index i = stabilised_.lambda0; i < stabilised_.sigma0; ++i) {
+    const double gap = residual_[i] / stabilised_.row_scale[i];
+    // Rates count from a tenth of the scale: index 3 leaves some noise in them.
+    if (!(std::abs(gap) <= allowed_gap * (i < stabilised_.mu0 ? 10.0 : 1.0)))
+      throw SolverError(t, "stopped at t = " + number_text(t) +
+                               " s: the constraints have drifted: " + stabilised_.row_names[i] +
+                               " is " + number_text(gap) +
+                               " of its scale; the stabilised formulation, a Baumgarte time or a "
+                               "smaller tolerance keeps them");
+  }
+}
+
+BranchGuard::BranchGuard(const system::System& system)
+    : s_(system), mass_(system.n_u), active_(has_loop(system)) {
+  window_ = HUGE_VAL;
+  for (const system::BodyData& b : s_.bodies) {
+    if (b.n_active > 0)
+      window_ = std::min(window_, window * b.time_scale);
+    for (int k = 0; k < b.n_active; ++k) {
+      const int c = b.active[k];
+      mass_[b.u0 - s_.u0 + k] = c < 3 ? b.mass : b.inertia(c - 3, c - 3);
+    }
+  }
+  largest_ = energy(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
+}
+
+double BranchGuard::energy(const VectorX& u) const { return 0.5 * mass_.dot(u.cwiseAbs2()); }
+
+void BranchGuard::check(double t, const VectorX& y) {
+  if (!active_)
+    return;
+  const VectorX u = y.segment(s_.u0, s_.n_u);
+  while (past_.size() > 1 && past_[1].first <= t - window_)
+    past_.pop_front();
+  largest_ = std::max(largest_, energy(u));
+  // A longer step says nothing about a jump.
+  if (!past_.empty() && t - past_.front().first <= 2.0 * window_) {
+    const double jump = energy(u - past_.front().second);
+    if (jump > allowed_jump * largest_)
+      throw SolverError(
+          t, "stopped at t = " + number_text(t) + " s: the velocities jumped within " +
+                 number_text(t - past_.front().first) + " s (" + number_text(jump / largest_) +
+                 " of the largest kinetic energy), though nothing struck: at a singular pose the "
+                 "motion left its branch; a smaller tolerance, or radau or explicit_rk, may pass "
+                 "(solver.branch_guard = false lets it go on)");
+  }
+  past_.emplace_back(t, u);
+}
+
+} // namespace hydrodae::solve

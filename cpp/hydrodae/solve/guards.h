@@ -1,0 +1,48 @@
+#pragma once
+/// Witnesses of a run that went wrong without the integrator's noticing; judged after each accepted
+/// step. (The energy balance is the third: see simulation.cpp.)
+
+#include <deque>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::solve {
+
+/// Both levels of the constraints: in formulations that do not keep them they drift apart.
+class DriftGuard {
+public:
+  explicit DriftGuard(const system::System& system);
+
+  /// Throws SolverError when a gap is above a hundredth of its scale.
+  void check(double t, const VectorX& y, const VectorX& yp);
+
+private:
+  system::System stabilised_; ///< the same equations with both levels as rows
+  system::Workspace<double> workspace_;
+  VectorX residual_;
+};
+
+/// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
+/// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy within 0.003
+/// time scales on a wrong branch, below 0.01 otherwise.
+class BranchGuard {
+public:
+  explicit BranchGuard(const system::System& system);
+
+  /// Throws SolverError when the velocities jumped within the last window.
+  void check(double t, const VectorX& y);
+
+  /// Only scenes with loops have singular poses to fear.
+  bool active() const { return active_; }
+
+private:
+  double energy(const VectorX& u) const;
+
+  const system::System& s_;
+  VectorX mass_; ///< (n_u,) of each velocity
+  bool active_ = false;
+  double window_ = 0.0, largest_ = 0.0;
+  std::deque<std::pair<double, VectorX>> past_;
+};
+
+} // namespace hydrodae::solve
