@@ -84,6 +84,8 @@ public:
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     formulate(scene.solver);
+    energy_guard_ = scene.solver.energy_guard.value_or(
+        scene.solver.method == "ida" && solve::has_loop(system_) ? 1e-3 : 1e-2);
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (scene.solver.branch_guard) {
@@ -150,7 +152,7 @@ private:
   /// Ends a run that went wrong without the integrator's noticing (a branch lost in a singular
   /// pose, a tolerance too loose): the energy that the equations keep is a witness of its own.
   void check_energy() {
-    const double part = scene_.solver.energy_guard, error = recorder_->balance_error();
+    const double part = energy_guard_, error = recorder_->balance_error();
     if (part == 0.0 || std::abs(error) <= part * recorder_->largest_energy() + least_energy_)
       return;
     VectorX reactions = VectorX::Zero(system_.n);
@@ -240,6 +242,7 @@ private:
   std::vector<double> row_;
   RunStatistics statistics_;
   double t_ = 0.0;
+  double energy_guard_ = 0.0; ///< part of the energy exchanged
   double least_energy_ = 0.0; ///< balance errors below say nothing [J]
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {

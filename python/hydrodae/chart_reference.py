@@ -118,7 +118,7 @@ def error(solution: Solution, reference: Solution) -> float:
     --------
     >>> t = np.linspace(0.0, 1.0, 5)
     >>> truth = Solution(t, np.array([4.0 * t, 0.0 * t]), ("m", "m"))
-    >>> error(Solution(t, truth.values + 0.1, ("m", "m")), truth)
+    >>> round(error(Solution(t, truth.values + 0.1, ("m", "m")), truth), 6)
     0.025
     """
     start, end = reference.time[0], reference.time[-1]

@@ -96,7 +96,7 @@ bool GeneralizedAlpha::refresh(double t, double h) {
 
 bool GeneralizedAlpha::newton(double t, double h) {
   constexpr int most = 12, stale = 4;
-  constexpr double accuracy = 1e-2;
+  constexpr double accuracy = 1e-4;
   double before = 0.0;
   for (int i = 0; i < most; ++i) {
     update(h);

@@ -21,7 +21,8 @@ system::System stabilised(system::System s) {
   return s;
 }
 
-/// Do the joints close a loop through moving bodies and the ground?
+} // namespace
+
 bool has_loop(const system::System& s) {
   const int ground = static_cast<int>(s.bodies.size());
   std::vector<int> root(s.bodies.size() + 1);
@@ -34,6 +35,10 @@ bool has_loop(const system::System& s) {
   auto place = [&](int body) {
     return body < 0 || s.bodies[static_cast<std::size_t>(body)].n_active == 0 ? ground : body;
   };
+  // A body that keeps two coordinates at most is guided by the ground.
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    if (s.bodies[i].n_active <= 2)
+      root[i] = ground;
   for (const system::JointData& j : s.joints) {
     if (j.rows.empty())
       continue;
@@ -44,8 +49,6 @@ bool has_loop(const system::System& s) {
   }
   return false;
 }
-
-} // namespace
 
 DriftGuard::DriftGuard(const system::System& system)
     : stabilised_(stabilised(system)), workspace_(stabilised_), residual_(system.n) {}

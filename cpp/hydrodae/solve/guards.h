@@ -8,6 +8,9 @@
 
 namespace hydrodae::solve {
 
+/// Do the joints close a loop through moving bodies and the ground?
+bool has_loop(const system::System& system);
+
 /// Both levels of the constraints: in formulations that do not keep them they drift apart.
 class DriftGuard {
 public:

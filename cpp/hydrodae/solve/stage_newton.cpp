@@ -143,8 +143,12 @@ void StageNewton::make_full() {
           full_->row.push_back(i * p.n + p.row[static_cast<std::size_t>(k)]);
         }
       if (c >= e_.system.lambda0 && c < e_.system.sigma0) {
-        full_->diagonal.push_back(static_cast<Index>(full_->row.size()));
-        full_->row.push_back(j * p.n + c);
+        const auto first = p.row.begin() + p.column_start[c],
+                   last = p.row.begin() + p.column_start[c + 1];
+        const bool present = std::find(first, last, c) != last; // mu = 0 in other formulations
+        full_->diagonal.push_back(present ? -1 : static_cast<Index>(full_->row.size()));
+        if (!present)
+          full_->row.push_back(j * p.n + c);
       }
       full_->start.push_back(static_cast<Index>(full_->row.size()));
     }
@@ -162,9 +166,11 @@ bool StageNewton::factorise_full(double t, double h, const VectorX&) {
     yp_ = rate_.col(i);
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
     e_.regularisation(alpha, regular);
-    for (Index m = 0; m < regular.size(); ++m)
-      values[static_cast<std::size_t>(
-          full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)])] = regular[m];
+    for (Index m = 0; m < regular.size(); ++m) {
+      const Index slot = full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)];
+      if (slot >= 0)
+        values[static_cast<std::size_t>(slot)] = regular[m];
+    }
     for (int j = 0; j < s; ++j) {
       const std::vector<Index>& slots = full_->slots[static_cast<std::size_t>(i * s + j)];
       const double factor = rk_.a_inverse(i, j) / h;
