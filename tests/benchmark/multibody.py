@@ -1,6 +1,6 @@
 """Error and cost of the multibody benchmark cases over a ladder of tolerances.
 
-    .venv/bin/python tests/benchmark/multibody.py [NAME ...]
+    .venv/bin/python tests/benchmark/multibody.py [--method METHOD] [NAME ...]
 
 Makes the figures of cases/benchmarks/README.md. Needs the reference solutions ($HYDRODAE_REFERENCE
 or shared/reference beside the repository).
@@ -8,6 +8,7 @@ or shared/reference beside the repository).
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import sys
@@ -25,14 +26,20 @@ TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11)
 
 def main() -> None:
     folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-    for name in sys.argv[1:] or PROBLEMS:
+    parser = argparse.ArgumentParser(description="Errors and times over a ladder of tolerances.")
+    parser.add_argument("--method", default="ida")
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    arguments = parser.parse_args()
+    for name in arguments.names or PROBLEMS:
         file = folder / "multibody" / f"{name}.json"  # heavy_top has a definition only
         document = json.loads(file.read_text()) if file.exists() else {}
         print(name)
         for rtol in TOLERANCES:
             case = ROOT / "cases" / "benchmarks" / f"{name}.toml"
             try:
-                results = hydrodae.run(case, set={"solver.rtol": rtol})
+                results = hydrodae.run(
+                    case, set={"solver.rtol": rtol, "solver.method": arguments.method}
+                )
             except hydrodae.SolverError as stop:
                 print(f"  {rtol:.0e}  {str(stop).splitlines()[0]}")
                 continue

@@ -180,3 +180,17 @@ def test_hinges_of_the_door_carry_it_together(cases: Path) -> None:
     assert np.allclose(both[:, 2], load @ axis, atol=0.01)
     held, needed = (np.linalg.norm(v, axis=1) for v in (both, load))
     assert np.allclose(held, needed, atol=0.01)
+
+
+def test_forty_windows_converge(cases: Path) -> None:
+    """IFToMM A02 as published, by its own convergence: B0 within 1e-3 m, energy within 0.1 J."""
+    runs = [
+        hydrodae.run(
+            cases / "n_four_bar_40.toml",
+            set={"solver.method": "explicit_rk", "solver.rtol": rtol},
+        )
+        for rtol in (1e-6, 1e-8)
+    ]
+    ends = [2.0 * multibody.in_plane(results, "up0") for results in runs]
+    assert multibody.largest(*ends) < 1e-3
+    assert all(multibody.energy(results) < 0.1 for results in runs)
