@@ -1,5 +1,6 @@
 #include "hydrodae/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -84,8 +85,10 @@ public:
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     formulate(scene.solver);
-    energy_guard_ = scene.solver.energy_guard.value_or(
-        scene.solver.method == "ida" && solve::has_loop(system_) ? 1e-3 : 1e-2);
+    energy_guard_ =
+        scene.solver.energy_guard.value_or(scene.solver.method == "ida" && solve::has_loop(system_)
+                                               ? std::clamp(10.0 * scene.solver.rtol, 1e-3, 1e-2)
+                                               : 1e-2);
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (scene.solver.branch_guard) {

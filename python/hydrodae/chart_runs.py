@@ -23,6 +23,8 @@ _JUDGES = ("radau", "explicit_rk", "ida")
 #: Class of a failure by words of the solver's message.
 _CLASSES = (
     ("energy_guard", "energy guard"),
+    ("velocities jumped", "left its branch"),
+    ("have drifted", "constraints drifted"),
     ("no progress", "no progress"),
     ("does not converge", "no convergence"),
     ("local error", "step too short"),

@@ -75,7 +75,8 @@ struct SolverOptions {
          "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01, or 0.001 where ida meets closed loops, at whose "
+         "exchanged; 0: no guard. By default 0.01, or 10 rtol, 0.001 at least, where ida meets "
+         "closed loops, at whose "
          "singular poses multi-step methods lose accuracy unnoticed.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",
