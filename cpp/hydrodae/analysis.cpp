@@ -81,6 +81,8 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
             joint_row(s, j, system::motion_row<double>(s, ws, static_cast<int>(m)).gradient));
   }
   system::for_each_element(s.motion_forces, [&](const auto& f) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(f.law)>, force::DryFriction::Law>)
+      return; // no damper; said in the notes
     const system::JointData& j =
         s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(f.motion)].joint)];
     const auto w = system::motion_row<double>(s, ws, f.motion);

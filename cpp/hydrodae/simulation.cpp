@@ -14,6 +14,7 @@
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/solve/switching.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -49,6 +50,7 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
           {"newton_iterations", std::int64_t{s.newton_iterations}},
           {"error_test_failures", std::int64_t{s.error_test_failures}},
           {"convergence_failures", std::int64_t{s.convergence_failures}},
+          {"events", std::int64_t{s.events}},
           {"unknowns", std::int64_t{s.unknowns}},
           {"nonzeros", std::int64_t{s.nonzeros}},
           {"setup_time", s.setup_time},
@@ -84,6 +86,10 @@ public:
         y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
+    if (!system_.switches.empty()) {
+      switching_ = std::make_unique<solve::Switching>(system_, scene.solver.rtol);
+      switching_->settle(0.0, y_, yp_);
+    }
     formulate(scene.solver);
     energy_guard_ =
         scene.solver.energy_guard.value_or(scene.solver.method == "ida" && solve::has_loop(system_)
@@ -96,7 +102,7 @@ public:
       if (!branch_guard_->active())
         branch_guard_.reset();
     }
-    integrator_ = solve::make_integrator(system_, pattern_, scene.solver, y_, yp_);
+    integrator_ = solve::make_integrator(system_, pattern_, scene.solver, 0.0, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -138,8 +144,45 @@ private:
     system_.formulation = formulations.at(options.formulation);
     if (options.baumgarte_time > 0.0)
       system_.baumgarte_rate = 1.0 / options.baumgarte_time;
-    if (system_.formulation != Formulation::stabilised)
+    if (system_.formulation != Formulation::stabilised || switching_)
       pattern_ = system::find_pattern(system_);
+  }
+
+  /// One step, cut short where a stop or dry friction changes.
+  /// @returns whether it ends in such an event
+  bool advance() {
+    const Clock::time_point before = Clock::now();
+    const double start = t_;
+    t_ = integrator_->step();
+    std::optional<double> event;
+    if (switching_)
+      event = switching_->locate(start, t_, quadrature_nodes_ + 2, at_);
+    t_ = event.value_or(t_);
+    statistics_.solver_time += seconds_since(before);
+    solve::Statistics all = before_events_;
+    all += integrator_->statistics();
+    take(all, statistics_);
+    return event.has_value();
+  }
+
+  /// Goes on from an event with the rows that hold from now on.
+  void restart() {
+    const Clock::time_point before = Clock::now();
+    at_(t_, y_, yp_);
+    switching_->follow(recorder_->turns());
+    switching_->settle(t_, y_, yp_);
+    recorder_->jump(y_, yp_);
+    statistics_.events = switching_->events() - 1; // without the start
+    if (t_ < scene_.solver.end_time) {
+      before_events_ += integrator_->statistics();
+      pattern_ = system::find_pattern(system_);
+      integrator_ = solve::make_integrator(system_, pattern_, scene_.solver, t_, y_, yp_);
+    }
+    if (drift_guard_)
+      drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
+    if (branch_guard_)
+      branch_guard_->restart();
+    statistics_.solver_time += seconds_since(before);
   }
 
   /// The rule by which the work over the coming step is summed.
@@ -192,10 +235,7 @@ private:
       return false;
     long next = 1, steps_since_asked = 0;
     while (t_ < end) {
-      const Clock::time_point before = Clock::now();
-      t_ = integrator_->step();
-      statistics_.solver_time += seconds_since(before);
-      take(integrator_->statistics(), statistics_);
+      const bool event = advance();
       choose_quadrature();
       for (; next <= samples && static_cast<double>(next) * dt <= t_ * (1.0 + 1e-14); ++next)
         if (!sample(std::min(static_cast<double>(next) * dt, t_)))
@@ -203,6 +243,8 @@ private:
       recorder_->accept(t_, at_);
       check_energy();
       check_motion();
+      if (event)
+        restart();
       // Between samples that are far apart in steps, a request to stop is heard as well.
       if (++steps_since_asked >= 1000 && progress_) {
         steps_since_asked = 0;
@@ -237,6 +279,8 @@ private:
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
+  std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
+  solve::Statistics before_events_;             ///< of the integrators before the last event
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular

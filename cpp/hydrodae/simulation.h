@@ -24,6 +24,7 @@ struct RunStatistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long convergence_failures = 0;
+  long events = 0;          ///< changes of stops, one-sided joints and dry friction
   double end_time = 0.0;    ///< time reached [s]
   double setup_time = 0.0;  ///< wall time before the first step [s]
   double solver_time = 0.0; ///< wall time inside the integrator and the residual [s]

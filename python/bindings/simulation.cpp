@@ -101,7 +101,8 @@ py::dict as_dict(const RunStatistics& s) {
       "status"_a = s.status, "steps"_a = s.steps, "residual_calls"_a = s.residual_calls,
       "jacobian_calls"_a = s.jacobian_calls, "newton_iterations"_a = s.newton_iterations,
       "error_test_failures"_a = s.error_test_failures,
-      "convergence_failures"_a = s.convergence_failures, "end_time"_a = s.end_time,
+      "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
+      "end_time"_a = s.end_time,
       "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time, "wall_time"_a = s.wall_time,
       "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }

@@ -30,6 +30,26 @@ void check_names(const std::vector<std::string>& names, const std::string& kind)
   }
 }
 
+/// What holds at times only is reported among the constraints, under its own name.
+void check_reaction_names(const Scene& scene) {
+  const std::vector<std::string> taken = names_of(scene.constraints);
+  const auto check_free = [&](const std::string& kind, const std::string& name) {
+    if (std::find(taken.begin(), taken.end(), name) != taken.end())
+      refuse({kind, name}, "name",
+             "a constraint has this name too, and the results list both by it");
+  };
+  for (const Joint& joint : scene.joints)
+    if (joint.one_sided)
+      check_free("joint", joint.name);
+  for (const force::DryFriction& f : std::get<std::vector<force::DryFriction>>(scene.forces)) {
+    check_free("force", f.name);
+    const Joint* joint = find_named(scene.joints, f.name);
+    if (joint && joint->one_sided)
+      refuse({"force", f.name}, "name",
+             "a one-sided joint has this name too, and the results list both by it");
+  }
+}
+
 } // namespace
 
 void refuse(const Entry& entry, const std::string& key, const std::string& message) {
@@ -63,6 +83,7 @@ void check(const Scene& scene) {
   check_names(names_of(scene.bodies), "body");
   check_names(names_of(scene.joints), "joint");
   check_names(names_of(scene.constraints), "constraint");
+  check_reaction_names(scene);
   check_names(names_of(scene.markers), "marker");
   std::vector<std::string> forces;
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);

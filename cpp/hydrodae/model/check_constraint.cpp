@@ -73,6 +73,14 @@ void refuse_if(bool given, const Entry& entry, const std::string& key, const std
     refuse(entry, key, "a " + type + " constraint has no " + in_quotes(key));
 }
 
+void refuse_bounds(const Entry& entry, const Constraint& c) {
+  refuse_if(c.lower.has_value(), entry, "lower", c.type);
+  refuse_if(c.upper.has_value(), entry, "upper", c.type);
+  refuse_if(c.lower_angle.has_value(), entry, "lower_deg", c.type);
+  refuse_if(c.upper_angle.has_value(), entry, "upper_deg", c.type);
+  refuse_if(c.restitution.has_value(), entry, "restitution", c.type);
+}
+
 void check_coordinate(const Scene& scene, const Entry& entry, const Constraint& c) {
   if (!c.joint && !c.body)
     refuse(entry, "", "needs the key 'joint' or 'body' that has the coordinate");
@@ -85,16 +93,20 @@ void check_coordinate(const Scene& scene, const Entry& entry, const Constraint& 
   refuse_if(c.joint_b.has_value(), entry, "joint_b", c.type);
   refuse_if(c.coordinate_b.has_value(), entry, "coordinate_b", c.type);
   refuse_if(c.ratio != 1.0, entry, "ratio", c.type);
+  refuse_bounds(entry, c);
   check_drive(entry, c.drive, scene.solver.end_time);
 }
 
+bool has_drive(const Drive& d) {
+  return d.constant != 0.0 || d.rate != 0.0 || d.amplitude != 0.0 || d.python || !d.time.empty() ||
+         !d.values.empty();
+}
+
 void check_coupler(const Scene& scene, const Entry& entry, const Constraint& c) {
-  const Drive& d = c.drive;
   refuse_if(c.body.has_value(), entry, "body", c.type);
   refuse_if(c.level != "position", entry, "level", c.type);
-  refuse_if(d.constant != 0.0 || d.rate != 0.0 || d.amplitude != 0.0 || d.python ||
-                !d.time.empty() || !d.values.empty(),
-            entry, "drive", c.type);
+  refuse_if(has_drive(c.drive), entry, "drive", c.type);
+  refuse_bounds(entry, c);
   if (!c.joint || !c.joint_b)
     refuse(entry, "",
            std::string("a coupler needs the key ") + (c.joint ? "'joint_b'" : "'joint'"));
@@ -107,6 +119,33 @@ void check_coupler(const Scene& scene, const Entry& entry, const Constraint& c) 
     refuse(entry, "ratio", "ratio must not be zero");
 }
 
+void check_stop(const Scene& scene, const Entry& entry, const Constraint& c) {
+  refuse_if(c.body.has_value(), entry, "body", c.type);
+  refuse_if(c.level != "position", entry, "level", c.type);
+  refuse_if(has_drive(c.drive), entry, "drive", c.type);
+  refuse_if(c.joint_b.has_value(), entry, "joint_b", c.type);
+  refuse_if(c.coordinate_b.has_value(), entry, "coordinate_b", c.type);
+  refuse_if(c.ratio != 1.0, entry, "ratio", c.type);
+  if (!c.joint)
+    refuse(entry, "", "a stop needs the key 'joint' that has the coordinate");
+  check_joint_coordinate(scene, entry, "joint", *c.joint, "coordinate", c.coordinate);
+  const bool angle = coordinate_of(scene, *c.joint, c.coordinate).starts_with("angle");
+  if (angle && (c.lower || c.upper))
+    refuse(entry, c.lower ? "lower" : "upper",
+           "the coordinate is an angle: write 'lower_deg' and 'upper_deg'");
+  if (!angle && (c.lower_angle || c.upper_angle))
+    refuse(entry, c.lower_angle ? "lower_deg" : "upper_deg",
+           "the coordinate is a displacement: write 'lower' and 'upper'");
+  const std::optional<double>& lower = angle ? c.lower_angle : c.lower;
+  const std::optional<double>& upper = angle ? c.upper_angle : c.upper;
+  if (!lower && !upper)
+    refuse(entry, "",
+           angle ? "a stop needs the key 'lower_deg' or 'upper_deg'"
+                 : "a stop needs the key 'lower' or 'upper'");
+  if (lower && upper && !(*lower < *upper))
+    refuse(entry, angle ? "upper_deg" : "upper", "the upper bound must be above the lower one");
+}
+
 } // namespace
 
 void check_constraint(const Scene& scene, const Constraint& constraint) {
@@ -115,8 +154,11 @@ void check_constraint(const Scene& scene, const Constraint& constraint) {
     check_coordinate(scene, entry, constraint);
   else if (constraint.type == "coupler")
     check_coupler(scene, entry, constraint);
+  else if (constraint.type == "stop")
+    check_stop(scene, entry, constraint);
   else
-    check_reference(entry, "type", constraint.type, {"coordinate", "coupler"}, "constraint");
+    check_reference(entry, "type", constraint.type, {"coordinate", "coupler", "stop"},
+                    "constraint");
 }
 
 } // namespace hydrodae::model

@@ -23,6 +23,10 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
     check_reference(entry, "body", force.body, names_of(scene.bodies), "body");
   if constexpr (requires { force.joint; })
     check_single_motion(scene, entry, force.joint);
+  if constexpr (requires { force.kinetic_load; }) {
+    if (force.kinetic_load && *force.kinetic_load > force.static_load)
+      refuse(entry, "kinetic", "the kinetic friction must not be above the static one");
+  }
   if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
     if (coincide(force.point_a, force.point_b))

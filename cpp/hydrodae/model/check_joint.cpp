@@ -40,6 +40,10 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
     const std::string key = joint.point_b ? "point_b" : "length";
     refuse(joint, key, kind + "has no " + in_quotes(key) + "; only a distance joint has");
   }
+  if (joint.one_sided && !type.has_row(Row::distance))
+    refuse(joint, "one_sided", kind + "cannot be one-sided; only a distance joint can");
+  if (joint.restitution && !joint.one_sided)
+    refuse(joint, "restitution", "key 'restitution' needs one_sided = true");
   if (type.has_row(Row::screw) && joint.pitch == 0.0)
     refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
   if (!type.has_row(Row::screw) && joint.pitch != 0.0)

@@ -26,6 +26,13 @@ Fields<Joint> Joint::fields() {
       {"path", &J::path, "m",
        "Points of the curve that body A carries, in the reference pose, world axes, joined by a "
        "natural cubic spline that goes on straight beyond its ends; path joint only."},
+      {"one_sided", &J::one_sided, "-",
+       "The points may come nearer than `length`, as on a taut or slack rope; distance joint "
+       "only."},
+      {"restitution", &J::restitution, "-",
+       "Rate of the distance after a one-sided joint becomes taut over the rate before; 0, the "
+       "default: no rebound.",
+       false, between(0, 1)},
   };
 }
 

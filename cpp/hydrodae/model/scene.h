@@ -12,6 +12,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
 #include "hydrodae/force/constant_load.h"
+#include "hydrodae/force/dry_friction.h"
 #include "hydrodae/force/mooring_matrix.h"
 #include "hydrodae/force/pto_linear.h"
 #include "hydrodae/force/spring_damper.h"
@@ -161,6 +162,8 @@ struct Joint {
   std::optional<double> length;
   double pitch = 0.0; ///< 0: not given
   std::vector<Vector3> path;
+  bool one_sided = false;
+  std::optional<double> restitution;
   JointInitial initial;
 
   static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
@@ -170,6 +173,7 @@ struct Joint {
 ///
 ///   coordinate:  s = f(t)  (level position),  s' = f(t)  (level velocity)
 ///   coupler:     s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts
+///   stop:        lower <= s <= upper, with impacts: s' after = -restitution s' before
 struct Constraint {
   std::string name;
   std::string type;
@@ -181,6 +185,9 @@ struct Constraint {
   std::optional<std::string> joint_b;
   std::optional<std::string> coordinate_b;
   double ratio = 1.0;
+  std::optional<double> lower, upper;
+  std::optional<double> lower_angle, upper_angle;
+  std::optional<double> restitution;
 
   static Fields<Constraint> fields() {
     using C = Constraint;
@@ -190,10 +197,10 @@ struct Constraint {
          &C::type,
          "-",
          "coordinate: one coordinate follows a function of time; coupler: two joint coordinates "
-         "keep a ratio.",
+         "keep a ratio; stop: a joint coordinate stays within bounds.",
          true,
          any_value,
-         {"coordinate", "coupler"}},
+         {"coordinate", "coupler", "stop"}},
         {"joint", &C::joint, "-", "Joint whose coordinate is meant."},
         {"body", &C::body, "-", "Body whose coordinate is meant (relative to its reference pose)."},
         {"coordinate", &C::coordinate, "-",
@@ -209,6 +216,13 @@ struct Constraint {
         {"joint_b", &C::joint_b, "-", "Second joint of a coupler."},
         {"coordinate_b", &C::coordinate_b, "-", "Its coordinate; by default the first."},
         {"ratio", &C::ratio, "- or m/rad", "Motion of the second joint per motion of the first."},
+        {"lower", &C::lower, "m", "Least displacement that a stop allows."},
+        {"upper", &C::upper, "m", "Largest displacement that a stop allows."},
+        {"lower_deg", &C::lower_angle, "deg", "Least angle that a stop allows."},
+        {"upper_deg", &C::upper_angle, "deg", "Largest angle that a stop allows."},
+        {"restitution", &C::restitution, "-",
+         "Rate after an impact over the rate before; 0, the default: no rebound.", false,
+         between(0, 1)},
     };
   }
 };
@@ -252,7 +266,7 @@ struct OutputOptions {
 /// is one header in force/ and one entry here.
 using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>,
                           std::vector<force::SpringDamper>, std::vector<force::ConstantLoad>,
-                          std::vector<force::ViscousDamping>>;
+                          std::vector<force::ViscousDamping>, std::vector<force::DryFriction>>;
 
 struct Scene {
   std::string title;

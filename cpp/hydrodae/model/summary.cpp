@@ -32,6 +32,8 @@ void write_joint(std::ostream& out, const Joint& joint) {
   if (!joint.path.empty())
     out << ", path of " << joint.path.size() << " points, "
         << number_text(joint::Path(joint.path).length()) << " m long";
+  if (joint.one_sided)
+    out << " at most";
   if (joint.pitch != 0.0)
     out << ", " << number_text(joint.pitch) << " m per turn";
   write_start(out, "angle", joint.initial.angle, 180.0 / pi, "deg");
@@ -77,6 +79,20 @@ void write_constraint(std::ostream& out, const Scene& scene, const Constraint& c
   if (c.type == "coupler") {
     out << motion(*c.joint_b, c.coordinate_b) << " moves " << number_text(c.ratio) << " x "
         << motion(*c.joint, c.coordinate) << '\n';
+    return;
+  }
+  if (c.type == "stop") {
+    out << motion(*c.joint, c.coordinate) << " stays";
+    const auto bound = [&](const char* word, const std::optional<double>& length,
+                           const std::optional<double>& angle) {
+      if (length)
+        out << ' ' << word << ' ' << number_text(*length) << " m";
+      if (angle)
+        out << ' ' << word << ' ' << number_text(*angle * 180.0 / pi) << " deg";
+    };
+    bound("above", c.lower, c.lower_angle);
+    bound("below", c.upper, c.upper_angle);
+    out << ", restitution " << number_text(c.restitution.value_or(0.0)) << '\n';
     return;
   }
   const Drive& drive = c.drive;

@@ -36,14 +36,14 @@ int stages_of(Family family, int order) {
 class Collocation : public Integrator {
 public:
   Collocation(const system::System& system, const system::Pattern& pattern,
-              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
+              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), e_(system, pattern, options.rtol), family_(family_of(options.method)),
         fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
         end_(options.end_time),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time), saddle_(e_),
-        guard_(0.0, options.end_time, e_.time_scale()), y_(y), yp_(yp), y0_(y), w_(system.n),
-        error_(system.n), v_(VectorX::Zero(system.n)) {
+        guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
+        w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)) {
     use(stages_of(family_, options.order));
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
@@ -317,9 +317,9 @@ void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
 
 std::unique_ptr<Integrator> make_collocation(const system::System& system,
                                              const system::Pattern& pattern,
-                                             const model::SolverOptions& options, const VectorX& y,
-                                             const VectorX& yp) {
-  return std::make_unique<Collocation>(system, pattern, options, y, yp);
+                                             const model::SolverOptions& options, double t0,
+                                             const VectorX& y, const VectorX& yp) {
+  return std::make_unique<Collocation>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

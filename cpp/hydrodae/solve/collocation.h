@@ -9,7 +9,7 @@ namespace hydrodae::solve {
 
 std::unique_ptr<Integrator> make_collocation(const system::System& system,
                                              const system::Pattern& pattern,
-                                             const model::SolverOptions& options, const VectorX& y,
-                                             const VectorX& yp);
+                                             const model::SolverOptions& options, double t0,
+                                             const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::solve

@@ -87,6 +87,102 @@ void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) 
                        " is off by " + number_text(forces[worst]) + " N or N m");
 }
 
+/// Newton's method from y to forces in balance and closed rows; y with the reactions.
+LinearMatrices balance(const System& s, VectorX& y) {
+  const system::Pattern pattern = system::find_pattern(s);
+  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s),
+                rest = VectorX::Zero(s.n);
+  const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
+  const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
+  system::Workspace<double> ws(s);
+  VectorX r(s.n);
+  for (int step = 0;; ++step) {
+    system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
+    const LinearMatrices m = linear_matrices(s, pattern, y);
+    const VectorX gaps = gaps_of(s, r);
+    const double force_error = m.forces.cwiseQuotient(weights).cwiseAbs().maxCoeff();
+    const double gap_error = s.n_lambda > 0 ? gaps.cwiseQuotient(sizes).cwiseAbs().maxCoeff() : 0.0;
+    if (force_error <= balanced && gap_error <= balanced) {
+      for (const system::CouplerData& c : s.couplers)
+        if (c.kept() && std::abs(r[c.lambda]) > 0.0)
+          throw ModelError("constraint." + c.name, "constraint '" + c.name +
+                                                       "' moves at the start: there is no "
+                                                       "equilibrium");
+      return m;
+    }
+    if (step == most_steps)
+      refuse(s, m.forces);
+    const Index n = s.n_u + s.n_lambda;
+    MatrixX kkt = MatrixX::Zero(n, n);
+    kkt.topLeftCorner(s.n_u, s.n_u) =
+        weights.cwiseInverse().asDiagonal() * m.stiffness * scale.asDiagonal();
+    kkt.topRightCorner(s.n_u, s.n_lambda) =
+        -(weights.cwiseInverse().asDiagonal() * m.constraints.transpose() * units.asDiagonal());
+    kkt.bottomLeftCorner(s.n_lambda, s.n_u) =
+        sizes.cwiseInverse().asDiagonal() * m.constraints * scale.asDiagonal();
+    VectorX rhs(n);
+    rhs << m.forces.cwiseQuotient(weights), -gaps.cwiseQuotient(sizes);
+    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
+    cod.setThreshold(1e-12);
+    cod.compute(kkt);
+    VectorX x = cod.solve(rhs);
+    const double length = x.head(s.n_u).cwiseAbs().maxCoeff();
+    if (!x.allFinite())
+      refuse(s, m.forces);
+    if (length > longest) // the reactions are taken whole: they are linear
+      x.head(s.n_u) *= longest / length;
+    system::retract(s, x.head(s.n_u).cwiseProduct(scale), y);
+    y.segment(s.lambda0, s.n_lambda) += x.tail(s.n_lambda).cwiseProduct(units);
+  }
+}
+
+/// Closes the stop that y violates most, or else opens the one that pulls most; false when every
+/// stop agrees with y. Dry friction stays open: it holds any pose near.
+bool correct_stops(System& s, const VectorX& y) {
+  using State = system::SwitchData::State;
+  system::Workspace<double> ws(s);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
+  double worst = 0.0;
+  system::SwitchData* which = nullptr;
+  State next = State::open;
+  const auto propose = [&](double wrong, system::SwitchData& element, State state) {
+    if (wrong > worst) {
+      worst = wrong;
+      which = &element;
+      next = state;
+    }
+  };
+  for (system::SwitchData& element : s.switches) {
+    if (element.kind != system::SwitchData::Kind::stop || element.holds())
+      continue;
+    const double value = system::motion_row<double>(s, ws, element.motion).value;
+    propose(value - element.upper - 1e-9, element, State::upper);
+    propose(element.lower - value - 1e-9, element, State::lower);
+  }
+  for (system::SwitchData& element : s.switches) {
+    if (!element.holds() || worst > 0.0)
+      continue;
+    const Index row = s.couplers[static_cast<std::size_t>(element.coupler)].lambda;
+    const double pull = y[row] / s.scale[row];
+    propose((element.state == State::upper ? pull : -pull) - balanced, element, State::open);
+  }
+  if (which)
+    system::set_state(s, *which, next);
+  return which != nullptr;
+}
+
+/// What a linear model about the equilibrium has to know.
+void note_switches(System& s) {
+  for (const system::SwitchData& element : s.switches) {
+    const std::string& name = s.couplers[static_cast<std::size_t>(element.coupler)].name;
+    if (element.holds())
+      s.notes.push_back("'" + name + "' holds its bound in the equilibrium");
+    if (element.kind == system::SwitchData::Kind::friction)
+      s.notes.push_back("dry friction '" + name + "' is left out of the equilibrium");
+  }
+}
+
 } // namespace
 
 LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, const VectorX& y) {
@@ -116,55 +212,25 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
   s.hydro.excitation = sea::Signals();
-  const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
                                      "initial velocities");
-  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s),
-                rest = VectorX::Zero(s.n);
-  const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
-  const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
-  system::Workspace<double> ws(s);
-  VectorX r(s.n);
-  LinearMatrices m;
-  for (int step = 0;; ++step) {
-    system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
-    m = linear_matrices(s, pattern, y);
-    const VectorX gaps = gaps_of(s, r);
-    const double force_error = m.forces.cwiseQuotient(weights).cwiseAbs().maxCoeff();
-    const double gap_error = s.n_lambda > 0 ? gaps.cwiseQuotient(sizes).cwiseAbs().maxCoeff() : 0.0;
-    if (force_error <= balanced && gap_error <= balanced)
-      break;
-    if (step == most_steps)
-      refuse(s, m.forces);
-    const Index n = s.n_u + s.n_lambda;
-    MatrixX kkt = MatrixX::Zero(n, n);
-    kkt.topLeftCorner(s.n_u, s.n_u) =
-        weights.cwiseInverse().asDiagonal() * m.stiffness * scale.asDiagonal();
-    kkt.topRightCorner(s.n_u, s.n_lambda) =
-        -(weights.cwiseInverse().asDiagonal() * m.constraints.transpose() * units.asDiagonal());
-    kkt.bottomLeftCorner(s.n_lambda, s.n_u) =
-        sizes.cwiseInverse().asDiagonal() * m.constraints * scale.asDiagonal();
-    VectorX rhs(n);
-    rhs << m.forces.cwiseQuotient(weights), -gaps.cwiseQuotient(sizes);
-    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-    cod.setThreshold(1e-12);
-    cod.compute(kkt);
-    VectorX x = cod.solve(rhs);
-    const double length = x.head(s.n_u).cwiseAbs().maxCoeff();
-    if (!x.allFinite())
-      refuse(s, m.forces);
-    if (length > longest) // the reactions are taken whole: they are linear
-      x.head(s.n_u) *= longest / length;
-    system::retract(s, x.head(s.n_u).cwiseProduct(scale), y);
-    y.segment(s.lambda0, s.n_lambda) += x.tail(s.n_lambda).cwiseProduct(units);
+  LinearMatrices m = balance(s, y);
+  for (std::size_t pass = 0; correct_stops(s, y); ++pass) {
+    if (pass > 4 * s.switches.size())
+      throw ModelError("solver.start", "no static equilibrium that all stops agree with");
+    system::lay_out(s);
+    const VectorX head = y.head(s.lambda0);
+    y.setZero(s.n);
+    y.head(s.lambda0) = head;
+    m = balance(s, y);
   }
-  for (const system::CouplerData& c : s.couplers)
-    if (c.kept() && std::abs(r[c.lambda]) > 0.0)
-      throw ModelError("constraint." + c.name,
-                       "constraint '" + c.name + "' moves at the start: there is no equilibrium");
-  note_instability(system, m, scale);
+  for (std::size_t k = 0; k < s.switches.size(); ++k)
+    system::set_state(system, system.switches[k], s.switches[k].state);
+  system::lay_out(system);
+  note_switches(system);
+  note_instability(system, m, system::displacement_scale(s));
   take_start(system, y);
   return y;
 }

@@ -24,20 +24,20 @@ const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 class ExplicitRk : public Integrator {
 public:
   ExplicitRk(const system::System& system, const system::Pattern& pattern,
-             const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
+             const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         end_(options.end_time),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         e_(system, pattern, options.rtol), saddle_(e_), n_(system.lambda0),
-        guard_(0.0, options.end_time, e_.time_scale()), y_(y), yp_(yp), y0_(y), stage_(y),
-        stage_yp_(yp), trial_(y), trial_yp_(yp), w_(system.n), k_(n_, 17) {
+        guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
+        stage_(y), stage_yp_(yp), trial_(y), trial_yp_(yp), w_(system.n), k_(n_, 17) {
     // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
     // could make, as it is for one of order 1.
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
     e_.accept(y_, yp_);
-    if (!saddle_.accelerations(0.0, y_, yp_))
-      throw SolverError(0.0, "no finite accelerations at the start");
+    if (!saddle_.accelerations(t_, y_, yp_))
+      throw SolverError(t_, "no finite accelerations at the start");
   }
 
   double step() override;
@@ -238,9 +238,9 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
 
 std::unique_ptr<Integrator> make_explicit_rk(const system::System& system,
                                              const system::Pattern& pattern,
-                                             const model::SolverOptions& options, const VectorX& y,
-                                             const VectorX& yp) {
-  return std::make_unique<ExplicitRk>(system, pattern, options, y, yp);
+                                             const model::SolverOptions& options, double t0,
+                                             const VectorX& y, const VectorX& yp) {
+  return std::make_unique<ExplicitRk>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

@@ -26,11 +26,12 @@ namespace {
 class GeneralizedAlpha : public Integrator {
 public:
   GeneralizedAlpha(const system::System& system, const system::Pattern& pattern,
-                   const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
+                   const model::SolverOptions& options, double t0, const VectorX& y,
+                   const VectorX& yp)
       : s_(system), e_(system, pattern, std::min(options.rtol, 1e-8)),
-        lu_(pattern.column_start, pattern.row), end_(options.end_time), h_(options.step),
-        n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp), trial_(y), trial_yp_(yp),
-        residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
+        lu_(pattern.column_start, pattern.row), t_(t0), t0_(t0), end_(options.end_time),
+        h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp),
+        trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
         velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
     alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
@@ -220,9 +221,9 @@ void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
 
 std::unique_ptr<Integrator> make_generalized_alpha(const system::System& system,
                                                    const system::Pattern& pattern,
-                                                   const model::SolverOptions& options,
+                                                   const model::SolverOptions& options, double t0,
                                                    const VectorX& y, const VectorX& yp) {
-  return std::make_unique<GeneralizedAlpha>(system, pattern, options, y, yp);
+  return std::make_unique<GeneralizedAlpha>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

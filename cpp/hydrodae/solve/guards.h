@@ -35,6 +35,9 @@ public:
   /// Throws SolverError when the velocities jumped within the last window.
   void check(double t, const VectorX& y);
 
+  /// The velocities jumped for a reason: something struck.
+  void restart() { past_.clear(); }
+
   /// Only scenes with loops have singular poses to fear.
   bool active() const { return active_; }
 

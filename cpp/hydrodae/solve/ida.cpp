@@ -60,10 +60,11 @@ SUNContext make_context() {
 class Ida : public Integrator {
 public:
   Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
-      const VectorX& y0, const VectorX& yp0)
+      double t0, const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(p), rtol(options.rtol), equations(s, p, options.rtol), good(y0),
-        good_rate(yp0), now(y0), now_rate(yp0), out(s.n), end_time(options.end_time),
-        time_scale(equations.time_scale()), guard(0.0, end_time, time_scale) {
+        good_rate(yp0), t_good(t0), now(y0), now_rate(yp0), out(s.n), t_(t0),
+        end_time(options.end_time), time_scale(equations.time_scale()),
+        guard(t0, end_time, time_scale) {
     start(options, y0, yp0);
   }
   double step() override;
@@ -174,7 +175,7 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
   check(IDASetErrHandlerFn(
             ida, [](int, const char*, const char*, char*, void*) {}, nullptr),
         "IDASetErrHandlerFn"); // our own messages say more
-  check(IDAInit(ida, residual, 0.0, y.get(), yp.get()), "IDAInit");
+  check(IDAInit(ida, residual, t_, y.get(), yp.get()), "IDAInit");
   check(IDASetUserData(ida, this), "IDASetUserData");
   check(IDAWFtolerances(ida, weights), "IDAWFtolerances");
   check(IDASetId(ida, id.get()), "IDASetId");
@@ -183,8 +184,9 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
   check(IDASetStopTime(ida, options.end_time), "IDASetStopTime");
   if (options.max_step > 0.0)
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
-  const double longest = options.max_step > 0.0 ? options.max_step : options.end_time;
-  first = std::min(equations.first_step(y0, yp0), longest);
+  const double left = end_time - t_;
+  first = std::min(
+      {equations.first_step(y0, yp0), left, options.max_step > 0.0 ? options.max_step : left});
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
                     "SUNSparseMatrix"));
@@ -307,9 +309,9 @@ Statistics Ida::statistics() const {
 } // namespace
 
 std::unique_ptr<Integrator> make_ida(const system::System& system, const system::Pattern& pattern,
-                                     const model::SolverOptions& options, const VectorX& y,
-                                     const VectorX& yp) {
-  return std::make_unique<Ida>(system, pattern, options, y, yp);
+                                     const model::SolverOptions& options, double t0,
+                                     const VectorX& y, const VectorX& yp) {
+  return std::make_unique<Ida>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

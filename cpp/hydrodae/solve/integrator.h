@@ -29,11 +29,11 @@ public:
   virtual int quadrature_nodes() const { return 3; }
 };
 
-/// The integrator that `options.method` names, at t = 0 with consistent y, y'. The system and the
-/// pattern must outlive it. Throws SolverError when the method cannot start.
+/// The integrator that `options.method` names, at time `t0` [s] with consistent y, y'. The system
+/// and the pattern must outlive it. Throws SolverError when the method cannot start.
 std::unique_ptr<Integrator> make_integrator(const system::System& system,
                                             const system::Pattern& pattern,
-                                            const model::SolverOptions& options, const VectorX& y,
-                                            const VectorX& yp);
+                                            const model::SolverOptions& options, double t0,
+                                            const VectorX& y, const VectorX& yp);
 
 } // namespace hydrodae::solve

@@ -15,17 +15,17 @@ constexpr int refinements = 4;
 constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
 constexpr int projections = 8;
 constexpr double closed = 1e-13; ///< gaps in units of their scale
+constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
+
 template <class Vector> double largest(const Vector& v) {
   return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
 }
-
-constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
 
 } // namespace
 
 SaddlePoint::SaddlePoint(Equations& equations)
     : e_(equations), s_(equations.system), n_(s_.n_u + s_.n_lambda), residual_(s_.n), rhs_(n_),
-      x_(n_), r_(n_), yp0_(VectorX::Zero(s_.n)), y0_(s_.n) {
+      x_(n_), r_(n_), yp0_(VectorX::Zero(s_.n)) {
   const system::Pattern& p = e_.pattern;
   auto place = [&](Index i) -> Index { // of a row or column of y in the small matrix
     if (i >= s_.u0 && i < s_.z0)
@@ -140,6 +140,28 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   return x_.allFinite();
 }
 
+double SaddlePoint::mismatch() {
+  multiply(x_, r_);
+  r_ = rhs_ - r_;
+  const double load = largest(rhs_.head(s_.n_u));
+  const double forces = largest(r_.head(s_.n_u)), rates = largest(r_.tail(s_.n_lambda));
+  double motion = std::max(largest(x_.head(s_.n_u)), largest(rhs_.tail(s_.n_lambda)));
+  for (Index k = 0; k < s_.n_u; ++k) // where nothing moves: the accelerations without the rows
+    if (const double mass = plain_[mass_[k]]; mass > 0.0)
+      motion = std::max(motion, std::abs(rhs_[k]) / mass);
+  return std::max(forces > 0.0 ? forces / load : 0.0, rates > 0.0 ? rates / motion : 0.0);
+}
+
+VectorX SaddlePoint::strike(double t, VectorX& y, const VectorX& rates) {
+  if (!e_.residual(t, y, yp0_, residual_))
+    throw SolverError(t, "no finite velocities at the impact");
+  rhs_.setZero();
+  rhs_.tail(s_.n_lambda) = rates - residual_.segment(s_.lambda0, s_.n_lambda);
+  solve(x_);
+  y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
+  return -x_.tail(s_.n_lambda);
+}
+
 bool SaddlePoint::project(double t, VectorX& y) {
   for (const system::BodyData& b : s_.bodies)
     if (b.rotation == system::BodyData::Rotation::free)
@@ -167,7 +189,6 @@ bool SaddlePoint::project(double t, VectorX& y) {
     if (i + 1 == projections && gap > 1e-9)
       return false;
     solve(x_);
-    y0_ = y;
     system::retract(s_, x_.head(s_.n_u), y);
   }
   for (int i = 0; i < 2; ++i) { // the matrix is of a pose a little off: twice

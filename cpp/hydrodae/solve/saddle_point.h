@@ -22,6 +22,13 @@ public:
   /// False when no finite accelerations exist.
   bool accelerations(double t, VectorX& y, VectorX& yp);
 
+  /// What the last `accelerations` left of the equations, relative to the loads [-].
+  double mismatch();
+
+  /// Changes u by the impulses G^T Lambda that give the velocity rows the rates `rates` (n_lambda,)
+  /// [m/s or rad/s], with the matrix of the last `accelerations`; returns Lambda [N s or N m s].
+  VectorX strike(double t, VectorX& y, const VectorX& rates);
+
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
   /// matrix of the last `accelerations`. False when it does not converge.
   bool project(double t, VectorX& y);
@@ -50,7 +57,7 @@ private:
   std::vector<Index> mass_;     ///< slots of the diagonal of M
   std::vector<double> plain_;   ///< values with e = 0
   std::unique_ptr<SparseLu<double>> lu_;
-  VectorX residual_, rhs_, x_, r_, yp0_, y0_;
+  VectorX residual_, rhs_, x_, r_, yp0_;
 };
 
 } // namespace hydrodae::solve

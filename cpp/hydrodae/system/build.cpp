@@ -55,6 +55,7 @@ const std::array<joint::JointType, 6> body_coordinates = {{
     {"yaw", {}, {joint::turns(joint::Z)}, false},
 }};
 const joint::JointType spring_type = {"spring", {}, {joint::stretches()}, false};
+const joint::JointType rope_type = {"one-sided distance", {}, {joint::stretches()}, false};
 
 joint::Marker make_marker(const model::Scene& scene, const std::string& body, const Vector3& point,
                           const Matrix3& axes) {
@@ -75,7 +76,7 @@ JointData& add_joint(System& s, JointData j) {
 void add_joint(const model::Scene& scene, const model::Joint& joint, System& s) {
   JointData j;
   j.name = joint.name;
-  j.type = joint::find_joint_type(joint.type);
+  j.type = joint.one_sided ? &rope_type : joint::find_joint_type(joint.type);
   const Matrix3 axes = marker_axes(joint);
   const Vector3 point_b = joint.point_b.value_or(joint.point);
   j.A = make_marker(scene, joint.body_a, joint.point, axes);
@@ -106,7 +107,7 @@ void add_joint(const model::Scene& scene, const model::Joint& joint, System& s) 
 void set_coupler_offsets(const model::Scene& scene, System& s) {
   const Workspace<double> start(s);
   for (std::size_t k = 0; k < s.couplers.size(); ++k) {
-    if (scene.constraints[k].type != "coupler")
+    if (k >= scene.constraints.size() || scene.constraints[k].type != "coupler")
       continue;
     s.couplers[k].offset = 0.0;
     for (const CouplerData::Term& term : s.couplers[k].terms)
@@ -144,6 +145,41 @@ int joint_motion(const System& s, const std::string& joint,
   return -1;
 }
 
+/// Adds the coupler of a switch, open at first.
+void add_switch(const std::string& name, SwitchData element, System& s) {
+  CouplerData coupler;
+  coupler.name = name;
+  coupler.terms = {{element.motion, 1.0}};
+  coupler.velocity_level = element.kind == SwitchData::Kind::friction;
+  coupler.lambda = coupler.mu = redundant;
+  element.coupler = static_cast<int>(s.couplers.size());
+  s.couplers.push_back(coupler);
+  s.switches.push_back(element);
+}
+
+void add_stop(const model::Constraint& c, System& s) {
+  SwitchData stop;
+  stop.motion = joint_motion(s, *c.joint, c.coordinate);
+  stop.lower = c.lower ? *c.lower : c.lower_angle.value_or(-INFINITY);
+  stop.upper = c.upper ? *c.upper : c.upper_angle.value_or(INFINITY);
+  stop.restitution = c.restitution.value_or(0.0);
+  add_switch(c.name, stop, s);
+}
+
+/// One-sided distances, after the constraints of the case.
+void add_ropes(const model::Scene& scene, System& s) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const model::Joint& joint = scene.joints[k];
+    if (!joint.one_sided)
+      continue;
+    SwitchData rope;
+    rope.motion = s.joints[k].first_motion;
+    rope.upper = s.joints[k].parameters.length;
+    rope.restitution = joint.restitution.value_or(0.0);
+    add_switch(joint.name, rope, s);
+  }
+}
+
 void add_constraints(const model::Scene& scene, System& s) {
   for (const model::Constraint& c : scene.constraints) {
     if (c.drive.python && !c.drive.function)
@@ -152,6 +188,10 @@ void add_constraints(const model::Scene& scene, System& s) {
                            "': its drive is a Python function, which nobody gave; run the case as "
                            "hydrodae.run(case, drives={\"" +
                            c.name + "\": function})");
+    if (c.type == "stop") {
+      add_stop(c, s);
+      continue;
+    }
     CouplerData coupler;
     coupler.name = c.name;
     coupler.drive = c.drive;
@@ -165,6 +205,7 @@ void add_constraints(const model::Scene& scene, System& s) {
     }
     s.couplers.push_back(coupler);
   }
+  add_ropes(scene, s);
 }
 
 /// Poses that the free coordinates can reach, drawn at random: they tell which constraint rows can
@@ -226,7 +267,7 @@ void select_rows(System& s) {
                                                 std::to_string(gap) +
                                                 " along a direction in which nothing can move");
     }
-    if (j.rows.empty())
+    if (j.rows.empty() && j.type != &rope_type)
       s.notes.push_back("joint '" + j.name + "' restricts no free coordinate");
   }
 }
@@ -241,6 +282,17 @@ void add_forces(const model::Scene& scene, System& s) {
     std::get<1>(s.body_forces).push_back({v.name, body_index(scene, v.body), v.law()});
   for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces))
     std::get<0>(s.motion_forces).push_back({p.name, joint_motion(s, p.joint, {}), p.law()});
+  for (const force::DryFriction& f : std::get<std::vector<force::DryFriction>>(scene.forces)) {
+    auto& laws = std::get<2>(s.motion_forces);
+    SwitchData friction;
+    friction.kind = SwitchData::Kind::friction;
+    friction.motion = joint_motion(s, f.joint, {});
+    friction.static_load = f.static_load;
+    friction.kinetic_load = f.kinetic_load.value_or(f.static_load);
+    friction.force = static_cast<int>(laws.size());
+    laws.push_back({f.name, friction.motion, {}});
+    add_switch(f.name, friction, s);
+  }
   for (const force::SpringDamper& d : std::get<std::vector<force::SpringDamper>>(scene.forces)) {
     JointData j;
     j.name = d.name;
@@ -254,7 +306,7 @@ void add_forces(const model::Scene& scene, System& s) {
 }
 
 /// Offsets of y = [q | u | z | lambda | mu | sigma].
-void lay_out(System& s) {
+void set_offsets(System& s) {
   s.n = s.n_q = s.n_u = s.n_lambda = s.n_mu = 0;
   for (BodyData& b : s.bodies) {
     b.q0 = s.n_q;
@@ -285,14 +337,29 @@ void lay_out(System& s) {
       b.sigma = s.n++;
 }
 
-/// Layout, and what needs it.
-void finish(System& s) {
-  lay_out(s);
+} // namespace
+
+void lay_out(System& s) {
+  set_offsets(s);
   set_scales(s);
   set_names(s);
 }
 
-} // namespace
+void set_state(System& s, SwitchData& element, SwitchData::State state) {
+  using State = SwitchData::State;
+  element.state = state;
+  CouplerData& coupler = s.couplers[static_cast<std::size_t>(element.coupler)];
+  coupler.lambda = coupler.mu = element.holds() ? 0 : redundant;
+  if (element.kind == SwitchData::Kind::stop) {
+    coupler.offset = state == State::lower ? element.lower : element.upper;
+    return;
+  }
+  force::DryFriction::Law& law =
+      std::get<2>(s.motion_forces)[static_cast<std::size_t>(element.force)].law;
+  law.load = state == State::forward    ? -element.kinetic_load
+             : state == State::backward ? element.kinetic_load
+                                        : 0.0;
+}
 
 System build(const model::Scene& scene) {
   System s;
@@ -313,12 +380,12 @@ System build(const model::Scene& scene) {
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
                          m.axes == "body"});
   set_coupler_offsets(scene, s);
-  finish(s);
+  lay_out(s);
   if (s.n_u == 0)
     throw ModelError("body", "nothing can move: every body of the scene is fixed");
   assemble(s);
   if (drop_redundant_rows(s))
-    finish(s);
+    lay_out(s);
   return s;
 }
 

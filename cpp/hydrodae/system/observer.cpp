@@ -190,13 +190,17 @@ void Observer::observe_joints(const double* y) {
   }
   for (std::size_t k = 0; k < s_.couplers.size(); ++k) {
     const CouplerData& c = s_.couplers[k];
+    out_.constraints[k] = c.kept() ? y[c.lambda] : 0.0;
     if (!c.kept())
       continue;
-    out_.constraints[k] = y[c.lambda];
     for (const CouplerData::Term& term : c.terms)
       subtract(s_.joints[s_.motions[term.motion].joint],
                y[c.lambda] * term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
   }
+  for (const SwitchData& element : s_.switches) // slipping friction acts as a force
+    if (element.kind == SwitchData::Kind::friction && !element.holds())
+      out_.constraints[static_cast<std::size_t>(element.coupler)] =
+          std::get<2>(s_.motion_forces)[static_cast<std::size_t>(element.force)].law.load;
   for (int m = 0; m < static_cast<int>(s_.motions.size()); ++m) {
     const joint::Row<double> w = motion_row<double>(s_, ws_, m);
     const JointData& j = s_.joints[s_.motions[m].joint];

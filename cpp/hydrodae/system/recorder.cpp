@@ -155,11 +155,20 @@ void Recorder::accept(double t, const Interpolant& at) {
   work_ = work_until(t, at, power);
   power_ = power;
   balance_error_ = balance(work_);
-  std::vector<double> turns;
+  turns_.clear();
   for (const auto& motion : observer_.observation().motions)
-    turns.push_back(motion[0]);
-  observer_.follow(turns);
+    turns_.push_back(motion[0]);
+  observer_.follow(turns_);
   t_ = t;
+}
+
+void Recorder::jump(const VectorX& y, const VectorX& yp) {
+  const Observation& o = observer_.observation();
+  const double before = o.kinetic + o.kinetic_added_mass;
+  y_ = y;
+  yp_ = yp;
+  power_ = observer_.observe(t_, y, yp).powers;
+  work_.back() += o.kinetic + o.kinetic_added_mass - before; // "constraints"
 }
 
 void Recorder::fill_bodies(double*& out) {

@@ -37,6 +37,13 @@ public:
   /// Closes the step that ends at `t`: work and turns are carried over.
   void accept(double t, const Interpolant& at);
 
+  /// The motion jumped at the end of the last accepted step, to y, y' there: what the kinetic
+  /// energy lost was the work of the constraints. Rows of the system may have come or gone.
+  void jump(const VectorX& y, const VectorX& yp);
+
+  /// All motions at the end of the last accepted step, angles followed over turns.
+  const std::vector<double>& turns() const { return turns_; }
+
   /// Largest |balance error| so far over the largest energy exchanged so far [-], both taken at the
   /// ends of steps and at samples.
   double relative_balance_error() const;
@@ -62,7 +69,8 @@ private:
   std::size_t width_ = 0;
   double t_;                         ///< end of the last accepted step [s]
   std::vector<double> power_, work_; ///< per component, at t_
-  double energy0_ = 0.0;             ///< kinetic energies at the start [J]
+  std::vector<double> turns_;
+  double energy0_ = 0.0; ///< kinetic energies at the start [J]
   double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
   Quadrature rule_;
   VectorX y_, yp_;

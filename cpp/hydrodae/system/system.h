@@ -11,6 +11,7 @@
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -119,10 +120,31 @@ struct MarkerData {
   bool body_axes = false;          ///< of velocity and acceleration
 };
 
+/// A coupler that holds at times only. While it is open its multipliers are `redundant`, and it
+/// costs nothing.
+///   stop      lower <= s <= upper; its load pushes back only
+///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (a
+///   MotionForce)
+struct SwitchData {
+  enum class Kind { stop, friction };
+  enum class State { open, lower, upper, stick, forward, backward };
+  Kind kind = Kind::stop;
+  State state = State::open;
+  int coupler = 0; ///< in System::couplers
+  int motion = 0;  ///< in System::motions
+  double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
+  double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m]
+  int force = -1;                               ///< of friction: in the list of its laws
+  bool holds() const {
+    return state == State::lower || state == State::upper || state == State::stick;
+  }
+};
+
 using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
                               std::vector<BodyForce<force::ViscousDamping::Law>>>;
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
-                                std::vector<MotionForce<force::SpringDamper::Law>>>;
+                                std::vector<MotionForce<force::SpringDamper::Law>>,
+                                std::vector<MotionForce<force::DryFriction::Law>>>;
 
 /// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
 struct HydroBody {
@@ -182,6 +204,7 @@ struct System {
   std::vector<JointData> joints;
   std::vector<MotionData> motions;
   std::vector<CouplerData> couplers;
+  std::vector<SwitchData> switches;
   std::vector<MarkerData> markers;
   std::vector<MotionStart> starts;
   BodyForces body_forces;
@@ -214,6 +237,13 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales. Throws ModelError.
 System build(const model::Scene& scene);
+
+/// Puts a switch into a state: its coupler holds or not, its friction slips or not. Then
+/// `lay_out` has to be called; of y only q, u, z keep their places.
+void set_state(System& system, SwitchData& element, SwitchData::State state);
+
+/// Offsets, scales and names of all unknowns, after rows came or went.
+void lay_out(System& system);
 
 /// Time scales of bodies that have none yet, from the velocities and accelerations of the start:
 /// the time in which a body moves, or speeds up by, its own length. The tolerances follow.

@@ -15,7 +15,7 @@ from hydrodae.case import Case
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import Results
 from hydrodae.simulate import run
-from hydrodae.stability import mechanics, water
+from hydrodae.stability import mechanics, switching, water
 from hydrodae.stability.methods import METHODS, Method
 from hydrodae.stability.scene import Scene
 
@@ -23,8 +23,6 @@ PASS, STOPPED, REFUSED, WRONG = "pass", "stopped", "refused", "wrong"
 
 #: What the case format cannot express yet.
 NOT_MODELLED = {
-    "slack_snap": "a rope that goes slack and snaps taut: no one-sided force",
-    "stick_slip": "dry friction: no friction force",
     "delayed_controller": "a controller with delay: no controllers",
     "short_memory": "a radiation kernel cut too short: memory is exponential only, none is cut",
 }
@@ -77,7 +75,8 @@ class Cell:
 
 def all_scenes() -> dict[str, Scene]:
     """Return the scenes of the map by name."""
-    return {scene.name: scene for scene in (*mechanics.scenes(), *water.scenes())}
+    every = (*mechanics.scenes(), *switching.scenes(), *water.scenes())
+    return {scene.name: scene for scene in every}
 
 
 def all_methods() -> dict[str, Method]:

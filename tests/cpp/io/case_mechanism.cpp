@@ -132,7 +132,7 @@ const std::vector<BadInput> bad_inputs = {
      "case.toml:43:1: two constraint entries have the name 'crank'"},
     {"type = \"coordinate\"\njoint", "type = \"coordinat\"\njoint",
      "case.toml:35:1: key 'type' in [[constraint]] 'crank': unknown value 'coordinat'; did you "
-     "mean 'coordinate'? (valid: coordinate, coupler)"},
+     "mean 'coordinate'? (valid: coordinate, coupler, stop)"},
     {"[[force]]\nname = \"spring\"", "[constraints]\n[[force]]\nname = \"spring\"",
      "case.toml:50:2: unknown key 'constraints' in the case; did you mean 'constraint'? (valid: "
      "title, environment, hydro, sea, wave, body, joint, constraint, marker, force, solver, "

@@ -89,11 +89,11 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
       {"[solver]", "[[solver]]", "case.toml:34:1: 'solver' must be one table: write [solver]"},
       {"type = \"pto_linear\"\n", "",
        "case.toml:28:1: missing key 'type' in [[force]] 'pto1' (Kind of force: mooring_matrix, "
-       "pto_linear, spring_damper, constant_load, viscous_damping)"},
+       "pto_linear, spring_damper, constant_load, viscous_damping, dry_friction)"},
       {"type = \"pto_linear\"", "type = \"pto_liner\"",
        "case.toml:30:1: key 'type' in [[force]] 'pto1': unknown value 'pto_liner'; did you mean "
        "'pto_linear'? (valid: mooring_matrix, pto_linear, spring_damper, constant_load, "
-       "viscous_damping)"},
+       "viscous_damping, dry_friction)"},
       {"initial = { angle_deg = 90.0 }", "initial = 90.0",
        "case.toml:26:1: initial of [[joint]] 'hinge' must be a table, such as initial = { ... }"},
   });

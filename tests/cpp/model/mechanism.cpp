@@ -219,7 +219,7 @@ TEST_CASE("a coordinate constraint means one coordinate that exists") {
                  "a coordinate constraint has no 'ratio'"));
   CHECK(verdict_of(coordinate("hinge"), [](Constraint& c) { c.type = "copler"; }) ==
         "constraint.c.type: constraint 'c': type = 'copler' is no constraint; did you mean "
-        "'coupler'? (valid: coordinate, coupler)");
+        "'coupler'? (valid: coordinate, coupler, stop)");
 }
 
 TEST_CASE("a coordinate constraint of a body means a free coordinate") {

@@ -1,0 +1,392 @@
+#include "hydrodae/solve/switching.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/solve/saddle_point.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+using State = system::SwitchData::State;
+using Kind = system::SwitchData::Kind;
+
+constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
+constexpr double resting = 1e-9;  ///< rates and loads likewise
+constexpr int bisections = 60;
+constexpr long watch = 1000; ///< events; see `count`
+
+/// For the time of its life the equations are stabilised, whatever the integrator solves.
+class Stabilised {
+public:
+  explicit Stabilised(system::System& s) : s_(s), formulation_(s.formulation) {
+    s.formulation = system::Formulation::stabilised;
+  }
+  ~Stabilised() { s_.formulation = formulation_; }
+  Stabilised(const Stabilised&) = delete;
+  Stabilised& operator=(const Stabilised&) = delete;
+
+private:
+  system::System& s_;
+  system::Formulation formulation_;
+};
+
+/// Only q, u, z keep their places when rows come or go.
+void resize(const system::System& s, VectorX& y) {
+  const VectorX head = y.head(s.lambda0);
+  y.setZero(s.n);
+  y.head(s.lambda0) = head;
+}
+
+} // namespace
+
+/// The equations with the rows that hold now, ready for accelerations and impulses.
+struct Switching::Present {
+  system::Pattern pattern;
+  Equations equations;
+  SaddlePoint saddle;
+  explicit Present(const system::System& s)
+      : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
+};
+
+Switching::~Switching() = default;
+
+Switching::Switching(system::System& system, double rtol)
+    : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
+      y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
+  for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
+    set(k, s_.switches[k].kind == Kind::stop ? State::upper : State::stick);
+  lay_out(s_);
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
+    size_[k].rate = s_.row_scale[c.lambda];
+    size_[k].load = s_.scale[c.lambda];
+    size_[k].length = c.velocity_level ? 1.0 : s_.row_scale[c.mu];
+  }
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    set(k, State::open);
+  lay_out(s_);
+  time_scale_ = INFINITY;
+  for (const system::BodyData& b : s_.bodies)
+    time_scale_ = std::min(time_scale_, b.time_scale);
+  unpack(y_, yp_);
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const Data& element = s_.switches[k];
+    const double s = motion(element).value;
+    if (element.kind != Kind::stop || (s >= element.lower - touching * size_[k].length &&
+                                       s <= element.upper + touching * size_[k].length))
+      continue;
+    const std::string& name = s_.couplers[static_cast<std::size_t>(element.coupler)].name;
+    const bool angle = s_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
+    const double unit = angle ? 180.0 / pi : 1.0;
+    throw ModelError("constraint." + name, "the start is beyond stop '" + name +
+                                               "': " + number_text(s * unit) +
+                                               (angle ? " deg" : " m") + " is not within " +
+                                               number_text(element.lower * unit) + " and " +
+                                               number_text(element.upper * unit));
+  }
+}
+
+void Switching::fail(double t, const std::string& reason) const {
+  std::vector<std::string> names;
+  for (const Data& element : s_.switches)
+    if (element.holds() || element.state != State::open)
+      names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
+  throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + reason +
+                           (names.empty() ? "" : " (now acting: " + joined(names) + ")"));
+}
+
+/// Infinitely many events in a finite time (a ball that comes to rest ends in a captured contact
+/// before) would stop all progress.
+void Switching::count(double t) {
+  ++events_;
+  if (++recent_ < watch)
+    return;
+  if (t - checked_ < 1e-6 * time_scale_ * static_cast<double>(watch))
+    fail(t, std::to_string(watch) + " events of stops or dry friction brought only " +
+                number_text(t - checked_) + " s");
+  recent_ = 0;
+  checked_ = t;
+}
+
+void Switching::follow(const std::vector<double>& turns) {
+  ws_.turns = turns;
+  for (std::size_t m = 0; m < turns.size(); ++m)
+    s_.motions[m].start = turns[m];
+}
+
+/// y, y' at t, with the loads that belong to the pose and velocities: those of the integrator are
+/// of lower order, or oscillate.
+void Switching::look(double t, const Interpolant& at) {
+  at(t, y_, yp_);
+  if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
+    fail(t, "no finite accelerations inside the step");
+  unpack(y_, yp_);
+}
+
+void Switching::unpack(const VectorX& y, const VectorX& yp) {
+  system::unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+}
+
+Switching::Motion Switching::motion(const Data& element) const {
+  const system::MotionData& m = s_.motions[static_cast<std::size_t>(element.motion)];
+  const system::JointData& j = s_.joints[static_cast<std::size_t>(m.joint)];
+  const auto row = system::motion_row<double>(s_, ws_, element.motion);
+  const joint::Vector12 u = system::joint_velocity<double>(j, ws_.bodies);
+  const auto T =
+      joint::motion_curvature(m.motion, j.A, j.B, system::joint_geometry<double>(j, ws_.bodies));
+  return {row.value, row.gradient.dot(u),
+          row.gradient.dot(system::joint_acceleration<double>(j, ws_.bodies)) + u.dot(T * u)};
+}
+
+/// Load of a row that holds on its coordinate [N or N m].
+double Switching::load(const Data& element, const VectorX& y) const {
+  return y[s_.couplers[static_cast<std::size_t>(element.coupler)].lambda];
+}
+
+/// How far the switch is from having to change; negative when it is past that.
+double Switching::margin(std::size_t k, const VectorX& y) const {
+  const Data& element = s_.switches[k];
+  const Size& size = size_[k];
+  switch (element.state) {
+  case State::open: {
+    const double s = motion(element).value;
+    return std::min(element.upper - s, s - element.lower) + 1e-3 * touching * size.length;
+  }
+  case State::upper:
+    return -load(element, y) + 2.0 * resting * size.load;
+  case State::lower:
+    return load(element, y) + 2.0 * resting * size.load;
+  case State::stick:
+    return element.static_load + 2.0 * resting * size.load - std::abs(load(element, y));
+  case State::forward:
+    return motion(element).rate + resting * size.rate;
+  case State::backward:
+    break;
+  }
+  return -motion(element).rate + resting * size.rate;
+}
+
+/// Rate at which an open stop closes [m/s or rad/s], towards the bound that is nearer.
+double Switching::approach(std::size_t k) const {
+  const Data& element = s_.switches[k];
+  const Motion m = motion(element);
+  return element.upper - m.value < m.value - element.lower ? m.rate : -m.rate;
+}
+
+/// The first time in (a, b] after which `past` stays true, given that it is true at b.
+double Switching::bisect(double a, double b, const Interpolant& at,
+                         const std::function<bool()>& past) {
+  for (int i = 0; i < bisections && b - a > 1e-15 * std::max(std::abs(b), time_scale_); ++i) {
+    const double middle = 0.5 * (a + b);
+    look(middle, at);
+    (past() ? b : a) = middle;
+  }
+  return b;
+}
+
+/// The first time in (a, b] at which a margin is lost, where one is at b.
+std::optional<double> Switching::first_root(double a, double b, const Interpolant& at) {
+  std::optional<double> first;
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    look(b, at);
+    if (margin(k, y_) >= 0.0)
+      continue;
+    b = bisect(a, b, at, [&] { return margin(k, y_) < 0.0; });
+    first = b;
+  }
+  return first;
+}
+
+std::optional<double> Switching::locate(double t0, double t1, int nodes, const Interpolant& at) {
+  const auto count = size_.size();
+  std::vector<double> speed(count);
+  double a = t0;
+  const Stabilised lock(s_);
+  look(a, at);
+  for (std::size_t k = 0; k < count; ++k)
+    speed[k] = approach(k);
+  for (int node = 1; node <= nodes; ++node) {
+    const double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
+    look(b, at);
+    bool lost = false;
+    std::vector<double> now(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      lost = lost || margin(k, y_) < 0.0;
+      now[k] = approach(k);
+    }
+    if (lost)
+      return first_root(a, b, at);
+    // An open stop may have been passed and left within the interval: look where it is nearest.
+    for (std::size_t k = 0; k < count; ++k) {
+      if (s_.switches[k].kind != Kind::stop || s_.switches[k].holds() || speed[k] <= 0.0 ||
+          now[k] >= 0.0)
+        continue;
+      const double nearest = bisect(a, b, at, [&] { return approach(k) < 0.0; });
+      if (const auto root = first_root(a, nearest, at))
+        return root;
+    }
+    speed = now;
+    a = b;
+  }
+  system::accept_turns(s_, y_.data(), yp_.data(), ws_);
+  present_->equations.accept(y_, yp_);
+  return std::nullopt;
+}
+
+/// Is an open stop at one of its bounds?
+bool Switching::touches(std::size_t k) const {
+  const Data& element = s_.switches[k];
+  const double s = motion(element).value, gap = touching * size_[k].length;
+  return element.kind == Kind::stop && (element.upper - s <= gap || s - element.lower <= gap);
+}
+
+/// Impulses at all stops that are hit at once. Leaves the stops closed that do not rebound.
+/// @returns whether anything was hit
+bool Switching::impacts(double t, VectorX& y, VectorX& yp) {
+  const std::size_t count = size_.size();
+  std::vector<double> after(count, 0.0); // rate that a stop is left with
+  std::vector<bool> acts(count, false);
+  unpack(y, yp);
+  bool any = false;
+  const auto hit = [&](std::size_t k) {
+    const Motion m = motion(s_.switches[k]);
+    const bool upper = approach(k) == m.rate;
+    const double rebound = -s_.switches[k].restitution * m.rate;
+    // A rebound of a height below the tolerance, some rtol times a length, is none.
+    after[k] = std::abs(rebound) > 3.0 * std::sqrt(rtol_) * size_[k].rate ? rebound : 0.0;
+    acts[k] = true;
+    set(k, upper ? State::upper : State::lower);
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const Data& element = s_.switches[k];
+    if (element.kind == Kind::friction) {
+      set(k, State::open); // the motion jumps: it slips, or sticks anew
+    } else if (element.holds()) {
+      acts[k] = true;
+    } else if (touches(k) && approach(k) > resting * size_[k].rate) {
+      hit(k);
+      any = true;
+    }
+  }
+  const VectorX u = y.segment(s_.u0, s_.n_u);
+  for (std::size_t pass = 0; any; ++pass) {
+    if (pass > 4 * count + 4)
+      fail(t, "no impulses fit the impact");
+    lay_out(s_);
+    Present present(s_);
+    resize(s_, y);
+    resize(s_, yp);
+    y.segment(s_.u0, s_.n_u) = u;
+    if (!present.saddle.accelerations(t, y, yp))
+      fail(t, "no finite accelerations at the impact");
+    VectorX rates = VectorX::Zero(s_.n_lambda);
+    const auto row = [&](std::size_t k) {
+      return s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)].lambda - s_.lambda0;
+    };
+    for (std::size_t k = 0; k < count; ++k)
+      if (acts[k])
+        rates[row(k)] = after[k];
+    const VectorX impulses = present.saddle.strike(t, y, rates);
+    unpack(y, yp);
+    bool good = true;
+    for (std::size_t k = 0; k < count && good; ++k) {
+      const Data& element = s_.switches[k];
+      if (acts[k]) {
+        const double push = element.state == State::upper ? -impulses[row(k)] : impulses[row(k)];
+        if (push < -resting * size_[k].load * time_scale_) {
+          acts[k] = good = false;
+          set(k, State::open);
+        }
+      } else if (element.kind == Kind::stop && touches(k) &&
+                 approach(k) > resting * size_[k].rate) {
+        hit(k); // struck by what another stop did
+        after[k] = 0.0;
+        good = false;
+      }
+    }
+    if (good)
+      break;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (acts[k] && after[k] != 0.0)
+      set(k, State::open);
+  return any;
+}
+
+/// The state that contradicts its own load or acceleration most is changed; false when none does.
+bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
+  double worst = 0.0;
+  std::size_t which = 0;
+  State next = State::open;
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const Data& element = s_.switches[k];
+    const Size& size = size_[k];
+    double wrong = 0.0;
+    State wanted = State::open;
+    if (element.state == State::upper || element.state == State::lower) {
+      const double f = load(element, y);
+      wrong = (element.state == State::upper ? f : -f) / size.load;
+    } else if (element.state == State::stick) {
+      const double f = load(element, y);
+      wrong = (std::abs(f) - element.static_load) / size.load;
+      wanted = f > 0.0 ? State::backward : State::forward;
+    } else if (element.kind == Kind::stop && touches(k)) {
+      const Motion m = motion(element);
+      const bool upper = element.upper - m.value < m.value - element.lower;
+      const double outward = upper ? m.acceleration : -m.acceleration;
+      if (std::abs(m.rate) <= resting * size.rate)
+        wrong = outward * time_scale_ / size.rate;
+      wanted = upper ? State::upper : State::lower;
+    }
+    if (wrong > resting && wrong > worst && changes[k] < 4) {
+      worst = wrong;
+      which = k;
+      next = wanted;
+    }
+  }
+  if (worst == 0.0)
+    return false;
+  ++changes[which];
+  set(which, next);
+  return true;
+}
+
+void Switching::settle(double t, VectorX& y, VectorX& yp) {
+  const Stabilised lock(s_);
+  present_.reset();
+  count(t);
+  unpack(y, yp);
+  const bool struck = impacts(t, y, yp);
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const Data& element = s_.switches[k];
+    if (element.kind != Kind::friction)
+      continue;
+    const double rate = motion(element).rate;
+    const bool rests = std::abs(rate) <= 10.0 * resting * size_[k].rate;
+    set(k, rests ? State::stick : rate > 0.0 ? State::forward : State::backward);
+  }
+  std::vector<int> changes(size_.size(), 0);
+  for (std::size_t pass = 0;; ++pass) {
+    if (pass > 8 * size_.size() + 8)
+      fail(t, "no set of stops and sticking joints agrees with its loads");
+    lay_out(s_);
+    present_ = std::make_unique<Present>(s_);
+    resize(s_, y);
+    resize(s_, yp);
+    SaddlePoint& saddle = present_->saddle;
+    if (!saddle.accelerations(t, y, yp) || !saddle.project(t, y) || !saddle.accelerations(t, y, yp))
+      fail(t, struck ? "no motion goes on from the impact" : "the constraints contradict a stop");
+    unpack(y, yp);
+    if (!correct(y, changes))
+      break;
+  }
+  holding_ = std::any_of(s_.switches.begin(), s_.switches.end(),
+                         [](const Data& element) { return element.holds(); });
+}
+
+} // namespace hydrodae::solve

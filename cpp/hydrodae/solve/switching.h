@@ -1,0 +1,80 @@
+#pragma once
+/// Stops, one-sided distances and dry friction: constraint rows that hold at times only.
+///
+///   stop      open: s within its bounds;  closed: s at a bound, its load pushing back
+///   friction  stick: s' = 0, |load| <= static;  slip: load = -kinetic sign(s')
+///
+/// Between events the equations are smooth, and any integrator solves them; the times at which a
+/// row has to come or go are located on its interpolant, and it starts anew there. At an impact the
+/// velocities jump by impulses of the joints and stops (Newton's law of restitution; Brogliato,
+/// Nonsmooth Mechanics, 2016, ch. 4); dry friction, whose load is bounded, has no part in it.
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::solve {
+
+class Switching {
+public:
+  /// y and y' at a time inside the last step.
+  using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
+
+  /// Everything open, as the build left it. Throws ModelError when the start is beyond a stop.
+  Switching(system::System& system, double rtol);
+  ~Switching();
+
+  /// The first time in (t0, t1] at which a switch has to change [s], if there is one. `nodes`:
+  /// into how many parts the step is cut to look for it.
+  std::optional<double> locate(double t0, double t1, int nodes, const Interpolant& at);
+
+  /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
+  /// loads. Changes the layout of the system; y, y' come out in the new one, consistent. Throws
+  /// SolverError when no consistent set of rows is found, or when events accumulate.
+  void settle(double t, VectorX& y, VectorX& yp);
+
+  /// Angles go on from these values of all motions (of an accepted step).
+  void follow(const std::vector<double>& turns);
+
+  long events() const { return events_; }
+
+private:
+  using Data = system::SwitchData;
+  struct Motion { ///< s, s', s'' of the coordinate
+    double value = 0.0, rate = 0.0, acceleration = 0.0;
+  };
+  struct Present;
+  struct Size { ///< what counts as one
+    double length = 1.0, rate = 1.0, load = 1.0;
+  };
+
+  void look(double t, const Interpolant& at);
+  void unpack(const VectorX& y, const VectorX& yp);
+  Motion motion(const Data& element) const;
+  double load(const Data& element, const VectorX& y) const;
+  double margin(std::size_t k, const VectorX& y) const;
+  double approach(std::size_t k) const;
+  std::optional<double> first_root(double a, double b, const Interpolant& at);
+  double bisect(double a, double b, const Interpolant& at, const std::function<bool()>& past);
+  bool touches(std::size_t k) const;
+  bool impacts(double t, VectorX& y, VectorX& yp);
+  bool correct(const VectorX& y, std::vector<int>& changes);
+  void set(std::size_t k, Data::State state) { system::set_state(s_, s_.switches[k], state); }
+  [[noreturn]] void fail(double t, const std::string& reason) const;
+  void count(double t);
+
+  system::System& s_;
+  const double rtol_;
+  system::Workspace<double> ws_;
+  std::vector<Size> size_;
+  double time_scale_ = 0.0; ///< shortest of the bodies [s]
+  VectorX y_, yp_;
+  std::unique_ptr<Present> present_; ///< the rows that hold now
+  bool holding_ = false;             ///< does any switch hold?
+  long events_ = 0, recent_ = 0;
+  double checked_ = 0.0;
+};
+
+} // namespace hydrodae::solve

@@ -1,0 +1,290 @@
+"""Stops, one-sided distances and dry friction: located events, for every method."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae.errors import CaseError, SolverError
+from hydrodae.stability import switching
+
+METHODS = {
+    "ida": "",
+    "radau": 'method = "radau"\n',
+    "explicit_rk": 'method = "explicit_rk"\n',
+    "generalized_alpha": 'method = "generalized_alpha"\nstep = 0.002\n',
+    "gauss": 'method = "gauss"\nstep = 0.01\n',
+    "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.01\n',
+}
+GRAVITY = 9.81
+
+BALL = """
+[[body]]
+name = "ball"
+motion = "heave"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 1.0]
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "ball"
+point = [0.0, 0.0, 1.0]
+axis = [0.0, 0.0, 1.0]
+[[constraint]]
+name = "floor"
+type = "stop"
+joint = "guide"
+lower = -1.0
+restitution = 0.8
+[output]
+step = 0.01
+"""
+
+BLOCK = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "block"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { displacement = [0.5, 0.0, 0.0] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "block"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "spring"
+type = "pto_linear"
+joint = "slide"
+stiffness = 200.0
+[[force]]
+name = "dry"
+type = "dry_friction"
+joint = "slide"
+static = 6.0
+[output]
+step = 0.01
+"""
+
+
+def run(text: str, end_time: float, method: str = "ida", rtol: float = 1e-8) -> hydrodae.Results:
+    solver = f"[solver]\nend_time = {end_time}\nrtol = {rtol}\n{METHODS[method]}"
+    return hydrodae.run(hydrodae.Case.from_text(text + solver))
+
+
+def bounces(time: np.ndarray, restitution: float) -> np.ndarray:
+    """Height of a ball that falls 1 m and bounces until it rests, after Newton's law."""
+    z = np.zeros_like(time)
+    start, speed = -np.sqrt(2.0 / GRAVITY), np.sqrt(2.0 * GRAVITY)
+    while speed > 1e-9:
+        length = 2.0 * speed / GRAVITY
+        t = time - start
+        flight = (t >= 0.0) & (t <= length)
+        z[flight] = (speed * t - 0.5 * GRAVITY * t**2)[flight]
+        start, speed = start + length, restitution * speed
+    return z
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ball_bounces_until_it_rests(method: str) -> None:
+    results = run(BALL, 5.0, method)
+    z = np.asarray(results["bodies/ball/position"].values)[:, 2]
+    np.testing.assert_allclose(z, bounces(results.time, 0.8), atol=2e-6)
+    floor = np.asarray(results["constraints/floor/reaction"].values)
+    assert floor[-1] == pytest.approx(2.0 * GRAVITY, rel=1e-9)  # at rest it carries the weight
+    assert floor.min() >= 0.0
+    assert results.statistics["events"] > 30
+    lost = np.asarray(results["energy/work/constraints"].values)[-1]
+    assert lost == pytest.approx(-2.0 * GRAVITY, rel=1e-6)  # all that it fell
+    assert np.abs(results["energy/balance_error"].values).max() < 1e-6
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_dry_friction_stops_an_oscillator(method: str, reference: Path) -> None:
+    """Turning points fall by 2 F / k each half period; it rests where the spring cannot move it."""
+    known = json.loads((reference / "rope" / "friction_endstop.json").read_text())
+    known = known["coulomb_oscillator"]
+    results = run(BLOCK, 4.0, method)
+    x = np.asarray(results["bodies/block/position"].values)[:, 0]
+    for k, turn in enumerate(known["turning_points"]):
+        at = k * known["half_period"]
+        near = np.abs(results.time - at) < 0.006
+        assert x[near][0] == pytest.approx(turn, abs=2e-3)  # the sample is up to 5 ms off
+    assert x[-1] == pytest.approx(known["x_stop"], abs=1e-5)
+    rate = np.asarray(results["bodies/block/velocity"].values)[:, 0]
+    assert np.abs(rate[results.time > known["t_stop"] + 1e-3]).max() < 1e-12
+    power = np.diff(np.asarray(results["energy/work/dry"].values))
+    assert power.max() <= 1e-12
+    load = np.asarray(results["constraints/dry/reaction"].values)
+    assert load[-1] == pytest.approx(200.0 * x[-1], rel=1e-6)  # the spring is held
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_bob_on_a_rope_goes_slack_and_taut(method: str, tmp_path: Path) -> None:
+    scene = next(s for s in switching.scenes() if s.name == "snap")
+    steps = {"generalized_alpha": 0.0005, "gauss": 0.01, "lobatto_iiic": 0.005}
+    control = {"step": steps[method]} if method in steps else {"rtol": 1e-9}
+    solver = {"method": method, **control}
+    results = hydrodae.run(scene.case(solver, tmp_path))
+    assert scene.error(results) < (1e-4 if method == "generalized_alpha" else 1e-6)
+    length = np.asarray(results["joints/rope/displacement"].values)
+    pull = np.asarray(results["constraints/rope/reaction"].values)
+    assert length.max() <= 1.0 + 1e-7  # between the steps it is interpolated
+    assert pull.max() <= 1e-6  # a rope never pushes
+    assert (pull[length < 1.0 - 1e-6] == 0.0).all()
+
+
+@pytest.mark.parametrize("case", [0, 1, 2])
+def test_stick_slip_on_a_belt(case: int, reference: Path) -> None:
+    """Period and largest deflection of the limit cycle, for three speeds of the belt."""
+    known = json.loads((reference / "rope" / "friction_endstop.json").read_text())
+    known = known["stick_slip_belt"]["cases"][case]
+    scene = next(s for s in switching.scenes() if s.name == "stick_slip")
+    tables = json.loads(json.dumps(scene.tables))
+    speed = known["belt_speed"]
+    tables["constraint"][0]["drive"]["rate"] = speed
+    for body in tables["body"]:
+        body["initial"]["velocity"][0] = speed
+    period = known["period"]
+    tables["solver"]["end_time"] = 0.2 / speed + 2.2 * period
+    tables["output"]["step"] = period / 4000.0
+    scene = type(scene)(**{**scene.__dict__, "tables": tables})
+    results = hydrodae.run(scene.case({"rtol": 1e-9}, Path()))
+    x = np.asarray(results["bodies/block/position"].values)[:, 0]
+    assert x.max() == pytest.approx(known["x_max"], rel=1e-5)
+    peaks = results.time[1:-1][(x[1:-1] > x[:-2]) & (x[1:-1] >= x[2:])]
+    assert np.diff(peaks).mean() == pytest.approx(period, rel=5e-3)
+
+
+def test_methods_agree_on_stick_slip(tmp_path: Path) -> None:
+    scene = next(s for s in switching.scenes() if s.name == "stick_slip")
+    for solver in ({"rtol": 1e-9}, {"method": "radau"}, {"method": "explicit_rk"}):
+        results = hydrodae.run(scene.case(solver, tmp_path))
+        assert scene.error(results) < 1e-6
+
+
+def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
+    """A rod that falls onto a stop of its hinge: energy falls by the square of the restitution."""
+    text = """
+[[body]]
+name = "rod"
+motion = "rigid"
+mass = 3.0
+center_of_gravity = [0.5, 0.0, 0.0]
+inertia = [0.01, 0.25, 0.25]
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "rod"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+[[constraint]]
+name = "stop"
+type = "stop"
+joint = "hinge"
+lower_deg = -10.0
+upper_deg = 40.0
+restitution = 0.5
+[output]
+step = 0.005
+"""
+    results = run(text, 1.5)
+    angle = np.asarray(results["joints/hinge/angle"].values)
+    assert np.degrees(angle.max()) == pytest.approx(40.0, abs=1e-6)
+    # From rest, level, it falls by L/2 sin(40 deg); after the first impact it rises by a quarter.
+    near = np.degrees(angle) > 39.0
+    first = int(np.argmax(near))
+    left = first + int(np.argmin(near[first:]))
+    back = left + int(np.argmax(near[left:]))
+    fell = np.sin(np.radians(40.0))
+    rise = np.sin(np.radians(40.0)) - np.sin(angle[left:back].min())
+    assert rise == pytest.approx(0.25 * fell, rel=2e-3)
+
+
+def test_two_blocks_strike_one_after_the_other() -> None:
+    """Two masses on one line with a one-sided link of 1 m: momentum is kept at the snap."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "a"
+motion = "surge"
+mass = 3.0
+center_of_gravity = [0.0, 0.0, 0.0]
+[[body]]
+name = "b"
+motion = "surge"
+mass = 1.0
+center_of_gravity = [0.5, 0.0, 0.0]
+initial = { velocity = [2.0, 0.0, 0.0] }
+[[joint]]
+name = "link"
+type = "distance"
+body_a = "a"
+body_b = "b"
+point = [0.0, 0.0, 0.0]
+point_b = [0.5, 0.0, 0.0]
+length = 1.0
+one_sided = true
+restitution = 0.5
+[output]
+step = 0.01
+"""
+    results = run(text, 1.0)
+    va = np.asarray(results["bodies/a/velocity"].values)[-1, 0]
+    vb = np.asarray(results["bodies/b/velocity"].values)[-1, 0]
+    assert 3.0 * va + vb == pytest.approx(2.0, rel=1e-9)
+    assert vb - va == pytest.approx(-0.5 * 2.0, rel=1e-6)
+    assert results.statistics["events"] == 1
+
+
+def test_a_stop_holds_in_the_equilibrium() -> None:
+    spring = BALL.replace("lower = -1.0", "lower = -0.05") + (
+        '[[force]]\nname = "spring"\ntype = "pto_linear"\njoint = "guide"\nstiffness = 100.0\n'
+    )
+    case = hydrodae.Case.from_text(spring + '[solver]\nend_time = 1.0\nstart = "equilibrium"\n')
+    results = hydrodae.run(case)
+    z = np.asarray(results["bodies/ball/position"].values)[:, 2]
+    np.testing.assert_allclose(z, 1.0 - 0.05, atol=1e-9)
+    floor = np.asarray(results["constraints/floor/reaction"].values)
+    np.testing.assert_allclose(floor, 2.0 * GRAVITY - 5.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("lower = -1.0", "upper = -0.5", "the start is beyond stop 'floor': 0 m is not within"),
+        ("lower = -1.0", "", "a stop needs the key 'lower' or 'upper'"),
+        ("lower = -1.0", "lower_deg = -1.0", "the coordinate is a displacement: write 'lower'"),
+        ("lower = -1.0", "lower = 1.0\nupper = 0.5", "the upper bound must be above the lower"),
+        ("restitution = 0.8", "restitution = 1.2", "restitution"),
+        ('type = "stop"', 'type = "coordinate"', "a coordinate constraint has no 'lower'"),
+    ],
+)
+def test_a_stop_that_makes_no_sense_is_refused(old: str, new: str, message: str) -> None:
+    with pytest.raises(CaseError, match=message):
+        run(BALL.replace(old, new), 1.0)
+
+
+def test_friction_that_makes_no_sense_is_refused() -> None:
+    with pytest.raises(CaseError, match="must not be above the static one"):
+        run(BLOCK.replace("static = 6.0", "static = 6.0\nkinetic = 7.0"), 1.0)
+
+
+def test_events_without_end_are_told() -> None:
+    """A perfect rebound between bounds that close in on nothing cannot go on for ever."""
+    start = "initial = { displacement = -1.0, displacement_rate = 1.0 }"
+    text = BALL.replace("restitution = 0.8", "restitution = 1.0\nupper = -0.9999999")
+    text = text.replace('name = "guide"', f'name = "guide"\n{start}')
+    with pytest.raises(SolverError, match="events of stops or dry friction brought only"):
+        run(text, 1.0)
