@@ -122,11 +122,7 @@ def test_one_step_methods_pass_singular_poses(
     [
         ("n_four_bar_2", None),
         ("n_four_bar_2", TIGHT),
-        pytest.param(
-            "slider_crank_equal",
-            None,
-            marks=pytest.mark.xfail(strict=True, reason="3.5e-3 m off, BDF at the dead points"),
-        ),
+        ("slider_crank_equal", None),
         ("slider_crank_equal", TIGHT),
     ],
 )

@@ -14,6 +14,8 @@ namespace hydrodae::solve {
 
 namespace {
 
+constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the error
+
 /// With x = (u, z), a the algorithm's own accelerations, n the step:
 ///
 ///   q_{n+1} = q_n o exp(h dq),  dq = u_n + h (1/2 - beta) a_n + h beta a_{n+1} + G^T mu
@@ -28,11 +30,10 @@ public:
   GeneralizedAlpha(const system::System& system, const system::Pattern& pattern,
                    const model::SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
-      : s_(system), e_(system, pattern, std::min(options.rtol, 1e-8)),
-        lu_(pattern.column_start, pattern.row), t_(t0), t0_(t0), end_(options.end_time),
-        h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp),
-        trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
-        velocity_(VectorX::Zero(system.n_u)) {
+      : s_(system), e_(system, pattern, newton_tolerance), lu_(pattern.column_start, pattern.row),
+        t_(t0), t0_(t0), end_(options.end_time), h_(options.step), n_x_(system.n_u + system.n_z),
+        y_(y), yp_(yp), y0_(y), yp0_(yp), trial_(y), trial_yp_(yp), residual_(y), w_(y),
+        a_(yp.segment(system.u0, n_x_)), a_new_(a_), velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
     alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
     alpha_f_ = rho / (rho + 1.0);
@@ -46,6 +47,7 @@ public:
   Statistics statistics() const override { return e_.statistics; }
 
 private:
+  template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
   void update(double h);
   bool refresh(double t, double h);
   bool newton(double t, double h);
@@ -61,6 +63,26 @@ private:
   VectorX velocity_;      ///< G^T mu of the last residual, tangent
   double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
 };
+
+/// From the rows of q, whose last part is E(q) v, the tangent velocity v of each body:
+/// visit(place in (n_u,), v_k).
+template <class Visit>
+void GeneralizedAlpha::each_tangent(const VectorX& rows, Visit&& visit) const {
+  for (const system::BodyData& b : s_.bodies) {
+    const bool free = b.rotation == system::BodyData::Rotation::free;
+    const Index u = b.u0 - s_.u0;
+    for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+      visit(u + k, rows[b.q0 + k]);
+    if (!free)
+      continue;
+    const Index q = b.q0 + b.n_translations;
+    const Vector3 turn = 2.0 *
+                         quaternion_rate_matrix<double>(Vector4(trial_.segment<4>(q))).transpose() *
+                         rows.segment<4>(q);
+    for (int k = 0; k < 3; ++k)
+      visit(u + b.n_translations + k, turn[k]);
+  }
+}
 
 void GeneralizedAlpha::fail(const std::string& reason) {
   throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", step " +
@@ -104,18 +126,7 @@ bool GeneralizedAlpha::newton(double t, double h) {
     if (!e_.residual(t, trial_, trial_yp_, residual_))
       return false;
     // The rows of q are q' - E (u + G^T mu), and q' = 0 here.
-    for (const system::BodyData& b : s_.bodies) {
-      const bool free = b.rotation == system::BodyData::Rotation::free;
-      for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
-        velocity_[b.u0 - s_.u0 + k] = -residual_[b.q0 + k] - trial_[b.u0 + k];
-      if (!free)
-        continue;
-      const Index q = b.q0 + b.n_translations, u = b.u0 + b.n_translations;
-      velocity_.segment<3>(u - s_.u0) =
-          -2.0 * quaternion_rate_matrix<double>(Vector4(trial_.segment<4>(q))).transpose() *
-              residual_.segment<4>(q) -
-          trial_.segment<3>(u);
-    }
+    each_tangent(residual_, [&](Index k, double row) { velocity_[k] = -row - trial_[s_.u0 + k]; });
     residual_.head(s_.n_q).setZero();
     residual_.tail(s_.n - s_.sigma0).setZero();
     lu_.solve(residual_.data());
@@ -123,18 +134,9 @@ bool GeneralizedAlpha::newton(double t, double h) {
     a_new_ -= residual_.segment(s_.u0, n_x_) / (h * gamma_);
     // What the increment of mu adds to the velocity of q: c_q dq - du.
     const double by_q = gamma_ / (beta_ * h), share = beta_ / gamma_;
-    for (const system::BodyData& b : s_.bodies) {
-      const bool free = b.rotation == system::BodyData::Rotation::free;
-      for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
-        velocity_[b.u0 - s_.u0 + k] -= share * (by_q * residual_[b.q0 + k] - residual_[b.u0 + k]);
-      if (!free)
-        continue;
-      const Index q = b.q0 + b.n_translations, u = b.u0 + b.n_translations;
-      const Vector3 turn =
-          2.0 * quaternion_rate_matrix<double>(Vector4(trial_.segment<4>(q))).transpose() *
-          residual_.segment<4>(q);
-      velocity_.segment<3>(u - s_.u0) -= share * (by_q * turn - residual_.segment<3>(u));
-    }
+    each_tangent(residual_, [&](Index k, double row) {
+      velocity_[k] -= share * (by_q * row - residual_[s_.u0 + k]);
+    });
     trial_.segment(s_.lambda0, s_.n_lambda) -= residual_.segment(s_.lambda0, s_.n_lambda);
     trial_.segment(s_.mu0, s_.n_mu) -= beta_ / gamma_ * residual_.segment(s_.mu0, s_.n_mu);
     const double size = e_.norm(w_, residual_);
@@ -160,7 +162,7 @@ double GeneralizedAlpha::step() {
     h = end_ - t_;
   e_.weights(y_, w_);
   bool done = false;
-  for (int attempt = 0; attempt < 3 && !done; ++attempt) {
+  for (int attempt = 0; attempt < 2 && !done; ++attempt) {
     trial_ = y_;
     trial_yp_ = yp_;
     trial_yp_.head(s_.n_q).setZero();
@@ -173,13 +175,10 @@ double GeneralizedAlpha::step() {
     done = newton(t_ + h, h);
     if (!done)
       ++e_.statistics.convergence_failures;
-    if (!done && attempt == 1) { // once more with the Jacobian of where it got to
-      if (!trial_.allFinite() || !refresh(t_ + h, h))
-        break;
-      done = newton(t_ + h, h);
-      factored_ = 0.0;
-      break;
-    }
+  }
+  if (!done && trial_.allFinite() && refresh(t_ + h, h)) { // with the Jacobian of where it got to
+    done = newton(t_ + h, h);
+    factored_ = 0.0;
   }
   if (!done)
     fail("Newton's iteration does not converge at the fixed step");

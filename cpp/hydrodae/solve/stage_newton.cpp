@@ -155,7 +155,7 @@ void StageNewton::make_full() {
   full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row);
 }
 
-bool StageNewton::factorise_full(double t, double h, const VectorX&) {
+bool StageNewton::factorise_full(double t, double h) {
   const int s = rk_.stages;
   const std::size_t nonzeros = e_.pattern.row.size();
   std::vector<double>& values = full_->lu->values();
@@ -188,7 +188,7 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
   if (!full_)
     make_full();
   return iterate(t, h, y0, w, Z, 15, [&] {
-    if (!factorise_full(t, h, y0))
+    if (!factorise_full(t, h))
       return false;
     full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
     return true;

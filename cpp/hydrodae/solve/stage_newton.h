@@ -53,7 +53,7 @@ private:
   bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
   double size(const VectorX& w, const MatrixX& dZ) const;
   void make_full();
-  bool factorise_full(double t, double h, const VectorX& y0);
+  bool factorise_full(double t, double h);
   template <class Solve>
   NewtonResult iterate(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z,
                        int most, Solve&& solve);
