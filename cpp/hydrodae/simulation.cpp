@@ -14,6 +14,7 @@
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/system/history.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -85,6 +86,8 @@ public:
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     formulate(scene.solver);
+    model::SolverOptions options = scene.solver;
+    begin_history(options);
     energy_guard_ =
         scene.solver.energy_guard.value_or(scene.solver.method == "ida" && solve::has_loop(system_)
                                                ? std::clamp(10.0 * scene.solver.rtol, 1e-3, 1e-2)
@@ -96,7 +99,7 @@ public:
       if (!branch_guard_->active())
         branch_guard_.reset();
     }
-    integrator_ = solve::make_integrator(system_, pattern_, scene.solver, y_, yp_);
+    integrator_ = solve::make_integrator(system_, pattern_, options, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -140,6 +143,26 @@ private:
       system_.baumgarte_rate = 1.0 / options.baumgarte_time;
     if (system_.formulation != Formulation::stabilised)
       pattern_ = system::find_pattern(system_);
+  }
+
+  /// The past of a scene that depends on it begins at the start, and limits the steps.
+  void begin_history(model::SolverOptions& options) {
+    if (!system::has_past(system_))
+      return;
+    const std::string note = system::limit_steps(system_, options);
+    if (!note.empty())
+      system_.notes.push_back(note);
+    history_ = std::make_unique<system::History>(system_);
+    history_->append(0.0, y_, yp_);
+    system_.history = history_.get();
+  }
+
+  /// Takes the accepted step into the history.
+  void remember() {
+    if (!history_)
+      return;
+    at_(t_, y_, yp_);
+    history_->append(t_, y_, yp_);
   }
 
   /// The rule by which the work over the coming step is summed.
@@ -203,6 +226,7 @@ private:
       recorder_->accept(t_, at_);
       check_energy();
       check_motion();
+      remember();
       // Between samples that are far apart in steps, a request to stop is heard as well.
       if (++steps_since_asked >= 1000 && progress_) {
         steps_since_asked = 0;
@@ -237,6 +261,7 @@ private:
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
+  std::unique_ptr<system::History> history_; ///< where loads depend on the past
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
