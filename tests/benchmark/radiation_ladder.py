@@ -24,6 +24,7 @@ from hydrodae.ladder import ladder
 from hydrodae.memory import fit_memory
 
 ROOT = Path(__file__).resolve().parents[2]
+PLANAR = ("surge", "heave", "pitch")
 
 RM3_BODY = """
 [[body]]
@@ -70,10 +71,9 @@ FOUR_NODES += "[solver]\nend_time = 20.0\n" + "".join(
 )
 
 
-def reference() -> Path | None:
-    """Folder of the reference data, None where there is none."""
-    folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-    return folder if folder.is_dir() else None
+def reference() -> Path:
+    """Folder of the reference data."""
+    return Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
 
 
 def prepare(
@@ -91,45 +91,59 @@ def prepare(
     database.with_kernel(moving, band=band).write(target)
 
 
-def cases(folder: Path) -> list[hydrodae.Case]:
-    """All devices that can be run here."""
-    found = [hydrodae.Case.read(ROOT / "cases" / "sphere" / "decay.toml")]
+def sphere(_folder: Path) -> hydrodae.Case:
+    """One coordinate."""
+    return hydrodae.Case.read(ROOT / "cases" / "sphere" / "decay.toml")
+
+
+def f3of(folder: Path) -> hydrodae.Case:
+    """Six coordinates, narrow peaks: a kernel of ten minutes."""
     shutil.copy(ROOT / "cases" / "f3of" / "flap_decay.toml", folder)
     database = hydrodae.hdb.read(ROOT / "cases" / "f3of" / "hydro.h5")
-    planar = ("surge", "heave", "pitch")
-    flaps = [f"{body}.{dof}" for body in ("flap1", "flap2") for dof in planar]
-    database.with_kernel(flaps).write(folder / "hydro.h5")
-    f3of = hydrodae.Case.read(folder / "flap_decay.toml")
-    found.append(f3of.with_values({"solver.end_time": 100.0}))
-    data = reference()
-    if data is None:
-        print("no reference data: RM3 and 4N3LA are left out")
-        return found
+    moving = [f"{body}.{dof}" for body in ("flap1", "flap2") for dof in PLANAR]
+    database.with_kernel(moving).write(folder / "hydro.h5")
+    return hydrodae.Case.read(folder / "flap_decay.toml").with_values({"solver.end_time": 100.0})
+
+
+def rm3(folder: Path) -> hydrodae.Case:
+    """Two bodies, six coordinates."""
     points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
-    moving = [f"{body}.{dof}" for body in points for dof in planar]
-    wamit = data / "hdb" / "rm3_wamit"
+    moving = [f"{body}.{dof}" for body in points for dof in PLANAR]
+    wamit = reference() / "hdb" / "rm3_wamit"
     prepare(wamit, folder / "rm3.h5", moving, points, (0.2, 3.0), list(points), 1000.0)
-    found.append(hydrodae.Case.from_text(RM3, folder))
-    nodes = {name: [x, y, -0.3] for name, (x, y) in NODES.items()}
-    heave = [f"{name}.heave" for name in NODES]
-    prepare(data / "hdb" / "own" / "4n3la.nc", folder / "4n3la.h5", heave, nodes, (1.0, 6.0))
-    found.append(hydrodae.Case.from_text(FOUR_NODES, folder))
-    return found
+    return hydrodae.Case.from_text(RM3, folder)
+
+
+def four_nodes(folder: Path) -> hydrodae.Case:
+    """Four bodies in heave."""
+    points = {name: [x, y, -0.3] for name, (x, y) in NODES.items()}
+    moving = [f"{name}.heave" for name in NODES]
+    table = reference() / "hdb" / "own" / "4n3la.nc"
+    prepare(table, folder / "4n3la.h5", moving, points, (1.0, 6.0))
+    return hydrodae.Case.from_text(FOUR_NODES, folder)
+
+
+DEVICES = {"sphere": sphere, "f3of": f3of, "rm3": rm3, "4n3la": four_nodes}
 
 
 def main() -> None:
     """Print ladders and costs per simulated second."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("devices", nargs="*", choices=[[], *DEVICES], help="default: all")
     parser.add_argument("--repeat", type=int, default=5, help="time is the best of N runs")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        for case in cases(Path(folder)):
+    for name in arguments.devices or DEVICES:
+        if name in ("rm3", "4n3la") and not reference().is_dir():
+            print(f"{name} left out: no reference data in {reference()}")
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            case = DEVICES[name](Path(folder))
             made = ladder(case, repeat=arguments.repeat)
-            print(f"{made}\n  solver time per simulated second:", end="")
-            for rung in made.rungs:
-                cost = 1e6 * rung.time / case.end_time
-                print(f"  {rung.name} {'-' if np.isnan(cost) else f'{cost:.0f} us'}", end="")
-            print("\n")
+        print(f"{made}\n  solver time per simulated second:", end="")
+        for rung in made.rungs:
+            cost = 1e6 * rung.time / case.end_time
+            print(f"  {rung.name} {'-' if np.isnan(cost) else f'{cost:.0f} us'}", end="")
+        print("\n", flush=True)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -133,6 +134,12 @@ def test_wrong_keys_are_one_clear_error(repository: Path, tmp_path: Path) -> Non
         case.with_values({"hydro.memory_length": 5.0})
     with pytest.raises(hydrodae.CaseError, match=r"memory_length = 500 s: the kernel of .* allows"):
         case.with_values({**CONVOLUTION, "hydro.memory_length": 500.0})
+    for name in ("decay.toml", "hydro.h5"):
+        shutil.copy(repository / "cases" / "sphere" / name, tmp_path)
+    with h5py.File(tmp_path / "hydro.h5", "r+") as file:
+        file["radiation_kernel/time"][5] += 0.01
+    with pytest.raises(hydrodae.CaseError, match=r"radiation_kernel/time: must be equally spaced"):
+        hydrodae.Case.read(tmp_path / "decay.toml").with_values(CONVOLUTION)
     flaps = hydrodae.Case.read(repository / "cases" / "f3of" / "flap_decay.toml")
     with pytest.raises(hydrodae.CaseError, match=r"no radiation kernel .* hydrodae hdb kernel"):
         flaps.with_values(CONVOLUTION)

@@ -162,16 +162,19 @@ Eigen::Index History::gather_steps(double t, std::size_t node) const {
              end = begin +
                    static_cast<std::ptrdiff_t>(std::max(nodes_[node].points, dropped_) - dropped_);
   const auto first = std::upper_bound(begin, end, oldest);
-  const double span = first == end ? 0.0 : (t - *first) / c.step;
+  const double per_step = 1.0 / c.step;
+  const double span = first == end ? 0.0 : (t - *first) * per_step;
   const Eigen::Index rows =
       std::min<Eigen::Index>(static_cast<Eigen::Index>(span) + 4, c.splines.rows());
   grid_.topRows(rows).setZero();
   const auto from = static_cast<std::size_t>(first - begin),
              to = static_cast<std::size_t>(end - begin);
+  const auto last_cell = static_cast<std::ptrdiff_t>(cells) - 1; // against rounding
   for (std::size_t p = from; p < to; ++p) {
-    const double x = (t - point_time_[p]) / c.step, cell = std::floor(x);
-    const std::array<double, 4> b = bspline_weights(x - cell);
-    double* column = grid_.data() + static_cast<std::ptrdiff_t>(cell);
+    const double x = (t - point_time_[p]) * per_step; // > 0
+    const std::ptrdiff_t cell = std::min(static_cast<std::ptrdiff_t>(x), last_cell);
+    const std::array<double, 4> b = bspline_weights(x - static_cast<double>(cell));
+    double* column = grid_.data() + cell;
     for (int u = 0; u < n_U_; ++u, column += grid_.rows()) {
       const double value = point_value_[static_cast<std::size_t>(u)][p];
       for (std::size_t k = 0; k < 4; ++k)
