@@ -24,13 +24,14 @@ from hydrodae.ladder import ladder
 from hydrodae.memory import fit_memory
 
 ROOT = Path(__file__).resolve().parents[2]
+STATES = 40  # of a fit, at most
 PLANAR = ("surge", "heave", "pitch")
 
 RM3_BODY = """
 [[body]]
 name = "{name}"
 hydro = "{name}"
-motion = "planar"
+motion = "heave"
 mass = {mass}
 center_of_gravity = [0.0, 0.0, {z}]
 inertia = [{inertia}, {inertia}, {inertia}]
@@ -87,7 +88,7 @@ def prepare(
 ) -> None:
     """Import a database, fit what moves, and make its kernel."""
     database, _ = import_database(source, names=names, reference_points=points, rho=rho)
-    database.memory["moving"] = fit_memory(database, inputs=moving, band=band, name="moving")
+    database.memory["default"] = fit_memory(database, inputs=moving, band=band, max_states=STATES)
     database.with_kernel(moving, band=band).write(target)
 
 
@@ -106,9 +107,9 @@ def f3of(folder: Path) -> hydrodae.Case:
 
 
 def rm3(folder: Path) -> hydrodae.Case:
-    """Two bodies, six coordinates."""
+    """Two bodies in heave."""
     points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
-    moving = [f"{body}.{dof}" for body in points for dof in PLANAR]
+    moving = [f"{body}.heave" for body in points]
     wamit = reference() / "hdb" / "rm3_wamit"
     prepare(wamit, folder / "rm3.h5", moving, points, (0.2, 3.0), list(points), 1000.0)
     return hydrodae.Case.from_text(RM3, folder)
