@@ -87,7 +87,11 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
         s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(f.motion)].joint)];
     const auto w = system::motion_row<double>(s, ws, f.motion);
     out.dampers.push_back(f.component);
-    out.damper_damping.push_back(-f.law.gradient(w.value, 0.0).second);
+    const auto [by_s, by_rate] = f.law.gradient(w.value, 0.0);
+    out.damper_damping.push_back(-by_rate);
+    out.damper_stiffness.push_back(-by_s);
+    out.damper_delay.push_back(f.delay < 0 ? 0.0
+                                           : s.delays[static_cast<std::size_t>(f.delay)].time);
     add_row(out.damper_map, joint_row(s, j, w.gradient));
   });
 }
@@ -141,6 +145,7 @@ LinearModel linearize(const model::Scene& scene) {
   if (still.hydro) {
     still.hydro->radiation = "none";
     still.hydro->frequency.reset();
+    still.hydro->memory_length.reset();
   }
   System s = system::build(still);
   s.hydro.added_mass.setZero();

@@ -25,6 +25,8 @@ struct LinearModel {
   MatrixX motion_map;                    ///< (n_m, n_u) of the joint coordinates
   std::vector<std::string> dampers;      ///< (n_d,) forces with damping along a joint coordinate
   std::vector<double> damper_damping;    ///< (n_d,) [N s/m or N m s]
+  std::vector<double> damper_stiffness;  ///< (n_d,) [N/m or N m]
+  std::vector<double> damper_delay;      ///< (n_d,) [s]; where > 0, K holds k and C not c
   MatrixX damper_map;                    ///< (n_d, n_u) of their coordinates
   std::vector<std::string> reactions;    ///< (6 n_joints,) "joints/hinge1/reaction_force.x"
   MatrixX reaction_by_xi, reaction_by_lambda; ///< (6 n_joints, n_u), (6 n_joints, n_lambda)

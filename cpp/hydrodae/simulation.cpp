@@ -15,6 +15,7 @@
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/solve/switching.h"
+#include "hydrodae/system/history.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -81,7 +82,7 @@ const std::vector<Channel> solver_channels = {
 class Run {
 public:
   Run(const model::Scene& scene, const std::string& output_path, const Progress& progress)
-      : scene_(scene), progress_(progress), started_(Clock::now()),
+      : scene_(scene), progress_(progress), started_(Clock::now()), options_(scene.solver),
         system_(solve::starting_system(scene)), pattern_(system::find_pattern(system_)),
         y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
@@ -91,6 +92,7 @@ public:
       switching_->settle(0.0, y_, yp_);
     }
     formulate(scene.solver);
+    begin_history();
     energy_guard_ =
         scene.solver.energy_guard.value_or(scene.solver.method == "ida" && solve::has_loop(system_)
                                                ? std::clamp(scene.solver.rtol, 3e-4, 1e-2)
@@ -102,7 +104,7 @@ public:
       if (!branch_guard_->active())
         branch_guard_.reset();
     }
-    integrator_ = solve::make_integrator(system_, pattern_, scene.solver, 0.0, y_, yp_);
+    integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -172,17 +174,39 @@ private:
     switching_->follow(recorder_->turns());
     switching_->settle(t_, y_, yp_);
     recorder_->jump(y_, yp_);
+    if (history_)
+      history_->append(t_, y_, yp_);
     statistics_.events = switching_->events() - 1; // without the start
     if (t_ < scene_.solver.end_time) {
       before_events_ += integrator_->statistics();
       pattern_ = system::find_pattern(system_);
-      integrator_ = solve::make_integrator(system_, pattern_, scene_.solver, t_, y_, yp_);
+      integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
     }
     if (drift_guard_)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (branch_guard_)
       branch_guard_->restart();
     statistics_.solver_time += seconds_since(before);
+  }
+
+  /// The past of a scene that depends on it begins at the start, and limits the steps.
+  void begin_history() {
+    if (!system::has_past(system_))
+      return;
+    const std::string note = system::limit_steps(system_, options_);
+    if (!note.empty())
+      system_.notes.push_back(note);
+    history_ = std::make_unique<system::History>(system_);
+    history_->append(0.0, y_, yp_);
+    system_.history = history_.get();
+  }
+
+  /// Takes the accepted step into the history.
+  void remember() {
+    if (!history_)
+      return;
+    at_(t_, y_, yp_);
+    history_->append(t_, y_, yp_);
   }
 
   /// The rule by which the work over the coming step is summed.
@@ -243,6 +267,7 @@ private:
       recorder_->accept(t_, at_);
       check_energy();
       check_motion();
+      remember();
       if (event)
         restart();
       // Between samples that are far apart in steps, a request to stop is heard as well.
@@ -276,11 +301,13 @@ private:
   const model::Scene& scene_;
   const Progress& progress_;
   Clock::time_point started_;
+  model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
   solve::Statistics before_events_;             ///< of the integrators before the last event
+  std::unique_ptr<system::History> history_; ///< where loads depend on the past
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular

@@ -105,6 +105,11 @@ class Case:
         return self._path
 
     @property
+    def directory(self) -> Path:
+        """Folder that relative paths of a case from a string refer to."""
+        return self._directory
+
+    @property
     def overrides(self) -> dict[str, str]:
         """Replaced values as TOML text, by dotted key."""
         return dict(self._overrides)

@@ -105,6 +105,16 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     if command == ["rao"]:
         _add_rao(rao)
 
+    ladder = commands.add_parser(
+        "ladder",
+        help="what each model of radiation costs on a case, and what it gets wrong",
+        description="Run a case with radiation none, constant, exponential and convolution; print "
+        "memory, solver time, error of the kernel, and error of the motion against the next "
+        "higher model.",
+    )
+    if command == ["ladder"]:
+        _add_ladder(ladder)
+
     plot = commands.add_parser(
         "plot",
         help="draw results",
@@ -167,6 +177,13 @@ def _add_rao(parser: argparse.ArgumentParser) -> None:
 
     rao.add_arguments(parser)
     parser.set_defaults(call=rao.run)
+
+
+def _add_ladder(parser: argparse.ArgumentParser) -> None:
+    from hydrodae import ladder
+
+    ladder.add_arguments(parser)
+    parser.set_defaults(call=ladder.run_command)
 
 
 def _equilibrium(arguments: argparse.Namespace) -> int:

@@ -5,7 +5,8 @@ U = T xi' of the hydrodynamic coordinates and phasors x(t) = Re(X e^{+iwt}):
 
     [-w^2 (M + T^T A(w) T) + iw (C + T^T B(w) T) + K] xi - G^T lambda = T^T F(w),    G xi = 0
 
-A(w), B(w) and F(w) come from the database itself, without any memory fit.
+A(w), B(w) and F(w) come from the database itself, without any memory fit. A force along a joint
+coordinate s that acts tau late enters exactly, as (k + iw c) e^{-iw tau} s.
 """
 
 from __future__ import annotations
@@ -106,6 +107,7 @@ class LinearModel:
         self.case = case if isinstance(case, Case) else Case.read(case)
         model: dict[str, Any] = _core.linearize(self.case.scene)
         self.coordinates: list[str] = model["coordinates"]
+        self.hydro_labels: list[str] = model["hydro_labels"]
         self.mass: Array = model["mass"]
         self.damping: Array = model["damping"]
         self.stiffness: Array = model["stiffness"]
@@ -150,6 +152,26 @@ class LinearModel:
         t = self._model["hydro_map"]
         moved = t.T @ tables @ t
         return moved[:, 0], moved[:, 1]
+
+    def _late(self, omega: Array) -> Complex:
+        """W^T [(k + iw c) e^{-iw tau} - k] W of the delayed forces; (nw, n_u, n_u).
+
+        The stiffness holds k already, as the static pose needs it.
+        """
+        m = self._model
+        n = len(self.coordinates)
+        out = np.zeros((omega.size, n, n), dtype=complex)
+        for k, c, tau, row in zip(
+            m["damper_stiffness"],
+            m["damper_damping"],
+            m["damper_delay"],
+            m["damper_map"],
+            strict=True,
+        ):
+            if tau > 0.0:
+                factor = (k + 1j * omega * c) * np.exp(-1j * omega * tau) - k
+                out += factor[:, None, None] * np.outer(row, row)
+        return out
 
     def _check_frequencies(self, omega: Array) -> None:
         assert self.database is not None
@@ -225,7 +247,7 @@ class LinearModel:
         added, radiation = self._added(w)
         free, iw = self._free, 1j * w[:, None, None]
         z = -(w**2)[:, None, None] * (self.mass + added) + iw * (self.damping + radiation)
-        z = z + self.stiffness
+        z = z + self.stiffness + self._late(w)
         reduced = free.T @ z @ free
         xi = np.linalg.solve(reduced, (force @ free)[:, :, None])[:, :, 0] @ free.T
         # G^T lambda = Z xi - F has a solution: the constraints left are independent.
@@ -233,11 +255,19 @@ class LinearModel:
         m = self._model
         joints = xi @ m["motion_map"].T
         reactions = xi @ m["reaction_by_xi"].T + multipliers @ m["reaction_by_lambda"].T
-        rates = np.abs(1j * w[:, None] * (xi @ m["damper_map"].T)) ** 2
+        squares = np.abs(xi @ m["damper_map"].T) ** 2
         power = {
-            name: 0.5 * c * rates[:, k]
-            for k, (name, c) in enumerate(zip(m["dampers"], m["damper_damping"], strict=True))
-            if c != 0.0
+            name: 0.5 * squares[:, n] * _power_factor(w, k, c, tau)
+            for n, (name, k, c, tau) in enumerate(
+                zip(
+                    m["dampers"],
+                    m["damper_stiffness"],
+                    m["damper_damping"],
+                    m["damper_delay"],
+                    strict=True,
+                )
+            )
+            if c != 0.0 or tau > 0.0
         }
         velocity = 1j * w[:, None] * xi
         return Response(
@@ -277,7 +307,9 @@ class LinearModel:
         for _ in range(200):
             added, radiation = self._added(omega)
             mass = free.T @ (self.mass + added[0]) @ free
-            values, vectors = eigh(0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T))
+            late = self._late(omega)[0]
+            spring = stiffness + free.T @ late.real @ free
+            values, vectors = eigh(0.5 * (spring + spring.T), 0.5 * (mass + mass.T))
             if values[k] <= 1e-9 * np.abs(values).max():
                 return None
             new = np.sqrt(values[k])
@@ -289,7 +321,8 @@ class LinearModel:
         if self.database is not None and omega[0] in (low, high):
             return None
         shape = free @ vectors[:, k]
-        damping = shape @ (self.damping + radiation[0]) @ shape
+        late = self._late(omega)[0]
+        damping = shape @ (self.damping + radiation[0] + late.imag / omega[0]) @ shape
         ratio = damping / (2.0 * omega[0])  # vectors have unit modal mass
         shape = shape / shape[np.argmax(np.abs(shape))]
         return Mode(
@@ -329,6 +362,11 @@ class LinearModel:
             for name, per_square in response.power.items():
                 power[name] = power.get(name, 0.0) + float(mine[:, 2] ** 2 @ per_square)
         return {name: float(np.sqrt(value)) for name, value in variance.items()}, power
+
+
+def _power_factor(omega: Array, k: float, c: float, tau: float) -> Array:
+    """Re[(k + iw c) e^{-iw tau} conj(iw)]: twice the mean power over |s|^2."""
+    return omega**2 * c * np.cos(omega * tau) - omega * k * np.sin(omega * tau)
 
 
 def _covered_heading(db: HydroDatabase, heading: float) -> float:

@@ -10,7 +10,7 @@
 
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/scene.h"
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/history.h"
 
 namespace hydrodae::test {
 
@@ -61,6 +61,18 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
   fit.added_mass_inf = db->added_mass_inf;
   fit.states = 5;
   db->fits.push_back(fit);
+  hydro::RadiationKernel kernel;
+  kernel.step = 0.05;
+  kernel.inputs = kernel.outputs = db->coordinates;
+  kernel.added_mass_inf = db->added_mass_inf;
+  for (int k = 0; k < 40; ++k) {
+    const double t = kernel.step * k;
+    kernel.values.emplace_back(
+        fit.output_matrix.real() *
+        Eigen::Vector3d(std::exp(-t), std::exp(-t) * std::cos(2.0 * t), std::cos(t)).asDiagonal() *
+        fit.input_matrix.real());
+  }
+  db->kernel = kernel;
   db->water_depth = 20.0;
   db->omega = Vector3(0.5, 1.0, 2.0);
   db->heading = Eigen::Vector2d(-0.5, 0.5);
@@ -149,8 +161,9 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
   return law;
 }
 
-/// Adds one force of every kind in the list that this scene can carry.
-inline void add_every_force(model::Scene& scene, Random& random) {
+/// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
+/// it can have one.
+inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
   const bool one_motion = joint::find_joint_type(scene.joints.front().type)->motions.size() == 1;
   std::apply(
       [&](auto&... lists) {
@@ -159,6 +172,9 @@ inline void add_every_force(model::Scene& scene, Random& random) {
           constexpr bool on_joint = requires(Law law) { law.joint; };
           if (!on_joint || one_motion)
             list.push_back(random_force<Law>(random, std::string(Law::type)));
+          if constexpr (requires(Law law) { law.delay; })
+            for (Law& law : list)
+              law.delay = late ? 0.4 : 0.0;
         };
         (add(lists), ...);
       },
@@ -197,20 +213,38 @@ inline std::vector<NamedScene> all_scenes() {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean", "constant"}) {
+      for (const std::string hydro : {"dry", "body", "mean", "constant", "convolution"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
           add_hydro(scene, hydro == "mean" ? "mean" : "body",
-                    hydro == "constant" ? "constant" : "exponential", random);
-        add_every_force(scene, random);
+                    hydro == "constant" || hydro == "convolution" ? hydro : "exponential", random);
+        add_every_force(scene, random, hydro == "convolution");
         scenes.push_back({std::string(type.name) + ", " + motion[0] +
                               (motion.size() > 1 ? "..." : "") + ", " + hydro,
                           scene});
       }
   return scenes;
+}
+
+/// Random accepted points before `now`, where the system depends on its past; null elsewhere.
+inline std::unique_ptr<system::History> random_history(system::System& s, Random& random,
+                                                       double now) {
+  if (!system::has_past(s))
+    return nullptr;
+  auto history = std::make_unique<system::History>(s);
+  for (const double before : {1.0, 0.6, 0.35, 0.04}) {
+    VectorX y = system::initial_state(s), yp(s.n);
+    for (Index i = 0; i < s.n; ++i) {
+      y[i] += (i < s.n_q ? 0.3 : 1.0) * random();
+      yp[i] = random();
+    }
+    history->append(now - before, y, yp);
+  }
+  s.history = history.get();
+  return history;
 }
 
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.

@@ -43,7 +43,8 @@ TEST_CASE("the Jacobian is exact in all blocks") {
   int scenes = 0;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System s = system::build(named.scene);
+    System s = system::build(named.scene);
+    const auto history = test::random_history(s, random, instant);
     const system::Pattern pattern = system::find_pattern(s);
     const VectorX y = test::random_state(s, random);
     VectorX yp(s.n);

@@ -26,7 +26,8 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
   test::Random random;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System s = system::build(named.scene);
+    System s = system::build(named.scene);
+    const auto history = test::random_history(s, random, -0.01);
     const system::Pattern pattern = system::find_pattern(s);
     system::Workspace<double> used(s), fresh(s);
     system::JacobianWorkspace used_j(s), fresh_j(s);
@@ -40,6 +41,14 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
     system::jacobian(s, pattern, fresh_j, 0.0, y.data(), yp.data(), second);
     CHECK(first.by_y == second.by_y);
     CHECK(first.by_yp == second.by_yp);
+    if (!history)
+      continue;
+    // Trials at many other times, and then one that is forgotten and asked again.
+    const VectorX before = evaluate(s, used, y, yp);
+    VectorX trial(s.n);
+    for (int k = 1; k < 60; ++k)
+      system::residual<double>(s, used, 0.01 * k, other.data(), yp.data(), trial.data());
+    CHECK(evaluate(s, used, y, yp) == before);
   }
 }
 

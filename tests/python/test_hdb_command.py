@@ -49,14 +49,15 @@ def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
     out = tmp_path / "hydro.h5"
     code = call(
         "import", source, "-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5",
-        "--keep", "buoy.planar", "--kernel", "10", "--single",
+        "--keep", "buoy.planar", "--kernel", "buoy.heave", "--length", "10", "--single",
     )  # fmt: skip
     assert code == 0
     db = hdb.read(out)
     assert db.coordinates == ("buoy.surge", "buoy.heave", "buoy.pitch")
     np.testing.assert_allclose(db.reference_point("buoy"), [0, 0, -1.5])
-    assert db.kernel_time is not None
-    assert db.kernel_time[-1] == 10.0
+    assert db.kernel is not None
+    assert db.kernel.inputs == ("buoy.heave",)
+    assert 10.0 <= db.kernel.length < 10.2
     assert files.is_single(out)
     text = capsys.readouterr().out
     assert "phase convention" in text
@@ -102,7 +103,7 @@ def test_fits_at_import_and_later(reference, tmp_path, fits, capsys):
         (["--fit", "sphere.heave"], CaseError, "expected NAME=SPEC"),
         (["--fit", "f=sphere.heaf"], DatabaseError, "did you mean 'sphere.heave'"),
         (["--fit", "f=sphere.heave", "--band", "3,1"], DatabaseError, "LO < HI"),
-        (["--kernel", "-1"], CaseError, "needs a time"),
+        (["--kernel", "sphere.heave", "--length", "-1"], DatabaseError, "too short"),
     ],
 )
 def test_bad_arguments_say_what_is_expected(reference, tmp_path, fits, words, error, message):

@@ -13,6 +13,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb import files
 from hydrodae.hdb.coordinates import skew
 from hydrodae.hdb.dispersion import frequency, wavenumber
+from hydrodae.hdb.radiation_kernel import RadiationKernel
 from hydrodae.memory import ExponentialMemory
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
@@ -247,16 +248,18 @@ def test_shorthands_of_coordinates():
 @pytest.mark.parametrize("single", [False, True])
 def test_round_trip_of_the_file(tmp_path, single):
     db = make(source="f", source_sha256="ab", title="t", excitation_split=False, water_depth=30.0)
-    db = dataclasses.replace(
-        db, kernel_time=np.linspace(0, 1, 5), kernel=np.ones((5, 12, 12)) / 3.0
+    labels = ("a.heave", "b.pitch")
+    kernel = RadiationKernel(
+        np.linspace(0, 1, 9), np.ones((9, 2, 1)) / 3.0, labels[:1], labels, np.eye(2)[:, :1] / 7.0
     )
+    db = dataclasses.replace(db, kernel=kernel)
     db.memory["flaps"] = fit_of(db, ["a.heave", "b.pitch"])
     db.write(tmp_path / "hydro.h5", single=single)
     back = hdb.read(tmp_path / "hydro.h5")
     for field in dataclasses.fields(db):
         a, b = getattr(db, field.name), getattr(back, field.name)
         if isinstance(a, np.ndarray):
-            exact = not single or field.name in ("omega", "added_mass_inf", "kernel_time")
+            exact = not single or field.name in ("omega", "added_mass_inf")
             np.testing.assert_allclose(b, a, rtol=0 if exact else 1e-7, err_msg=field.name)
         elif field.name == "bodies":
             assert list(a) == list(b)
@@ -265,8 +268,13 @@ def test_round_trip_of_the_file(tmp_path, single):
                 np.testing.assert_array_equal(
                     b[name].hydrostatics.waterplane_moments, a[name].hydrostatics.waterplane_moments
                 )
-        elif field.name != "memory":
+        elif field.name not in ("memory", "kernel"):
             assert a == b, field.name
+    assert back.kernel is not None
+    for name in ("time", "added_mass_inf"):
+        np.testing.assert_array_equal(getattr(back.kernel, name), getattr(kernel, name))
+    np.testing.assert_allclose(back.kernel.values, kernel.values, rtol=1e-7 if single else 0)
+    assert (back.kernel.inputs, back.kernel.outputs) == (kernel.inputs, kernel.outputs)
     a, b = db.memory["flaps"], back.memory["flaps"]
     for name in ("poles", "input_matrix", "output_matrix", "added_mass_inf"):
         np.testing.assert_array_equal(getattr(b, name), getattr(a, name))

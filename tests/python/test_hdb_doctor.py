@@ -182,7 +182,7 @@ def test_symmetrise(sphere):
 def test_repairs_are_known_by_name_and_stale_fits_go(sphere):
     with pytest.raises(DatabaseError, match=r"no repair 'irregula'; did you mean 'irregular'"):
         repair(sphere, ["irregula"])
-    stored = sphere.with_kernel(np.linspace(0, 10, 50))
+    stored = sphere.with_kernel(["sphere.heave"], length=10.0)
     a = sphere.added_mass.copy()
     a[:, 0, 4] *= 1.1
     straight = repair(dataclasses.replace(stored, added_mass=a), ["symmetrise"])

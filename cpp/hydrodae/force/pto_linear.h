@@ -9,9 +9,11 @@ namespace hydrodae::force {
 
 /// Linear power take-off along the free motion of a joint.
 ///
-///   f = -k (s - s0) - c s'      [N], or [N m] if the motion is a rotation
+///   f(t) = -k (s(t - tau) - s0) - c s'(t - tau)    [N], or [N m] if the motion is a rotation
 ///
-/// s is the joint coordinate [m or rad]. Absorbed power P = c s'^2 >= 0 [W].
+/// s is the joint coordinate [m or rad], tau a pure delay [s]; before the start the joint rests
+/// where it starts. Without a delay the absorbed power is P = c s'^2 >= 0 [W]; with one it is
+/// -f(t) s'(t) and may have either sign.
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
   std::string name;
@@ -19,6 +21,7 @@ struct PtoLinear {
   double damping = 0.0;
   double stiffness = 0.0;
   double neutral = 0.0;
+  double delay = 0.0;
 
   /// The law that the system evaluates: this struct itself.
   const PtoLinear& law() const { return *this; }
@@ -42,6 +45,9 @@ struct PtoLinear {
         {"damping", &P::damping, "N s/m or N m s/rad", "Damping c.", false, at_least(0)},
         {"stiffness", &P::stiffness, "N/m or N m/rad", "Stiffness k.", false, at_least(0)},
         {"neutral", &P::neutral, "m or rad", "Joint coordinate s0 at which the spring is slack."},
+        {"delay", &P::delay, "s",
+         "Pure delay tau of damper and spring: they act on the coordinate as it was tau ago.",
+         false, at_least(0)},
     };
   }
 };

@@ -39,6 +39,17 @@ struct MemoryFit {
   bool passive = false;
 };
 
+/// Radiation kernel on a uniform grid: f_rad(t) = -int_0^T K(tau) U(t - tau) dtau.
+struct RadiationKernel {
+  double step = 0.0;                ///< of the grid, which begins at 0 [s]
+  std::vector<std::string> inputs;  ///< coordinates that move, "<body>.<dof>"
+  std::vector<std::string> outputs; ///< coordinates that are loaded, includes the inputs
+  std::vector<MatrixX> values;      ///< per time K (n_outputs, n_inputs) [N/m, N, N m]
+  MatrixX added_mass_inf;           ///< (n_outputs, n_inputs), the one that belongs to K
+
+  double length() const { return step * static_cast<double>(values.size() - 1); } ///< T [s]
+};
+
 struct Database {
   std::string path;
   std::string sha256;                   ///< of the file
@@ -55,6 +66,7 @@ struct Database {
   VectorX heading;                          ///< (nh,) ascending directions of travel [rad]
   std::vector<Eigen::MatrixXcd> excitation; ///< per heading (nw, n), per metre of amplitude
   std::vector<MatrixX> added_mass, damping; ///< A(w), B(w): per frequency (n, n)
+  std::optional<RadiationKernel> kernel;    ///< likewise, and where the file holds one
 };
 
 } // namespace hydrodae::hydro

@@ -136,7 +136,8 @@ std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
   try {
     return std::make_shared<const hydro::Database>(
         read_hydro_file(path.lexically_normal().string(),
-                        {!scene.waves.empty(), scene.hydro->radiation == "constant"}));
+                        {!scene.waves.empty(), scene.hydro->radiation == "constant",
+                         scene.hydro->radiation == "convolution"}));
   } catch (const CaseError& error) {
     throw CaseError(scene.positions.at("hydro.database") +
                     ": key 'database' in [hydro]: " + error.what());

@@ -95,18 +95,45 @@ void check_poles(const Input& file, const std::string& group, const hydro::Memor
   }
 }
 
-void check_labels(const Input& file, const std::string& group, const hydro::MemoryFit& fit,
-                  const std::set<std::string>& coordinates) {
-  label_set(file, group + "/inputs", fit.inputs);
-  const std::set<std::string> outputs = label_set(file, group + "/outputs", fit.outputs);
-  if (fit.inputs.empty())
+/// The coordinates that move and those that are loaded, in a group of the file.
+void read_labels(const Input& file, const std::string& group,
+                 const std::set<std::string>& coordinates, std::vector<std::string>& inputs,
+                 std::vector<std::string>& outputs) {
+  inputs = file.labels(group + "/inputs");
+  outputs = file.labels(group + "/outputs");
+  label_set(file, group + "/inputs", inputs);
+  const std::set<std::string> loaded = label_set(file, group + "/outputs", outputs);
+  if (inputs.empty())
     file.refuse(group + "/inputs", "names no coordinate");
-  for (const std::string& label : fit.outputs)
+  for (const std::string& label : outputs)
     if (!coordinates.contains(label))
       file.refuse(group + "/outputs", in_quotes(label) + " is not in /coordinates");
-  for (const std::string& label : fit.inputs)
-    if (!outputs.contains(label))
+  for (const std::string& label : inputs)
+    if (!loaded.contains(label))
       file.refuse(group + "/inputs", in_quotes(label) + " is not among the outputs");
+}
+
+/// K(t) on a uniform grid from 0.
+hydro::RadiationKernel read_kernel(const Input& file, const std::set<std::string>& coordinates) {
+  const std::string group = "/radiation_kernel";
+  hydro::RadiationKernel kernel;
+  read_labels(file, group, coordinates, kernel.inputs, kernel.outputs);
+  const std::vector<double> time = file.list(group + "/time");
+  if (time.size() < 8)
+    file.refuse(group + "/time", "must hold 8 times or more");
+  kernel.step = time.back() / static_cast<double>(time.size() - 1);
+  for (std::size_t k = 0; k < time.size(); ++k)
+    if (!(std::abs(time[k] - static_cast<double>(k) * kernel.step) <= 1e-6 * kernel.step))
+      file.refuse(group + "/time", "must be equally spaced from 0 s");
+  const std::size_t rows = kernel.outputs.size(), columns = kernel.inputs.size();
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const std::vector<double> values = file.table(group + "/kernel", {time.size(), rows, columns});
+  for (std::size_t k = 0; k < time.size(); ++k)
+    kernel.values.emplace_back(Eigen::Map<const RowMajor>(values.data() + k * rows * columns,
+                                                          static_cast<Eigen::Index>(rows),
+                                                          static_cast<Eigen::Index>(columns)));
+  kernel.added_mass_inf = file.matrix(group + "/added_mass_inf", rows, columns);
+  return kernel;
 }
 
 hydro::MemoryFit read_fit(const Input& file, const std::string& name,
@@ -114,9 +141,7 @@ hydro::MemoryFit read_fit(const Input& file, const std::string& name,
   const std::string group = "/memory/" + name;
   hydro::MemoryFit fit;
   fit.name = name;
-  fit.inputs = file.labels(group + "/inputs");
-  fit.outputs = file.labels(group + "/outputs");
-  check_labels(file, group, fit, coordinates);
+  read_labels(file, group, coordinates, fit.inputs, fit.outputs);
   fit.poles = file.complex_list(group + "/poles");
   const auto blocks = static_cast<std::size_t>(fit.poles.size());
   if (blocks == 0)
@@ -209,6 +234,8 @@ hydro::Database read_hydro_file(const std::string& path, const HydroTables& tabl
     read_frequencies(file, database);
   if (tables.excitation)
     read_excitation(file, database);
+  if (tables.kernel && file.has_object("/radiation_kernel"))
+    database.kernel = read_kernel(file, coordinates);
   if (tables.radiation) {
     const auto nw = static_cast<std::size_t>(database.omega.size());
     database.added_mass = read_matrices(file, "/added_mass", nw, n);

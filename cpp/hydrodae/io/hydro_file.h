@@ -9,6 +9,7 @@ namespace hydrodae::io {
 struct HydroTables {
   bool excitation = false;
   bool radiation = false; ///< A(w) and B(w)
+  bool kernel = false;    ///< K(t), if the file holds one
 };
 
 /// Reads `hydro.h5`. Throws CaseError (path, dataset, what was expected) when it is missing, not of

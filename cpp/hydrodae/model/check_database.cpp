@@ -43,6 +43,40 @@ void check_wet_body(const hydro::Database& database, const Body& body) {
                      ", and a body that moves needs them");
 }
 
+/// The kernel must be there, cover what moves, and be as long as the case asks.
+void check_kernel(const Scene& scene) {
+  const HydroOptions& hydro = *scene.hydro;
+  const hydro::Database& database = *scene.database;
+  const bool convolution = hydro.radiation == "convolution";
+  if (hydro.memory_length && !convolution)
+    throw ModelError("hydro.memory_length", "'memory_length' belongs to radiation = "
+                                            "\"convolution\"; the radiation is " +
+                                                in_quotes(hydro.radiation));
+  if (!convolution)
+    return;
+  const std::string advice = "; make it with: hydrodae hdb kernel " + database.path;
+  if (!database.kernel)
+    throw ModelError("hydro.radiation",
+                     database.path + " holds no radiation kernel for the convolution" + advice);
+  std::vector<std::string> missing;
+  for (const std::string& label : moving_coordinates(scene)) {
+    const std::vector<std::string>& inputs = database.kernel->inputs;
+    if (std::find(inputs.begin(), inputs.end(), label) == inputs.end())
+      missing.push_back(label);
+  }
+  if (!missing.empty())
+    throw ModelError("hydro.radiation", "the radiation kernel of " + database.path +
+                                            " lacks coordinates that move: " + joined(missing) +
+                                            advice);
+  const double least = 7.0 * database.kernel->step, most = database.kernel->length();
+  const double length = hydro.memory_length.value_or(most);
+  if (length > most * (1.0 + 1e-9) || length < least)
+    throw ModelError("hydro.memory_length", "memory_length = " + number_text(length) +
+                                                " s: the kernel of " + database.path + " allows " +
+                                                number_text(least) + " to " + number_text(most) +
+                                                " s");
+}
+
 } // namespace
 
 void check_database(const Scene& scene) {
@@ -70,6 +104,7 @@ void check_database(const Scene& scene) {
   if (!missing.empty())
     throw ModelError("hydro.database",
                      database.path + " lacks coordinates that move: " + joined(missing));
+  check_kernel(scene);
   const hydro::MemoryFit* fit = memory_fit(scene);
   if (fit && !fit->passive && !scene.solver.force)
     throw ModelError("hydro.database",

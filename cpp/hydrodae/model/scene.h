@@ -41,6 +41,7 @@ struct HydroOptions {
   std::string radiation = "exponential";
   std::optional<std::string> fit;
   std::optional<double> frequency;
+  std::optional<double> memory_length;
 
   static Fields<HydroOptions> fields() {
     using H = HydroOptions;
@@ -59,10 +60,14 @@ struct HydroOptions {
          "-",
          "Radiation: none (added mass at infinite frequency only), constant (added mass and "
          "damping "
-         "at one frequency) or the fitted exponential memory.",
+         "at one frequency), the fitted exponential memory, or the convolution with the radiation "
+         "kernel.",
          false,
          any_value,
-         {"none", "constant", "exponential"}},
+         {"none", "constant", "exponential", "convolution"}},
+        {"memory_length", &H::memory_length, "s",
+         "Length of the kernel of the convolution; by default that of the database.", false,
+         more_than(0)},
         {"frequency", &H::frequency, "rad/s",
          "Frequency of added mass and damping of constant radiation.", false, more_than(0)},
         {"fit", &H::fit, "-",

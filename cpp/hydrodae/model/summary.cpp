@@ -109,6 +109,9 @@ template <class Force> void write_force(std::ostream& out, const Force& force) {
     out << " on body " << force.body;
   if constexpr (requires { force.joint; })
     out << " on joint " << force.joint;
+  if constexpr (requires { force.delay; })
+    if (force.delay > 0.0)
+      out << ", " << number_text(force.delay) << " s late";
   if constexpr (requires { force.body_a; })
     out << " between " << force.body_a << " and " << force.body_b;
   out << '\n';
@@ -123,6 +126,10 @@ void write_hydro(std::ostream& out, const Scene& scene) {
   if (const hydro::MemoryFit* fit = memory_fit(scene))
     out << ", fit " << in_quotes(fit->name) << " with " << fit->states << " states for "
         << fit->inputs.size() << " coordinates" << (fit->passive ? ", passive" : ", not passive");
+  if (database.kernel)
+    out << ", kernel of "
+        << number_text(scene.hydro->memory_length.value_or(database.kernel->length()))
+        << " s in steps of " << number_text(database.kernel->step) << " s";
   out << '\n';
 }
 

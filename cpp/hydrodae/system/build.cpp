@@ -280,8 +280,15 @@ void add_forces(const model::Scene& scene, System& s) {
     wrenches.push_back({c.name, body_index(scene, c.body), c.law()});
   for (const force::ViscousDamping& v : std::get<std::vector<force::ViscousDamping>>(scene.forces))
     std::get<1>(s.body_forces).push_back({v.name, body_index(scene, v.body), v.law()});
-  for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces))
-    std::get<0>(s.motion_forces).push_back({p.name, joint_motion(s, p.joint, {}), p.law()});
+  for (const force::PtoLinear& p : std::get<std::vector<force::PtoLinear>>(scene.forces)) {
+    const int motion = joint_motion(s, p.joint, {});
+    int delay = -1;
+    if (p.delay > 0.0) {
+      delay = static_cast<int>(s.delays.size());
+      s.delays.push_back({motion, p.delay});
+    }
+    std::get<0>(s.motion_forces).push_back({p.name, motion, p.law(), delay});
+  }
   for (const force::DryFriction& f : std::get<std::vector<force::DryFriction>>(scene.forces)) {
     auto& laws = std::get<2>(s.motion_forces);
     SwitchData friction;

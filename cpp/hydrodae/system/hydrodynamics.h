@@ -6,7 +6,7 @@
 /// Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when y = 0. In mean axes U = (v, R w) and
 /// the load is A_inf U' + y. The excitation f(t) acts in the same axes: it is taken off y.
 
-#include "hydrodae/system/kinematics.h"
+#include "hydrodae/system/history.h"
 
 namespace hydrodae::system {
 
@@ -80,12 +80,25 @@ Vec6<S> hydro_load(bool body_axes, const BodyState<S>& state, const Vec6<S>& rat
   return load;
 }
 
+/// int K U over the steps completed, and what U(t), U'(t) add by the piece that ends at t.
+template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
+  if (h.convolution.empty() || !ws.past)
+    return;
+  multiply<S>(ws.past->by_U_dot, ws.U_dot.data(), ws.memory);
+  ws.inertia_force += ws.memory;
+  multiply<S>(ws.past->by_U, ws.U.data(), ws.memory);
+  ws.inertia_force += ws.memory;
+  for (int u = 0; u < h.n_moving; ++u)
+    ws.inertia_force[u] += S(ws.past->memory[u]);
+}
+
 /// A_inf U' + C z + B U - f_ex(t) into `ws.inertia_force`, A_inf U into `ws.momentum`.
 template <class S> void hydro_loads(const System& s, Workspace<S>& ws, double t, const S* z) {
   const HydroData& h = s.hydro;
   hydro_motion(s, ws);
   multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
   multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
+  add_convolution<S>(h, ws);
   if (h.n_states > 0) {
     multiply<S>(h.output, z, ws.U_dot); // U' is no longer needed
     ws.inertia_force += ws.U_dot;

@@ -263,10 +263,10 @@ template <class Sink> template <class Law> void Assembly<Sink>::force(const Moti
   const joint::Row<double> w = motion_row<double>(s, ws.state, f.motion);
   const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
   const double rate = w.gradient.dot(u);
-  const auto [by_s, by_rate] = f.law.gradient(w.value, rate);
+  const auto [by_s, by_rate] = motion_force_gradient(f, ws.state.past, w.value, rate);
   const Matrix12 curvature = joint::motion_curvature(motion.motion, j.A, j.B, g);
   const Matrix12 d =
-      f.law.template apply<double>(w.value, rate) * curvature +
+      motion_force<double>(f, ws.state.past, w.value, rate) * curvature +
       w.gradient * (by_s * w.gradient + by_rate * curvature.transpose() * u).transpose();
   const Matrix12 d_velocity = by_rate * w.gradient * w.gradient.transpose();
   const std::array<int, 2> body{j.A.body, j.B.body};
@@ -316,10 +316,14 @@ template <class Sink> void Assembly<Sink>::body_rows() {
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
-  const Matrix6 A = hydro_block(s.hydro.added_mass, i, j), LA = L * A;
-  Matrix6 QA = Q * A; // what multiplies dU
+  const Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
+  Matrix6 LA = L * A, QA = Q * A; // what multiplies dU' and dU
   if (s.hydro.damped)
     QA += L * hydro_block(s.hydro.damping, i, j);
+  if (!s.hydro.convolution.empty() && ws.state.past) {
+    LA += L * hydro_block(ws.state.past->by_U_dot, i, j);
+    QA += L * hydro_block(ws.state.past->by_U, i, j);
+  }
   const HydroMotionGradient d = hydro_motion_gradient(s.hydro.body_axes, state(j.body));
   Matrix6 by_velocity;
   by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
@@ -429,9 +433,10 @@ template <class Sink> void Assembly<Sink>::hydrodynamics() {
   memory_rows();
 }
 
-/// Kinematics and tangent maps at (y, y'): d phi = 2 L(p)^T dp / |p|^2.
-void prepare(const System& s, JacobianWorkspace& ws, const double* y, const double* yp) {
+/// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.
+void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, const double* yp) {
   unpack<double>(s, y, yp, ws.state.bodies);
+  ws.state.past = past_at(s, t);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.state.shifts[i].setZero();
     const Vector4& p = ws.state.bodies[i].p;
@@ -447,7 +452,7 @@ JacobianWorkspace::JacobianWorkspace(const System& system)
 Pattern find_pattern(const System& system) {
   JacobianWorkspace ws(system);
   const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
-  prepare(system, ws, y.data(), yp.data());
+  prepare(system, ws, 0.0, y.data(), yp.data());
   PatternSink sink;
   Assembly<PatternSink>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
 
@@ -478,7 +483,7 @@ void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& w
               const double* y, const double* yp, JacobianParts& out) {
   std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
   std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);
-  prepare(system, ws, y, yp);
+  prepare(system, ws, t, y, yp);
   ValueSink sink{pattern.slots.data(), out};
   Assembly<ValueSink>{system, ws, t, y, yp, sink}.run();
 }

@@ -14,6 +14,8 @@ template <class S> struct BodyState {
   Mat3<S> R;
 };
 
+struct Past;
+
 /// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which
 /// belongs to the last accepted step and changes only there.
 template <class S> struct Workspace {
@@ -21,12 +23,15 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VectorX excitation;        ///< on the coordinates of U
-  std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
+  VecX<S> memory;             ///< scratch of the convolution
+  const Past* past = nullptr; ///< at the time of this evaluation (history.h)
+  VectorX excitation;         ///< on the coordinates of U
+  std::vector<double> turns;  ///< motions at the last accepted step, angles followed over turns
 
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
+        memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
         excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
         turns(s.motions.size()) {
     for (std::size_t m = 0; m < turns.size(); ++m)

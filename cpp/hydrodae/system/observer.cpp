@@ -41,7 +41,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {
       plan("added_mass_inf", hb.body);
-      if (s_.hydro.n_states > 0 || s_.hydro.damped)
+      if (s_.hydro.radiates())
         plan("radiation", hb.body);
     }
   if (!s_.hydro.excitation.empty())
@@ -93,13 +93,34 @@ void Observer::observe_forces(const double* y) {
     const JointData& j = s_.joints[s_.motions[f.motion].joint];
     const joint::Row<double> w = motion_row<double>(s_, ws_, f.motion);
     const double rate = w.gradient.dot(joint_velocity<double>(j, ws_.bodies));
-    const joint::Vector12 load = f.law.template apply<double>(w.value, rate) * w.gradient;
-    out_.potential += f.law.potential(w.value);
+    const joint::Vector12 load = motion_force<double>(f, ws_.past, w.value, rate) * w.gradient;
+    if (f.delay < 0) // a delayed spring gives back another energy than it took
+      out_.potential += f.law.potential(w.value);
     if (j.A.body >= 0)
       add_load(to_world(ws_.bodies[j.A.body], load.head<6>()));
     if (j.B.body >= 0)
       add_load(to_world(ws_.bodies[j.B.body], load.tail<6>()));
   });
+}
+
+/// What the radiation takes on all coordinates, locked ones too; needs U and U'.
+void Observer::observe_memory(const double* y) {
+  const HydroData& h = s_.hydro;
+  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  if (h.damped)
+    memory_.noalias() += h.damping_all * ws_.U;
+  if (h.convolution.empty() || !ws_.past)
+    return;
+  const Past& past = *ws_.past;
+  for (int u = 0; u < h.n_moving; ++u)
+    memory_[6 * h.coordinates[u].hydro_body + h.coordinates[u].component] +=
+        past.memory[u] + past.by_U.row(u).dot(ws_.U) + past.by_U_dot.row(u).dot(ws_.U_dot);
+  for (std::size_t k = 0; k < h.convolution.locked.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    memory_[h.convolution.locked[k]] += past.memory_locked[row] +
+                                        past.locked_by_U.row(row).dot(ws_.U) +
+                                        past.locked_by_U_dot.row(row).dot(ws_.U_dot);
+  }
 }
 
 void Observer::observe_hydrodynamics(const double* y) {
@@ -109,9 +130,7 @@ void Observer::observe_hydrodynamics(const double* y) {
   hydro_motion(s_, ws_);
   momentum_.noalias() = h.added_mass_all * ws_.U;
   rate_.noalias() = h.added_mass_all * ws_.U_dot;
-  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
-  if (h.damped)
-    memory_.noalias() += h.damping_all * ws_.U;
+  observe_memory(y);
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
     out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
@@ -122,7 +141,7 @@ void Observer::observe_hydrodynamics(const double* y) {
     const Vector6 added =
         hydro_load<double>(h.body_axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
     add_load(-to_world(state, added));
-    if (h.n_states == 0 && !h.damped)
+    if (!h.radiates())
       continue;
     const Vector6 radiation =
         hydro_load<double>(h.body_axes, state, memory_.segment<6>(row), Vector6::Zero());
@@ -263,6 +282,7 @@ void Observer::observe_energy() {
 
 const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
   unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+  ws_.past = s_.history ? &s_.history->at(t, true) : nullptr;
   std::fill(totals_.begin(), totals_.end(), Vector6(Vector6::Zero()));
   std::fill(out_.powers.begin(), out_.powers.end(), 0.0);
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;

@@ -46,6 +46,7 @@ public:
 private:
   void add_load(const Vector6& world_load);
   void observe_forces(const double* y);
+  void observe_memory(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_excitation(double t);
   void observe_joints(const double* y);

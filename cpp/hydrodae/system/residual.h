@@ -120,13 +120,34 @@ void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, c
   ws.loads[force.body] += to_tangent<S>(state, force.law.template apply<S>(xi, twist<S>(state)));
 }
 
+/// f(s, s') of a law along a motion; of a delayed one at s, s' of the past, or where it stands,
+/// at rest, when there is no history.
+template <class S, class Law>
+S motion_force(const MotionForce<Law>& force, const Past* past, const S& value, const S& rate) {
+  if (force.delay < 0)
+    return force.law.template apply<S>(value, rate);
+  if (!past)
+    return force.law.template apply<S>(value, S(0));
+  const std::array<double, 2>& then = past->delayed[force.delay];
+  return S(force.law.template apply<double>(then[0], then[1]));
+}
+
+/// Its derivatives by s and s' of the present.
+template <class Law>
+std::pair<double, double> motion_force_gradient(const MotionForce<Law>& force, const Past* past,
+                                                double value, double rate) {
+  if (force.delay < 0)
+    return force.law.gradient(value, rate);
+  return {past ? 0.0 : force.law.gradient(value, 0.0).first, 0.0};
+}
+
 /// f along a joint coordinate s acts on the bodies as W^T f with W = ds/dxi.
 template <class S, class Law>
 void add_force(const System& s, const MotionForce<Law>& force, Workspace<S>& ws, const S*) {
   const JointData& j = s.joints[s.motions[force.motion].joint];
   const joint::Row<S> w = motion_row<S>(s, ws, force.motion);
   const S rate = w.gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
-  add_to_bodies<S>(j, force.law.template apply<S>(w.value, rate) * w.gradient, ws.loads);
+  add_to_bodies<S>(j, motion_force<S>(force, ws.past, w.value, rate) * w.gradient, ws.loads);
 }
 
 /// Visits every list of a tuple of lists, element by element.
@@ -170,6 +191,7 @@ void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp,
 template <class S>
 void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
   unpack<S>(s, y, yp, ws.bodies);
+  ws.past = past_at(s, t);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.loads[i].setZero();
     ws.loads[i][2] = S(-s.bodies[i].mass * s.gravity);

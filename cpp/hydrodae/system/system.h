@@ -110,6 +110,13 @@ template <class Law> struct MotionForce {
   std::string component;
   int motion = 0; ///< in System::motions
   Law law;
+  int delay = -1; ///< in System::delays, -1: none
+};
+
+/// A motion that a force feels some time later.
+struct DelayData {
+  int motion = 0;
+  double time = 0.0; ///< tau [s]
 };
 
 /// A point of a body whose motion is reported.
@@ -153,9 +160,26 @@ struct HydroBody {
   bool moves = false;
 };
 
+/// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
+/// pair of coordinates that feel each other.
+struct Convolution {
+  struct Pair {
+    int row = 0;    ///< of U; from n_moving on, of `locked`
+    int column = 0; ///< of U
+  };
+  double step = 0.0, length = 0.0; ///< of the grid, and T, beyond which K = 0 [s]
+  double frequency = 0.0;          ///< root mean square of the kernels' spectra [rad/s]
+  std::vector<Pair> pairs;         ///< those whose row moves come first
+  int n_moving_pairs = 0;
+  std::vector<int> locked; ///< rows of the full loads (6 n_bodies) that do not move
+  MatrixX splines;         ///< coefficients (n_grid + 2, n_pairs)
+  bool empty() const { return pairs.empty(); }
+};
+
 /// Added mass at infinite frequency and radiation memory of all bodies.
 ///   loads on body-axes coordinates: -(A_inf U)' - C z - B U + f_ex(t),   z' = A_r z + B_r U
-/// B is the damping of the constant rung; then A(w) stands in place of A_inf.
+/// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
+/// stands in place of C z.
 struct HydroData {
   bool body_axes = true; ///< false: earth axes of the reference pose ("mean")
   std::vector<HydroBody> bodies;
@@ -171,6 +195,7 @@ struct HydroData {
   MatrixX output_all;  ///< (6 n_bodies, n_states)
   bool damped = false; ///< constant damping; else the next two are empty
   MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
+  Convolution convolution;      ///< empty on the other rungs
   sea::Signals excitation; ///< (n_moving + 6 n_bodies + 1): on U, on all coordinates; elevation [m]
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
@@ -186,6 +211,8 @@ struct HydroData {
     double value = 0.0;
   };
   std::vector<Input> inputs;
+
+  bool radiates() const { return n_states > 0 || damped || !convolution.empty(); }
 };
 
 /// Which equations the rows of the multipliers hold. In all but the first mu = 0.
@@ -195,6 +222,8 @@ struct HydroData {
 ///   index_1      0 = G u' + gamma + 2 b (G u) + b^2 g    Baumgarte's rate b [1/s], 0: none
 /// Rows given at velocity level stay there, but in index 1.
 enum class Formulation { stabilised, index_2, index_3, index_1 };
+
+class History;
 
 struct System {
   double gravity = 9.81;
@@ -209,7 +238,12 @@ struct System {
   std::vector<MotionStart> starts;
   BodyForces body_forces;
   MotionForces motion_forces;
+  std::vector<DelayData> delays;
   HydroData hydro;
+
+  /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
+  /// been at rest for ever.
+  const History* history = nullptr;
 
   Index n = 0;                     ///< unknowns
   Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states

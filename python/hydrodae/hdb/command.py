@@ -1,4 +1,4 @@
-"""The command line of databases: `hydrodae hdb import | fit | show | export | ...`."""
+"""The command line of databases: `hydrodae hdb import | fit | kernel | show | export | ...`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport
 from hydrodae.hdb.read import import_database, kind, read
-from hydrodae.hdb.summary import fit_summary
+from hydrodae.hdb.summary import fit_summary, kernel_summary
 
 DONE, BAD_DATA = 0, 2
 
@@ -66,8 +66,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "flaps=flap1.pitch,flap2.pitch or all=base.planar,flap1.planar; may be repeated",
     )
     add.add_argument(
-        "--kernel", metavar="T", type=float, help="also store K(t) up to T seconds (large)"
+        "--kernel",
+        metavar="SPEC",
+        help="also store K(t) for radiation by convolution when these coordinates move",
     )
+    _length_option(add)
     add.add_argument("--single", action="store_true", help="tables in single precision")
     add.add_argument(
         "--accept", action="store_true", help="write the file although a check found an error"
@@ -80,6 +83,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     fit.add_argument("-o", "--output", metavar="FILE", help="default: into the same file")
     _fit_options(fit)
+
+    kernel = actions.add_parser(
+        "kernel", help="add the radiation kernel K(t) for the convolution to a hydro.h5"
+    )
+    kernel.add_argument("database", metavar="HYDRO.H5")
+    kernel.add_argument("spec", metavar="SPEC", help="what moves, e.g. flap1.planar,flap2.planar")
+    kernel.add_argument("-o", "--output", metavar="FILE", help="default: into the same file")
+    kernel.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that must match")
+    kernel.add_argument(
+        "--loads", metavar="SPEC", help="coordinates whose loads it gives (default: what moves)"
+    )
+    _length_option(kernel)
 
     show = actions.add_parser("show", help="say what is in a database")
     show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
@@ -121,6 +136,7 @@ def run(args: argparse.Namespace) -> int:
     actions = {
         "import": _import,
         "fit": _fit,
+        "kernel": _kernel,
         "show": _show,
         "export": _export,
         "doctor": doctor.run,
@@ -133,6 +149,15 @@ def run(args: argparse.Namespace) -> int:
 def _density_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rho", metavar="R", type=float, help="density [kg/m3], where the source does not say"
+    )
+
+
+def _length_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--length",
+        metavar="T",
+        type=float,
+        help="memory of the kernel [s]; default: until a thousandth of int |K| is left",
     )
 
 
@@ -161,7 +186,7 @@ def _import(args: argparse.Namespace) -> int:
         print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
         return BAD_DATA
     if args.kernel is not None:
-        database = _with_kernel(database, args.kernel)
+        database = _with_kernel(database, args.kernel, args)
     _add_fits(database, args.fit, args)
     database.write(args.output, single=args.single)
     print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
@@ -201,12 +226,25 @@ def _export(args: argparse.Namespace) -> int:
     return DONE
 
 
-def _with_kernel(database: HydroDatabase, end: float) -> HydroDatabase:
-    if not end > 0.0:
-        raise CaseError(f"--kernel {end:g}: needs a time > 0 [s]")
-    # 20 points per period of the highest frequency of the table
-    count = int(np.ceil(end * database.omega[-1] / 0.3)) + 1
-    return database.with_kernel(np.linspace(0.0, end, count))
+def _kernel(args: argparse.Namespace) -> int:
+    database = _with_kernel(files.read(args.database), args.spec, args)
+    output = args.output or args.database
+    database.write(output, single=files.is_single(args.database))
+    print(f"written: {output}")
+    return DONE
+
+
+def _with_kernel(database: HydroDatabase, spec: str, args: argparse.Namespace) -> HydroDatabase:
+    labels = database.coordinates
+    result = database.with_kernel(
+        expand(spec, labels),
+        expand(args.loads, labels) if args.loads else None,
+        length=args.length,
+        band=None if args.band is None else _band(args.band),
+    )
+    assert result.kernel is not None
+    print(f"kernel: {kernel_summary(result.kernel)}")
+    return result
 
 
 def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespace) -> None:

@@ -14,6 +14,7 @@ from hydrodae import irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.radiation_kernel import RadiationKernel, make_kernel, moved_kernel
 
 if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
@@ -84,8 +85,8 @@ class HydroDatabase:
         Provenance.
     repairs : tuple of str
         What `hydrodae.hdb.repair` changed, one sentence each.
-    kernel_time, kernel : (nt,) and (nt, n, n) arrays, optional
-        Stored radiation kernel K(t) [s], [N/m, N, N m].
+    kernel : RadiationKernel, optional
+        Radiation kernel K(t) for the convolution.
     memory : dict of ExponentialMemory
         Fits of the radiation memory, by name.
     """
@@ -110,8 +111,7 @@ class HydroDatabase:
     generator: str = ""
     title: str = ""
     repairs: tuple[str, ...] = ()
-    kernel_time: Array | None = None
-    kernel: Array | None = None
+    kernel: RadiationKernel | None = None
     memory: dict[str, ExponentialMemory] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -202,11 +202,20 @@ class HydroDatabase:
             self.omega, self.radiation_damping, time, extrapolate=extrapolate
         )
 
-    def with_kernel(self, time: ArrayLike, *, extrapolate: bool = False) -> HydroDatabase:
-        """Return a copy that stores K at the given times [s]."""
-        t = np.asarray(time, dtype=float)
-        kernel = self.radiation_kernel(t, extrapolate=extrapolate)
-        return replace(self, kernel_time=t, kernel=kernel)
+    def with_kernel(
+        self,
+        inputs: Sequence[str] | None = None,
+        outputs: Sequence[str] | None = None,
+        *,
+        length: float | None = None,
+        band: tuple[float, float] | None = None,
+    ) -> HydroDatabase:
+        """Return a copy that stores K of these inputs (default: all coordinates).
+
+        See `hydrodae.hdb.radiation_kernel.make_kernel`.
+        """
+        labels = self.coordinates if inputs is None else inputs
+        return replace(self, kernel=make_kernel(self, labels, outputs, length=length, band=band))
 
     def select(self, labels: Sequence[str]) -> HydroDatabase:
         """Return a copy with these coordinates only, in this order: the others are locked.
@@ -226,7 +235,7 @@ class HydroDatabase:
             froude_krylov=self.froude_krylov[:, :, i],
             diffraction=self.diffraction[:, :, i],
             bodies={name: self.bodies[name] for name in keep},
-            kernel=None if self.kernel is None else self.kernel[:, i][:, :, i],
+            kernel=None if self.kernel is None else self.kernel.selected(labels),
             memory=_selected_fits(self.memory, labels),
         )
 
@@ -265,6 +274,13 @@ class HydroDatabase:
             self,
             coordinates=rename(self.coordinates),
             bodies={new[k]: replace(b, name=new[k]) for k, b in self.bodies.items()},
+            kernel=None
+            if self.kernel is None
+            else replace(
+                self.kernel,
+                inputs=rename(self.kernel.inputs),
+                outputs=rename(self.kernel.outputs),
+            ),
             memory={
                 key: replace(fit, inputs=rename(fit.inputs), outputs=rename(fit.outputs))
                 for key, fit in self.memory.items()
@@ -307,7 +323,7 @@ class HydroDatabase:
             froude_krylov=self.froude_krylov @ x,
             diffraction=self.diffraction @ x,
             bodies=bodies,
-            kernel=None if self.kernel is None else x.T @ self.kernel @ x,
+            kernel=None if self.kernel is None else moved_kernel(self.kernel, shifts),
             memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
         )
 

@@ -14,6 +14,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.database import Body, HydroDatabase
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.radiation_kernel import RadiationKernel
 
 if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
@@ -57,7 +58,7 @@ def write(
     path : path
         Target file.
     kernel : bool
-        Also write the stored radiation kernel, if there is one (large).
+        Also write the radiation kernel, if there is one (large).
     single : bool
         Store the tables of A, B, F and K in single precision (7 digits; half the size). Added mass
         at infinity, hydrostatics and fits always stay in double precision.
@@ -126,10 +127,29 @@ def _write_tables(f: h5py.File, db: HydroDatabase, *, kernel: bool, single: bool
     group.attrs["split"] = "froude_krylov + diffraction" if db.excitation_split else "total only"
     for name in ("froude_krylov", "diffraction"):
         _dataset(group, name, getattr(db, name).astype(cplx), "N/m, N m/m")
-    if kernel and db.kernel is not None and db.kernel_time is not None:
-        group = f.create_group("radiation_kernel")
-        _dataset(group, "time", db.kernel_time, "s")
-        _dataset(group, "kernel", db.kernel.astype(real), "N/m, N, N m")
+    if kernel and db.kernel is not None:
+        _write_kernel(f.create_group("radiation_kernel"), db.kernel, real)
+
+
+def _write_kernel(group: h5py.Group, kernel: RadiationKernel, real: type) -> None:
+    group.create_dataset("inputs", data=_labels(kernel.inputs))
+    group.create_dataset("outputs", data=_labels(kernel.outputs))
+    _dataset(group, "time", kernel.time, "s")
+    _dataset(group, "kernel", kernel.values.astype(real), "N/m, N, N m")
+    _dataset(group, "added_mass_inf", kernel.added_mass_inf, "kg, kg m, kg m2")
+    for key, value in kernel.report.items():
+        group.attrs[key] = value
+
+
+def _read_kernel(group: h5py.Group) -> RadiationKernel:
+    return RadiationKernel(
+        time=group["time"][()].astype(float),
+        values=group["kernel"][()].astype(float),
+        inputs=_read_labels(group["inputs"]),
+        outputs=_read_labels(group["outputs"]),
+        added_mass_inf=group["added_mass_inf"][()].astype(float),
+        report={key: _plain(value) for key, value in group.attrs.items()},
+    )
 
 
 def _write_bodies(f: h5py.File, db: HydroDatabase) -> None:
@@ -171,8 +191,7 @@ def _read(f: h5py.File) -> HydroDatabase:
         gravity=float(f.attrs["gravity"]),
         water_depth=float(f.attrs["water_depth"]),
         added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
-        kernel_time=None if stored is None else stored["time"][()].astype(float),
-        kernel=None if stored is None else stored["kernel"][()].astype(float),
+        kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
         repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,

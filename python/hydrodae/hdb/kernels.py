@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from hydrodae import irf
 from hydrodae.hdb.coordinates import split_label
-from hydrodae.hdb.database import HydroDatabase
+
+if TYPE_CHECKING:
+    from hydrodae.hdb.database import HydroDatabase
 
 Array = NDArray[np.float64]
 #: Share of int |K| dt that may be left after the memory length.

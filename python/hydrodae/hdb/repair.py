@@ -53,9 +53,7 @@ def repair(database: HydroDatabase, what: Sequence[str]) -> HydroDatabase:
             result = replace(changed, repairs=(*result.repairs, f"{word}: {text}"))
     if result is not database and (result.memory or result.kernel is not None):
         text = "removed the stored kernel and memory fits, which belong to the old tables"
-        result = replace(
-            result, memory={}, kernel=None, kernel_time=None, repairs=(*result.repairs, text)
-        )
+        result = replace(result, memory={}, kernel=None, repairs=(*result.repairs, text))
     return result
 
 

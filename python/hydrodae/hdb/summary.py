@@ -10,6 +10,7 @@ from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import Body, HydroDatabase
 
 if TYPE_CHECKING:
+    from hydrodae.hdb.radiation_kernel import RadiationKernel
     from hydrodae.memory import ExponentialMemory
 
 
@@ -29,8 +30,8 @@ def summary(db: HydroDatabase) -> str:
     ]
     for body in db.bodies.values():
         lines += _body(db, body)
-    if db.kernel_time is not None:
-        lines.append(f"  kernel     K(t), {db.kernel_time.size} times to {db.kernel_time[-1]:g} s")
+    if db.kernel is not None:
+        lines.append(f"  kernel     {kernel_summary(db.kernel)}")
     for name, fit in db.memory.items():
         lines.append(f"  memory     {name}: {fit_summary(fit)}")
     lines += [f"  repaired   {text}" for text in db.repairs]
@@ -49,6 +50,22 @@ def fit_summary(fit: ExponentialMemory) -> str:
             parts[-1] += f" in {band[0]:.3g}..{band[1]:.3g} rad/s"
     if "passive" in report:
         parts.append("passive" if report["passive"] else "NOT passive")
+    return "; ".join(parts)
+
+
+def kernel_summary(kernel: RadiationKernel) -> str:
+    """Return the figures that matter of a radiation kernel, on one line."""
+    parts = [
+        f"K(t) to {kernel.length:.4g} s, {kernel.time.size} times",
+        f"{', '.join(kernel.inputs)} move, loads on {len(kernel.outputs)} coordinates",
+    ]
+    band, error = kernel.report.get("band"), kernel.report.get("h_error_band")
+    if isinstance(error, float) and isinstance(band, tuple):
+        parts.append(f"error of H {error:.2g} in {band[0]:.3g}..{band[1]:.3g} rad/s")
+    if "rest" in kernel.report:
+        parts.append(f"{kernel.report['rest']:.1e} of int |K| left out")
+    if "min_eig_relative" in kernel.report:
+        parts.append(f"smallest eigenvalue of Re H {kernel.report['min_eig_relative']:.1e}")
     return "; ".join(parts)
 
 

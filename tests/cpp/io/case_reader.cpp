@@ -72,7 +72,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
   check_messages({
       {"damping = 5.0", "dampping = 5.0",
        "case.toml:32:1: unknown key 'dampping' in [[force]] 'pto1'; did you mean 'damping'? "
-       "(valid: type, name, joint, damping, stiffness, neutral)"},
+       "(valid: type, name, joint, damping, stiffness, neutral, delay)"},
       {"gravity = 9.81", "  zzz = 9.81",
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity"},
       {"[solver]", "[solvr]",

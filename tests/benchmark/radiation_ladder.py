@@ -1,0 +1,151 @@
+"""Cost and error of each model of radiation: sphere, F3OF, RM3, four nodes of 4N3LA.
+
+    .venv/bin/python tests/benchmark/radiation_ladder.py
+
+RM3 and 4N3LA need the reference data ($HYDRODAE_REFERENCE or ../shared/reference) and are left out,
+which is told, without it. Databases are prepared in a temporary folder. For each device: the ladder
+of `hydrodae ladder`, and the solver's time per simulated second of every rung.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+import hydrodae
+from hydrodae.hdb.read import import_database
+from hydrodae.ladder import ladder
+from hydrodae.memory import fit_memory
+
+ROOT = Path(__file__).resolve().parents[2]
+STATES = 40  # of a fit, at most
+PLANAR = ("surge", "heave", "pitch")
+
+RM3_BODY = """
+[[body]]
+name = "{name}"
+hydro = "{name}"
+motion = "heave"
+mass = {mass}
+center_of_gravity = [0.0, 0.0, {z}]
+inertia = [{inertia}, {inertia}, {inertia}]
+"""
+RM3 = (
+    """
+title = "RM3, float released 0.1 m up"
+[hydro]
+database = "rm3.h5"
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "spar"
+body_b = "float"
+point = [0.0, 0.0, -0.72]
+axis = [0.0, 0.0, 1.0]
+initial.displacement = 0.1
+[solver]
+end_time = 100.0
+"""
+    + RM3_BODY.format(name="float", mass=725834.0, z=-0.72, inertia=21306090.66)
+    + RM3_BODY.format(name="spar", mass=886691.0, z=-21.29, inertia=94407091.24)
+)
+NODES = {"S3": (0.0, 0.0), "C1": (0.7, -1.21), "S1": (0.0, -2.42), "S2": (2.1, -1.21)}
+NODE = """
+[[body]]
+name = "{name}"
+hydro = "{name}"
+motion = "heave"
+mass = 173.9
+center_of_gravity = [{x}, {y}, -0.3]
+initial.displacement = [0.0, 0.0, {start}]
+"""
+FOUR_NODES = 'title = "Four nodes of 4N3LA, heave, one released"\n[hydro]\ndatabase = "4n3la.h5"\n'
+FOUR_NODES += "[solver]\nend_time = 20.0\n" + "".join(
+    NODE.format(name=name, x=x, y=y, start=0.1 if name == "S3" else 0.0)
+    for name, (x, y) in NODES.items()
+)
+
+
+def reference() -> Path:
+    """Folder of the reference data."""
+    return Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
+
+
+def prepare(
+    source: Path,
+    target: Path,
+    moving: Sequence[str],
+    points: dict[str, list[float]],
+    band: tuple[float, float],
+    names: Sequence[str] | None = None,
+    rho: float | None = None,
+) -> None:
+    """Import a database, fit what moves, and make its kernel."""
+    database, _ = import_database(source, names=names, reference_points=points, rho=rho)
+    database.memory["default"] = fit_memory(database, inputs=moving, band=band, max_states=STATES)
+    database.with_kernel(moving, band=band).write(target)
+
+
+def sphere(_folder: Path) -> hydrodae.Case:
+    """One coordinate."""
+    return hydrodae.Case.read(ROOT / "cases" / "sphere" / "decay.toml")
+
+
+def f3of(folder: Path) -> hydrodae.Case:
+    """Six coordinates, narrow peaks: a kernel of ten minutes."""
+    shutil.copy(ROOT / "cases" / "f3of" / "flap_decay.toml", folder)
+    database = hydrodae.hdb.read(ROOT / "cases" / "f3of" / "hydro.h5")
+    moving = [f"{body}.{dof}" for body in ("flap1", "flap2") for dof in PLANAR]
+    database.with_kernel(moving).write(folder / "hydro.h5")
+    return hydrodae.Case.read(folder / "flap_decay.toml").with_values({"solver.end_time": 100.0})
+
+
+def rm3(folder: Path) -> hydrodae.Case:
+    """Two bodies in heave."""
+    points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
+    moving = [f"{body}.heave" for body in points]
+    wamit = reference() / "hdb" / "rm3_wamit"
+    prepare(wamit, folder / "rm3.h5", moving, points, (0.2, 3.0), list(points), 1000.0)
+    return hydrodae.Case.from_text(RM3, folder)
+
+
+def four_nodes(folder: Path) -> hydrodae.Case:
+    """Four bodies in heave."""
+    points = {name: [x, y, -0.3] for name, (x, y) in NODES.items()}
+    moving = [f"{name}.heave" for name in NODES]
+    table = reference() / "hdb" / "own" / "4n3la.nc"
+    prepare(table, folder / "4n3la.h5", moving, points, (1.0, 6.0))
+    return hydrodae.Case.from_text(FOUR_NODES, folder)
+
+
+DEVICES = {"sphere": sphere, "f3of": f3of, "rm3": rm3, "4n3la": four_nodes}
+
+
+def main() -> None:
+    """Print ladders and costs per simulated second."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("devices", nargs="*", choices=[[], *DEVICES], help="default: all")
+    parser.add_argument("--repeat", type=int, default=5, help="time is the best of N runs")
+    arguments = parser.parse_args()
+    for name in arguments.devices or DEVICES:
+        if name in ("rm3", "4n3la") and not reference().is_dir():
+            print(f"{name} left out: no reference data in {reference()}")
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            case = DEVICES[name](Path(folder))
+            made = ladder(case, repeat=arguments.repeat)
+        print(f"{made}\n  solver time per simulated second:", end="")
+        for rung in made.rungs:
+            cost = 1e6 * rung.time / case.end_time
+            print(f"  {rung.name} {'-' if np.isnan(cost) else f'{cost:.0f} us'}", end="")
+        print("\n", flush=True)
+
+
+if __name__ == "__main__":
+    main()
