@@ -15,9 +15,9 @@
 namespace hydrodae::io {
 namespace {
 
-const std::vector<std::string> top_level_keys = {"title",  "environment", "hydro",  "sea",
-                                                 "wave",   "body",        "joint",  "constraint",
-                                                 "marker", "force",       "solver", "output"};
+const std::vector<std::string> top_level_keys = {
+    "title",      "environment", "hydro", "sea",     "wave",   "body",  "joint",
+    "constraint", "marker",      "force", "morison", "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -120,6 +120,9 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   });
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });
+  for_each_entry(root, "morison", positions, [&](const Table& entry) {
+    scene.morison.push_back(read_table<force::Morison>(entry, positions));
+  });
   read_single(root, "sea", positions, scene.sea);
   for_each_entry(root, "wave", positions, [&](const Table& entry) {
     scene.waves.push_back(read_table<sea::Wave>(entry, positions));

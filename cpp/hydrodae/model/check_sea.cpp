@@ -78,9 +78,12 @@ void check_wave(const Scene& scene, const sea::Wave& wave) {
 void check_sea(const Scene& scene) {
   for (const sea::Wave& wave : scene.waves)
     check_wave(scene, wave);
-  if (!scene.waves.empty() && !scene.hydro)
+  if (!scene.waves.empty() && !scene.hydro && scene.morison.empty())
     throw ModelError("wave." + scene.waves.front().name,
-                     "waves need a hydrodynamic database: the table [hydro] is missing");
+                     "waves need a hydrodynamic database or Morison elements to act on: the table "
+                     "[hydro] is missing");
+  if (!scene.sea.current.isZero(0.0) && scene.morison.empty())
+    throw ModelError("sea.current", "a current acts on [[morison]] elements, and there is none");
   if (scene.sea.ramp > 0.0 && scene.waves.empty())
     throw ModelError("sea.ramp", "there is no [[wave]] to ramp up");
 }

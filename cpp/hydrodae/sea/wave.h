@@ -12,12 +12,18 @@ namespace hydrodae::sea {
 /// Table [sea]: what all wave systems share.
 struct Sea {
   double ramp = 0.0;
+  Vector3 current = Vector3::Zero();
 
   static Fields<Sea> fields() {
-    return {{"ramp", &Sea::ramp, "s",
-             "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
-             "continuous derivatives).",
-             false, at_least(0)}};
+    return {
+        {"ramp", &Sea::ramp, "s",
+         "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
+         "continuous derivatives).",
+         false, at_least(0)},
+        {"current", &Sea::current, "m/s",
+         "Velocity of the water, the same everywhere, on which the Morison elements work; the "
+         "waves do not feel it."},
+    };
   }
 };
 

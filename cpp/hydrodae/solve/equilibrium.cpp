@@ -116,6 +116,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
   s.hydro.excitation = sea::Signals();
+  s.water.terms.clear();
   const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))

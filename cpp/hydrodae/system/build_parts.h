@@ -24,4 +24,7 @@ void add_hydro(const model::Scene& scene, System& system);
 /// Excitation of the sea (build_sea.cpp); needs `add_hydro`. Throws ModelError.
 void add_sea(const model::Scene& scene, System& system);
 
+/// Morison elements and the water that they feel (build_morison.cpp). Throws ModelError.
+void add_morison(const model::Scene& scene, System& system);
+
 } // namespace hydrodae::system

@@ -37,8 +37,8 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
 } // namespace
 
 void add_sea(const model::Scene& scene, System& s) {
-  if (scene.waves.empty())
-    return;
+  if (scene.waves.empty() || !scene.database)
+    return; // Morison elements feel the waves by themselves
   const hydro::Database& db = *scene.database;
   HydroData& h = s.hydro;
   std::vector<sea::Component> all;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hydrodae/system/hydro_gradient.h"
+#include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
@@ -120,6 +121,7 @@ template <class Sink> struct Assembly {
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const Matrix6& L);
   void memory_rows();
+  void morison();
   template <class Law> void force(const BodyForce<Law>& f);
   template <class Law> void force(const MotionForce<Law>& f);
 
@@ -129,6 +131,7 @@ template <class Sink> struct Assembly {
     for_each_element(s.body_forces, [&](const auto& f) { force(f); });
     for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
     hydrodynamics();
+    morison();
     body_rows();
   }
 };
@@ -429,6 +432,19 @@ template <class Sink> void Assembly<Sink>::hydrodynamics() {
   memory_rows();
 }
 
+template <class Sink> void Assembly<Sink>::morison() {
+  for (const MorisonData& m : s.morison) {
+    const BodyData& b = s.bodies[m.body];
+    if (b.n_active == 0)
+      continue;
+    const LoadGradient d = morison_gradient(s.water, m, state(m.body), t, ws.state.fluid, ws.fluid);
+    load_by_displacement(m.body, m.body, d.by_displacement);
+    load_by_velocity(m.body, m.body, d.by_velocity);
+    for (int k = 0; k < b.n_active; ++k)
+      acceleration_columns(b.u0 + k, m.body, -d.by_acceleration.row(b.active[k]));
+  }
+}
+
 /// Kinematics and tangent maps at (y, y'): d phi = 2 L(p)^T dp / |p|^2.
 void prepare(const System& s, JacobianWorkspace& ws, const double* y, const double* yp) {
   unpack<double>(s, y, yp, ws.state.bodies);
@@ -442,7 +458,8 @@ void prepare(const System& s, JacobianWorkspace& ws, const double* y, const doub
 
 } // namespace
 JacobianWorkspace::JacobianWorkspace(const System& system)
-    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {}
+    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
+      fluid(state.fluid.size()) {}
 
 Pattern find_pattern(const System& system) {
   JacobianWorkspace ws(system);

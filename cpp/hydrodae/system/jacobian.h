@@ -33,6 +33,7 @@ struct JacobianWorkspace {
   explicit JacobianWorkspace(const System& system);
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
+  std::vector<sea::FluidGradient> fluid;             ///< at the segments of one Morison element
 };
 
 /// dF/dy and dF/dy' at (t, y, y'). Pure apart from the scratch; no allocation.

@@ -1,6 +1,7 @@
 #pragma once
 /// From the unknowns to the poses and velocities of the bodies.
 
+#include <algorithm>
 #include <vector>
 
 #include "hydrodae/system/system.h"
@@ -21,7 +22,8 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VectorX excitation;        ///< on the coordinates of U
+  VectorX excitation;                    ///< on the coordinates of U
+  std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
   std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
 
   explicit Workspace(const System& s)
@@ -29,6 +31,10 @@ template <class S> struct Workspace {
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
         turns(s.motions.size()) {
+    std::size_t segments = 0;
+    for (const MorisonData& m : s.morison)
+      segments = std::max(segments, static_cast<std::size_t>(m.segments));
+    fluid.resize(segments);
     for (std::size_t m = 0; m < turns.size(); ++m)
       turns[m] = s.motions[m].start;
     for (std::size_t i = 0; i < bodies.size(); ++i) {

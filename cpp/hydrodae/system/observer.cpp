@@ -47,6 +47,8 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   if (!s_.hydro.excitation.empty())
     for (const HydroBody& hb : s_.hydro.bodies)
       plan("excitation", hb.body);
+  for (const MorisonData& m : s_.morison)
+    plan(m.name, m.body);
   out_.components.push_back("constraints");
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
@@ -141,6 +143,18 @@ void Observer::observe_excitation(double t) {
     add_load(to_world(state, hydro_load<double>(h.body_axes, state, force, Vector6::Zero())));
   }
   out_.elevation = excitation_[excitation_.size() - 1];
+}
+
+void Observer::observe_morison(double t) {
+  for (const MorisonData& m : s_.morison) {
+    const BodyState<double>& state = ws_.bodies[m.body];
+    add_load(to_world(state, morison_load<double>(s_.water, m, state, t, ws_.fluid)));
+  }
+  if (s_.hydro.excitation.empty() && !s_.water.terms.empty()) {
+    const Vector3 origin = Vector3::Zero();
+    sea::fluid_on_line<double>(s_.water, t, origin, origin, 1, ws_.fluid.data());
+    out_.elevation = ws_.fluid.front().elevation;
+  }
 }
 
 /// Reaction of one row on B: force along the marker's axes of A, moment about the marker of B.
@@ -266,6 +280,7 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   observe_forces(y.data());
   observe_hydrodynamics(y.data());
   observe_excitation(t);
+  observe_morison(t);
   observe_joints(y.data());
   observe_energy();
   return out_;

@@ -48,6 +48,7 @@ private:
   void observe_forces(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_excitation(double t);
+  void observe_morison(double t);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
                        double lambda) const;

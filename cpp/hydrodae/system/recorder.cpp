@@ -97,7 +97,7 @@ void Recorder::make_channels() {
     add_channel(head + "moment", 3, "N m", "world",
                 "Moment on the body about its centre of gravity.");
   }
-  if (!s_.hydro.excitation.empty())
+  if (s_.has_waves())
     add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
@@ -238,7 +238,7 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }
-  if (!s_.hydro.excitation.empty())
+  if (s_.has_waves())
     *out++ = observer_.observation().elevation;
   fill_energy(out, work);
 }

@@ -4,6 +4,7 @@
 /// Jacobian.
 
 #include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/system/morison.h"
 
 namespace hydrodae::system {
 
@@ -180,6 +181,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   add_hydrodynamics<S>(s, ws, t, y, yp, residual);
+  add_morison<S>(s, ws, t);
   body_rows<S>(s, ws, y, yp, residual);
 }
 

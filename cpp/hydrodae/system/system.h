@@ -18,6 +18,7 @@
 
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/sea/kinematics.h"
 #include "hydrodae/sea/signals.h"
 
 namespace hydrodae::system {
@@ -119,6 +120,18 @@ struct MarkerData {
   bool body_axes = false;          ///< of velocity and acceleration
 };
 
+/// A Morison element: equal segments whose centres stand at equal steps on a straight line.
+struct MorisonData {
+  std::string name;
+  int body = 0;
+  force::MorisonSegment law;
+  int segments = 1;
+  Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
+  Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
+  Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
+  bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
+};
+
 using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
                               std::vector<BodyForce<force::ViscousDamping::Law>>>;
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
@@ -187,6 +200,8 @@ struct System {
   BodyForces body_forces;
   MotionForces motion_forces;
   HydroData hydro;
+  std::vector<MorisonData> morison;
+  sea::WaveField water; ///< what the Morison elements feel; empty without them
 
   Index n = 0;                     ///< unknowns
   Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states
@@ -200,6 +215,7 @@ struct System {
   std::vector<std::string> notes;     ///< what the build found worth telling
 
   bool is_algebraic(Index i) const { return i >= lambda0; }
+  bool has_waves() const { return !hydro.excitation.empty() || !water.terms.empty(); }
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
