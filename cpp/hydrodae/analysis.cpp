@@ -2,7 +2,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/morison_gradient.h"
@@ -201,10 +201,8 @@ LinearModel linearize(const model::Scene& scene) {
 
 MatrixX wave_components(const model::Scene& scene) {
   MatrixX out(0, 4);
-  const model::Water water = model::water(scene);
-  for (const sea::Wave& wave : scene.waves)
-    for (const sea::Component& c : sea::components(wave, water.depth, water.gravity))
-      add_row(out, Eigen::RowVector4d(c.omega, c.heading, c.amplitude, c.phase));
+  for (const sea::Component& c : model::wave_components(scene))
+    add_row(out, Eigen::RowVector4d(c.omega, c.heading, c.amplitude, c.phase));
   return out;
 }
 

@@ -242,6 +242,8 @@ inline std::vector<NamedScene> all_scenes() {
         if (hydro != "dry")
           add_hydro(scene, hydro == "mean" ? "mean" : "body",
                     hydro == "constant" ? "constant" : "exponential", random);
+        if (hydro == "mean" || hydro == "constant")
+          scene.sea.phase = "moving";
         add_every_force(scene, random);
         add_morison(scene);
         scenes.push_back({std::string(type.name) + ", " + motion[0] +

@@ -116,6 +116,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
   s.hydro.excitation = sea::Signals();
+  s.hydro.drifting = sea::DriftingSignals();
   s.water.terms.clear();
   const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s);

@@ -1,7 +1,7 @@
 /// Morison elements cut into segments, and the waves and the current that they feel.
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/initial_pose.h"
 
@@ -46,11 +46,7 @@ void add_morison(const model::Scene& scene, System& s) {
   if (scene.morison.empty())
     return;
   const model::Water water = model::water(scene);
-  std::vector<sea::Component> all;
-  for (const sea::Wave& wave : scene.waves) {
-    const auto own = sea::components(wave, water.depth, water.gravity);
-    all.insert(all.end(), own.begin(), own.end());
-  }
+  const std::vector<sea::Component> all = model::wave_components(scene);
   s.water = sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current);
   Index pieces = 0;
   for (const force::Morison& m : scene.morison) {

@@ -1,9 +1,12 @@
 /// Wave excitation of all hydrodynamic bodies as functions of time, computed ahead of the run.
 
+#include <algorithm>
+#include <optional>
+
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/motion.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
 
 namespace hydrodae::system {
@@ -44,8 +47,7 @@ void add_sea(const model::Scene& scene, System& s) {
   std::vector<sea::Component> all;
   for (const sea::Wave& wave : scene.waves) {
     std::string note;
-    const std::vector<sea::Component> own =
-        sea::components(wave, db.water_depth, db.gravity, &note);
+    const std::vector<sea::Component> own = model::wave_components(scene, wave, &note);
     check_coverage(db, wave, own);
     all.insert(all.end(), own.begin(), own.end());
     if (!note.empty())
@@ -55,23 +57,40 @@ void add_sea(const model::Scene& scene, System& s) {
   for (const HydroBody& hb : h.bodies)
     for (std::string_view dof : model::coordinate_names)
       labels.push_back(*scene.bodies[hb.body].hydro + "." + std::string(dof));
-  const hydro::Excitation excitation(db, labels);
+  h.split = !db.froude_krylov.empty();
+  const hydro::Excitation excitation(db, db.excitation, labels);
+  std::optional<hydro::Excitation> froude_krylov;
+  if (h.split)
+    froude_krylov.emplace(db, db.froude_krylov, labels);
   const auto n = static_cast<Eigen::Index>(all.size());
   const auto rows = static_cast<Eigen::Index>(labels.size());
+  const Eigen::Index last = h.n_moving + rows * (h.split ? 2 : 1);
   VectorX omega(n);
-  Eigen::MatrixXcd coefficients(h.n_moving + rows + 1, n);
+  Eigen::MatrixXcd coefficients(last + 1, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const sea::Component& c = all[static_cast<std::size_t>(i)];
     const std::complex<double> elevation = std::polar(c.amplitude, c.phase);
+    const double heading = *hydro::covered_heading(db, c.heading);
     omega[i] = c.omega;
-    const Eigen::VectorXcd force =
-        elevation * excitation(c.omega, *hydro::covered_heading(db, c.heading));
+    const Eigen::VectorXcd force = elevation * excitation(c.omega, heading);
     for (int u = 0; u < h.n_moving; ++u)
       coefficients(u, i) = force[6 * h.coordinates[u].hydro_body + h.coordinates[u].component];
     coefficients.col(i).segment(h.n_moving, rows) = force;
-    coefficients(h.n_moving + rows, i) = elevation;
+    if (h.split)
+      coefficients.col(i).segment(h.n_moving + rows, rows) =
+          elevation * (*froude_krylov)(c.omega, heading);
+    coefficients(last, i) = elevation;
   }
-  h.excitation = sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp);
+  if (scene.sea.phase == "fixed") {
+    h.excitation = sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp);
+    return;
+  }
+  const auto moving =
+      std::count_if(h.bodies.begin(), h.bodies.end(), [](const HydroBody& b) { return b.moves; });
+  s.notes.push_back("the phase of the waves follows the bodies: every evaluation sums " +
+                    std::to_string(all.size()) + " wave components for " + std::to_string(moving) +
+                    (moving == 1 ? " body" : " bodies"));
+  h.drifting = sea::DriftingSignals(std::move(all), std::move(coefficients), scene.sea.ramp);
 }
 
 } // namespace hydrodae::system

@@ -49,4 +49,43 @@ inline HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState
   return d;
 }
 
+/// Of an excitation whose phase moves with the body: its derivative by x and y of the body.
+inline Eigen::Matrix<double, 6, 2> excitation_gradient(const System& s, const HydroBody& i,
+                                                       const BodyState<double>& b, double t) {
+  const Vector3 moved = b.r - s.bodies[i.body].reference;
+  Vector6 f, by_x, by_y; // of the coordinates that move
+  s.hydro.drifting(t, moved[0], moved[1], i.first_moving(), i.n_moving(), f.data(), by_x.data(),
+                   by_y.data());
+  Eigen::Matrix<double, 6, 2> d = Eigen::Matrix<double, 6, 2>::Zero();
+  for (int c = 0; c < 6; ++c)
+    if (i.moving[c] >= 0)
+      d.row(c) << by_x[i.moving[c] - i.first_moving()], by_y[i.moving[c] - i.first_moving()];
+  return d;
+}
+
+/// load = L rate + Q momentum of `hydro_load`: L, Q, and the derivatives by the rotation of the
+/// body (body axes) and by its velocities (v, w), with rate and momentum held.
+struct HydroLoadGradient {
+  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
+  Matrix63 by_rotation = Matrix63::Zero();
+};
+
+inline HydroLoadGradient hydro_load_gradient(bool body_axes, const BodyState<double>& b,
+                                             const Vector6& rate, const Vector6& momentum) {
+  HydroLoadGradient d;
+  if (body_axes) {
+    const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
+    const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
+    d.L.topLeftCorner<3, 3>() = b.R;
+    d.Q << b.R * wx, Matrix3::Zero(), Vx, wx;
+    const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
+    d.by_rotation << -b.R * skew<double>(force), -px * Vx;
+    d.by_velocity << Matrix3::Zero(), -b.R * px, -px * R_T, -hx;
+  } else {
+    d.L.bottomRightCorner<3, 3>() = b.R.transpose();
+    d.by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
+  }
+  return d;
+}
+
 } // namespace hydrodae::system

@@ -99,6 +99,15 @@ template <class S> void hydro_loads(const System& s, Workspace<S>& ws, double t,
     for (int u = 0; u < h.n_moving; ++u)
       ws.inertia_force[u] -= S(ws.excitation[u]);
   }
+  if (!h.drifting.empty())
+    for (const HydroBody& hb : h.bodies) {
+      if (!hb.moves)
+        continue;
+      const Vec3<S> moved = ws.bodies[hb.body].r - s.bodies[hb.body].reference.template cast<S>();
+      h.drifting(t, moved[0], moved[1], hb.first_moving(), hb.n_moving(), ws.U_dot.data());
+      for (int k = 0; k < hb.n_moving(); ++k)
+        ws.inertia_force[hb.first_moving() + k] -= ws.U_dot[k];
+    }
 }
 
 /// Subtracts the fluid's loads from `ws.loads` and writes the memory rows

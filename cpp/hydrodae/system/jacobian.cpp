@@ -18,7 +18,7 @@ using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 /// Collects the places that the assembly visits.
 struct PatternSink {
-  std::vector<std::pair<Index, Index>> visits, rates; ///< (column, row); rates: those of dF/dy'
+  Visits visits, rates; ///< (column, row); rates: those of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
   void by_yp(Index row, Index column, double) {
     visits.emplace_back(column, row);
@@ -120,6 +120,7 @@ template <class Sink> struct Assembly {
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const Matrix6& L);
+  void phase_columns(const HydroBody& i, const Matrix6& L);
   void memory_rows();
   void morison();
   template <class Law> void force(const BodyForce<Law>& f);
@@ -356,30 +357,27 @@ template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, co
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
 template <class Sink>
 void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
-  const BodyState<double>& b = state(i.body);
-  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
-  Matrix63 by_rotation = Matrix63::Zero();
-  if (s.hydro.body_axes) {
-    const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
-    const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
-    L.topLeftCorner<3, 3>() = b.R;
-    Q << b.R * wx, Matrix3::Zero(), Vx, wx;
-    const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
-    by_rotation << -b.R * skew<double>(force), -px * Vx;
-    by_velocity << Matrix3::Zero(), -b.R * px, -px * R_T, -hx;
-  } else {
-    L.bottomRightCorner<3, 3>() = b.R.transpose();
-    by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
-  }
+  const HydroLoadGradient d = hydro_load_gradient(s.hydro.body_axes, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
-    rotation_columns(data.u0 + k, i.body, by_rotation.row(data.active[k]));
-    velocity_columns(data.u0 + k, i.body, by_velocity.row(data.active[k]));
+    rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
+    velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
+  if (!s.hydro.drifting.empty())
+    phase_columns(i, d.L);
   for (const HydroBody& j : s.hydro.bodies)
     if (j.moves)
-      hydro_pair(i, j, L, Q);
-  memory_columns(i, L);
+      hydro_pair(i, j, d.L, d.Q);
+  memory_columns(i, d.L);
+}
+
+/// How the excitation changes with the horizontal displacement of its body.
+template <class Sink> void Assembly<Sink>::phase_columns(const HydroBody& i, const Matrix6& L) {
+  const BodyData& b = s.bodies[i.body];
+  const Eigen::Matrix<double, 6, 2> d = L * excitation_gradient(s, i, state(i.body), t);
+  for (int n = 0; n < b.n_translations && b.active[n] < 2; ++n)
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(b.u0 + k, b.q0 + n, -d(b.active[k], b.active[n]));
 }
 
 template <class Sink> void Assembly<Sink>::memory_rows() {
@@ -468,27 +466,7 @@ Pattern find_pattern(const System& system) {
   PatternSink sink;
   Assembly<PatternSink>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
 
-  std::vector<std::pair<Index, Index>> entries = sink.visits;
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-  Pattern pattern;
-  pattern.n = system.n;
-  pattern.column_start.assign(system.n + 1, 0);
-  for (const auto& [column, row] : entries) {
-    ++pattern.column_start[column + 1];
-    pattern.row.push_back(row);
-  }
-  for (Index c = 0; c < system.n; ++c)
-    pattern.column_start[c + 1] += pattern.column_start[c];
-  auto place = [&](const std::pair<Index, Index>& visit) -> Index {
-    return std::lower_bound(entries.begin(), entries.end(), visit) - entries.begin();
-  };
-  for (const auto& visit : sink.visits)
-    pattern.slots.push_back(place(visit));
-  pattern.has_rate.assign(entries.size(), false);
-  for (const auto& visit : sink.rates)
-    pattern.has_rate[static_cast<std::size_t>(place(visit))] = true;
-  return pattern;
+  return make_pattern(system.n, sink.visits, sink.rates);
 }
 
 void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,

@@ -1,6 +1,7 @@
 #pragma once
 /// The Jacobian dF/dy + alpha dF/dy' on a pattern that is fixed when the system is built.
 
+#include <utility>
 #include <vector>
 
 #include "hydrodae/system/kinematics.h"
@@ -17,6 +18,12 @@ struct Pattern {
   std::vector<bool> has_rate; ///< (nonzeros,) whether dF/dy' has the entry too
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 };
+
+/// Entries (column, row) in the order in which the assembly visits them.
+using Visits = std::vector<std::pair<Index, Index>>;
+
+/// The pattern that has all `visits`; `rates`: those of dF/dy'.
+Pattern make_pattern(Index n, const Visits& visits, const Visits& rates);
 
 /// Runs the assembly once without values to find the pattern.
 Pattern find_pattern(const System& system);

@@ -12,12 +12,14 @@ namespace hydrodae::system {
 struct ComponentLoad {
   int component = 0; ///< index into Observation::components
   int body = 0;
+  bool part = false; ///< of another component: not in the balance by itself
   Vector6 load = Vector6::Zero();
 };
 
 /// The state of the scene at one instant, taken apart.
 struct Observation {
   std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ..., constraints
+  std::vector<bool> parts;             ///< per component: part of another one
   std::vector<ComponentLoad> loads;    ///< all components but the reactions
   std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
   std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world

@@ -139,8 +139,8 @@ double Recorder::balance(const std::vector<double>& work) {
   const double moving = o.kinetic + o.kinetic_added_mass;
   double total_work = 0.0, exchanged = std::abs(moving);
   for (std::size_t k = 0; k < work.size(); ++k) {
-    // The fluid's kinetic energy is on the left-hand side already.
-    if (o.components[k] != "added_mass_inf")
+    // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
+    if (o.components[k] != "added_mass_inf" && !o.parts[k])
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
   }

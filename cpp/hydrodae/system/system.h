@@ -10,6 +10,7 @@
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/sea/drifting.h"
 #include "hydrodae/sea/kinematics.h"
 #include "hydrodae/sea/signals.h"
 
@@ -142,6 +144,12 @@ struct HydroBody {
   int body = 0;
   std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
   bool moves = false;
+  int n_moving() const {
+    return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
+  }
+  int first_moving() const {
+    return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });
+  }
 };
 
 /// Added mass at infinite frequency and radiation memory of all bodies.
@@ -162,7 +170,11 @@ struct HydroData {
   MatrixX output_all;  ///< (6 n_bodies, n_states)
   bool damped = false; ///< constant damping; else the next two are empty
   MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
-  sea::Signals excitation; ///< (n_moving + 6 n_bodies + 1): on U, on all coordinates; elevation [m]
+  /// Functions of time: n_moving loads on U, 6 n_bodies loads on all coordinates, where `split` as
+  /// many of their Froude-Krylov parts, and the elevation [m]. One of the two is empty.
+  sea::Signals excitation;
+  sea::DriftingSignals drifting; ///< by the displacement of each body
+  bool split = false;
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
   int n_states = 0;
@@ -215,7 +227,8 @@ struct System {
   std::vector<std::string> notes;     ///< what the build found worth telling
 
   bool is_algebraic(Index i) const { return i >= lambda0; }
-  bool has_waves() const { return !hydro.excitation.empty() || !water.terms.empty(); }
+  bool has_excitation() const { return !hydro.excitation.empty() || !hydro.drifting.empty(); }
+  bool has_waves() const { return has_excitation() || !water.terms.empty(); }
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
