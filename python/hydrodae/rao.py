@@ -216,7 +216,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _frequencies(model: LinearModel, periods: str | None) -> Array:
     if periods is None:
         if model.database is None:
-            raise CaseError("the case has no hydrodynamic database")
+            raise CaseError("the case has no hydrodynamic database: give the --periods")
         return np.linspace(model.database.omega[0], model.database.omega[-1], 40)
     try:
         values = np.array([float(text) for text in periods.split(",")])

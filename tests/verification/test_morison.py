@@ -258,7 +258,8 @@ def test_linear_model_has_added_mass_and_wave_inertia() -> None:
     )
 
 
-def test_time_domain_agrees_with_the_linear_model() -> None:
+@pytest.mark.parametrize("depth", [9.0, np.inf])
+def test_time_domain_agrees_with_the_linear_model(depth: float) -> None:
     """A tethered ball in small waves, inertia only."""
     spring = mooring(
         "stiffness = [60, 0, 60, 0, 0, 0]",
@@ -269,6 +270,8 @@ def test_time_domain_agrees_with_the_linear_model() -> None:
         "volume = 0.04\nadded_mass_coefficient = 0.7", spring + solver(250.0), "planar"
     ).replace("-40.0", "-4.0")
     text = text.replace('motion = "planar"', 'motion = ["surge", "heave"]')
+    if np.isfinite(depth):
+        text = text.replace("[environment]", f"[environment]\nwater_depth = {depth}")
     wave = WAVE.replace("height = 2.0", "height = 0.002")
     results = run(text + wave + "[sea]\nramp = 50.0\n")
     omega = 2 * np.pi / 7.0

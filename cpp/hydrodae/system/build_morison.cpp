@@ -74,7 +74,7 @@ void add_morison(const model::Scene& scene, System& s) {
     s.notes.push_back(
         "Morison elements: every evaluation sums " + std::to_string(all.size()) +
         " wave components at " + std::to_string(pieces) + " points that move, about " +
-        number_text(0.01 * static_cast<double>(all.size()) * static_cast<double>(pieces)) + " us");
+        number_text(0.015 * static_cast<double>(all.size()) * static_cast<double>(pieces)) + " us");
 }
 
 } // namespace hydrodae::system
