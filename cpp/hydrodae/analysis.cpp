@@ -1,10 +1,12 @@
 #include "hydrodae/analysis.h"
 
+#include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
@@ -55,7 +57,7 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const system::BodyData& b = s.bodies[body];
-    const auto d = system::hydro_motion_gradient(s.hydro.body_axes, ws.bodies[body]);
+    const auto d = system::hydro_motion_gradient(s.hydro.axes, ws.bodies[body]);
     Matrix6 by_velocity;
     by_velocity << d.U_v, d.U_w;
     for (std::size_t c = 0; c < 6; ++c) {
@@ -175,6 +177,13 @@ LinearModel linearize(const model::Scene& scene) {
     still.hydro->frequency.reset();
   }
   System s = system::build(still);
+  if (s.hydro.axes == system::HydroAxes::yaw)
+    for (const system::HydroBody& hb : s.hydro.bodies)
+      if (std::abs(system::start_yaw(s.bodies[static_cast<std::size_t>(hb.body)])) > 1e-12)
+        throw ModelError("hydro.axes",
+                         "the frequency domain knows no bodies that start turned by a "
+                         "yaw (axes = \"yaw\"); turn the headings of the waves "
+                         "instead");
   s.hydro.added_mass.setZero();
   s.hydro.added_mass_all.setZero();
   const VectorX y = solve::move_to_equilibrium(s);

@@ -234,13 +234,13 @@ inline std::vector<NamedScene> all_scenes() {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean", "constant"}) {
+      for (const std::string hydro : {"dry", "body", "mean", "yaw", "constant"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
-          add_hydro(scene, hydro == "mean" ? "mean" : "body",
+          add_hydro(scene, hydro == "mean" || hydro == "yaw" ? hydro : "body",
                     hydro == "constant" ? "constant" : "exponential", random);
         if (hydro == "mean" || hydro == "constant")
           scene.sea.phase = "moving";

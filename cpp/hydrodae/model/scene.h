@@ -58,11 +58,13 @@ struct HydroOptions {
         {"axes",
          &H::axes,
          "-",
-         "Axes in which added mass and radiation act: carried by each body, or the earth axes of "
-         "the reference pose (mean).",
+         "Axes in which added mass, radiation and excitation act: carried by each body, the earth "
+         "axes of the reference pose (mean), or axes that turn with the body's yaw alone (yaw: "
+         "then "
+         "hydrostatics and the heading of the waves go by the yaw at the start).",
          false,
          any_value,
-         {"body", "mean"}},
+         {"body", "mean", "yaw"}},
         {"radiation",
          &H::radiation,
          "-",

@@ -18,6 +18,9 @@ std::string row_name(const joint::BasicRow& row);
 /// Names of unknowns and rows; needs the layout (build_names.cpp).
 void set_names(System& system);
 
+/// Yaw of a body's x axis at the start [rad].
+double start_yaw(const BodyData& body);
+
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, System& system);
 

@@ -238,16 +238,18 @@ template <class Sink> void Assembly<Sink>::couplers() {
 }
 
 // Wrench W(xi, twist) in earth axes; load = (W_f, R^T W_m):
-//   d xi = (dr, J dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T dm.
+//   d xi = (dr, J R_turn dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T
+//   dm.
 template <class Sink> template <class Law> void Assembly<Sink>::force(const BodyForce<Law>& f) {
   const BodyState<double>& b = state(f.body);
-  const Vector6 xi = system::displacement<double>(s.bodies[f.body], b, y);
+  const Vector6 xi = system::displacement<double>(f, s.bodies[f.body], b, y);
   const Vector6 velocity = twist<double>(b);
   Matrix6 by_xi, by_twist;
   f.law.gradient(xi, velocity, by_xi, by_twist);
   const Vector6 wrench = f.law.template apply<double>(xi, velocity);
   Matrix6 xi_map = Matrix6::Identity(), velocity_map = Matrix6::Identity();
-  xi_map.bottomRightCorner<3, 3>() = rotation_vector_gradient(xi.tail<3>());
+  xi_map.bottomRightCorner<3, 3>() =
+      rotation_vector_gradient(xi.tail<3>()) * rotation_matrix<double>(f.turn);
   velocity_map.bottomRightCorner<3, 3>() = b.R;
   Matrix6 d = by_xi * xi_map;
   d.rightCols<3>() -= by_twist.rightCols<3>() * (b.R * skew<double>(b.w));
@@ -324,7 +326,7 @@ void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Ma
   Matrix6 QA = Q * A; // what multiplies dU
   if (s.hydro.damped)
     QA += L * hydro_block(s.hydro.damping, i, j);
-  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.body_axes, state(j.body));
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, state(j.body));
   Matrix6 by_velocity;
   by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
   const Matrix6 by_acceleration = LA * d.a_acc;
@@ -357,7 +359,7 @@ template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, co
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
 template <class Sink>
 void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
-  const HydroLoadGradient d = hydro_load_gradient(s.hydro.body_axes, state(i.body), rate, momentum);
+  const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
     rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
@@ -396,11 +398,11 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   for (const HydroData::Input& in : h.inputs) {
     const HydroData::Coordinate& u = h.coordinates[in.coordinate];
     const int body = h.bodies[u.hydro_body].body, c = u.component;
-    const HydroMotionGradient d = hydro_motion_gradient(h.body_axes, state(body));
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, state(body));
     const Index row = h.z0 + in.state;
     RowVector6 by_velocity;
     by_velocity << d.U_v.row(c), d.U_w.row(c);
-    if ((c < 3) == h.body_axes)
+    if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
       rotation_columns(row, body, -in.value * d.U_phi.row(c));
     const BodyData& b = s.bodies[body];
     for (int k = 0; k < b.n_active; ++k)

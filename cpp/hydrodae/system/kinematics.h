@@ -2,6 +2,7 @@
 /// From the unknowns to the poses and velocities of the bodies.
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "hydrodae/system/system.h"
@@ -88,6 +89,26 @@ Vec6<S> displacement(const BodyData& body, const BodyState<S>& state, const S* y
   } else {
     xi.template tail<3>() = rotation_vector<S>(state.p);
   }
+  return xi;
+}
+
+/// The same from the reference pose that a law on the body has for itself.
+template <class S, class Law>
+Vec6<S> displacement(const BodyForce<Law>& f, const BodyData& body, const BodyState<S>& state,
+                     const S* y) {
+  Vec6<S> xi = displacement<S>(body, state, y);
+  if (f.turn[0] == 1.0)
+    return xi;
+  if (body.rotation == BodyData::Rotation::about_axis) {
+    xi[3 + body.axis] -= S(2.0 * std::atan2(f.turn[1 + body.axis], f.turn[0]));
+    return xi;
+  }
+  const Vec4<S>& p = state.p; // p o conj(turn)
+  const Vec3<S> a = p.template tail<3>(), b = -f.turn.template tail<3>().template cast<S>();
+  const S w = S(f.turn[0]);
+  Vec4<S> relative;
+  relative << p[0] * w - a.cwiseProduct(b).sum(), p[0] * b + w * a + cross<S>(a, b);
+  xi.template tail<3>() = rotation_vector<S>(relative);
   return xi;
 }
 

@@ -96,7 +96,7 @@ void Observer::observe_forces(const double* y) {
   }
   for_each_element(s_.body_forces, [&](const auto& f) {
     const BodyState<double>& state = ws_.bodies[f.body];
-    const Vector6 xi = displacement<double>(s_.bodies[f.body], state, y);
+    const Vector6 xi = displacement<double>(f, s_.bodies[f.body], state, y);
     add_load(f.law.template apply<double>(xi, twist<double>(state)));
     out_.potential += f.law.potential(xi);
   });
@@ -131,12 +131,12 @@ void Observer::observe_hydrodynamics(const double* y) {
     const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const Vector6 added =
-        hydro_load<double>(h.body_axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
+        hydro_load<double>(h.axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
     add_load(-to_world(state, added));
     if (h.n_states == 0 && !h.damped)
       continue;
     const Vector6 radiation =
-        hydro_load<double>(h.body_axes, state, memory_.segment<6>(row), Vector6::Zero());
+        hydro_load<double>(h.axes, state, memory_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
   }
 }
@@ -158,7 +158,7 @@ void Observer::observe_excitation(double t) {
         h.drifting(t, moved[0], moved[1], first, 6, excitation_.data() + first);
     }
     const auto add = [&](const Vector6& force) {
-      add_load(to_world(state, hydro_load<double>(h.body_axes, state, force, Vector6::Zero())));
+      add_load(to_world(state, hydro_load<double>(h.axes, state, force, Vector6::Zero())));
     };
     add(excitation_.segment<6>(row));
     if (h.split) {

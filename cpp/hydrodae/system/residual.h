@@ -117,7 +117,7 @@ template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& 
 template <class S, class Law>
 void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, const S* y) {
   const BodyState<S>& state = ws.bodies[force.body];
-  const Vec6<S> xi = displacement<S>(s.bodies[force.body], state, y);
+  const Vec6<S> xi = displacement<S>(force, s.bodies[force.body], state, y);
   ws.loads[force.body] += to_tangent<S>(state, force.law.template apply<S>(xi, twist<S>(state)));
 }
 

@@ -105,6 +105,7 @@ template <class Law> struct BodyForce {
   std::string component;
   int body = 0;
   Law law;
+  Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
 };
 
 /// A law along the free motion of a joint.
@@ -139,6 +140,10 @@ using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
                                 std::vector<MotionForce<force::SpringDamper::Law>>>;
 
+/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes of
+/// the reference pose, or those that turn with the body's yaw alone.
+enum class HydroAxes { body, mean, yaw };
+
 /// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
 struct HydroBody {
   int body = 0;
@@ -156,7 +161,7 @@ struct HydroBody {
 ///   loads on body-axes coordinates: -(A_inf U)' - C z - B U + f_ex(t),   z' = A_r z + B_r U
 /// B is the damping of the constant rung; then A(w) stands in place of A_inf.
 struct HydroData {
-  bool body_axes = true; ///< false: earth axes of the reference pose ("mean")
+  HydroAxes axes = HydroAxes::body;
   std::vector<HydroBody> bodies;
   struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
     int hydro_body = 0, component = 0;
