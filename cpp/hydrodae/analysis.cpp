@@ -1,10 +1,13 @@
 #include "hydrodae/analysis.h"
 
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
-#include "hydrodae/system/hydro_gradient.h"
+#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
 
@@ -54,7 +57,7 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const system::BodyData& b = s.bodies[body];
-    const auto d = system::hydro_motion_gradient(s.hydro.body_axes, ws.bodies[body]);
+    const auto d = system::hydro_motion_gradient(s.hydro.axes, ws.bodies[body]);
     Matrix6 by_velocity;
     by_velocity << d.U_v, d.U_w;
     for (std::size_t c = 0; c < 6; ++c) {
@@ -137,6 +140,39 @@ void add_reactions(const System& s, const VectorX& y, LinearModel& out) {
   }
 }
 
+/// What the waves do to the Morison elements, segment by segment. At rest the drag has no slope but
+/// that of the current.
+void add_water(const System& s, system::Workspace<double>& ws, LinearModel& out) {
+  std::vector<std::string> dragged;
+  for (const system::MorisonData& m : s.morison) {
+    const system::BodyData& b = s.bodies[static_cast<std::size_t>(m.body)];
+    const auto& state = ws.bodies[static_cast<std::size_t>(m.body)];
+    if (b.n_active == 0)
+      continue;
+    if (m.law.drag > 0.0 || m.law.drag_axial > 0.0)
+      dragged.push_back(m.name);
+    system::morison_fluid<double>(s.water, m, state, 0.0, ws.fluid);
+    for (int k = 0; k < m.segments; ++k) {
+      const auto d = system::segment_gradient(m, state, k, ws.fluid[static_cast<std::size_t>(k)]);
+      Eigen::Matrix<double, 6, 7> load;
+      load.topRows<3>() << d.wet * d.dry.by_velocity, d.wet * d.dry.by_fluid,
+          m.instantaneous ? Vector3(-d.by_height) : Vector3(Vector3::Zero());
+      load.bottomRows<3>() = skew<double>(d.arm) * state.R.transpose() * load.topRows<3>();
+      MatrixX on_all = MatrixX::Zero(s.n_u, 7);
+      for (int c = 0; c < b.n_active; ++c)
+        on_all.row(b.u0 - s.u0 + c) = load.row(b.active[static_cast<std::size_t>(c)]);
+      out.water_points.emplace_back(state.r + state.R * d.arm);
+      out.water_loads.push_back(on_all);
+    }
+  }
+  if (!dragged.empty())
+    out.notes.push_back(
+        "the quadratic drag of the Morison elements " + joined(dragged) +
+        (s.water.current.isZero(0.0)
+             ? " is zero in the linear model: it has no slope at rest"
+             : " has in the linear model only the slope that the current gives it"));
+}
+
 } // namespace
 
 LinearModel linearize(const model::Scene& scene) {
@@ -148,6 +184,13 @@ LinearModel linearize(const model::Scene& scene) {
     still.hydro->memory_length.reset();
   }
   System s = system::build(still);
+  if (s.hydro.axes == system::HydroAxes::yaw)
+    for (const system::HydroBody& hb : s.hydro.bodies)
+      if (std::abs(system::start_yaw(s.bodies[static_cast<std::size_t>(hb.body)])) > 1e-12)
+        throw ModelError("hydro.axes",
+                         "the frequency domain knows no bodies that start turned by a "
+                         "yaw (axes = \"yaw\"); turn the headings of the waves "
+                         "instead");
   s.hydro.added_mass.setZero();
   s.hydro.added_mass_all.setZero();
   const VectorX y = solve::move_to_equilibrium(s);
@@ -158,6 +201,8 @@ LinearModel linearize(const model::Scene& scene) {
   out.stiffness = m.stiffness;
   out.constraints = m.constraints;
   out.notes = s.notes;
+  out.water_depth = model::water(scene).depth;
+  out.gravity = model::water(scene).gravity;
   out.hydro_map = out.motion_map = out.damper_map = MatrixX(0, s.n_u);
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
@@ -165,16 +210,15 @@ LinearModel linearize(const model::Scene& scene) {
   add_bodies(s, ws, y, out);
   add_hydro_map(still, s, ws, out);
   add_motions(s, ws, out);
+  add_water(s, ws, out);
   add_reactions(s, y, out);
   return out;
 }
 
 MatrixX wave_components(const model::Scene& scene) {
   MatrixX out(0, 4);
-  for (const sea::Wave& wave : scene.waves)
-    for (const sea::Component& c :
-         sea::components(wave, scene.database->water_depth, scene.database->gravity))
-      add_row(out, Eigen::RowVector4d(c.omega, c.heading, c.amplitude, c.phase));
+  for (const sea::Component& c : model::wave_components(scene))
+    add_row(out, Eigen::RowVector4d(c.omega, c.heading, c.amplitude, c.phase));
   return out;
 }
 

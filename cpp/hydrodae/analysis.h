@@ -31,6 +31,12 @@ struct LinearModel {
   std::vector<std::string> reactions;    ///< (6 n_joints,) "joints/hinge1/reaction_force.x"
   MatrixX reaction_by_xi, reaction_by_lambda; ///< (6 n_joints, n_u), (6 n_joints, n_lambda)
 
+  /// Points of the Morison elements (each [m]) and, for each, the load on the coordinates by the
+  /// water's velocity (3), acceleration (3) and elevation (1): (n_u, 7).
+  std::vector<Vector3> water_points;
+  std::vector<MatrixX> water_loads;
+  double water_depth = 0.0, gravity = 0.0; ///< [m], may be infinite; [m/s2]
+
   std::vector<std::string> bodies;
   std::vector<Vector3> offsets, rotations; ///< per body, from the reference pose [m], [rad]
   VectorX reaction;                        ///< (6 n_joints,) in equilibrium [N], [N m]

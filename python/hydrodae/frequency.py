@@ -205,18 +205,42 @@ class LinearModel:
     def excitation(self, omega: ArrayLike, heading: float) -> Complex:
         """T^T F, loads (nw, n_u) per metre of wave amplitude, phase zero at the origin.
 
-        The phase at each body's reference point is taken off, natural cubic splines go through the
-        tables in frequency and heading, and the phase is put back.
+        Of the database: the phase at each body's reference point is taken off, natural cubic
+        splines go through the tables in frequency and heading, and the phase is put back. Of the
+        Morison elements: inertia, and the slope that a current gives to the drag.
 
         Raises
         ------
         DatabaseError
-            A frequency or the heading is outside the database, or the case has no database.
+            A frequency or the heading is outside the database, or nothing in the case feels waves.
         """
         w = np.asarray(omega, dtype=float)
+        if self.database is None and not self._model["water_points"]:
+            raise DatabaseError("the case has neither a hydrodynamic database nor Morison elements")
+        force = self._morison_excitation(w, heading)
+        return force if self.database is None else force + self._database_excitation(w, heading)
+
+    def _morison_excitation(self, w: Array, heading: float) -> Complex:
+        """Loads (nw, n_u) of the water on the Morison elements, as in sea/kinematics.h."""
+        if not self._model["water_points"]:
+            return np.zeros((w.size, len(self.coordinates)), dtype=complex)
+        points, depth = np.array(self._model["water_points"]), self._model["water_depth"]
+        k = wavenumber(w, depth, self._model["gravity"])[:, None]
+        z = np.minimum(points[:, 2], 0.0)
+        wet = np.exp(k * z) * (z >= -depth) / (1.0 - np.exp(-2.0 * k * depth))
+        back = np.exp(-2.0 * k * (np.maximum(z, -depth) + depth))
+        c, s = np.cos(heading), np.sin(heading)
+        eta = np.exp(-1j * k * (points[:, 0] * c + points[:, 1] * s))
+        along, up = w[:, None] * wet * (1 + back) * eta, 1j * w[:, None] * wet * (1 - back) * eta
+        velocity = np.stack([along * c, along * s, up], axis=2)
+        water = np.concatenate(
+            [velocity, 1j * w[:, None, None] * velocity, eta[:, :, None]], axis=2
+        )
+        return np.asarray(np.einsum("wpc,puc->wu", water, np.array(self._model["water_loads"])))
+
+    def _database_excitation(self, w: Array, heading: float) -> Complex:
         db = self.database
-        if db is None:
-            raise DatabaseError("the case has no hydrodynamic database")
+        assert db is not None
         self._check_frequencies(w)
         heading = _covered_heading(db, heading)
         at_omega = self._smooth_excitation(w)

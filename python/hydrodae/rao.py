@@ -183,6 +183,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Print natural periods, responses and, if the case has waves, those in its sea."""
     case = Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
     model = LinearModel(case)
+    for note in model.notes:
+        print(f"note: {note}")
     for mode in model.modes():
         main = [f"{n} {v:+.2f}" for n, v in mode.shape.items() if abs(v) >= 0.1]
         print(
@@ -214,7 +216,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _frequencies(model: LinearModel, periods: str | None) -> Array:
     if periods is None:
         if model.database is None:
-            raise CaseError("the case has no hydrodynamic database")
+            raise CaseError("the case has no hydrodynamic database: give the --periods")
         return np.linspace(model.database.omega[0], model.database.omega[-1], 40)
     try:
         values = np.array([float(text) for text in periods.split(",")])

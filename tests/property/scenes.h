@@ -181,6 +181,49 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
       scene.forces);
 }
 
+inline sea::Wave swell() {
+  sea::Wave wave;
+  wave.name = "swell";
+  wave.type = "regular";
+  wave.height = 1.0;
+  wave.period = 5.0;
+  wave.heading = 0.2;
+  return wave;
+}
+
+/// A point element and two members, partly wet, in the waves and a current.
+inline void add_morison(model::Scene& scene) {
+  if (!scene.hydro) {
+    scene.environment.water_density = 2.0;
+    scene.environment.water_depth = 20.0;
+    scene.waves.push_back(swell());
+  }
+  scene.sea.current = {0.3, -0.2, 0.1};
+  force::Morison point;
+  point.name = "ball";
+  point.body = "a";
+  point.point = Vector3(0.2, -0.1, -0.3);
+  point.diameter = 1.5;
+  point.drag_coefficient = 0.7;
+  point.added_mass_coefficient = 0.5;
+  force::Morison member;
+  member.name = "leg";
+  member.body = "b";
+  member.point_a = Vector3(1.6, 0.2, -2.0);
+  member.point_b = Vector3(2.3, 0.9, 1.0);
+  member.diameter = 0.4;
+  member.drag_coefficient = 1.1;
+  member.drag_axial = 0.3;
+  member.added_mass_coefficient = 0.9;
+  member.added_mass_axial = 0.2;
+  member.segments = 5;
+  scene.morison = {point, member};
+  std::swap(member.point_a, member.point_b);
+  member.name = "arm";
+  member.surface = "instantaneous";
+  scene.morison.push_back(member);
+}
+
 inline void add_hydro(model::Scene& scene, const std::string& axes, const std::string& radiation,
                       Random& random) {
   scene.database = random_database(random);
@@ -189,13 +232,7 @@ inline void add_hydro(model::Scene& scene, const std::string& axes, const std::s
   scene.hydro->radiation = radiation;
   if (radiation == "constant")
     scene.hydro->frequency = 1.2;
-  sea::Wave wave;
-  wave.name = "swell";
-  wave.type = "regular";
-  wave.height = 1.0;
-  wave.period = 5.0;
-  wave.heading = 0.2;
-  scene.waves.push_back(wave);
+  scene.waves.push_back(swell());
   for (model::Body& body : scene.bodies)
     body.hydro = body.name;
 }
@@ -213,15 +250,18 @@ inline std::vector<NamedScene> all_scenes() {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean", "constant", "convolution"}) {
+      for (const std::string hydro : {"dry", "body", "mean", "yaw", "constant", "convolution"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
-          add_hydro(scene, hydro == "mean" ? "mean" : "body",
+          add_hydro(scene, hydro == "mean" || hydro == "yaw" ? hydro : "body",
                     hydro == "constant" || hydro == "convolution" ? hydro : "exponential", random);
+        if (hydro == "mean" || hydro == "constant")
+          scene.sea.phase = "moving";
         add_every_force(scene, random, hydro == "convolution");
+        add_morison(scene);
         scenes.push_back({std::string(type.name) + ", " + motion[0] +
                               (motion.size() > 1 ? "..." : "") + ", " + hydro,
                           scene});

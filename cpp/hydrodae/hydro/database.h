@@ -62,11 +62,12 @@ struct Database {
   std::vector<MemoryFit> fits;
 
   // Tables over frequency; each is read only for a scene that uses it.
-  VectorX omega;                            ///< (nw,) ascending [rad/s]
-  VectorX heading;                          ///< (nh,) ascending directions of travel [rad]
-  std::vector<Eigen::MatrixXcd> excitation; ///< per heading (nw, n), per metre of amplitude
-  std::vector<MatrixX> added_mass, damping; ///< A(w), B(w): per frequency (n, n)
-  std::optional<RadiationKernel> kernel;    ///< likewise, and where the file holds one
+  VectorX omega;                               ///< (nw,) ascending [rad/s]
+  VectorX heading;                             ///< (nh,) ascending directions of travel [rad]
+  std::vector<Eigen::MatrixXcd> excitation;    ///< per heading (nw, n), per metre of amplitude
+  std::vector<Eigen::MatrixXcd> froude_krylov; ///< its part; empty where only the sum is known
+  std::vector<MatrixX> added_mass, damping;    ///< A(w), B(w): per frequency (n, n)
+  std::optional<RadiationKernel> kernel;       ///< likewise, and where the file holds one
 };
 
 } // namespace hydrodae::hydro

@@ -35,7 +35,8 @@ bool covers_frequency(const Database& database, double omega) {
          omega <= database.omega[database.omega.size() - 1] * (1.0 + slack);
 }
 
-Excitation::Excitation(const Database& database, const std::vector<std::string>& labels)
+Excitation::Excitation(const Database& database, const std::vector<Eigen::MatrixXcd>& table,
+                       const std::vector<std::string>& labels)
     : db_(database) {
   const std::vector<double> omega = as_list(db_.omega);
   for (const std::string& label : labels) {
@@ -49,7 +50,7 @@ Excitation::Excitation(const Database& database, const std::vector<std::string>&
         std::vector<double> real, imaginary;
         for (Eigen::Index w = 0; w < db_.omega.size(); ++w) {
           const std::complex<double> smooth =
-              db_.excitation[static_cast<std::size_t>(h)](w, column) *
+              table[static_cast<std::size_t>(h)](w, column) *
               std::polar(1.0, phase_lag(db_, row.point, db_.omega[w], db_.heading[h]));
           real.push_back(smooth.real());
           imaginary.push_back(smooth.imag());

@@ -22,8 +22,10 @@ bool covers_frequency(const Database& database, double omega);
 /// are smooth functions of both.
 class Excitation {
 public:
-  /// `labels` "<body>.<dof>"; those that are no coordinates of the database get no load.
-  Excitation(const Database& database, const std::vector<std::string>& labels);
+  /// `labels` "<body>.<dof>"; those that are no coordinates of the database get no load. `table`:
+  /// the excitation of the database or its Froude-Krylov part.
+  Excitation(const Database& database, const std::vector<Eigen::MatrixXcd>& table,
+             const std::vector<std::string>& labels);
 
   /// Per metre of amplitude [N/m, N m/m], phase zero at the origin of the world; (n_labels,).
   /// The frequency must be covered, the heading come from `covered_heading`.

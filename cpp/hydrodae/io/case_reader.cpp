@@ -10,14 +10,15 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/case_overrides.h"
 #include "hydrodae/io/hydro_file.h"
+#include "hydrodae/io/record_file.h"
 #include "hydrodae/io/toml_table.h"
 
 namespace hydrodae::io {
 namespace {
 
-const std::vector<std::string> top_level_keys = {"title",  "environment", "hydro",  "sea",
-                                                 "wave",   "body",        "joint",  "constraint",
-                                                 "marker", "force",       "solver", "output"};
+const std::vector<std::string> top_level_keys = {
+    "title",      "environment", "hydro", "sea",     "wave",   "body",  "joint",
+    "constraint", "marker",      "force", "morison", "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -120,6 +121,9 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   });
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });
+  for_each_entry(root, "morison", positions, [&](const Table& entry) {
+    scene.morison.push_back(read_table<force::Morison>(entry, positions));
+  });
   read_single(root, "sea", positions, scene.sea);
   for_each_entry(root, "wave", positions, [&](const Table& entry) {
     scene.waves.push_back(read_table<sea::Wave>(entry, positions));
@@ -144,6 +148,21 @@ std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
   }
 }
 
+/// Measured elevations that stand in files of their own.
+void read_records(model::Scene& scene, const std::string& directory) {
+  for (sea::Wave& wave : scene.waves) {
+    if (wave.type != "measured" || !wave.file || !wave.time.empty() || !wave.elevation.empty())
+      continue; // what is wrong then is told by the check
+    const std::filesystem::path path = std::filesystem::path(directory) / *wave.file;
+    try {
+      read_record(path.lexically_normal().string(), wave.time, wave.elevation);
+    } catch (const CaseError& error) {
+      throw CaseError(scene.positions.at("wave." + wave.name + ".file") +
+                      ": key 'file' in [[wave]] " + in_quotes(wave.name) + ": " + error.what());
+    }
+  }
+}
+
 model::Scene parse(const std::string& text, const std::string& directory,
                    const Overrides& overrides, const std::string& name, const std::string& path) {
   toml::table root = parse_toml(text, name);
@@ -159,6 +178,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
     scene.text += "# " + line + "\n";
   if (scene.hydro)
     scene.database = read_database(scene, directory);
+  read_records(scene, directory);
   try {
     model::check(scene);
   } catch (const ModelError& error) {

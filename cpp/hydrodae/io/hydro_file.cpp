@@ -179,15 +179,22 @@ void read_excitation(const Input& file, hydro::Database& database) {
     database.heading[row] = heading[order[h]];
     if (h > 0 && !(database.heading[row] > database.heading[row - 1]))
       file.refuse("/heading", "a heading stands there twice");
-    Eigen::MatrixXcd force(nw, n);
+    Eigen::MatrixXcd force(nw, n), part(nw, n);
     for (std::size_t w = 0; w < nw; ++w)
       for (std::size_t c = 0; c < n; ++c) {
         const std::size_t k = (w * nh + order[h]) * n + c;
         force(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(c)) =
             froude_krylov[k] + diffraction[k];
+        part(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(c)) = froude_krylov[k];
       }
     database.excitation.push_back(force);
+    database.froude_krylov.push_back(part);
   }
+  const bool known = !file.has_attribute("/excitation", "split") ||
+                     file.text("/excitation", "split") != "total only";
+  const auto some = [](const Eigen::MatrixXcd& part) { return !part.isZero(0.0); };
+  if (!known || std::none_of(database.froude_krylov.begin(), database.froude_krylov.end(), some))
+    database.froude_krylov.clear();
 }
 
 std::vector<MatrixX> read_matrices(const Input& file, const std::string& dataset, std::size_t nw,

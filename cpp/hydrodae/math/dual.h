@@ -39,6 +39,10 @@ inline Dual sqrt(const Dual& x) {
 }
 inline Dual sin(const Dual& x) { return {std::sin(x.a), std::cos(x.a) * x.b}; }
 inline Dual cos(const Dual& x) { return {std::cos(x.a), -std::sin(x.a) * x.b}; }
+inline Dual exp(const Dual& x) {
+  const double e = std::exp(x.a);
+  return {e, e * x.b};
+}
 inline Dual atan2(const Dual& y, const Dual& x) {
   return {std::atan2(y.a, x.a), (x.a * y.b - y.a * x.b) / (x.a * x.a + y.a * y.a)};
 }

@@ -88,6 +88,7 @@ void check(const Scene& scene) {
   std::vector<std::string> forces;
   std::apply([&](const auto&... list) { (append_names(list, forces), ...); }, scene.forces);
   check_names(forces, "force");
+  check_names(names_of(scene.morison), "morison");
   check_names(names_of(scene.waves), "wave");
 
   for (const Body& body : scene.bodies) {
@@ -104,6 +105,7 @@ void check(const Scene& scene) {
   for (const Marker& marker : scene.markers)
     check_marker(scene, marker);
   check_forces(scene);
+  check_morison(scene);
   check_solver(scene);
   check_sea(scene);
   if (scene.hydro && scene.database)

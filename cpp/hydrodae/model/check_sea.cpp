@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
+#include "hydrodae/sea/record.h"
 
 namespace hydrodae::model {
 namespace {
@@ -17,6 +19,10 @@ struct WaveKeys {
 WaveKeys keys_of(const std::string& type) {
   if (type == "regular")
     return {{"height", "period"}, {"phase_deg"}};
+  if (type == "measured")
+    return {{},
+            {"file", "time", "elevation", "point", "start", "taper", "lost_variance",
+             "frequency_range"}};
   if (type == "table")
     return {{"frequency", "density"}, irregular_keys};
   WaveKeys keys{{"significant_height", "peak_period"}, irregular_keys};
@@ -59,9 +65,41 @@ void check_keys(const Scene& scene, const sea::Wave& wave) {
   }
 }
 
+/// The record of a measured wave: equal steps, and as long as the run.
+void check_record(const Scene& scene, const sea::Wave& wave) {
+  const Entry entry{"wave", wave.name};
+  if (wave.file && (given(scene, wave, "time") || given(scene, wave, "elevation")))
+    refuse(entry, "file", "give either 'file', or 'time' and 'elevation'");
+  const std::string key = wave.file ? "file" : "time";
+  if (!wave.file && wave.time.empty() && wave.elevation.empty())
+    refuse(entry, "", "a measured wave needs 'file', or 'time' and 'elevation'");
+  const std::size_t n = wave.time.size();
+  if (n != wave.elevation.size() || n < 8)
+    refuse(entry, key, "time and elevation must be of equal length, 8 samples or more");
+  if (!wave.point.empty() && wave.point.size() != 2)
+    refuse(entry, "point", "expected [x, y] of the place of the measurement [m]");
+  const double step = sea::record_step(wave), length = wave.time.back() - wave.time.front();
+  for (std::size_t j = 1; j < n; ++j)
+    if (!(std::abs(wave.time[j] - wave.time[j - 1] - step) <= 0.01 * step))
+      refuse(entry, key,
+             "the record must have equal steps of time, " + number_text(step) +
+                 " s on the average; from " + number_text(wave.time[j - 1]) + " s to " +
+                 number_text(wave.time[j]) + " s it has " +
+                 number_text(wave.time[j] - wave.time[j - 1]) + " s");
+  if (wave.start + scene.solver.end_time > length * (1.0 + 1e-12))
+    refuse(entry, key,
+           "the record is " + number_text(length) + " s long; the run needs it from " +
+               number_text(wave.start) + " s to " +
+               number_text(wave.start + scene.solver.end_time) + " s (solver.end_time)");
+  if (2.0 * wave.taper > length)
+    refuse(entry, "taper", "the record is shorter than its two ends that fade");
+}
+
 void check_wave(const Scene& scene, const sea::Wave& wave) {
   const Entry entry{"wave", wave.name};
   check_keys(scene, wave);
+  if (wave.type == "measured")
+    check_record(scene, wave);
   if (wave.type == "table") {
     if (wave.frequency.size() != wave.density.size() || wave.frequency.size() < 2)
       refuse(entry, "density", "frequency and density must be two lists of equal length >= 2");
@@ -78,9 +116,15 @@ void check_wave(const Scene& scene, const sea::Wave& wave) {
 void check_sea(const Scene& scene) {
   for (const sea::Wave& wave : scene.waves)
     check_wave(scene, wave);
-  if (!scene.waves.empty() && !scene.hydro)
+  if (!scene.waves.empty() && !scene.hydro && scene.morison.empty())
     throw ModelError("wave." + scene.waves.front().name,
-                     "waves need a hydrodynamic database: the table [hydro] is missing");
+                     "waves need a hydrodynamic database or Morison elements to act on: the table "
+                     "[hydro] is missing");
+  if (scene.sea.phase == "moving" && (scene.waves.empty() || !scene.hydro))
+    throw ModelError("sea.phase", "phase = \"moving\" is about waves on bodies of the hydrodynamic "
+                                  "database, and there are none");
+  if (!scene.sea.current.isZero(0.0) && scene.morison.empty())
+    throw ModelError("sea.current", "a current acts on [[morison]] elements, and there is none");
   if (scene.sea.ramp > 0.0 && scene.waves.empty())
     throw ModelError("sea.ramp", "there is no [[wave]] to ramp up");
 }

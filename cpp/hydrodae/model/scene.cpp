@@ -36,6 +36,13 @@ Fields<Joint> Joint::fields() {
   };
 }
 
+Water water(const Scene& scene) {
+  if (scene.database)
+    return {scene.database->rho, scene.database->water_depth, scene.database->gravity};
+  const Environment& e = scene.environment;
+  return {e.water_density.value_or(0.0), e.water_depth.value_or(INFINITY), e.gravity};
+}
+
 std::string located(const Scene& scene, const ModelError& error) {
   std::string key = error.key;
   while (true) {

@@ -2,6 +2,7 @@
 /// The scene: everything that a case file says, as plain structs with names. Built by the case
 /// reader, checked by `check`, then immutable.
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "hydrodae/force/constant_load.h"
 #include "hydrodae/force/dry_friction.h"
 #include "hydrodae/force/mooring_matrix.h"
+#include "hydrodae/force/morison.h"
 #include "hydrodae/force/pto_linear.h"
 #include "hydrodae/force/spring_damper.h"
 #include "hydrodae/force/viscous_damping.h"
@@ -27,10 +29,18 @@ namespace hydrodae::model {
 /// Table [environment].
 struct Environment {
   double gravity = 9.81;
+  std::optional<double> water_density, water_depth;
 
   static Fields<Environment> fields() {
-    return {{"gravity", &Environment::gravity, "m/s2", "Acceleration of gravity, along -z.", false,
-             at_least(0)}};
+    using E = Environment;
+    return {
+        {"gravity", &E::gravity, "m/s2", "Acceleration of gravity, along -z.", false, at_least(0)},
+        {"water_density", &E::water_density, "kg/m3",
+         "Density of the water, where no hydrodynamic database tells it.", false, more_than(0)},
+        {"water_depth", &E::water_depth, "m",
+         "Depth of the water, where no hydrodynamic database tells it; infinite by default.", false,
+         more_than(0)},
+    };
   }
 };
 
@@ -50,11 +60,13 @@ struct HydroOptions {
         {"axes",
          &H::axes,
          "-",
-         "Axes in which added mass and radiation act: carried by each body, or the earth axes of "
-         "the reference pose (mean).",
+         "Axes in which added mass, radiation and excitation act: carried by each body, the earth "
+         "axes of the reference pose (mean), or axes that turn with the body's yaw alone (yaw: "
+         "then "
+         "hydrostatics and the heading of the waves go by the yaw at the start).",
          false,
          any_value,
-         {"body", "mean"}},
+         {"body", "mean", "yaw"}},
         {"radiation",
          &H::radiation,
          "-",
@@ -282,6 +294,7 @@ struct Scene {
   std::vector<Constraint> constraints;
   std::vector<Marker> markers;
   Forces forces;
+  std::vector<force::Morison> morison;
   sea::Sea sea;
   std::vector<sea::Wave> waves;
   SolverOptions solver;
@@ -297,6 +310,14 @@ struct Scene {
 /// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are
 /// physical, the database covers the scene. Throws ModelError with the key path of the culprit.
 void check(const Scene& scene);
+
+/// The water of a checked scene: from its database, else from [environment].
+struct Water {
+  double density = 0.0;    ///< [kg/m3]
+  double depth = INFINITY; ///< [m]
+  double gravity = 9.81;   ///< [m/s2]
+};
+Water water(const Scene& scene);
 
 /// The scene as a short tree for people.
 std::string summary(const Scene& scene);

@@ -164,6 +164,11 @@ std::string summary(const Scene& scene) {
       write_force(out, force);
   };
   std::apply([&](const auto&... list) { (write_list(list), ...); }, scene.forces);
+  if (!scene.morison.empty())
+    out << "  morison elements:\n";
+  for (const force::Morison& m : scene.morison)
+    out << "    " << m.name << ": " << (m.point ? "point" : "member") << " of body " << m.body
+        << '\n';
   if (scene.hydro && scene.database)
     write_hydro(out, scene);
   write_solver(out, scene);

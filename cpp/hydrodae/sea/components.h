@@ -16,10 +16,11 @@ struct Component {
   double phase = 0.0;      ///< [rad]
 };
 
-/// Components of one wave system. Irregular: one in each bin of the spectrum, with the energy of
-/// its bin and a frequency drawn in it (uniformly in energy or in frequency), a random phase, and a
-/// direction from the spreading. Draws, in this order for each bin: frequency, phase; then, with
-/// spreading, one start u of the sequence frac(u + i (sqrt(5) - 1)/2) that is mapped to directions.
+/// Components of one wave system, not of a measured one (record.h). Irregular: one in each bin of
+/// the spectrum, with the energy of its bin and a frequency drawn in it (uniformly in energy or in
+/// frequency), a random phase, and a direction from the spreading. Draws, in this order for each
+/// bin: frequency, phase; then, with spreading, one start u of the sequence frac(u + i (sqrt(5) -
+/// 1)/2) that is mapped to directions.
 /// @param depth, gravity [m], [m/s2]
 /// @param note if not null, gets a sentence on what part of the energy the components hold
 std::vector<Component> components(const Wave& wave, double depth, double gravity,

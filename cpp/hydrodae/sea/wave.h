@@ -12,12 +12,28 @@ namespace hydrodae::sea {
 /// Table [sea]: what all wave systems share.
 struct Sea {
   double ramp = 0.0;
+  Vector3 current = Vector3::Zero();
+  std::string phase = "fixed";
 
   static Fields<Sea> fields() {
-    return {{"ramp", &Sea::ramp, "s",
-             "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
-             "continuous derivatives).",
-             false, at_least(0)}};
+    return {
+        {"ramp", &Sea::ramp, "s",
+         "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
+         "continuous derivatives).",
+         false, at_least(0)},
+        {"current", &Sea::current, "m/s",
+         "Velocity of the water, the same everywhere, on which the Morison elements work; the "
+         "waves do not feel it."},
+        {"phase",
+         &Sea::phase,
+         "-",
+         "Where a body feels the phase of the waves: at its reference position (fixed), or where "
+         "it "
+         "is (moving: for bodies that drift; then every evaluation sums all components).",
+         false,
+         any_value,
+         {"fixed", "moving"}},
+    };
   }
 };
 
@@ -31,6 +47,7 @@ struct Sea {
 ///   ochi_hubble:        S ~ (wp^4/w^(4l+1)) exp(-(l + 1/4) (wp/w)^4), l = shape (one of the two
 ///                       parts of Ochi and Hubble 1976; the other is a wave system of its own)
 ///   table:              S given point by point, straight lines between, m0 as given
+///   measured:           elevation over time at a point: the harmonics of the record
 struct Wave {
   std::string name;
   std::string type;
@@ -40,6 +57,12 @@ struct Wave {
   double gamma = 3.3;
   double shape = 1.0;
   std::vector<double> frequency, density;
+  std::optional<std::string> file;
+  std::vector<double> time, elevation; ///< of the record, also when it comes from the file
+  std::vector<double> point;
+  double start = 0.0;
+  double taper = 30.0;
+  double lost_variance = 0.02;
   double heading = 0.0;
   std::optional<double> spreading;
   int components = 200;
@@ -57,7 +80,8 @@ struct Wave {
          "Regular wave, or the spectrum of an irregular one.",
          true,
          any_value,
-         {"regular", "jonswap", "bretschneider", "pierson_moskowitz", "ochi_hubble", "table"}},
+         {"regular", "jonswap", "bretschneider", "pierson_moskowitz", "ochi_hubble", "table",
+          "measured"}},
         {"height", &W::height, "m", "Height H of a regular wave, crest to trough.", false,
          at_least(0)},
         {"period", &W::period, "s", "Period of a regular wave.", false, more_than(0)},
@@ -72,6 +96,22 @@ struct Wave {
          more_than(0)},
         {"density", &W::density, "m2 s/rad", "Spectral density S at these frequencies.", false,
          at_least(0)},
+        {"file", &W::file, "-",
+         "Measured elevation: text with commas, named columns time [s] and elevation [m]; relative "
+         "to the case file."},
+        {"time", &W::time, "s", "Times of a measured elevation, at equal steps; without a file."},
+        {"elevation", &W::elevation, "m", "Measured elevation at these times."},
+        {"point", &W::point, "m", "Where it was measured, [x, y]; the origin by default."},
+        {"start", &W::start, "s", "Time since the first sample of the record at which t = 0.",
+         false, at_least(0)},
+        {"taper", &W::taper, "s",
+         "Time over which a record fades at both ends, where the waves before and after it, which "
+         "also load the body, are not known; 30 s by default.",
+         false, at_least(0)},
+        {"lost_variance", &W::lost_variance, "-",
+         "Largest part of the variance of a record that may lie outside the frequencies of the "
+         "database; 0.02 by default.",
+         false, between(0, 1)},
         {"heading_deg", &W::heading, "deg", "Mean direction of travel; 0 = +x, 90 = +y.", false,
          between(-360, 360)},
         {"spreading", &W::spreading, "-",

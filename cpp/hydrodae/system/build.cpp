@@ -380,6 +380,7 @@ System build(const model::Scene& scene) {
   select_rows(s);
   add_hydro(scene, s);
   add_sea(scene, s);
+  add_morison(scene, s);
   add_constraints(scene, s);
   add_forces(scene, s);
   for (const model::Marker& m : scene.markers)

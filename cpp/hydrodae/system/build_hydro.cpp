@@ -35,6 +35,21 @@ force::LinearWrench hydrostatic_law(const hydro::Database& db, const hydro::Data
   return law;
 }
 
+/// With yaw axes the law turns with the yaw at the start: W = T (W0 - C_hs T^T xi), xi from the
+/// reference pose turned by it.
+void add_hydrostatics(System& s, int body, force::LinearWrench law) {
+  BodyForce<force::LinearWrench> out{"hydrostatic", body, law};
+  if (s.hydro.axes == HydroAxes::yaw) {
+    const double psi = start_yaw(s.bodies[static_cast<std::size_t>(body)]);
+    Matrix6 T = Matrix6::Zero();
+    T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = rotation_about_axis<double>(2, psi);
+    out.law.constant = T * law.constant;
+    out.law.stiffness = T * law.stiffness * T.transpose();
+    out.turn << std::cos(0.5 * psi), 0.0, 0.0, std::sin(0.5 * psi);
+  }
+  std::get<0>(s.body_forces).push_back(out);
+}
+
 /// U: which coordinates of which body.
 void number_coordinates(const model::Scene& scene, System& s) {
   HydroData& h = s.hydro;
@@ -261,17 +276,24 @@ void check_mass(const System& s) {
                                        "bodies towards the hand");
 }
 
+double start_yaw(const BodyData& body) {
+  const Vector3 ahead = rotation_matrix<double>(body.orientation).col(0);
+  return std::atan2(ahead[1], ahead[0]);
+}
+
 void add_hydro(const model::Scene& scene, System& s) {
   if (!scene.hydro || !scene.database)
     return;
   const hydro::Database& db = *scene.database;
   HydroData& h = s.hydro;
-  h.body_axes = scene.hydro->axes == "body";
+  h.axes = scene.hydro->axes == "body"   ? HydroAxes::body
+           : scene.hydro->axes == "mean" ? HydroAxes::mean
+                                         : HydroAxes::yaw;
   number_coordinates(scene, s);
   for (const HydroBody& hb : h.bodies) {
     const hydro::DatabaseBody* body = hydro::find_body(db, *scene.bodies[hb.body].hydro);
     if (body->hydrostatics)
-      std::get<0>(s.body_forces).push_back({"hydrostatic", hb.body, hydrostatic_law(db, *body)});
+      add_hydrostatics(s, hb.body, hydrostatic_law(db, *body));
   }
   if (h.n_moving == 0)
     return;

@@ -1,7 +1,7 @@
 #pragma once
 /// Derivatives of the hydrodynamic velocities and accelerations (hydrodynamics.h) for the Jacobian.
 
-#include "hydrodae/system/kinematics.h"
+#include "hydrodae/system/hydrodynamics.h"
 
 namespace hydrodae::system {
 
@@ -18,6 +18,26 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
   return block;
 }
 
+/// Yaw with the derivative of s by dphi: s = (0, g_y, g_z)/(g_y^2 + g_z^2), g = R^T e_z,
+/// dg = [g] dphi.
+struct YawGradient {
+  Matrix3 H, s_phi;
+  Vector3 s, rate_phi; ///< rate_phi: of psi' = s.w
+  double rate = 0.0;
+};
+inline YawGradient yaw_gradient(const BodyState<double>& b) {
+  const Yaw<double> psi = yaw<double>(b);
+  const Vector3 g = b.R.row(2).transpose();
+  const Eigen::Vector2d q = g.tail<2>();
+  const double m = q.squaredNorm();
+  Matrix3 by_g = Matrix3::Zero();
+  by_g.bottomRightCorner<2, 2>() =
+      (m * Eigen::Matrix2d::Identity() - 2.0 * q * q.transpose()) / (m * m);
+  YawGradient d{psi.H, by_g * skew<double>(g), psi.s, Vector3::Zero(), psi.s.dot(b.w)};
+  d.rate_phi = d.s_phi.transpose() * b.w;
+  return d;
+}
+
 /// dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc d(v', w').
 struct HydroMotionGradient {
   Matrix63 U_phi = Matrix63::Zero(), U_v = Matrix63::Zero(), U_w = Matrix63::Zero();
@@ -25,10 +45,10 @@ struct HydroMotionGradient {
   Matrix6 a_acc = Matrix6::Zero();
 };
 
-inline HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState<double>& b) {
+inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState<double>& b) {
   HydroMotionGradient d;
   const Matrix3 wx = skew<double>(b.w), R_T = b.R.transpose();
-  if (body_axes) {
+  if (axes == HydroAxes::body) {
     const Matrix3 Vx = skew<double>(R_T * b.v);
     d.U_phi.topRows<3>() = Vx;
     d.U_v.topRows<3>() = R_T;
@@ -38,6 +58,24 @@ inline HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState
     d.a_w.topRows<3>() = Vx;
     d.a_acc.topLeftCorner<3, 3>() = R_T;
     d.a_acc.bottomRightCorner<3, 3>().setIdentity();
+  } else if (axes == HydroAxes::yaw) {
+    const YawGradient psi = yaw_gradient(b);
+    const Matrix3 H_T = psi.H.transpose(), T = H_T * b.R, up = skew<double>(Vector3::UnitZ());
+    const Vector3 V = H_T * b.v, W = T * b.w;
+    d.U_phi.topRows<3>() = -up * V * psi.s.transpose();
+    d.U_phi.bottomRows<3>() = -up * W * psi.s.transpose() - T * wx;
+    d.U_v.topRows<3>() = H_T;
+    d.U_w.bottomRows<3>() = T;
+    d.a_phi.topRows<3>() = -up * (H_T * b.v_dot) * psi.s.transpose() -
+                           up * V * psi.rate_phi.transpose() - psi.rate * up * d.U_phi.topRows<3>();
+    d.a_phi.bottomRows<3>() = -up * (T * b.w_dot) * psi.s.transpose() - T * skew<double>(b.w_dot) -
+                              up * W * psi.rate_phi.transpose() -
+                              psi.rate * up * d.U_phi.bottomRows<3>();
+    d.a_v.topRows<3>() = -psi.rate * up * H_T;
+    d.a_w.topRows<3>() = -up * V * psi.s.transpose();
+    d.a_w.bottomRows<3>() = -up * W * psi.s.transpose() - psi.rate * up * T;
+    d.a_acc.topLeftCorner<3, 3>() = H_T;
+    d.a_acc.bottomRightCorner<3, 3>() = T;
   } else {
     d.U_phi.bottomRows<3>() = -b.R * wx;
     d.U_v.topRows<3>().setIdentity();
@@ -45,6 +83,66 @@ inline HydroMotionGradient hydro_motion_gradient(bool body_axes, const BodyState
     d.a_phi.bottomRows<3>() = -b.R * skew<double>(b.w_dot);
     d.a_acc.topLeftCorner<3, 3>().setIdentity();
     d.a_acc.bottomRightCorner<3, 3>() = b.R;
+  }
+  return d;
+}
+
+/// Of an excitation whose phase moves with the body: its derivative by x and y of the body.
+inline Eigen::Matrix<double, 6, 2> excitation_gradient(const System& s, const HydroBody& i,
+                                                       const BodyState<double>& b, double t) {
+  const Vector3 moved = b.r - s.bodies[i.body].reference;
+  Vector6 f, by_x, by_y; // of the coordinates that move
+  s.hydro.drifting(t, moved[0], moved[1], i.first_moving(), i.n_moving(), f.data(), by_x.data(),
+                   by_y.data());
+  Eigen::Matrix<double, 6, 2> d = Eigen::Matrix<double, 6, 2>::Zero();
+  for (int c = 0; c < 6; ++c)
+    if (i.moving[c] >= 0)
+      d.row(c) << by_x[i.moving[c] - i.first_moving()], by_y[i.moving[c] - i.first_moving()];
+  return d;
+}
+
+/// load = L rate + Q momentum of `hydro_load`: L, Q, and the derivatives by the rotation of the
+/// body (body axes) and by its velocities (v, w), with rate and momentum held.
+struct HydroLoadGradient {
+  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
+  Matrix63 by_rotation = Matrix63::Zero();
+};
+
+inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<double>& b,
+                                             const Vector6& rate, const Vector6& momentum) {
+  HydroLoadGradient d;
+  if (axes == HydroAxes::body) {
+    const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
+    const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
+    d.L.topLeftCorner<3, 3>() = b.R;
+    d.Q << b.R * wx, Matrix3::Zero(), Vx, wx;
+    const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
+    d.by_rotation << -b.R * skew<double>(force), -px * Vx;
+    d.by_velocity << Matrix3::Zero(), -b.R * px, -px * R_T, -hx;
+  } else if (axes == HydroAxes::yaw) {
+    const YawGradient psi = yaw_gradient(b);
+    const Matrix3 H_T = psi.H.transpose(), T = H_T * b.R, up = skew<double>(Vector3::UnitZ());
+    const Vector3 V = H_T * b.v, W = T * b.w, z = Vector3::UnitZ();
+    const Vector3 p = momentum.head<3>(), h = momentum.tail<3>();
+    d.L << psi.H, Matrix3::Zero(), Matrix3::Zero(), T.transpose();
+    d.Q << psi.rate * psi.H * up, Matrix3::Zero(), psi.s * (z.transpose() * skew<double>(V)),
+        psi.rate * T.transpose() * up + psi.s * (z.transpose() * skew<double>(W));
+    const Vector3 force = rate.head<3>() + psi.rate * up * p;
+    const Vector3 moment = rate.tail<3>() + psi.rate * up * h;
+    const Matrix3 V_phi = -up * V * psi.s.transpose();
+    const Matrix3 W_phi = -up * W * psi.s.transpose() - T * skew<double>(b.w);
+    const Vector3 pz = p.cross(z), hz = h.cross(z);
+    const double munk = z.dot(V.cross(p) + W.cross(h));
+    d.by_rotation << psi.H * (up * force * psi.s.transpose() + up * p * psi.rate_phi.transpose()),
+        skew<double>(T.transpose() * moment) +
+            T.transpose() * (up * moment * psi.s.transpose() + up * h * psi.rate_phi.transpose()) +
+            munk * psi.s_phi + psi.s * (pz.transpose() * V_phi + hz.transpose() * W_phi);
+    d.by_velocity << Matrix3::Zero(), psi.H * up * p * psi.s.transpose(),
+        psi.s * (pz.transpose() * H_T),
+        T.transpose() * up * h * psi.s.transpose() + psi.s * (hz.transpose() * T);
+  } else {
+    d.L.bottomRightCorner<3, 3>() = b.R.transpose();
+    d.by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
   }
   return d;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hydrodae/system/hydro_gradient.h"
+#include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
@@ -17,7 +18,7 @@ using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 /// Collects the places that the assembly visits.
 struct PatternSink {
-  std::vector<std::pair<Index, Index>> visits, rates; ///< (column, row); rates: those of dF/dy'
+  Visits visits, rates; ///< (column, row); rates: those of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
   void by_yp(Index row, Index column, double) {
     visits.emplace_back(column, row);
@@ -119,7 +120,9 @@ template <class Sink> struct Assembly {
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const Matrix6& L);
+  void phase_columns(const HydroBody& i, const Matrix6& L);
   void memory_rows();
+  void morison();
   template <class Law> void force(const BodyForce<Law>& f);
   template <class Law> void force(const MotionForce<Law>& f);
 
@@ -129,6 +132,7 @@ template <class Sink> struct Assembly {
     for_each_element(s.body_forces, [&](const auto& f) { force(f); });
     for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
     hydrodynamics();
+    morison();
     body_rows();
   }
 };
@@ -234,16 +238,18 @@ template <class Sink> void Assembly<Sink>::couplers() {
 }
 
 // Wrench W(xi, twist) in earth axes; load = (W_f, R^T W_m):
-//   d xi = (dr, J dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T dm.
+//   d xi = (dr, J R_turn dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T
+//   dm.
 template <class Sink> template <class Law> void Assembly<Sink>::force(const BodyForce<Law>& f) {
   const BodyState<double>& b = state(f.body);
-  const Vector6 xi = system::displacement<double>(s.bodies[f.body], b, y);
+  const Vector6 xi = system::displacement<double>(f, s.bodies[f.body], b, y);
   const Vector6 velocity = twist<double>(b);
   Matrix6 by_xi, by_twist;
   f.law.gradient(xi, velocity, by_xi, by_twist);
   const Vector6 wrench = f.law.template apply<double>(xi, velocity);
   Matrix6 xi_map = Matrix6::Identity(), velocity_map = Matrix6::Identity();
-  xi_map.bottomRightCorner<3, 3>() = rotation_vector_gradient(xi.tail<3>());
+  xi_map.bottomRightCorner<3, 3>() =
+      rotation_vector_gradient(xi.tail<3>()) * rotation_matrix<double>(f.turn);
   velocity_map.bottomRightCorner<3, 3>() = b.R;
   Matrix6 d = by_xi * xi_map;
   d.rightCols<3>() -= by_twist.rightCols<3>() * (b.R * skew<double>(b.w));
@@ -324,7 +330,7 @@ void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Ma
     LA += L * hydro_block(ws.state.past->by_U_dot, i, j);
     QA += L * hydro_block(ws.state.past->by_U, i, j);
   }
-  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.body_axes, state(j.body));
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, state(j.body));
   Matrix6 by_velocity;
   by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
   const Matrix6 by_acceleration = LA * d.a_acc;
@@ -357,30 +363,27 @@ template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, co
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
 template <class Sink>
 void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
-  const BodyState<double>& b = state(i.body);
-  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
-  Matrix63 by_rotation = Matrix63::Zero();
-  if (s.hydro.body_axes) {
-    const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
-    const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
-    L.topLeftCorner<3, 3>() = b.R;
-    Q << b.R * wx, Matrix3::Zero(), Vx, wx;
-    const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
-    by_rotation << -b.R * skew<double>(force), -px * Vx;
-    by_velocity << Matrix3::Zero(), -b.R * px, -px * R_T, -hx;
-  } else {
-    L.bottomRightCorner<3, 3>() = b.R.transpose();
-    by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
-  }
+  const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
-    rotation_columns(data.u0 + k, i.body, by_rotation.row(data.active[k]));
-    velocity_columns(data.u0 + k, i.body, by_velocity.row(data.active[k]));
+    rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
+    velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
+  if (!s.hydro.drifting.empty())
+    phase_columns(i, d.L);
   for (const HydroBody& j : s.hydro.bodies)
     if (j.moves)
-      hydro_pair(i, j, L, Q);
-  memory_columns(i, L);
+      hydro_pair(i, j, d.L, d.Q);
+  memory_columns(i, d.L);
+}
+
+/// How the excitation changes with the horizontal displacement of its body.
+template <class Sink> void Assembly<Sink>::phase_columns(const HydroBody& i, const Matrix6& L) {
+  const BodyData& b = s.bodies[i.body];
+  const Eigen::Matrix<double, 6, 2> d = L * excitation_gradient(s, i, state(i.body), t);
+  for (int n = 0; n < b.n_translations && b.active[n] < 2; ++n)
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(b.u0 + k, b.q0 + n, -d(b.active[k], b.active[n]));
 }
 
 template <class Sink> void Assembly<Sink>::memory_rows() {
@@ -399,11 +402,11 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   for (const HydroData::Input& in : h.inputs) {
     const HydroData::Coordinate& u = h.coordinates[in.coordinate];
     const int body = h.bodies[u.hydro_body].body, c = u.component;
-    const HydroMotionGradient d = hydro_motion_gradient(h.body_axes, state(body));
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, state(body));
     const Index row = h.z0 + in.state;
     RowVector6 by_velocity;
     by_velocity << d.U_v.row(c), d.U_w.row(c);
-    if ((c < 3) == h.body_axes)
+    if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
       rotation_columns(row, body, -in.value * d.U_phi.row(c));
     const BodyData& b = s.bodies[body];
     for (int k = 0; k < b.n_active; ++k)
@@ -433,6 +436,19 @@ template <class Sink> void Assembly<Sink>::hydrodynamics() {
   memory_rows();
 }
 
+template <class Sink> void Assembly<Sink>::morison() {
+  for (const MorisonData& m : s.morison) {
+    const BodyData& b = s.bodies[m.body];
+    if (b.n_active == 0)
+      continue;
+    const LoadGradient d = morison_gradient(s.water, m, state(m.body), t, ws.state.fluid, ws.fluid);
+    load_by_displacement(m.body, m.body, d.by_displacement);
+    load_by_velocity(m.body, m.body, d.by_velocity);
+    for (int k = 0; k < b.n_active; ++k)
+      acceleration_columns(b.u0 + k, m.body, -d.by_acceleration.row(b.active[k]));
+  }
+}
+
 /// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.
 void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, const double* yp) {
   unpack<double>(s, y, yp, ws.state.bodies);
@@ -447,7 +463,8 @@ void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, 
 
 } // namespace
 JacobianWorkspace::JacobianWorkspace(const System& system)
-    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {}
+    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
+      fluid(state.fluid.size()) {}
 
 Pattern find_pattern(const System& system) {
   JacobianWorkspace ws(system);
@@ -456,27 +473,7 @@ Pattern find_pattern(const System& system) {
   PatternSink sink;
   Assembly<PatternSink>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
 
-  std::vector<std::pair<Index, Index>> entries = sink.visits;
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-  Pattern pattern;
-  pattern.n = system.n;
-  pattern.column_start.assign(system.n + 1, 0);
-  for (const auto& [column, row] : entries) {
-    ++pattern.column_start[column + 1];
-    pattern.row.push_back(row);
-  }
-  for (Index c = 0; c < system.n; ++c)
-    pattern.column_start[c + 1] += pattern.column_start[c];
-  auto place = [&](const std::pair<Index, Index>& visit) -> Index {
-    return std::lower_bound(entries.begin(), entries.end(), visit) - entries.begin();
-  };
-  for (const auto& visit : sink.visits)
-    pattern.slots.push_back(place(visit));
-  pattern.has_rate.assign(entries.size(), false);
-  for (const auto& visit : sink.rates)
-    pattern.has_rate[static_cast<std::size_t>(place(visit))] = true;
-  return pattern;
+  return make_pattern(system.n, sink.visits, sink.rates);
 }
 
 void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,

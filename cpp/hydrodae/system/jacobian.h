@@ -1,6 +1,7 @@
 #pragma once
 /// The Jacobian dF/dy + alpha dF/dy' on a pattern that is fixed when the system is built.
 
+#include <utility>
 #include <vector>
 
 #include "hydrodae/system/kinematics.h"
@@ -18,6 +19,12 @@ struct Pattern {
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 };
 
+/// Entries (column, row) in the order in which the assembly visits them.
+using Visits = std::vector<std::pair<Index, Index>>;
+
+/// The pattern that has all `visits`; `rates`: those of dF/dy'.
+Pattern make_pattern(Index n, const Visits& visits, const Visits& rates);
+
 /// Runs the assembly once without values to find the pattern.
 Pattern find_pattern(const System& system);
 
@@ -33,6 +40,7 @@ struct JacobianWorkspace {
   explicit JacobianWorkspace(const System& system);
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
+  std::vector<sea::FluidGradient> fluid;             ///< at the segments of one Morison element
 };
 
 /// dF/dy and dF/dy' at (t, y, y'). Pure apart from the scratch; no allocation.

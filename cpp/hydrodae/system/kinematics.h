@@ -1,6 +1,8 @@
 #pragma once
 /// From the unknowns to the poses and velocities of the bodies.
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "hydrodae/system/system.h"
@@ -23,10 +25,11 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VecX<S> memory;             ///< scratch of the convolution
-  const Past* past = nullptr; ///< at the time of this evaluation (history.h)
-  VectorX excitation;         ///< on the coordinates of U
-  std::vector<double> turns;  ///< motions at the last accepted step, angles followed over turns
+  VecX<S> memory;                        ///< scratch of the convolution
+  const Past* past = nullptr;            ///< at the time of this evaluation (history.h)
+  VectorX excitation;                    ///< on the coordinates of U
+  std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
+  std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
 
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
@@ -34,6 +37,10 @@ template <class S> struct Workspace {
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
         excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
         turns(s.motions.size()) {
+    std::size_t segments = 0;
+    for (const MorisonData& m : s.morison)
+      segments = std::max(segments, static_cast<std::size_t>(m.segments));
+    fluid.resize(segments);
     for (std::size_t m = 0; m < turns.size(); ++m)
       turns[m] = s.motions[m].start;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -87,6 +94,26 @@ Vec6<S> displacement(const BodyData& body, const BodyState<S>& state, const S* y
   } else {
     xi.template tail<3>() = rotation_vector<S>(state.p);
   }
+  return xi;
+}
+
+/// The same from the reference pose that a law on the body has for itself.
+template <class S, class Law>
+Vec6<S> displacement(const BodyForce<Law>& f, const BodyData& body, const BodyState<S>& state,
+                     const S* y) {
+  Vec6<S> xi = displacement<S>(body, state, y);
+  if (f.turn[0] == 1.0)
+    return xi;
+  if (body.rotation == BodyData::Rotation::about_axis) {
+    xi[3 + body.axis] -= S(2.0 * std::atan2(f.turn[1 + body.axis], f.turn[0]));
+    return xi;
+  }
+  const Vec4<S>& p = state.p; // p o conj(turn)
+  const Vec3<S> a = p.template tail<3>(), b = -f.turn.template tail<3>().template cast<S>();
+  const S w = S(f.turn[0]);
+  Vec4<S> relative;
+  relative << p[0] * w - a.cwiseProduct(b).sum(), p[0] * b + w * a + cross<S>(a, b);
+  xi.template tail<3>() = rotation_vector<S>(relative);
   return xi;
 }
 

@@ -27,9 +27,9 @@ int component_index(Observation& out, const std::string& name) {
 } // namespace
 
 Observer::Observer(const System& system) : s_(system), ws_(system) {
-  auto plan = [&](const std::string& component, int body) {
+  auto plan = [&](const std::string& component, int body, bool part = false) {
     if (body >= 0)
-      out_.loads.push_back({component_index(out_, component), body});
+      out_.loads.push_back({component_index(out_, component), body, part});
   };
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
     plan("weight", i);
@@ -44,10 +44,20 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
       if (s_.hydro.radiates())
         plan("radiation", hb.body);
     }
-  if (!s_.hydro.excitation.empty())
-    for (const HydroBody& hb : s_.hydro.bodies)
+  if (s_.has_excitation())
+    for (const HydroBody& hb : s_.hydro.bodies) {
       plan("excitation", hb.body);
+      if (s_.hydro.split) {
+        plan("froude_krylov", hb.body, true);
+        plan("diffraction", hb.body, true);
+      }
+    }
+  for (const MorisonData& m : s_.morison)
+    plan(m.name, m.body);
   out_.components.push_back("constraints");
+  out_.parts.assign(out_.components.size(), false);
+  for (const ComponentLoad& load : out_.loads)
+    out_.parts[load.component] = load.part;
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
     for (const RowData& row : s_.joints[j].rows) {
@@ -64,7 +74,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   totals_.resize(s_.bodies.size());
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
-  excitation_ = VectorX::Zero(s_.hydro.excitation.size());
+  excitation_ = VectorX::Zero(s_.hydro.excitation.size() + s_.hydro.drifting.size());
 }
 
 /// Takes the next planned load: into the list, the power of its component, and the balance.
@@ -73,7 +83,8 @@ void Observer::add_load(const Vector6& world_load) {
   const BodyState<double>& state = ws_.bodies[entry.body];
   entry.load = world_load;
   out_.powers[entry.component] += world_load.dot(twist<double>(state));
-  totals_[entry.body] -= to_tangent<double>(state, world_load);
+  if (!entry.part)
+    totals_[entry.body] -= to_tangent<double>(state, world_load);
 }
 
 void Observer::observe_forces(const double* y) {
@@ -85,7 +96,7 @@ void Observer::observe_forces(const double* y) {
   }
   for_each_element(s_.body_forces, [&](const auto& f) {
     const BodyState<double>& state = ws_.bodies[f.body];
-    const Vector6 xi = displacement<double>(s_.bodies[f.body], state, y);
+    const Vector6 xi = displacement<double>(f, s_.bodies[f.body], state, y);
     add_load(f.law.template apply<double>(xi, twist<double>(state)));
     out_.potential += f.law.potential(xi);
   });
@@ -139,27 +150,56 @@ void Observer::observe_hydrodynamics(const double* y) {
     const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const Vector6 added =
-        hydro_load<double>(h.body_axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
+        hydro_load<double>(h.axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
     add_load(-to_world(state, added));
     if (!h.radiates())
       continue;
     const Vector6 radiation =
-        hydro_load<double>(h.body_axes, state, memory_.segment<6>(row), Vector6::Zero());
+        hydro_load<double>(h.axes, state, memory_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
   }
 }
 
 void Observer::observe_excitation(double t) {
   const HydroData& h = s_.hydro;
-  if (h.excitation.empty())
+  if (!s_.has_excitation())
     return;
-  h.excitation(t, excitation_);
+  if (!h.excitation.empty())
+    h.excitation(t, excitation_);
+  const Eigen::Index last = excitation_.size() - 1,
+                     all = 6 * static_cast<Eigen::Index>(h.bodies.size());
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
-    const Vector6 force = excitation_.segment<6>(h.n_moving + 6 * static_cast<Eigen::Index>(i));
-    add_load(to_world(state, hydro_load<double>(h.body_axes, state, force, Vector6::Zero())));
+    const Eigen::Index row = h.n_moving + 6 * static_cast<Eigen::Index>(i);
+    if (!h.drifting.empty()) {
+      const Vector3 moved = state.r - s_.bodies[h.bodies[i].body].reference;
+      for (Eigen::Index first = row; first < last; first += all)
+        h.drifting(t, moved[0], moved[1], first, 6, excitation_.data() + first);
+    }
+    const auto add = [&](const Vector6& force) {
+      add_load(to_world(state, hydro_load<double>(h.axes, state, force, Vector6::Zero())));
+    };
+    add(excitation_.segment<6>(row));
+    if (h.split) {
+      add(excitation_.segment<6>(row + all));
+      add(excitation_.segment<6>(row) - excitation_.segment<6>(row + all));
+    }
   }
-  out_.elevation = excitation_[excitation_.size() - 1];
+  if (!h.drifting.empty())
+    h.drifting(t, 0.0, 0.0, last, 1, excitation_.data() + last);
+  out_.elevation = excitation_[last];
+}
+
+void Observer::observe_morison(double t) {
+  for (const MorisonData& m : s_.morison) {
+    const BodyState<double>& state = ws_.bodies[m.body];
+    add_load(to_world(state, morison_load<double>(s_.water, m, state, t, ws_.fluid)));
+  }
+  if (!s_.has_excitation() && !s_.water.terms.empty()) {
+    const Vector3 origin = Vector3::Zero();
+    sea::fluid_on_line<double>(s_.water, t, origin, origin, 1, ws_.fluid.data());
+    out_.elevation = ws_.fluid.front().elevation;
+  }
 }
 
 /// Reaction of one row on B: force along the marker's axes of A, moment about the marker of B.
@@ -290,6 +330,7 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   observe_forces(y.data());
   observe_hydrodynamics(y.data());
   observe_excitation(t);
+  observe_morison(t);
   observe_joints(y.data());
   observe_energy();
   return out_;

@@ -12,12 +12,14 @@ namespace hydrodae::system {
 struct ComponentLoad {
   int component = 0; ///< index into Observation::components
   int body = 0;
+  bool part = false; ///< of another component: not in the balance by itself
   Vector6 load = Vector6::Zero();
 };
 
 /// The state of the scene at one instant, taken apart.
 struct Observation {
   std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ..., constraints
+  std::vector<bool> parts;             ///< per component: part of another one
   std::vector<ComponentLoad> loads;    ///< all components but the reactions
   std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
   std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world
@@ -49,6 +51,7 @@ private:
   void observe_memory(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_excitation(double t);
+  void observe_morison(double t);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
                        double lambda) const;

@@ -97,7 +97,7 @@ void Recorder::make_channels() {
     add_channel(head + "moment", 3, "N m", "world",
                 "Moment on the body about its centre of gravity.");
   }
-  if (!s_.hydro.excitation.empty())
+  if (s_.has_waves())
     add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
@@ -139,8 +139,8 @@ double Recorder::balance(const std::vector<double>& work) {
   const double moving = o.kinetic + o.kinetic_added_mass;
   double total_work = 0.0, exchanged = std::abs(moving);
   for (std::size_t k = 0; k < work.size(); ++k) {
-    // The fluid's kinetic energy is on the left-hand side already.
-    if (o.components[k] != "added_mass_inf")
+    // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
+    if (o.components[k] != "added_mass_inf" && !o.parts[k])
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
   }
@@ -247,7 +247,7 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }
-  if (!s_.hydro.excitation.empty())
+  if (s_.has_waves())
     *out++ = observer_.observation().elevation;
   fill_energy(out, work);
 }

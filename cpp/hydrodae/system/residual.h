@@ -4,6 +4,7 @@
 /// Jacobian.
 
 #include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/system/morison.h"
 
 namespace hydrodae::system {
 
@@ -116,7 +117,7 @@ template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& 
 template <class S, class Law>
 void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, const S* y) {
   const BodyState<S>& state = ws.bodies[force.body];
-  const Vec6<S> xi = displacement<S>(s.bodies[force.body], state, y);
+  const Vec6<S> xi = displacement<S>(force, s.bodies[force.body], state, y);
   ws.loads[force.body] += to_tangent<S>(state, force.law.template apply<S>(xi, twist<S>(state)));
 }
 
@@ -202,6 +203,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
   add_hydrodynamics<S>(s, ws, t, y, yp, residual);
+  add_morison<S>(s, ws, t);
   body_rows<S>(s, ws, y, yp, residual);
 }
 

@@ -10,6 +10,7 @@
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -19,6 +20,8 @@
 
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/sea/drifting.h"
+#include "hydrodae/sea/kinematics.h"
 #include "hydrodae/sea/signals.h"
 
 namespace hydrodae::system {
@@ -103,6 +106,7 @@ template <class Law> struct BodyForce {
   std::string component;
   int body = 0;
   Law law;
+  Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
 };
 
 /// A law along the free motion of a joint.
@@ -147,17 +151,39 @@ struct SwitchData {
   }
 };
 
+/// A Morison element: equal segments whose centres stand at equal steps on a straight line.
+struct MorisonData {
+  std::string name;
+  int body = 0;
+  force::MorisonSegment law;
+  int segments = 1;
+  Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
+  Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
+  Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
+  bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
+};
+
 using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
                               std::vector<BodyForce<force::ViscousDamping::Law>>>;
 using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
                                 std::vector<MotionForce<force::SpringDamper::Law>>,
                                 std::vector<MotionForce<force::DryFriction::Law>>>;
 
+/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes of
+/// the reference pose, or those that turn with the body's yaw alone.
+enum class HydroAxes { body, mean, yaw };
+
 /// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
 struct HydroBody {
   int body = 0;
   std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
   bool moves = false;
+  int n_moving() const {
+    return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
+  }
+  int first_moving() const {
+    return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });
+  }
 };
 
 /// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
@@ -181,7 +207,7 @@ struct Convolution {
 /// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
 /// stands in place of C z.
 struct HydroData {
-  bool body_axes = true; ///< false: earth axes of the reference pose ("mean")
+  HydroAxes axes = HydroAxes::body;
   std::vector<HydroBody> bodies;
   struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
     int hydro_body = 0, component = 0;
@@ -196,7 +222,11 @@ struct HydroData {
   bool damped = false; ///< constant damping; else the next two are empty
   MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
   Convolution convolution;      ///< empty on the other rungs
-  sea::Signals excitation; ///< (n_moving + 6 n_bodies + 1): on U, on all coordinates; elevation [m]
+  /// Functions of time: n_moving loads on U, 6 n_bodies loads on all coordinates, where `split` as
+  /// many of their Froude-Krylov parts, and the elevation [m]. One of the two is empty.
+  sea::Signals excitation;
+  sea::DriftingSignals drifting; ///< by the displacement of each body
+  bool split = false;
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
   int n_states = 0;
@@ -240,6 +270,8 @@ struct System {
   MotionForces motion_forces;
   std::vector<DelayData> delays;
   HydroData hydro;
+  std::vector<MorisonData> morison;
+  sea::WaveField water; ///< what the Morison elements feel; empty without them
 
   /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
   /// been at rest for ever.
@@ -257,6 +289,8 @@ struct System {
   std::vector<std::string> notes;     ///< what the build found worth telling
 
   bool is_algebraic(Index i) const { return i >= lambda0; }
+  bool has_excitation() const { return !hydro.excitation.empty() || !hydro.drifting.empty(); }
+  bool has_waves() const { return has_excitation() || !water.terms.empty(); }
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).

@@ -74,10 +74,12 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "case.toml:32:1: unknown key 'dampping' in [[force]] 'pto1'; did you mean 'damping'? "
        "(valid: type, name, joint, damping, stiffness, neutral, delay)"},
       {"gravity = 9.81", "  zzz = 9.81",
-       "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity"},
+       "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity, water_density, "
+       "water_depth"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, sea, wave, body, joint, constraint, marker, force, solver, output)"},
+       "environment, hydro, sea, wave, body, joint, constraint, marker, force, morison, solver, "
+       "output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate, displacement, displacement_rate)"},

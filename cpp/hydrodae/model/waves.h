@@ -1,0 +1,18 @@
+#pragma once
+/// The waves of a scene as components.
+
+#include "hydrodae/model/scene.h"
+#include "hydrodae/sea/components.h"
+
+namespace hydrodae::model {
+
+/// Components of one wave system of a checked scene. A measured record is cut to its
+/// `frequency_range`, or to the frequencies of the database. Throws ModelError when more of its
+/// variance than `lost_variance` lies outside.
+std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave& wave,
+                                            std::string* note = nullptr);
+
+/// Those of all wave systems.
+std::vector<sea::Component> wave_components(const Scene& scene);
+
+} // namespace hydrodae::model

@@ -1,0 +1,80 @@
+/// Morison elements cut into segments, and the waves and the current that they feel.
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/waves.h"
+#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/initial_pose.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+/// A sphere: of the diameter, or as large as the volume (without one, as the area).
+force::MorisonSegment point_law(const force::Morison& m, double rho) {
+  const double D = m.diameter.value_or(0.0);
+  const double area = m.area.value_or(0.25 * pi * D * D);
+  const double volume = m.volume.value_or(pi / 6.0 * D * D * D);
+  force::MorisonSegment law;
+  law.radius = volume > 0.0 ? std::cbrt(0.75 * volume / pi) : std::sqrt(area / pi);
+  law.drag = 0.5 * rho * m.drag_coefficient * area;
+  if (m.added_mass_coefficient) {
+    law.mass_fluid = rho * volume * (1.0 + *m.added_mass_coefficient);
+    law.mass_body = rho * volume * *m.added_mass_coefficient;
+  }
+  return law;
+}
+
+/// A piece of a cylinder of this length.
+force::MorisonSegment member_law(const force::Morison& m, double length, double rho) {
+  const double D = *m.diameter, volume = 0.25 * pi * D * D * length;
+  force::MorisonSegment law;
+  law.half_length = 0.5 * length;
+  law.radius = 0.5 * D;
+  law.drag = 0.5 * rho * m.drag_coefficient * D * length;
+  law.drag_axial = 0.5 * rho * m.drag_axial * pi * D * length;
+  if (m.added_mass_coefficient) {
+    law.mass_fluid = rho * volume * (1.0 + *m.added_mass_coefficient);
+    law.mass_body = rho * volume * *m.added_mass_coefficient;
+  }
+  law.mass_axial = rho * volume * m.added_mass_axial;
+  return law;
+}
+
+} // namespace
+
+void add_morison(const model::Scene& scene, System& s) {
+  if (scene.morison.empty())
+    return;
+  const model::Water water = model::water(scene);
+  const std::vector<sea::Component> all = model::wave_components(scene);
+  s.water = sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current);
+  Index pieces = 0;
+  for (const force::Morison& m : scene.morison) {
+    MorisonData out;
+    out.name = m.name;
+    out.body = body_index(scene, m.body);
+    out.instantaneous = m.surface == "instantaneous";
+    const Vector3& origin = scene.bodies[static_cast<std::size_t>(out.body)].center_of_gravity;
+    if (m.point) {
+      out.law = point_law(m, water.density);
+      out.first = *m.point - origin;
+    } else {
+      const Vector3 along = *m.point_b - *m.point_a;
+      out.segments = m.segments;
+      out.step = along / m.segments;
+      out.first = *m.point_a - origin + 0.5 * out.step;
+      out.axis = along.normalized();
+      out.law = member_law(m, out.step.norm(), water.density);
+    }
+    if (s.bodies[static_cast<std::size_t>(out.body)].n_active > 0)
+      pieces += out.segments;
+    s.morison.push_back(std::move(out));
+  }
+  if (pieces > 0 && !all.empty())
+    s.notes.push_back(
+        "Morison elements: every evaluation sums " + std::to_string(all.size()) +
+        " wave components at " + std::to_string(pieces) + " points that move, about " +
+        number_text(0.015 * static_cast<double>(all.size()) * static_cast<double>(pieces)) + " us");
+}
+
+} // namespace hydrodae::system
