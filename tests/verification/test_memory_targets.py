@@ -58,9 +58,9 @@ def test_rm3_in_heave_needs_16_states(reference: Path, rm3: Path) -> None:
 
 @pytest.mark.long
 def test_rm3_in_the_plane_needs_40_states(reference: Path, rm3: Path) -> None:
-    model = decay_model(rm3 / "heave.h5", motion="planar")
     database = hdb.read(reference / "hdb" / "rm3_wamit", rho=1000.0)
-    model = model.with_database(database)
+    database.write(rm3 / "tables.h5")
+    model = decay_model(rm3 / "tables.h5", motion="planar")
     band = working_band(str(rm3 / "decay.toml"), database)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MemoryFitWarning)  # noise of the tables, 1e-2 in B

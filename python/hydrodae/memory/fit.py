@@ -29,7 +29,7 @@ DEFAULT_BAND = (0.04, 1.0)
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
 
-UNIFORM_FLOOR = 0.05
+UNIFORM_FLOOR = 0.12
 """Share of such a goal by which damping is kept from zero: it costs less to be passive then."""
 
 
