@@ -106,7 +106,7 @@ def largest_growth(model: LinearModel, memory: ExponentialMemory) -> float:
     """Largest real part [1/s] of the eigenvalues that are not drift.
 
     Drift: a free motion without stiffness has two eigenvalues 0, and rounding and the memory's rest
-    at w = 0 move them by little; those below 1e-6 of the largest |eigenvalue| of a free motion do
+    at w = 0 move them by little; those below 1e-4 of the largest |eigenvalue| of a free motion do
     not count.
     """
     values = np.linalg.eigvals(state_matrix(model, memory))

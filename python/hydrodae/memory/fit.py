@@ -89,7 +89,8 @@ def fit_memory(
         Called with one line per stage.
     uniform
         Another goal in place of the two targets: the largest error of an entry of H in the band
-        over the largest entry (scaled by the roots of the largest damping).
+        over the largest entry (scaled by the roots of the largest damping). Eigenvalues of B below
+        0.12 of this share of the largest are raised to it: a coarse fit stays passive more easily.
     method
         "modes", "hankel", or "auto": by the number of coupled coordinates, and a realisation too
         where no set of modes can be made passive.

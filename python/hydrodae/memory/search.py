@@ -72,7 +72,7 @@ def fit_group(
         modes = _ladder(problem, goal, cap, candidates, say)[-1]
         return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
     # noise: of fits that are nearly as good the one with the fewest states, unless they are given
-    limit = (NEARLY if cap is None else 1.02) * min(goal.distance(fit.quality) for fit in kept)
+    limit = (NEARLY if cap is None else 1.0) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
     return min(near, key=lambda fit: fit.modes.n_states)
 
