@@ -11,6 +11,7 @@ coordinate s that acts tau late enters exactly, as (k + iw c) e^{-iw tau} s.
 
 from __future__ import annotations
 
+import copy
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -104,6 +105,7 @@ class LinearModel:
     def __init__(self, case: Case | str | os.PathLike[str]) -> None:
         from hydrodae import _core
 
+        self._given_database: HydroDatabase | None = None
         self.case = case if isinstance(case, Case) else Case.read(case)
         model: dict[str, Any] = _core.linearize(self.case.scene)
         self.coordinates: list[str] = model["coordinates"]
@@ -125,8 +127,36 @@ class LinearModel:
     @cached_property
     def database(self) -> HydroDatabase | None:
         """The hydrodynamic database of the case."""
+        if self._given_database is not None:
+            return self._given_database
         path = self.case.scene.database_path
         return HydroDatabase.read(path) if path else None
+
+    def with_database(self, database: HydroDatabase) -> LinearModel:
+        """Return the same linearised case with the tables of another database of the same bodies.
+
+        Hydrostatics and the equilibrium stay those of the case.
+        """
+        other = copy.copy(self)
+        for name in ("database", "_labels", "_radiation", "_smooth_excitation"):
+            other.__dict__.pop(name, None)  # cached properties of the old tables
+        other._given_database = database
+        return other
+
+    @property
+    def hydro_labels(self) -> tuple[str, ...]:
+        """Labels of the hydrodynamic coordinates that move."""
+        return tuple(self._model["hydro_labels"])
+
+    @property
+    def free(self) -> Array:
+        """Basis of the motions that the constraints leave, (n_coordinates, n_free)."""
+        return self._free
+
+    @property
+    def hydro_map(self) -> Array:
+        """Rates of the hydrodynamic coordinates from those of the free motions."""
+        return np.asarray(self._model["hydro_map"] @ self._free)
 
     @cached_property
     def _labels(self) -> NDArray[np.intp]:

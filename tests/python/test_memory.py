@@ -146,6 +146,45 @@ def test_non_passive_data_give_a_passive_fit_that_says_so(exact: Table) -> None:
     )
 
 
+def test_hankel_realisation_finds_the_same_modes(exact: Table) -> None:
+    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3)
+    assert memory.n_states <= 8
+    assert memory.report["passive"] is True
+    assert memory.report["method"].startswith("Hankel")
+    assert memory.report["h_error_peak"] < 1e-3
+    omega = np.linspace(0.3, 1.0, 50)
+    off = np.abs(memory.transfer(omega) - exact_transfer(omega))
+    scale = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
+    assert (off / scale / scale[:, None]).max() < 2e-3
+
+
+def test_noise_that_gives_energy_is_not_followed(exact: Table) -> None:
+    """B with eigenvalues down to -1 % of the largest: passive, and says what it misses."""
+    noise = np.random.default_rng(1).standard_normal(exact.radiation_damping.shape)
+    size = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
+    noise = 0.01 * (noise + noise.transpose(0, 2, 1)) * size * size[:, None]
+    noisy = replace(exact, radiation_damping=exact.radiation_damping + noise)
+    with pytest.warns(MemoryFitWarning, match="misses its target"):
+        memory = fit_memory(noisy, LABELS, max_states=12)
+    assert memory.report["data_min_eig_relative"] < -5e-3
+    assert memory.report["passive"] is True
+    assert memory.n_states <= 12
+    # nearer to the truth than the tables are
+    omega = noisy.omega[noisy.omega <= 1.0]
+    off = (memory.transfer(omega) - exact_transfer(omega)).real / size / size[:, None]
+    rough = noise[: omega.size] / size / size[:, None]
+    assert np.sqrt(np.mean(off**2)) < 0.7 * np.sqrt(np.mean(rough**2))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [({"method": "era"}, "expected auto, modes or hankel"), ({"uniform": 0.0}, "number > 0")],
+)
+def test_bad_options_of_a_fit(exact: Table, options: dict, message: str) -> None:
+    with pytest.raises(DatabaseError, match=message):
+        fit_memory(exact, LABELS, **options)
+
+
 def test_max_states_is_kept(exact: Table) -> None:
     with pytest.warns(MemoryFitWarning, match="misses its target with 4 states"):
         memory = fit_memory(exact, LABELS, max_states=4)

@@ -26,6 +26,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline, PPoly
 
+from hydrodae.frequency import LinearModel
+
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
@@ -224,6 +226,31 @@ def reduce(
         radiation_damping=t.T @ np.asarray(data.radiation_damping)[:, pick[0], pick[1]] @ t,
         added_mass_inf=t.T @ np.asarray(data.added_mass_inf)[pick] @ t,
     )
+
+
+def of_case(model: LinearModel) -> CumminsModel:
+    """Return the model of a case, linearised at its equilibrium, in its free motions."""
+    data = model.database
+    assert data is not None
+    index, moves, free = data.index(model.hydro_labels), model.hydro_map, model.free
+
+    def projected(table: Array) -> Array:
+        return np.asarray(moves.T @ table[..., index, :][..., :, index] @ moves)
+
+    return CumminsModel(
+        mass=free.T @ model.mass @ free,
+        stiffness=free.T @ model.stiffness @ free,
+        omega=data.omega,
+        added_mass=projected(data.added_mass),
+        radiation_damping=projected(data.radiation_damping),
+        added_mass_inf=projected(data.added_mass_inf),
+    )
+
+
+def decay_of_case(model: LinearModel, start: npt.ArrayLike, time: Array) -> Array:
+    """Return the coordinates (nt, n) after a release at rest, without damping but the waves'."""
+    begin = np.linalg.lstsq(model.free, np.asarray(start, dtype=float), rcond=None)[0]
+    return np.asarray(of_case(model).free_decay(begin, time) @ model.free.T)
 
 
 # --- the F3OF device

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import compare, compute_command, doctor, files
+from hydrodae.hdb import compare, compute_command, doctor, files, sensitivity
 from hydrodae.hdb.checks import check
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
@@ -55,6 +57,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _density_option(add)
     add.add_argument(
         "--keep", metavar="SPEC", help="coordinates to keep, e.g. base.planar,flap1.pitch"
+    )
+    add.add_argument(
+        "--no-coupling",
+        action="store_true",
+        help="set the blocks of A and B between bodies to zero, before any fit",
     )
     _fit_options(add)
     add.add_argument(
@@ -113,6 +120,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     doctor.add_arguments(actions)
     compute_command.add_arguments(actions)
     compare.add_arguments(actions)
+    sensitivity.add_arguments(actions)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -142,6 +150,7 @@ def run(args: argparse.Namespace) -> int:
         "doctor": doctor.run,
         "compute": compute_command.run,
         "compare": compare.run,
+        "sensitivity": sensitivity.run,
     }
     return actions[args.hdb_action](args)
 
@@ -163,7 +172,29 @@ def _length_option(parser: argparse.ArgumentParser) -> None:
 
 def _fit_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that a fit must match")
+    parser.add_argument(
+        "--case",
+        metavar="CASE",
+        help="take the band from the natural periods and waves of this case, where it is not given",
+    )
     parser.add_argument("--states", metavar="N", type=int, help="largest number of states of a fit")
+    parser.add_argument(
+        "--target",
+        metavar="E",
+        type=float,
+        help="relative error of H in the band, weighted by |H|^-1/2 (default 4.5e-4)",
+    )
+    parser.add_argument(
+        "--uniform",
+        metavar="E",
+        type=float,
+        help="target in place of that: largest error of H in the band over its largest value",
+    )
+    parser.add_argument(
+        "--method",
+        choices=("auto", "modes", "hankel"),
+        help="modes for few coordinates, hankel for many (default: by their number)",
+    )
     parser.add_argument(
         "--loads", metavar="SPEC", help="coordinates whose loads a fit gives (default: all)"
     )
@@ -180,6 +211,8 @@ def _import(args: argparse.Namespace) -> int:
     )
     if args.keep:
         database = database.select(expand(args.keep, database.coordinates))
+    if args.no_coupling:
+        database = database.without_coupling()
     print(database.summary())
     print(report)
     if not report.ok and not args.accept:
@@ -252,9 +285,16 @@ def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         return
     from hydrodae.memory import fit_memory
 
-    options: dict[str, Any] = {}
+    given = {"method": args.method, "uniform": args.uniform}
+    options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     if args.band is not None:
         options["band"] = _band(args.band)
+    elif args.case is not None:
+        options["band"] = working_band(args.case, database)
+    if args.target is not None:
+        if not args.target > 0.0:
+            raise CaseError(f"--target {args.target:g}: expected a number > 0")
+        options["target"] = args.target
     if args.states is not None:
         options["max_states"] = args.states
     for spec in specs:
@@ -266,6 +306,36 @@ def _add_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         fit = fit_memory(database, inputs=inputs, outputs=loads, name=name, **options)
         database.memory[name] = fit
         print(f"fit {name}: {fit_summary(fit)}")
+
+
+def working_band(path: str, database: HydroDatabase) -> tuple[float, float]:
+    """Frequencies [rad/s] that a case works at: from 0.6 of its lowest to 1.3 of its highest.
+
+    Its natural frequencies and those of its waves count, within the database.
+
+    Raises
+    ------
+    CaseError
+        The case has neither inside the database.
+    """
+    from hydrodae import _core
+    from hydrodae.case import Case
+    from hydrodae.frequency import LinearModel
+
+    with tempfile.TemporaryDirectory() as folder:
+        # the case may wait for this very file, and for the fit: the tables suffice
+        stand_in = Path(folder) / "hydro.h5"
+        replace(database, kernel=None, kernel_time=None, memory={}).write(stand_in)
+        case = Case(path=path, values={"hydro.radiation": "none", "hydro.database": str(stand_in)})
+        model = LinearModel(case).with_database(database)
+    found = [2.0 * np.pi / mode.period for mode in model.modes()]
+    found += [float(w) for w in np.asarray(_core.wave_components(case.scene)).reshape(-1, 4)[:, 0]]
+    if not found:
+        raise CaseError(f"{path}: neither waves nor natural frequencies inside the database")
+    low, high = 0.6 * min(found), 1.3 * max(found)
+    band = max(low, float(database.omega[0])), min(high, float(database.omega[-1]))
+    print(f"band {band[0]:.3g} to {band[1]:.3g} rad/s, from {path}")
+    return band
 
 
 def parse_numbers(what: str, text: str, count: int) -> list[float]:

@@ -327,6 +327,26 @@ class HydroDatabase:
             memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
         )
 
+    def without_coupling(self) -> HydroDatabase:
+        """Return a copy whose bodies radiate each for itself: blocks between bodies are zero.
+
+        Fits and a stored kernel, which hold the coupling, are dropped; the excitation keeps the
+        waves that the other bodies scatter.
+        """
+        body = np.array([label.rpartition(".")[0] for label in self.coordinates])
+        own = body[:, None] == body
+        return replace(
+            self,
+            added_mass=self.added_mass * own,
+            radiation_damping=self.radiation_damping * own,
+            added_mass_inf=self.added_mass_inf * own,
+            added_mass_inf_std=self.added_mass_inf_std * own,
+            repairs=(*self.repairs, "coupling: blocks of A and B between bodies set to zero"),
+            kernel_time=None,
+            kernel=None,
+            memory={},
+        )
+
     def with_hydrostatics(self, values: Mapping[str, Hydrostatics]) -> HydroDatabase:
         """Return a copy with the given hydrostatics of some bodies (moments about their points)."""
         bodies = dict(self.bodies)

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from hydrodae.memory import data as prepare
-from hydrodae.memory.data import ImpedanceData
+from hydrodae.memory.data import Goal, ImpedanceData
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
-from hydrodae.memory.search import Goal, GroupFit
+from hydrodae.memory.search import GroupFit
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -19,6 +19,8 @@ from hydrodae.memory.vector_fitting import (
     solve_residues,
     starting_poles,
 )
+
+Progress = Callable[[str], None]
 
 NOISE = 1e-8
 """A coordinate whose largest damping is below this share of the largest of its kind is left out."""
@@ -59,7 +61,9 @@ class ImpedanceData:
     omega
         (nw,) rad/s, positive and finite.
     square
-        (nw, n_in, n_in), symmetrised.
+        (nw, n_in, n_in), symmetrised, with B turned into the nearest one that takes energy.
+    stored
+        (nw, n_in, n_in), symmetrised, as it stands in the tables.
     rectangular
         (nw, n_extra, n_in): outputs that are no inputs.
     scale
@@ -72,14 +76,19 @@ class ImpedanceData:
 
     omega: Array
     square: ComplexArray
+    stored: ComplexArray
     rectangular: ComplexArray
     scale: Array
     active: npt.NDArray[np.bool_]
     extra: tuple[str, ...]
 
 
-def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str]) -> ImpedanceData:
+def gather(
+    database: RadiationData, inputs: Sequence[str], outputs: Sequence[str], floor: float = 0.0
+) -> ImpedanceData:
     """Read and check what a fit needs.
+
+    Eigenvalues of B below `floor` times the largest are raised to that in `square`.
 
     Raises
     ------
@@ -123,14 +132,32 @@ def gather(database: RadiationData, inputs: Sequence[str], outputs: Sequence[str
     active = (own > NOISE * largest) & (own > 0.0)
     if not np.any(active):
         raise DatabaseError(f"memory fit: none of {list(inputs)} has positive radiation damping")
+    scale = np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0)
     return ImpedanceData(
         omega,
+        _passive(square, scale, active, floor),
         square,
         impedance[:, n:],
-        np.where(active, np.sqrt(np.maximum(own, 1e-300)), 1.0),
+        scale,
         active,
         extra,
     )
+
+
+def _passive(
+    square: ComplexArray, scale: Array, active: npt.NDArray[np.bool_], floor: float
+) -> ComplexArray:
+    """Raise the eigenvalues of the scaled B to 0 or to `floor` of the largest; A stays."""
+    i = np.nonzero(active)[0]
+    size = scale[i] * scale[i][:, None]
+    values, vectors = np.linalg.eigh(square[:, i][:, :, i].real / size)
+    damping = (vectors * np.maximum(values, floor * values.max())[:, None]) @ vectors.transpose(
+        0, 2, 1
+    )
+    result = square.copy()
+    at = np.ix_(np.arange(len(square)), i, i)
+    result[at] = damping * size + 1j * square[at].imag
+    return result
 
 
 def uncoupled_groups(
@@ -141,12 +168,12 @@ def uncoupled_groups(
     Returns
     -------
     groups, neglected
-        Indices of each group; the largest coupling left out: rms over omega of B_ij + i omega (A_ij
-        - A_ij,last) relative to the root of the product of the diagonal ones.
+        Indices of each group; the largest coupling left out: rms over omega of B_ij relative to the
+        root of the product of the diagonal ones. (Of A only its change with frequency would count,
+        which drowns in the noise of A where the waves are short.)
     """
     index = np.nonzero(data.active)[0]
-    wave = data.square - 1j * data.omega[:, None, None] * (data.square[-1].imag / data.omega[-1])
-    size = np.sqrt(np.mean(np.abs(wave) ** 2, axis=0))
+    size = np.sqrt(np.mean(data.stored.real**2, axis=0))
     root = np.sqrt(np.diag(size))
     coupling = size / np.where(root > 0.0, root, 1.0) / np.where(root > 0.0, root, 1.0)[:, None]
     groups: list[set[int]] = []
@@ -209,19 +236,88 @@ def make_problem(
 
 @dataclass(frozen=True)
 class Quality:
-    """Relative errors of H: rms (`band`, `all`) and in the norm of the fit (`weighted_...`)."""
+    """Relative errors of H: rms (`band`, `all`) and in the norm of the fit (`weighted_...`).
+
+    `peak`: largest error of an entry in the band over the largest entry there.
+    """
 
     band: float
     all: float
     weighted_band: float
     weighted_outside: float
+    peak: float
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a fit must reach.
+
+    Attributes
+    ----------
+    band
+        Frequencies that count most, rad/s.
+    factor
+        Of the weights in the band.
+    target, target_outside
+        Weighted relative errors in the band and outside it.
+    max_states
+        Most states, or None.
+    uniform
+        If not None, the goal is another: the largest error of H in the band over its largest entry.
+    method
+        auto, modes or hankel.
+    """
+
+    band: tuple[float, float]
+    factor: float
+    target: float
+    target_outside: float
+    max_states: int | None
+    uniform: float | None = None
+    method: str = "auto"
+
+    def met(self, found: Quality, share: float = 1.0) -> bool:
+        """Tell whether the errors are below `share` of their targets."""
+        return self.miss(found) <= share
+
+    def miss(self, found: Quality) -> float:
+        """Return the larger of the errors, each over its target."""
+        if self.uniform is not None:
+            return found.peak / self.uniform
+        return max(found.weighted_band / self.target, found.weighted_outside / self.target_outside)
+
+    def distance(self, found: Quality) -> float:
+        """Return what ranks fits that miss: the band counts, errors outside it by a half."""
+        if self.uniform is not None:
+            return found.peak / self.uniform
+        return found.weighted_band / self.target * (1.0 + 0.5 * found.weighted_outside)
 
 
 def quality(modes: Modes, problem: Problem, band: tuple[float, float]) -> Quality:
     """Measure a fit at the stored points (scaled entries, off-diagonal ones counted twice)."""
+    return measure(residual(modes, problem)[:-1], modes.added_mass, problem, band)
+
+
+def stored_quality(
+    modes: Modes,
+    data: ImpedanceData,
+    group: npt.NDArray[np.int64],
+    problem: Problem,
+    band: tuple[float, float],
+) -> Quality:
+    """Measure a fit of one group against the tables as they stand."""
+    scaled = data.stored[:, group][:, :, group] / data.scale[group] / data.scale[group][:, None]
+    value = problem.samples.value.copy()
+    value[:-1] = scaled[:, problem.rows, problem.columns]
+    return quality(modes, replace(problem, samples=replace(problem.samples, value=value)), band)
+
+
+def measure(
+    off: ComplexArray, added_mass: Array, problem: Problem, band: tuple[float, float]
+) -> Quality:
+    """Measure errors `off` (nw, ne) of Z at the stored points, with A_inf (ne,)."""
     omega = problem.samples.omega[:-1]
-    off = residual(modes, problem)[:-1]
-    target = problem.samples.value[:-1] - 1j * omega[:, None] * modes.added_mass
+    target = problem.samples.value[:-1] - 1j * omega[:, None] * added_mass
     inside = in_band(omega, band)
     double = np.where(problem.rows == problem.columns, 1.0, np.sqrt(2.0))
     weight = problem.samples.weight[:-1]
@@ -237,4 +333,5 @@ def quality(modes: Modes, problem: Problem, band: tuple[float, float]) -> Qualit
         ratio(plain, everywhere),
         ratio(weight, inside),
         ratio(weight, ~inside),
+        float(np.abs(off[inside]).max() / np.abs(target[inside]).max()),
     )

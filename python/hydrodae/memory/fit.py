@@ -13,10 +13,10 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
-from hydrodae.memory.data import ImpedanceData, RadiationData
+from hydrodae.memory.data import Goal, ImpedanceData, Progress, RadiationData
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
-from hydrodae.memory.search import Goal, GroupFit, Progress, fit_group
+from hydrodae.memory.search import GroupFit, fit_group
 from hydrodae.memory.vector_fitting import Array
 
 PASSIVE_LIMIT = -1e-4
@@ -25,6 +25,12 @@ COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
 DEFAULT_BAND = (0.04, 1.0)
 """Frequencies of the rigid resonances and of swell at full scale, rad/s."""
+
+UNIFORM_WEIGHT = 10.0
+"""Most weight of the band where the goal is one error of H over its largest entry."""
+
+UNIFORM_FLOOR = 0.12
+"""Share of such a goal by which damping is kept from zero: it costs less to be passive then."""
 
 
 class MemoryFitWarning(UserWarning):
@@ -42,13 +48,20 @@ def fit_memory(
     band_weight: float = 500.0,
     name: str = "default",
     progress: Progress | None = None,
+    uniform: float | None = None,
+    method: str = "auto",
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
     Weighted vector fitting with many starts gives poles; its residues are split into rank-one
     modes, refitted all together, pruned to the fewest that meet the targets, and made passive with
     all parameters free. Poles, residues and A_inf are all unknown, H(0) = 0 is a row of the fit,
-    nothing is interpolated. Deterministic.
+    nothing is interpolated. Groups of more than 12 coupled coordinates start from a Hankel
+    realisation of K(t) instead (`hydrodae.memory.hankel`). Coordinates that do not radiate into
+    each other (surge and heave of a body of revolution, motion in and across a plane of symmetry)
+    are fitted apart. Where the tables would give energy to the body (negative eigenvalues of B),
+    the nearest ones that do not are fitted; errors are told against the tables as they stand.
+    Deterministic.
 
     Parameters
     ----------
@@ -74,14 +87,21 @@ def fit_memory(
         Name of the fit in the file.
     progress
         Called with one line per stage.
+    uniform
+        Another goal in place of the two targets: the largest error of an entry of H in the band
+        over the largest entry (scaled by the roots of the largest damping). Eigenvalues of B below
+        0.12 of this share of the largest are raised to it: a coarse fit stays passive more easily.
+    method
+        "modes", "hankel", or "auto": by the number of coupled coordinates, and a realisation too
+        where no set of modes can be made passive.
 
     Returns
     -------
     ExponentialMemory
         Its `report` holds n_states, passive, min_eig_re_h_relative, max_real_pole, h_error_band and
-        h_error_all (rms relative, scaled entries), h_error_outputs, h_zero, data_min_eig_relative,
-        target_met, band, weights, method, dropped_inputs (no radiation: memory zero, A_inf the mean
-        added mass in the band), groups, neglected_coupling.
+        h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
+        h_zero, data_min_eig_relative, target_met, band, weights, method, dropped_inputs (no
+        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling.
 
     Raises
     ------
@@ -99,11 +119,27 @@ def fit_memory(
         if outputs is None
         else inputs + tuple(label for label in outputs if label not in inputs)
     )
-    data = prepare.gather(database, inputs, outputs)
-    goal = Goal(_checked_band(data.omega, band), band_weight, target, target_outside, max_states)
+    if method not in ("auto", "modes", "hankel"):
+        raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
+    if uniform is not None and not uniform > 0.0:
+        raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
+    data = prepare.gather(database, inputs, outputs, UNIFORM_FLOOR * (uniform or 0.0))
+    goal = Goal(
+        _checked_band(data.omega, band),
+        band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),
+        target,
+        target_outside,
+        max_states,
+        uniform,
+        method,
+    )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
     fits = [fit_group(data, group, goal, len(groups), say) for group in groups]
+    fits = [
+        replace(fit, quality=prepare.stored_quality(fit.modes, data, group, fit.problem, goal.band))
+        for group, fit in zip(groups, fits, strict=True)
+    ]
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
     _warn(name, report, goal)
@@ -137,7 +173,7 @@ def _report(
     slope = 1j * data.omega[:, None, None]
     scaled = data.active[:, None] & data.active
     scale = data.scale * data.scale[:, None]
-    target = (data.square - slope * memory.added_mass_inf[:n_in]) / scale * scaled
+    target = (data.stored - slope * memory.added_mass_inf[:n_in]) / scale * scaled
     off = (fitted[:, :n_in] / scale * scaled) - target
     inside = prepare.in_band(data.omega, goal.band)
 
@@ -148,7 +184,7 @@ def _report(
     extra = (data.rectangular - slope * memory.added_mass_inf[n_in:]) / data.scale * data.active
     extra_off = fitted[:, n_in:] / data.scale * data.active - extra
     rows = [ratio(extra_off[inside, i], extra[inside, i]) for i in range(len(data.extra))]
-    damping = (data.square.real / scale)[:, data.active][:, :, data.active]
+    damping = (data.stored.real / scale)[:, data.active][:, :, data.active]
     values = np.linalg.eigvalsh(damping)
     labels = memory.inputs
     return {
@@ -159,6 +195,7 @@ def _report(
         "max_real_pole": float(memory.poles.real.max()),
         "h_error_band": ratio(off[inside], target[inside]),
         "h_error_all": ratio(off, target),
+        "h_error_peak": float(np.abs(off[inside]).max() / np.abs(target[inside]).max()),
         "h_error_outputs": max(rows, default=0.0),
         "h_zero": float(np.abs(memory.transfer(np.zeros(1))[0, :n_in] / scale * scaled).max()),
         "data_min_eig_relative": float(values.min() / values.max()),
@@ -167,7 +204,8 @@ def _report(
         "weighted_error_outside": max(fit.quality.weighted_outside for fit in fits),
         "band": goal.band,
         "weights": f"|H|^-1/2, times {goal.factor:g} in the band",
-        "method": "vector fit of B + i w A, rank-one modes refitted with Re H >= 0",
+        "method": ", ".join(dict.fromkeys(fit.method for fit in fits))
+        + "; rank-one modes refitted with Re H >= 0",
         "dropped_inputs": ", ".join(labels[i] for i in np.nonzero(~data.active)[0]),
         "groups": "; ".join(", ".join(labels[i] for i in group) for group in groups),
         "neglected_coupling": neglected,
@@ -183,7 +221,13 @@ def _warn(name: str, report: dict[str, Any], goal: Goal) -> None:
             f"eigenvalue at {report['min_eig_re_h_omega']:.3g} rad/s (limit {PASSIVE_LIMIT:g}), "
             f"the data to {report['data_min_eig_relative']:.1e}; a free device may be unstable"
         )
-    if not report["target_met"]:
+    if not report["target_met"] and goal.uniform is not None:
+        messages.append(
+            f"misses its target with {report['n_states']} states: error of H "
+            f"{report['h_error_peak']:.1e} of its largest entry in the band (target "
+            f"{goal.uniform:g})"
+        )
+    elif not report["target_met"]:
         messages.append(
             f"misses its target with {report['n_states']} states: weighted error "
             f"{report['weighted_error_band']:.1e} in the band (target {goal.target:g}), "

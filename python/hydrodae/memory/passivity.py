@@ -89,8 +89,8 @@ def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Arr
     count, rest = minima.omega.size, np.zeros((minima.omega.size, problem.rows.size))
     vectors = minima.vectors[:, :, None]
     rows = [
-        (by_re[:, None] * vectors).reshape(count, -1),
-        (by_im[:, None] * vectors).reshape(count, -1),
+        (by_re[:, None] * vectors).reshape(count, modes.vectors.size),
+        (by_im[:, None] * vectors).reshape(count, modes.vectors.size),
     ]
     quadratic = (square.real * value[0] + square.imag * value[1]).sum(axis=1)
     return np.concatenate([*rows, by_log, by_omega, rest], axis=1), quadratic

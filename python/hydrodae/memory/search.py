@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -10,7 +10,8 @@ import numpy as np
 
 from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
-from hydrodae.memory.data import ImpedanceData, Quality
+from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
+from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import IntArray, Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.vector_fitting import (
     ComplexArray,
@@ -23,26 +24,13 @@ from hydrodae.memory.vector_fitting import (
 SLACK = 1.2
 """Pruning may exceed the target by this factor: the passive refit, being longer, wins it back."""
 
-Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True)
-class Goal:
-    """What a fit must reach: weighted relative errors in and outside the band, most states."""
-
-    band: tuple[float, float]
-    factor: float
-    target: float
-    target_outside: float
-    max_states: int | None
-
-    def met(self, found: Quality, share: float = 1.0) -> bool:
-        """Tell whether the errors are below `share` of their targets."""
-        return self.miss(found) <= share
-
-    def miss(self, found: Quality) -> float:
-        """Return the larger of the two errors, each over its target."""
-        return max(found.weighted_band / self.target, found.weighted_outside / self.target_outside)
+NOISE = 2.0
+"""Errors over the target that no number of common poles gets below: the tables are noisy."""
+HANKEL = "Hankel realisation of K(t)"
+MANY = 12
+"""Groups of more coordinates than this get a Hankel realisation: modes would take too long."""
+NEARLY = 1.3
+"""Where no fit meets the goal, one within this factor of the best with fewer states is taken."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +40,7 @@ class GroupFit:
     modes: Modes
     problem: Problem
     quality: Quality
+    method: str = "vector fit of B + i w A"
 
 
 def fit_group(
@@ -60,44 +49,110 @@ def fit_group(
     """Fit one group; step back to more modes while the passive fit misses the goal."""
     problem = prepare.make_problem(data, group, goal.band, goal.factor)
     cap = None if goal.max_states is None else max(2, goal.max_states // parts)
-    ladder = _ladder(problem, goal, cap, say)
-    fallback: GroupFit | None = None
+    if goal.method == "hankel" or (goal.method == "auto" and problem.size > MANY):
+        realised, reached_quality, _ = fit_hankel(problem, goal, cap, say)
+        return GroupFit(realised, problem, reached_quality, HANKEL)
+    candidates, least = _rich_poles(problem, goal, say)
+    kept = _tamed(problem, goal, cap, say) if least > NOISE else []
+    if not kept:
+        kept = _passive_rungs(problem, goal, _ladder(problem, goal, cap, candidates, say), say)
+        if kept and not goal.met(kept[-1].quality) and least < 0.9:
+            # passivity costs more than the slack: come down from more poles
+            more = best_poles(problem, order(candidates[-1]) + 4)[1]
+            rungs = _ladder(problem, goal, cap, [more], say)
+            kept += _passive_rungs(problem, goal, rungs, say)
+        if kept and goal.met(kept[-1].quality):
+            return kept[-1]
+    if not kept and least <= NOISE:
+        kept = _tamed(problem, goal, cap, say)
+    if not kept and goal.method == "auto":
+        realised, found, passive = fit_hankel(problem, goal, cap, say)
+        kept = [GroupFit(realised, problem, found, HANKEL)] if passive else []
+    if not kept:
+        modes = _ladder(problem, goal, cap, candidates, say)[-1]
+        return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
+    # noise: of fits that are nearly as good the one with the fewest states, unless they are given
+    limit = (NEARLY if cap is None else 1.0) * min(goal.distance(fit.quality) for fit in kept)
+    near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
+    return min(near, key=lambda fit: fit.modes.n_states)
+
+
+def _passive_rungs(
+    problem: Problem, goal: Goal, ladder: Sequence[Modes], say: Progress
+) -> list[GroupFit]:
+    """Make rungs passive, the one with the fewest modes first, up to the first that meets the goal.
+
+    Returns
+    -------
+    list of GroupFit
+        The passive ones; one that meets the goal is the last.
+    """
+    kept: list[GroupFit] = []
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
-    for modes, lowering in product(ladder[::-2] if reachable else ladder[-1:], (0.8, 0.9)):
+    rungs = ladder[:: -2 if len(ladder) > 6 else -1] if reachable else ladder[-1:]
+    for modes, lowering in product(rungs, (0.8, 0.9)):
         passive, reached = passivity.enforce(modes, problem, lowering)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
             f"{goal.miss(found.quality):.2f} of the target error"
         )
-        if reached and goal.met(found.quality):
-            return found
-        if reached and (fallback is None or goal.miss(found.quality) < goal.miss(fallback.quality)):
-            fallback = found
-    return fallback or _smaller(ladder[-1], problem, goal, say)
-
-
-def _smaller(modes: Modes, problem: Problem, goal: Goal, say: Progress) -> GroupFit:
-    """Take a third of the modes away until the rest can be made passive (noisy or wrong data)."""
-    richest = modes
-    while modes.poles.size > 3:
-        rank = np.argsort(importance(modes, problem))
-        for mode in sorted(rank[: modes.poles.size // 3], reverse=True):
-            modes = modes.without(int(mode))
-        modes, _ = refine(modes, problem, 20, 1e-3)
-        passive, reached = passivity.enforce(modes, problem, 0.9)
-        say(f"{passive.n_states} states, passive: {reached}")
         if reached:
-            return GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
-    return GroupFit(richest, problem, prepare.quality(richest, problem, goal.band))
+            kept.append(found)
+            if goal.met(found.quality):
+                break
+    return kept
 
 
-def _ladder(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[Modes]:
+def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[GroupFit]:
+    """Passive fits of noisy tables: from few common poles, without what only follows the noise.
+
+    Real modes of negative sign beyond the last frequency stand for a trend of noise in A, give
+    energy at all frequencies, and cannot be made passive: they are dropped.
+    """
+    found: list[GroupFit] = []
+    highest = float(problem.samples.omega.max())
+    for count in (8, 12, 16):
+        if 2 * count > problem.samples.omega.size:
+            break
+        modes = _first_modes(problem, goal, [best_poles(problem, count)[1]], (1.0,))
+        if cap is not None:
+            while modes.n_states > cap:
+                modes = _pruned(modes, problem, 1)
+        for _ in range(4):
+            wild = modes.real & (modes.sign < 0.0) & (np.abs(modes.poles) > highest)
+            tame = modes
+            for mode in np.nonzero(wild)[0][::-1]:
+                tame = tame.without(int(mode))
+            tame, _ = refine(tame, problem, 30, 1e-3)
+            passive, reached = passivity.enforce(tame, problem, 0.8)
+            quality = prepare.quality(passive, problem, goal.band)
+            say(
+                f"{passive.n_states} states from {count} poles, passive: {reached}, "
+                f"{goal.miss(quality):.2f} of the target error"
+            )
+            if reached:
+                found.append(GroupFit(passive, problem, quality))
+            least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
+            if modes.n_states <= least:
+                break
+            while modes.n_states > least:
+                modes = _pruned(modes, problem, 1)
+    return found
+
+
+def _ladder(
+    problem: Problem,
+    goal: Goal,
+    cap: int | None,
+    candidates: Sequence[ComplexArray],
+    say: Progress,
+) -> list[Modes]:
     """Return refined fits with ever fewer modes, down to the last near the goal (or to `cap`).
 
     Where the goal is out of reach, down to the last that is nearly as good as the first.
     """
-    modes = _first_modes(problem, goal, _rich_poles(problem, goal, say))
+    modes = _first_modes(problem, goal, candidates)
     ladder = [modes]
     found = prepare.quality(modes, problem, goal.band)
     limit = SLACK if goal.met(found, SLACK) else 1.15 * goal.miss(found)
@@ -128,13 +183,18 @@ def _pruned(modes: Modes, problem: Problem, tries: int) -> Modes:
     return refine(best, problem, 6, 2e-3)[0]
 
 
-def _first_modes(problem: Problem, goal: Goal, candidates: Sequence[ComplexArray]) -> Modes:
+def _first_modes(
+    problem: Problem,
+    goal: Goal,
+    candidates: Sequence[ComplexArray],
+    shares: Sequence[float] = (1.0, 1.1, 1.3, 1.6),
+) -> Modes:
     """Split the candidates into modes and refit them, with ever more modes up to the goal.
 
     Of those near the goal the one with the fewest states is returned, or else the best.
     """
     found: list[tuple[float, Modes]] = []
-    for share in (1.0, 1.1, 1.3, 1.6):
+    for share in shares:
         for poles in candidates:
             count = order(poles)
             most = min(count * problem.size, int(share * (1.6 * count + 4 * problem.size)))
@@ -148,9 +208,16 @@ def _first_modes(problem: Problem, goal: Goal, candidates: Sequence[ComplexArray
     return min(found, key=lambda item: item[0])[1]
 
 
-def _rich_poles(problem: Problem, goal: Goal, say: Progress) -> list[ComplexArray]:
-    """Raise the number of common poles until vector fits near the goal; return the last three."""
+def _rich_poles(problem: Problem, goal: Goal, say: Progress) -> tuple[list[ComplexArray], float]:
+    """Raise the number of common poles until vector fits near the goal.
+
+    Returns
+    -------
+    poles, miss
+        Of the last three fits; the least error over its target.
+    """
     found: list[ComplexArray] = []
+    misses: list[float] = []
     after = 0
     for count in range(4, min(36, problem.samples.omega.size // 2), 4):
         _, poles = best_poles(problem, count)
@@ -158,9 +225,11 @@ def _rich_poles(problem: Problem, goal: Goal, say: Progress) -> list[ComplexArra
         miss = _vector_miss(poles, problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
         after += miss <= 1.5
-        if after >= 3 or miss <= 0.5:
+        misses.append(miss)
+        noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
+        if after >= 3 or miss <= 0.5 or noise:
             break
-    return found[-3:]
+    return found[-3:], min(misses, default=np.inf)
 
 
 def best_poles(problem: Problem, count: int) -> tuple[float, ComplexArray]:

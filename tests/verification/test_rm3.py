@@ -1,0 +1,107 @@
+"""RM3 against WEC-Sim: decay of the float, regular wave with and without coupling of the bodies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydrodae
+import hydrodae.memory
+from hydrodae.cli import main
+from hydrodae.frequency import LinearModel
+from hydrodae.hdb.sensitivity import sensitivity
+
+FLOAT, SLIDE = "bodies/float/heave", "joints/slide/displacement"
+
+
+def case(folder: Path, name: str, database: str, motion: str = "heave") -> hydrodae.Case:
+    values = {f"body.{body}.motion": motion for body in ("float", "spar")}
+    return hydrodae.Case(path=folder / name, values={**values, "hydro.database": database})
+
+
+def decay_model(database: Path, motion: str = "heave") -> LinearModel:
+    """Linear model of the decay; the fit need not cover the motion."""
+    values = {f"body.{body}.motion": motion for body in ("float", "spar")}
+    return LinearModel(
+        hydrodae.Case(
+            path=database.parent / "decay.toml",
+            values={**values, "hydro.database": database.name, "hydro.radiation": "none"},
+        )
+    )
+
+
+def prepare(reference: Path, output: Path, *options: str) -> None:
+    """The command of cases/rm3/README.md, in heave alone."""
+    source = str(reference / "hdb" / "rm3_wamit")
+    arguments = ["--rho", "1000", "--keep", "float.heave,spar.heave", "--states", "16"]
+    fit = ["--fit", "heave=float.heave,spar.heave", "--band", "0.1,1.6"]
+    with pytest.warns(hydrodae.memory.MemoryFitWarning):  # the tables are noisy
+        assert main(["hdb", "import", source, "-o", str(output), *arguments, *fit, *options]) == 0
+
+
+def decay_errors(folder: Path, database: str, reference: Path, motion: str) -> tuple[float, float]:
+    """Rms differences of float and spar from WEC-Sim over 100 s [m]."""
+    table = np.genfromtxt(reference / "rm3" / "wecsim_decay.csv", delimiter=",", names=True)
+    early = table["t_s"] <= 99.96
+    results = hydrodae.run(case(folder, "decay.toml", database, motion))
+    errors = []
+    for body in ("float", "spar"):
+        z = results[f"bodies/{body}/position"].values[:, 2]
+        ours = np.interp(table["t_s"][early], results.time, z)
+        errors.append(float(np.sqrt(np.mean((ours - table[f"{body}_z_m"][early]) ** 2))))
+    return errors[0], errors[1]
+
+
+def relative_amplitude(folder: Path, database: str, motion: str) -> float:
+    """Of the slide over the last five periods [m]."""
+    results = hydrodae.run(case(folder, "wave.toml", database, motion))
+    last = results.time >= results.time[-1] - 40.0 + 1e-6
+    carrier = np.exp(-2j * np.pi * results.time[last] / 8.0)
+    slide = results[SLIDE].values[last]
+    return float(abs(2.0 * np.mean((slide - slide.mean()) * carrier)))
+
+
+def test_decay_against_wecsim(rm3: Path, reference: Path) -> None:
+    on_float, on_spar = decay_errors(rm3, "heave.h5", reference, "heave")
+    assert on_float <= 5e-4
+    assert on_spar <= 3e-4
+
+
+def test_regular_wave_with_coupled_bodies(rm3: Path) -> None:
+    assert relative_amplitude(rm3, "heave.h5", "heave") == pytest.approx(0.879, rel=0.01)
+
+
+def test_dropping_the_coupling_lowers_the_motion(rm3: Path) -> None:
+    """Frequency domain: 0.879 m with the blocks between the bodies, 0.867 without them."""
+    rows = sensitivity(case(rm3, "wave.toml", "heave.h5"), "rao", periods=[8.0], channels=[SLIDE])
+    found = {row.variant: 1.25 * row.value for row in rows}
+    assert found["base: tables as stored"] == pytest.approx(0.879, rel=0.01)
+    assert found["no coupling of bodies"] == pytest.approx(0.860, rel=0.015)
+    assert found["no coupling of bodies"] == pytest.approx(0.867, rel=0.002)
+    power = {
+        row.variant: row.value for row in sensitivity(case(rm3, "wave.toml", "heave.h5"), "power")
+    }
+    speed = 2 * np.pi / 8.0 * found["base: tables as stored"]
+    assert power["base: tables as stored"] == pytest.approx(0.5 * 1.2e6 * speed**2, rel=1e-6)
+
+
+@pytest.mark.long
+def test_regular_wave_without_coupling(reference: Path, rm3: Path) -> None:
+    prepare(reference, rm3 / "alone.h5", "--no-coupling")
+    assert relative_amplitude(rm3, "alone.h5", "heave") == pytest.approx(0.860, rel=0.015)
+
+
+@pytest.mark.long
+def test_in_the_plane(reference: Path, rm3: Path) -> None:
+    """The commands and cases of cases/rm3 as they stand: six coordinates, 40 states."""
+    source, planar = str(reference / "hdb" / "rm3_wamit"), "float.planar,spar.planar"
+    command = ["hdb", "import", source, "-o", str(rm3 / "hydro.h5"), "--rho", "1000"]
+    fit = ["--fit", f"planar={planar}", "--states", "40", "--band", "0.1,1.6"]
+    with pytest.warns(hydrodae.memory.MemoryFitWarning):
+        assert main([*command, "--keep", planar, *fit]) == 0
+    on_float, on_spar = decay_errors(rm3, "hydro.h5", reference, "planar")
+    assert on_float <= 5e-4
+    assert on_spar <= 3e-4
+    assert relative_amplitude(rm3, "hydro.h5", "planar") == pytest.approx(0.879, rel=0.01)
