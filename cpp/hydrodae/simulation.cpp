@@ -307,7 +307,7 @@ private:
   VectorX y_, yp_;
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
   solve::Statistics before_events_;             ///< of the integrators before the last event
-  std::unique_ptr<system::History> history_; ///< where loads depend on the past
+  std::unique_ptr<system::History> history_;    ///< where loads depend on the past
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular

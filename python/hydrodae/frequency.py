@@ -109,7 +109,6 @@ class LinearModel:
         self.case = case if isinstance(case, Case) else Case.read(case)
         model: dict[str, Any] = _core.linearize(self.case.scene)
         self.coordinates: list[str] = model["coordinates"]
-        self.hydro_labels: list[str] = model["hydro_labels"]
         self.mass: Array = model["mass"]
         self.damping: Array = model["damping"]
         self.stiffness: Array = model["stiffness"]

@@ -255,7 +255,9 @@ def _memory(
     return f"{fit.n_states} states", _kernel_error(fit, database, moving), error
 
 
-def _kernel_error(fit: ExponentialMemory, database: HydroDatabase, moving: list[str]) -> float:
+def _kernel_error(
+    fit: ExponentialMemory, database: HydroDatabase, moving: tuple[str, ...]
+) -> float:
     """Rms difference of the fit's kernel over the rms of K, scaled by the roots of the diagonal."""
     kernel = database.kernel
     if kernel is None or not set(moving) <= set(kernel.inputs):

@@ -325,7 +325,7 @@ def working_band(path: str, database: HydroDatabase) -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as folder:
         # the case may wait for this very file, and for the fit: the tables suffice
         stand_in = Path(folder) / "hydro.h5"
-        replace(database, kernel=None, kernel_time=None, memory={}).write(stand_in)
+        replace(database, kernel=None, memory={}).write(stand_in)
         case = Case(path=path, values={"hydro.radiation": "none", "hydro.database": str(stand_in)})
         model = LinearModel(case).with_database(database)
     found = [2.0 * np.pi / mode.period for mode in model.modes()]

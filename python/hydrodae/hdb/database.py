@@ -342,7 +342,6 @@ class HydroDatabase:
             added_mass_inf=self.added_mass_inf * own,
             added_mass_inf_std=self.added_mass_inf_std * own,
             repairs=(*self.repairs, "coupling: blocks of A and B between bodies set to zero"),
-            kernel_time=None,
             kernel=None,
             memory={},
         )
