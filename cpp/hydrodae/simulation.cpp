@@ -95,7 +95,7 @@ public:
     begin_history();
     energy_guard_ =
         scene.solver.energy_guard.value_or(scene.solver.method == "ida" && solve::has_loop(system_)
-                                               ? std::clamp(scene.solver.rtol, 3e-4, 1e-2)
+                                               ? std::clamp(2.0 * scene.solver.rtol, 3e-4, 1e-2)
                                                : 1e-2);
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);

@@ -147,11 +147,16 @@ def test_wrong_keys_are_one_clear_error(repository: Path, tmp_path: Path) -> Non
 
 def test_a_shorter_memory_costs_accuracy(repository: Path, tight: np.ndarray) -> None:
     errors = [
-        np.abs(heave(sphere(repository, hydro__memory_length=t)) - tight).max()
+        np.abs(heave(sphere(repository, hydro__memory_length=t, solver__force=True)) - tight).max()
         for t in (2.0, 5.0, 10.0)
     ]
     assert errors[0] > errors[1] > errors[2] > 1e-6
     assert errors[2] <= 5e-3
+
+
+def test_a_memory_cut_too_short_is_refused(repository: Path) -> None:
+    with pytest.raises(hydrodae.CaseError, match=r"cuts off .* % of the kernel of sphere.heave"):
+        sphere(repository, hydro__memory_length=1.0)
 
 
 def test_f3of_flaps_agree_with_the_exponential_memory(repository: Path, tmp_path: Path) -> None:

@@ -43,6 +43,38 @@ void check_wet_body(const hydro::Database& database, const Body& body) {
                      ", and a body that moves needs them");
 }
 
+/// What part of int |K| of a coordinate on itself lies beyond `length` [-].
+double part_beyond(const hydro::RadiationKernel& kernel, const std::string& label, double length) {
+  const auto place = [&](const std::vector<std::string>& labels) {
+    return std::find(labels.begin(), labels.end(), label) - labels.begin();
+  };
+  const auto row = place(kernel.outputs), column = place(kernel.inputs);
+  double all = 0.0, beyond = 0.0;
+  for (std::size_t k = 0; k < kernel.values.size(); ++k) {
+    const double size = std::abs(kernel.values[k](row, column));
+    all += size;
+    if (static_cast<double>(k) * kernel.step > length)
+      beyond += size;
+  }
+  return all > 0.0 ? beyond / all : 0.0;
+}
+
+/// A memory that is cut too short is that of another device.
+void check_memory_length(const Scene& scene, double length) {
+  constexpr double allowed = 0.1;
+  const hydro::RadiationKernel& kernel = *scene.database->kernel;
+  for (const std::string& label : moving_coordinates(scene)) {
+    const double lost = part_beyond(kernel, label, length);
+    if (lost > allowed && !scene.solver.force)
+      throw ModelError("hydro.memory_length",
+                       "memory_length = " + number_text(length) + " s cuts off " +
+                           number_text(std::round(1000.0 * lost) / 10.0) + " % of the kernel of " +
+                           label +
+                           " (of int |K|), more than 10 %: the motion would be that of another "
+                           "device; a longer one, or solver.force = true for comparisons");
+  }
+}
+
 /// The kernel must be there, cover what moves, and be as long as the case asks.
 void check_kernel(const Scene& scene) {
   const HydroOptions& hydro = *scene.hydro;
@@ -75,6 +107,7 @@ void check_kernel(const Scene& scene) {
                                                 " s: the kernel of " + database.path + " allows " +
                                                 number_text(least) + " to " + number_text(most) +
                                                 " s");
+  check_memory_length(scene, length);
 }
 
 } // namespace

@@ -75,7 +75,7 @@ struct SolverOptions {
          "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01, or rtol, 0.0003 at least, where ida meets "
+         "exchanged; 0: no guard. By default 0.01, or 2 rtol, 0.0003 at least, where ida meets "
          "closed "
          "loops: a multi-step method that loses energy in a singular pose loses the motion.",
          false, at_least(0)},

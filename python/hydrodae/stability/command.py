@@ -49,8 +49,6 @@ def run(arguments: argparse.Namespace) -> int:
     console.print(show.table(cells))
     for line in show.reasons(cells):
         console.print("  " + line, markup=False, highlight=False, soft_wrap=True)
-    for name, why in grid.NOT_MODELLED.items():
-        console.print(f"  {name}: not modelled: {why}", markup=False, highlight=False)
     if arguments.json:
         show.write_json(cells, arguments.json)
     if arguments.picture:

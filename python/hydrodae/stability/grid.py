@@ -15,17 +15,11 @@ from hydrodae.case import Case
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import Results
 from hydrodae.simulate import run
-from hydrodae.stability import mechanics, switching, water
+from hydrodae.stability import mechanics, past, switching, water
 from hydrodae.stability.methods import METHODS, Method
 from hydrodae.stability.scene import Scene
 
 PASS, STOPPED, REFUSED, WRONG = "pass", "stopped", "refused", "wrong"
-
-#: What the case format cannot express yet.
-NOT_MODELLED = {
-    "delayed_controller": "a controller with delay: no controllers",
-    "short_memory": "a radiation kernel cut too short: memory is exponential only, none is cut",
-}
 
 #: A run that must stop at a lock may notice it this much late [s].
 LOCK_MARGIN = 0.01
@@ -75,7 +69,7 @@ class Cell:
 
 def all_scenes() -> dict[str, Scene]:
     """Return the scenes of the map by name."""
-    every = (*mechanics.scenes(), *switching.scenes(), *water.scenes())
+    every = (*mechanics.scenes(), *switching.scenes(), *past.scenes(), *water.scenes())
     return {scene.name: scene for scene in every}
 
 

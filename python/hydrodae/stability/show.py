@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hydrodae.stability.grid import NOT_MODELLED, PASS, REFUSED, STOPPED, WRONG, Cell
+from hydrodae.stability.grid import PASS, REFUSED, STOPPED, WRONG, Cell
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -65,11 +65,8 @@ def reasons(cells: Sequence[Cell]) -> list[str]:
 
 
 def write_json(cells: Sequence[Cell], path: str | Path) -> None:
-    """Write the cells, and what is not modelled, as JSON."""
-    document = {
-        "cells": [cell.record() for cell in cells],
-        "not_modelled": [{"scene": name, "reason": why} for name, why in NOT_MODELLED.items()],
-    }
+    """Write the cells as JSON."""
+    document = {"cells": [cell.record() for cell in cells]}
     Path(path).write_text(json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 

@@ -20,7 +20,7 @@ MASS, ADDED_MASS, STIFFNESS, POLE = 1000.0, 500.0, 6000.0, -1.0
 LABEL = "float.heave"
 
 
-def _write(path: Path, residue: float, added_mass: float) -> None:
+def write(path: Path, residue: float, added_mass: float) -> None:
     """Write a database with one real pole, of kernel `residue` exp(POLE t) [N/m]."""
     with h5py.File(path, "w") as file:
         file.attrs.update(format="hydrodae-hydro", format_version=1, rho=1000.0, gravity=9.81)
@@ -43,29 +43,34 @@ def _write(path: Path, residue: float, added_mass: float) -> None:
         fit["added_mass_inf"] = [[added_mass]]
 
 
-def _heave(results: Results) -> Array:
+def heave(results: Results) -> Array:
+    """Return the heave of the float, (nt, 1), m."""
     return np.asarray(results["bodies/float/position"].values)[:, [2]]
 
 
 def _grown(results: Results) -> Array:
     """By how much the float rises above where it was let go, m."""
-    return np.maximum(np.abs(_heave(results)[:, 0]) - 1.0, 0.0)
+    return np.maximum(np.abs(heave(results)[:, 0]) - 1.0, 0.0)
 
 
-def _scene(name: str, title: str, residue: float, added_mass: float, **how: Any) -> Scene:
+def float_tables() -> dict[str, Any]:
+    """Return the case of the float, let go 1 m above its rest."""
     float_ = {
         "name": "float", "hydro": "float", "motion": "heave", "mass": MASS,
         "center_of_gravity": [0.0, 0.0, 0.0], "initial": {"displacement": [0.0, 0.0, 1.0]},
     }  # fmt: skip
-    tables = {
+    return {
         "body": [float_],
         "hydro": {"fit": "heave"},
         "solver": {"end_time": 30.0},
         "output": {"step": 0.1},
     }
+
+
+def _scene(name: str, title: str, residue: float, added_mass: float, **how: Any) -> Scene:
     return Scene(
-        name, title, tables, 1.0, 0.5,
-        database=lambda path: _write(path, residue, added_mass), **how,
+        name, title, float_tables(), 1.0, 0.5,
+        database=lambda path: write(path, residue, added_mass), **how,
     )  # fmt: skip
 
 
@@ -75,12 +80,12 @@ def scenes() -> list[Scene]:
     system = np.array([[0, 1, 0], [-STIFFNESS / inertia, 0, -1 / inertia], [0, 800.0, POLE]])
     return [
         _scene("memory", "float with a passive memory (for comparison)", 800.0, ADDED_MASS,
-               source="closed form by eigenvectors", measured=_heave,
+               source="closed form by eigenvectors", measured=heave,
                truth=truths.linear(system, [1.0, 0.0, 0.0], 0)),
         _scene("active_memory", "memory that is not passive: negative B(w)", -800.0, ADDED_MASS,
                source="still water gives no energy: |heave| <= 1 m", measured=_grown,
                impossible="the waves would feed the motion"),
         _scene("negative_mass", "effective mass that is not positive definite", 800.0,
-               -2.0 * MASS, source="no motion", measured=_heave,
+               -2.0 * MASS, source="no motion", measured=heave,
                impossible="mass and added mass are negative"),
     ]  # fmt: skip
