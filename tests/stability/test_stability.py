@@ -40,7 +40,6 @@ KNOWN = {
     ("fast_rotor", "generalized_alpha:10"): "1.2e-2 against 8e-3",
     ("heavy_top", "generalized_alpha:100"): "3.0e-2 against 1e-3",
     ("heavy_top", "lobatto_iiic:10"): "0.22 against 0.1",
-    ("heavy_top", "ida:index_1"): "1.4e-3 against 1e-3",
 }
 
 

@@ -75,9 +75,11 @@ struct SolverOptions {
          "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01, or 2 rtol, 0.0003 at least, where ida meets "
-         "closed "
-         "loops: a multi-step method that loses energy in a singular pose loses the motion.",
+         "exchanged; 0: no guard. By default 0.01; where ida meets closed loops 0.001, at rtol "
+         "3e-5 "
+         "and more 2 rtol, 0.0003 at least: a multi-step method that loses energy in a singular "
+         "pose "
+         "loses the motion.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "
