@@ -132,6 +132,19 @@ void advise_bodies(std::ostream& out, const System& s, const std::vector<bool>& 
   }
 }
 
+/// Does a force or a constraint act on a coordinate of this joint?
+bool joint_is_used(const model::Scene& scene, const std::string& name) {
+  bool used = std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                          [&](const auto& c) { return c.joint == name || c.joint_b == name; });
+  const auto look = [&](const auto& force) {
+    if constexpr (requires { force.joint; })
+      used = used || force.joint == name;
+  };
+  std::apply([&](const auto&... list) { (std::for_each(list.begin(), list.end(), look), ...); },
+             scene.forces);
+  return used;
+}
+
 /// Joints whose work an eliminated coordinate does for nothing.
 void advise_joints(std::ostream& out, const model::Scene& scene) {
   const auto mobile = [&](const std::string& name) {
@@ -150,7 +163,11 @@ void advise_joints(std::ostream& out, const model::Scene& scene) {
     else if (j.type == "fixed")
       out << "  could be less: joint '" << j.name << "' as motion = \"fixed\" of body '" << body
           << "', whose support load is reported too\n";
-    if (j.type != "prismatic" || (a && b))
+    const auto alone = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [&](const model::Body& other) { return other.name == body; });
+    const std::array<bool, 6> free = model::free_coordinates(*alone);
+    if (j.type != "prismatic" || (a && b) || std::count(free.begin(), free.end(), true) == 1 ||
+        joint_is_used(scene, j.name))
       continue;
     for (int c = 0; c < 3; ++c)
       if (std::abs(j.axis->normalized()[c]) > 1.0 - 1e-12)
@@ -217,10 +234,18 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
   std::vector<bool> stirred(static_cast<std::size_t>(s.n_z), false); // memory states
   std::mt19937 random(11);
   const auto draw = [&] { return 2.0 * (random() / 4294967296.0) - 1.0; };
+  std::vector<double> given_drives;
+  for (const system::CouplerData& c : s.couplers)
+    given_drives.push_back(c.drive.constant);
   int quiet = 0;
   for (int round = 0; round < 40 && quiet < 3; ++round) {
     VectorX y = start, step = VectorX::Zero(s.n_u), yp;
     if (round > 0) {
+      for (std::size_t k = 0; k < s.couplers.size(); ++k) { // what a drive does later
+        system::CouplerData& c = s.couplers[k];
+        if (c.kept() && !c.velocity_level && c.drive.amplitude != 0.0)
+          c.drive.constant = given_drives[k] + draw() * s.row_scale[c.mu];
+      }
       for (Index k = 0; k < s.n_u; ++k)
         if (!never[static_cast<std::size_t>(k)]) {
           step[k] = draw() * size[k];

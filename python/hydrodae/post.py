@@ -112,9 +112,14 @@ def _ending(results: Results) -> str:
 
 
 def _cost(results: Results) -> str:
-    names = {"steps": "steps", "residual_calls": "residuals", "jacobian_calls": "Jacobians"}
+    names = {
+        "steps": "steps",
+        "residual_calls": "residuals",
+        "jacobian_calls": "Jacobians",
+        "events": "events",
+    }
     known = results.statistics
-    parts = [f"{int(known[key])} {word}" for key, word in names.items() if key in known]
+    parts = [f"{int(known[key])} {word}" for key, word in names.items() if known.get(key)]
     if "wall_time" in known:
         wall = float(known["wall_time"])
         speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""

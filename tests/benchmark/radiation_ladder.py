@@ -13,7 +13,6 @@ import argparse
 import os
 import shutil
 import tempfile
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,48 +23,21 @@ from hydrodae.ladder import ladder
 from hydrodae.memory import fit_memory
 
 ROOT = Path(__file__).resolve().parents[2]
-STATES = 40  # of a fit, at most
 PLANAR = ("surge", "heave", "pitch")
 
-RM3_BODY = """
-[[body]]
-name = "{name}"
-hydro = "{name}"
-motion = "heave"
-mass = {mass}
-center_of_gravity = [0.0, 0.0, {z}]
-inertia = [{inertia}, {inertia}, {inertia}]
-"""
-RM3 = (
-    """
-title = "RM3, float released 0.1 m up"
-[hydro]
-database = "rm3.h5"
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "spar"
-body_b = "float"
-point = [0.0, 0.0, -0.72]
-axis = [0.0, 0.0, 1.0]
-initial.displacement = 0.1
-[solver]
-end_time = 100.0
-"""
-    + RM3_BODY.format(name="float", mass=725834.0, z=-0.72, inertia=21306090.66)
-    + RM3_BODY.format(name="spar", mass=886691.0, z=-21.29, inertia=94407091.24)
-)
 NODES = {"S3": (0.0, 0.0), "C1": (0.7, -1.21), "S1": (0.0, -2.42), "S2": (2.1, -1.21)}
 NODE = """
 [[body]]
 name = "{name}"
 hydro = "{name}"
-motion = "heave"
 mass = 173.9
 center_of_gravity = [{x}, {y}, -0.3]
+inertia = [9.13, 9.13, 7.83]
 initial.displacement = [0.0, 0.0, {start}]
 """
-FOUR_NODES = 'title = "Four nodes of 4N3LA, heave, one released"\n[hydro]\ndatabase = "4n3la.h5"\n'
+FOUR_NODES = (
+    'title = "Four nodes of 4N3LA, one released in heave"\n[hydro]\ndatabase = "4n3la.h5"\n'
+)
 FOUR_NODES += "[solver]\nend_time = 20.0\n" + "".join(
     NODE.format(name=name, x=x, y=y, start=0.1 if name == "S3" else 0.0)
     for name, (x, y) in NODES.items()
@@ -75,21 +47,6 @@ FOUR_NODES += "[solver]\nend_time = 20.0\n" + "".join(
 def reference() -> Path:
     """Folder of the reference data."""
     return Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-
-
-def prepare(
-    source: Path,
-    target: Path,
-    moving: Sequence[str],
-    points: dict[str, list[float]],
-    band: tuple[float, float],
-    names: Sequence[str] | None = None,
-    rho: float | None = None,
-) -> None:
-    """Import a database, fit what moves, and make its kernel."""
-    database, _ = import_database(source, names=names, reference_points=points, rho=rho)
-    database.memory["default"] = fit_memory(database, inputs=moving, band=band, max_states=STATES)
-    database.with_kernel(moving, band=band).write(target)
 
 
 def sphere(_folder: Path) -> hydrodae.Case:
@@ -107,20 +64,26 @@ def f3of(folder: Path) -> hydrodae.Case:
 
 
 def rm3(folder: Path) -> hydrodae.Case:
-    """Two bodies in heave."""
+    """Two bodies in the plane, noisy tables; see cases/rm3/README.md."""
+    source = reference() / "hdb" / "rm3_wamit"
     points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
-    moving = [f"{body}.heave" for body in points]
-    wamit = reference() / "hdb" / "rm3_wamit"
-    prepare(wamit, folder / "rm3.h5", moving, points, (0.2, 3.0), list(points), 1000.0)
-    return hydrodae.Case.from_text(RM3, folder)
+    database, _ = import_database(source, names=list(points), reference_points=points, rho=1000.0)
+    moving = [f"{body}.{dof}" for body in points for dof in PLANAR]
+    band = (0.1, 1.6)
+    database.memory["planar"] = fit_memory(database, inputs=moving, band=band, max_states=40)
+    database.with_kernel(moving, band=band).write(folder / "hydro.h5")
+    shutil.copy(ROOT / "cases" / "rm3" / "decay.toml", folder)
+    return hydrodae.Case.read(folder / "decay.toml").with_values({"solver.end_time": 100.0})
 
 
 def four_nodes(folder: Path) -> hydrodae.Case:
-    """Four bodies in heave."""
+    """Four free bodies, between which waves travel."""
     points = {name: [x, y, -0.3] for name, (x, y) in NODES.items()}
-    moving = [f"{name}.heave" for name in NODES]
     table = reference() / "hdb" / "own" / "4n3la.nc"
-    prepare(table, folder / "4n3la.h5", moving, points, (1.0, 6.0))
+    database, _ = import_database(table, reference_points=points)
+    band, every = (1.0, 8.0), database.coordinates
+    database.memory["all"] = fit_memory(database, inputs=every, band=band, uniform=0.01)
+    database.with_kernel(every, band=band).write(folder / "4n3la.h5")
     return hydrodae.Case.from_text(FOUR_NODES, folder)
 
 

@@ -83,6 +83,29 @@ TEST_CASE("what hangs on a drive is moved by it, though all is at rest at the st
   CHECK(says(report(slide + drive + solver), "never excited: heave, pitch of body 'sled'"));
 }
 
+TEST_CASE("what a driven body pulls by a spring is moved by it, though slack at the start") {
+  const std::string bodies = body("sled", "center_of_gravity = [0, 0, 0]\nmotion = 'surge'") +
+                             body("tow", "center_of_gravity = [1, 0, 0]\nmotion = 'surge'") +
+                             "[environment]\ngravity = 0.0\n";
+  const std::string drive = "[[constraint]]\nname = 'motor'\ntype = 'coordinate'\nbody = 'tow'\n"
+                            "coordinate = 'surge'\ndrive = { rate = 0.1 }\n";
+  const std::string spring = "[[force]]\nname = 'rope'\ntype = 'spring_damper'\nstiffness = 10.0\n"
+                             "body_a = 'tow'\nbody_b = 'sled'\npoint_a = [1, 0, 0]\n"
+                             "point_b = [0, 0, 0]\n";
+  CHECK(says(report(bodies + drive + solver), "never excited: surge of body 'sled'"));
+  CHECK(says(report(bodies + drive + spring + solver), "never excited") == false);
+}
+
+TEST_CASE("a joint that a stop needs is not replaced") {
+  const std::string rail =
+      body("a", "center_of_gravity = [0, 0, 0]") +
+      joined_by("rail", "prismatic", "ground", "a", "point = [0,0,0]\naxis = [0,0,1]");
+  const std::string stop =
+      "[[constraint]]\nname = 'end'\ntype = 'stop'\njoint = 'rail'\nlower = -1.0\n";
+  CHECK(says(report(rail + solver), "joint 'rail' as motion"));
+  CHECK(says(report(rail + stop + solver), "joint 'rail' as motion") == false);
+}
+
 TEST_CASE("joints that an eliminated coordinate replaces are told") {
   const std::string bodies =
       body("a", "center_of_gravity = [0, 0, 0]") + body("b", "center_of_gravity = [0, 0, 1]");
