@@ -197,6 +197,15 @@ def test_ctrl_c_keeps_what_was_computed(kernel, case_file):
     assert signal.getsignal(signal.SIGINT) is before
 
 
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as in a terminal; a shell's background jobs inherit that it is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_second_ctrl_c_is_a_keyboard_interrupt(kernel, case_file, tmp_path):
     def press(_time: float, _end: float) -> None:
         signal.raise_signal(signal.SIGINT)
