@@ -169,8 +169,8 @@ private:
     const Clock::time_point before = Clock::now();
     at_(t_, y_, yp_);
     switching_->follow(recorder_->turns());
-    switching_->settle(t_, y_, yp_);
-    recorder_->jump(y_, yp_);
+    const bool struck = switching_->settle(t_, y_, yp_);
+    recorder_->restart(y_, yp_, struck);
     if (history_)
       history_->append(t_, y_, yp_);
     statistics_.events = switching_->events() - 1; // without the start

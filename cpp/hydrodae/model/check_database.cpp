@@ -51,10 +51,11 @@ double part_beyond(const hydro::RadiationKernel& kernel, const std::string& labe
   const auto row = place(kernel.outputs), column = place(kernel.inputs);
   double all = 0.0, beyond = 0.0;
   for (std::size_t k = 0; k < kernel.values.size(); ++k) {
-    const double size = std::abs(kernel.values[k](row, column));
-    all += size;
-    if (static_cast<double>(k) * kernel.step > length)
-      beyond += size;
+    const double time = static_cast<double>(k) * kernel.step;
+    const double size = std::abs(kernel.values[k](row, column)) * (k == 0 ? 0.5 : 1.0);
+    all += size; // trapezoids
+    if (time >= length - 1e-9 * kernel.step)
+      beyond += time > length + 1e-9 * kernel.step ? size : 0.5 * size;
   }
   return all > 0.0 ? beyond / all : 0.0;
 }

@@ -356,7 +356,7 @@ bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
   return true;
 }
 
-void Switching::settle(double t, VectorX& y, VectorX& yp) {
+bool Switching::settle(double t, VectorX& y, VectorX& yp) {
   const Stabilised lock(s_);
   present_.reset();
   count(t);
@@ -387,6 +387,7 @@ void Switching::settle(double t, VectorX& y, VectorX& yp) {
   }
   holding_ = std::any_of(s_.switches.begin(), s_.switches.end(),
                          [](const Data& element) { return element.holds(); });
+  return struck;
 }
 
 } // namespace hydrodae::solve

@@ -33,7 +33,8 @@ public:
   /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
   /// loads. Changes the layout of the system; y, y' come out in the new one, consistent. Throws
   /// SolverError when no consistent set of rows is found, or when events accumulate.
-  void settle(double t, VectorX& y, VectorX& yp);
+  /// @returns whether something struck: else the velocities have not jumped
+  bool settle(double t, VectorX& y, VectorX& yp);
 
   /// Angles go on from these values of all motions (of an accepted step).
   void follow(const std::vector<double>& turns);

@@ -162,13 +162,14 @@ void Recorder::accept(double t, const Interpolant& at) {
   t_ = t;
 }
 
-void Recorder::jump(const VectorX& y, const VectorX& yp) {
+void Recorder::restart(const VectorX& y, const VectorX& yp, bool struck) {
   const Observation& o = observer_.observation();
   const double before = o.kinetic + o.kinetic_added_mass;
   y_ = y;
   yp_ = yp;
   power_ = observer_.observe(t_, y, yp).powers;
-  work_.back() += o.kinetic + o.kinetic_added_mass - before; // "constraints"
+  if (struck) // "constraints"
+    work_.back() += std::min(0.0, o.kinetic + o.kinetic_added_mass - before);
 }
 
 void Recorder::fill_bodies(double*& out) {

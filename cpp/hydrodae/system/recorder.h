@@ -37,9 +37,10 @@ public:
   /// Closes the step that ends at `t`: work and turns are carried over.
   void accept(double t, const Interpolant& at);
 
-  /// The motion jumped at the end of the last accepted step, to y, y' there: what the kinetic
-  /// energy lost was the work of the constraints. Rows of the system may have come or gone.
-  void jump(const VectorX& y, const VectorX& yp);
+  /// Rows of the system came or went at the end of the last accepted step; y, y' from there on.
+  /// Where something `struck`, what the kinetic energy lost was the work of the constraints; a
+  /// gain, and any change without an impact, is left as an error of the balance.
+  void restart(const VectorX& y, const VectorX& yp, bool struck);
 
   /// All motions at the end of the last accepted step, angles followed over turns.
   const std::vector<double>& turns() const { return turns_; }
