@@ -93,7 +93,12 @@ public:
     }
     formulate(scene.solver);
     begin_history();
-    energy_guard_ = scene.solver.energy_guard.value_or(default_energy_guard());
+    energy_guard_ = scene.solver.energy_guard.value_or(1e-2);
+    singular_energy_guard_ = energy_guard_;
+    if (!scene.solver.energy_guard && scene.solver.method == "ida" && solve::has_loop(system_)) {
+      singular_energy_guard_ = guard_at_singular_poses();
+      pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
+    }
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (scene.solver.branch_guard) {
@@ -101,6 +106,9 @@ public:
       if (!branch_guard_->active())
         branch_guard_.reset();
     }
+    if (const double allowed = scene.solver.step_guard.value_or(0.02);
+        scene.solver.step > 0.0 && allowed > 0.0)
+      step_guard_ = std::make_unique<solve::StepGuard>(system_, allowed);
     integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
@@ -181,6 +189,8 @@ private:
     }
     if (drift_guard_)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
+    if (pose_guard_)
+      pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
     if (branch_guard_)
       branch_guard_->restart();
     statistics_.solver_time += seconds_since(before);
@@ -206,13 +216,11 @@ private:
     history_->append(t_, y_, yp_);
   }
 
-  /// Part of the energy exchanged that may be missing. In singular poses of loops a multi-step
-  /// method loses energy and motion together, at loose tolerances several hundred times as much of
-  /// the motion; at tight ones only gross errors are left to be caught.
-  double default_energy_guard() const {
+  /// In singular poses of loops a multi-step method loses energy and motion together, at loose
+  /// tolerances several hundred times as much of the motion; at tight ones only gross errors are
+  /// left to be caught.
+  double guard_at_singular_poses() const {
     const double rtol = scene_.solver.rtol;
-    if (scene_.solver.method != "ida" || !solve::has_loop(system_))
-      return 1e-2;
     return rtol < 3e-5 ? 1e-3 : std::clamp(2.0 * rtol, 3e-4, 1e-2);
   }
 
@@ -229,26 +237,37 @@ private:
   /// Ends a run that went wrong without the integrator's noticing (a branch lost in a singular
   /// pose, a tolerance too loose): the energy that the equations keep is a witness of its own.
   void check_energy() {
-    const double part = energy_guard_, error = recorder_->balance_error();
-    if (part == 0.0 || std::abs(error) <= part * recorder_->largest_energy() + least_energy_)
+    const double error = recorder_->balance_error(), exchanged = recorder_->largest_energy();
+    const double missing = std::abs(error) - least_energy_;
+    double part = energy_guard_;
+    if (part == 0.0 || missing <= std::min(part, singular_energy_guard_) * exchanged)
       return;
-    VectorX reactions = VectorX::Zero(system_.n);
     at_(t_, y_, yp_);
+    const bool singular = missing <= part * exchanged;
+    if (singular && !pose_guard_->near_singular(t_, y_, yp_))
+      return;
+    if (singular)
+      part = singular_energy_guard_;
+    VectorX reactions = VectorX::Zero(system_.n);
     for (Index i = system_.lambda0; i < system_.mu0; ++i)
       reactions[i] = y_[i] / system_.scale[i];
     throw SolverError(
         t_, "stopped at t = " + number_text(t_) + " s: the energy balance is off by " +
                 number_text(error) + " J, more than " + number_text(part) + " of the " +
-                number_text(recorder_->largest_energy()) +
-                " J exchanged (solver.energy_guard): the motion is not to be trusted; a smaller "
+                number_text(exchanged) + " J exchanged" + (singular ? ", at a singular pose" : "") +
+                " (solver.energy_guard): the motion is not to be trusted; a smaller "
                 "tolerance or step, or another method may help" +
                 (system_.n_lambda > 0 ? "\n  largest reactions, relative to the weights: " +
                                             solve::worst(reactions, system_.names)
                                       : ""));
   }
 
-  /// The other witnesses: constraints that drift, velocities that jump.
+  /// The other witnesses: fixed steps too long, constraints that drift, velocities that jump.
   void check_motion() {
+    if (step_guard_) {
+      const solve::Statistics s = integrator_->statistics();
+      step_guard_->check(t_, s.last_step, s.last_order, integrator_->local_error());
+    }
     if (!drift_guard_ && !branch_guard_)
       return;
     at_(t_, y_, yp_);
@@ -317,14 +336,17 @@ private:
   std::unique_ptr<system::History> history_;    ///< where loads depend on the past
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
+  std::unique_ptr<solve::StepGuard> step_guard_;     ///< of fixed steps
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
+  std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where ida may lose energy in loops
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
   double t_ = 0.0;
-  double energy_guard_ = 0.0; ///< part of the energy exchanged
-  double least_energy_ = 0.0; ///< balance errors below say nothing [J]
+  double energy_guard_ = 0.0;          ///< part of the energy exchanged
+  double singular_energy_guard_ = 0.0; ///< the same at singular poses
+  double least_energy_ = 0.0;          ///< balance errors below say nothing [J]
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);

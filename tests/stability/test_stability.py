@@ -33,30 +33,6 @@ REFERENCES: Mapping[str, tuple[str, tuple[str, ...]]] = {
 STORED = {"bricard": BRICARD_STEP, "light_joint": LIGHT_JOINT_STEP}  # s between points
 
 
-# Known, of the long list: fixed steps of 3 rad of the fastest motion or more have no error control,
-# and index 1 loses accuracy to drift (error, allowance in m).
-KNOWN = {
-    ("stiff_1e3", "generalized_alpha:100"): "2.7e-3 against 1.6e-3",
-    ("fast_rotor", "generalized_alpha:10"): "1.2e-2 against 8e-3",
-    ("heavy_top", "generalized_alpha:100"): "3.0e-2 against 1e-3",
-    ("heavy_top", "lobatto_iiic:10"): "0.22 against 0.1",
-}
-
-
-def long_cells() -> list[Any]:
-    return [
-        pytest.param(
-            name,
-            method,
-            marks=[pytest.mark.xfail(strict=True, reason=KNOWN[name, method])]
-            if (name, method) in KNOWN
-            else [],
-        )
-        for name in SCENES
-        for method in REST
-    ]
-
-
 def wrong(cells: list[Cell]) -> list[str]:
     return [f"{c.scene}, {c.method}: {c.reason}" for c in cells if c.outcome == "wrong"]
 
@@ -68,7 +44,8 @@ def test_no_run_returns_success_with_a_wrong_motion(name: str) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("name", "method"), long_cells())
+@pytest.mark.parametrize("method", REST)
+@pytest.mark.parametrize("name", SCENES)
 def test_nor_does_any_other_method(name: str, method: str) -> None:
     assert not wrong(stability_map([SCENES[name]], [METHODS[method]], time_limit=10.0))
 

@@ -22,6 +22,7 @@ struct SolverOptions {
   double baumgarte_time = 0.0;
   std::optional<double> energy_guard;
   bool branch_guard = true;
+  std::optional<double> step_guard;
   bool force = false;
   std::optional<double> length_scale;
   std::optional<double> time_scale;
@@ -75,16 +76,20 @@ struct SolverOptions {
          "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01; where ida meets closed loops 0.001, at rtol "
-         "3e-5 "
-         "and more 2 rtol, 0.0003 at least: a multi-step method that loses energy in a singular "
-         "pose "
-         "loses the motion.",
+         "exchanged; 0: no guard. By default 0.01; where ida comes to a singular pose of a closed "
+         "loop 0.001, at rtol 3e-5 and more 2 rtol, 0.0003 at least: a multi-step method that "
+         "loses "
+         "energy there loses the motion.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "
          "nothing "
          "strikes: at a singular pose the motion left its branch."},
+        {"step_guard", &O::step_guard, "-",
+         "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "
+         "ten time scales of the bodies, are more than this angle [rad], or this part of a body's "
+         "lever; 0: no guard. By default 0.02.",
+         false, at_least(0)},
         {"force", &O::force, "-",
          "Run what is known to fail, for comparisons: a pair of method and formulation, a memory "
          "that is not passive."},

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/solve/stage_newton.h"
+#include "hydrodae/solve/step_error.h"
 
 namespace hydrodae::solve {
 
@@ -45,6 +47,8 @@ public:
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
         w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)) {
     use(stages_of(family_, options.order));
+    if (fixed_)
+      stage_error_.emplace(newton_->rk());
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
     e_.accept(y_, yp_);
@@ -53,6 +57,7 @@ public:
   double step() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
+  const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
 
 private:
@@ -82,6 +87,8 @@ private:
   double contraction_ = 1.0;  ///< of the last step
   bool was_full_ = false;     ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
+  std::optional<StageError> stage_error_; ///< of fixed steps
+  VectorX local_error_;                   ///< (n_bodies,)
   int since_change_ = 0;
 };
 
@@ -201,6 +208,8 @@ void Collocation::accept(double h) {
   const RungeKutta& rk = newton_->rk();
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
+  if (stage_error_)
+    local_error_ = (*stage_error_)(s_, h, yp_.head(s_.n_q), rates_, e_.time_scale());
   y0_ = y_;
   t0_ = t_;
   done_ = h;

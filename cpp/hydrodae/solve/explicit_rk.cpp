@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/explicit_tableaux.h"
 #include "hydrodae/solve/saddle_point.h"
+#include "hydrodae/solve/step_error.h"
 
 namespace hydrodae::solve {
 
@@ -43,12 +44,15 @@ public:
   double step() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
+  const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
 
 private:
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
   bool try_step(double h);
+  void combine(double h, std::span<const double> weights);
   double error(double h);
+  void estimate(double h);
   void extend();
   [[noreturn]] void fail(const std::string& reason);
 
@@ -64,6 +68,7 @@ private:
   MatrixX k_; ///< rates of the stages, one column each
   bool extended_ = false;
   double last_error_ = 1e-4;
+  VectorX local_error_; ///< (n_bodies,), of fixed steps
 };
 
 void ExplicitRk::fail(const std::string& reason) {
@@ -96,21 +101,44 @@ bool ExplicitRk::try_step(double h) {
   return true;
 }
 
+/// stage_ = h sum_j weights_j k_j
+void ExplicitRk::combine(double h, std::span<const double> weights) {
+  stage_.setZero();
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    if (weights[j] != 0.0)
+      stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
+}
+
+/// Of the two estimates of the method of order 8 (Hairer, Norsett and Wanner, section II.10).
+double of_order_8(double five, double three) {
+  const double size = std::hypot(five, 0.1 * three);
+  return size > 0.0 ? five * five / size : 0.0;
+}
+
 /// Local error in units of the tolerance.
 double ExplicitRk::error(double h) {
   e_.weights(y_, w_);
-  auto estimate = [&](std::span<const double> weights) {
-    stage_.setZero();
-    for (std::size_t j = 0; j < weights.size(); ++j)
-      if (weights[j] != 0.0)
-        stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
+  auto size = [&](std::span<const double> weights) {
+    combine(h, weights);
     return e_.norm(w_, stage_);
   };
   if (pair_.order == 5)
-    return estimate(tableaux::rk5_e);
-  const double five = estimate(tableaux::rk8_e5), three = estimate(tableaux::rk8_e3);
-  const double size = std::hypot(five, 0.1 * three);
-  return size > 0.0 ? five * five / size : 0.0;
+    return size(tableaux::rk5_e);
+  const double five = size(tableaux::rk8_e5);
+  return of_order_8(five, size(tableaux::rk8_e3));
+}
+
+/// The same for the positions of each body, relative to the scales.
+void ExplicitRk::estimate(double h) {
+  const system::System& s = e_.system;
+  auto sizes = [&](std::span<const double> weights) {
+    combine(h, weights);
+    return body_sizes(s, stage_.head(s.n_q));
+  };
+  if (pair_.order == 5)
+    local_error_ = sizes(tableaux::rk5_e);
+  else
+    local_error_ = sizes(tableaux::rk8_e5).binaryExpr(sizes(tableaux::rk8_e3), &of_order_8);
 }
 
 double ExplicitRk::step() {
@@ -135,6 +163,8 @@ double ExplicitRk::step() {
       continue;
     }
     const double err = fixed_ ? 0.0 : error(h);
+    if (fixed_)
+      estimate(h);
     bool good = err <= 1.0 && std::isfinite(err);
     if (good && !saddle_.project(t_ + h, trial_)) {
       if (fixed_)

@@ -39,16 +39,19 @@ public:
     alpha_f_ = rho / (rho + 1.0);
     gamma_ = 0.5 - alpha_m_ + alpha_f_;
     beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
+    error_constant_ = std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6.0);
     e_.accept(y_, yp_);
   }
 
   double step() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
+  const VectorX& local_error() const override { return local_error_; }
 
 private:
   template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
   void update(double h);
+  void estimate(double h);
   bool refresh(double t, double h);
   bool newton(double t, double h);
   [[noreturn]] void fail(const std::string& reason);
@@ -57,10 +60,12 @@ private:
   Equations e_;
   SparseLu<double> lu_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
+  double error_constant_ = 0; ///< of the positions, of h^3 q'''
   double t_ = 0.0, t0_ = 0.0, end_, h_;
   Index n_x_;
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
   VectorX velocity_;      ///< G^T mu of the last residual, tangent
+  VectorX local_error_;   ///< (n_bodies,)
   double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
 };
 
@@ -156,6 +161,25 @@ bool GeneralizedAlpha::newton(double t, double h) {
   return false;
 }
 
+/// Error of the positions in the last step: a stands for x' at (alpha_m - alpha_f) h, hence
+/// (beta + (alpha_m - alpha_f) / 2 - 1/6) h^3 q''' along each coordinate; and turns do not
+/// commute, h^3 w x w' / 12 (Magnus).
+void GeneralizedAlpha::estimate(double h) {
+  local_error_.resize(static_cast<Index>(s_.bodies.size()));
+  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
+    const system::BodyData& b = s_.bodies[i];
+    const VectorX change = (yp_ - yp0_).segment(b.u0, b.n_active);
+    const Index n = b.n_translations, turns = b.n_active - n;
+    double angle = error_constant_ * h * h * change.tail(turns).norm();
+    if (b.rotation == system::BodyData::Rotation::free) {
+      const Vector3 w = y_.segment<3>(b.u0 + n), rate = yp_.segment<3>(b.u0 + n);
+      angle += h * h * h / 12.0 * w.cross(rate).norm();
+    }
+    local_error_[static_cast<Index>(i)] =
+        std::max(error_constant_ * h * h * change.head(n).norm() / b.lever, angle);
+  }
+}
+
 double GeneralizedAlpha::step() {
   double h = h_;
   if (end_ - t_ < 1.0001 * h)
@@ -192,6 +216,7 @@ double GeneralizedAlpha::step() {
   e_.residual(t_, y_, yp_, residual_);        // rates of q, for the interpolant
   yp_.head(s_.n_q) -= residual_.head(s_.n_q); // the rows are q' - E(q) (u + G^T mu)
   a_ = a_new_;
+  estimate(h);
   e_.accept(y_, yp_);
   ++e_.statistics.steps;
   e_.statistics.last_step = h;

@@ -6,7 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/solve/equations.h"
+#include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::solve {
@@ -15,7 +15,14 @@ namespace {
 
 constexpr double allowed_gap = 1e-2; ///< of the scale of the row
 constexpr double allowed_jump = 0.3; ///< of the largest kinetic energy so far
+constexpr double singular = 1e-2;    ///< of the best independence of the rows seen
 constexpr double window = 3e-3;      ///< of the shortest time scale of a body
+
+/// Two digits, for what is an estimate.
+std::string rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return number_text(std::round(value / unit) * unit);
+}
 
 system::System stabilised(system::System s) {
   s.formulation = system::Formulation::stabilised;
@@ -68,6 +75,22 @@ void DriftGuard::check(double t, const VectorX& y, const VectorX& yp) {
   }
 }
 
+PoseGuard::PoseGuard(const system::System& system, const VectorX& y)
+    : stabilised_(stabilised(system)), pattern_(system::find_pattern(stabilised_)),
+      equations_(stabilised_, pattern_, 1.0), saddle_(equations_),
+      best_(independence(0.0, y, VectorX::Zero(y.size()))) {}
+
+double PoseGuard::independence(double t, const VectorX& y, const VectorX& yp) {
+  VectorX at = y, rate = yp;
+  return saddle_.accelerations(t, at, rate) ? saddle_.independence() : 0.0;
+}
+
+bool PoseGuard::near_singular(double t, const VectorX& y, const VectorX& yp) {
+  const double now = independence(t, y, yp);
+  best_ = std::max(best_, now);
+  return now <= singular * best_;
+}
+
 BranchGuard::BranchGuard(const system::System& system)
     : s_(system), mass_(system.n_u), active_(has_loop(system)) {
   window_ = HUGE_VAL;
@@ -111,6 +134,29 @@ void BranchGuard::check(double t, const VectorX& y) {
     }
   }
   past_.emplace_back(t, u);
+}
+
+StepGuard::StepGuard(const system::System& system, double allowed)
+    : s_(system), allowed_(allowed),
+      sums_(VectorX::Zero(static_cast<Index>(system.bodies.size()))) {
+  for (const system::BodyData& b : s_.bodies)
+    window_ = std::max(window_, summed_time_scales * b.time_scale);
+}
+
+void StepGuard::check(double t, double h, int order, const VectorX& errors) {
+  sums_ = std::exp(-h / window_) * sums_ + errors;
+  Index worst_body = 0;
+  const double sum = sums_.maxCoeff(&worst_body);
+  if (sum <= allowed_)
+    return;
+  throw SolverError(t, "stopped at t = " + number_text(t) + " s: the step of " + number_text(h) +
+                           " s is too long for the motion of " +
+                           s_.bodies[static_cast<std::size_t>(worst_body)].name +
+                           ": within the last " + number_text(std::min(t, window_)) +
+                           " s its errors add up to about " + rounded(sum) +
+                           " of its lever, more than solver.step_guard = " + number_text(allowed_) +
+                           " (0: no guard); " +
+                           rounded(h * std::pow(0.5 * allowed_ / sum, 1.0 / order)) + " s may do");
 }
 
 } // namespace hydrodae::solve

@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::solve {
@@ -23,6 +24,26 @@ private:
   system::System stabilised_; ///< the same equations with both levels as rows
   system::Workspace<double> workspace_;
   VectorX residual_;
+};
+
+/// Tells singular poses of closed loops from rows that always follow from others.
+class PoseGuard {
+public:
+  /// Takes the pose of y for a regular one; the constraints of `system` in any formulation.
+  PoseGuard(const system::System& system, const VectorX& y);
+
+  /// Are the rows of the constraints a hundred times nearer to dependence on each other than in the
+  /// best pose seen?
+  bool near_singular(double t, const VectorX& y, const VectorX& yp);
+
+private:
+  double independence(double t, const VectorX& y, const VectorX& yp);
+
+  system::System stabilised_; ///< the same equations with both levels as rows
+  system::Pattern pattern_;
+  Equations equations_;
+  SaddlePoint saddle_;
+  double best_ = 0.0;
 };
 
 /// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
@@ -49,6 +70,23 @@ private:
   bool active_ = false;
   double window_ = 0.0, largest_ = 0.0;
   std::deque<std::pair<double, VectorX>> past_;
+};
+
+/// Methods of a fixed step do not look at their error. Its estimates, summed over the last ten time
+/// scales of the bodies, are what such a run may be off by.
+class StepGuard {
+public:
+  /// @param allowed sum at which the run ends [-], an angle or a displacement over the body's lever
+  StepGuard(const system::System& system, double allowed);
+
+  /// Throws SolverError when the errors add up to more than is allowed.
+  /// @param h, order, errors: length [s] of the last step, order of the method, its errors by body
+  void check(double t, double h, int order, const VectorX& errors);
+
+private:
+  const system::System& s_;
+  double allowed_, window_ = 0.0;
+  VectorX sums_; ///< (n_bodies,), fading
 };
 
 } // namespace hydrodae::solve

@@ -25,6 +25,14 @@ public:
 
   virtual Statistics statistics() const = 0;
 
+  /// Estimated error of the positions in the last step of a fixed length, body by body (n_bodies,),
+  /// angles or displacements over the lever [-]; empty where the method chooses its steps by their
+  /// error.
+  virtual const VectorX& local_error() const {
+    static const VectorX none;
+    return none;
+  }
+
   /// Nodes that a quadrature over one step needs to be as exact as the method.
   virtual int quadrature_nodes() const { return 3; }
 };

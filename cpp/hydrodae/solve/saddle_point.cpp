@@ -71,6 +71,7 @@ SaddlePoint::SaddlePoint(Equations& equations)
   for (Index c = 0; c < n_; ++c)
     start_[c + 1] += start_[c];
   plain_.resize(row_.size());
+  metric_.resize(s_.n_lambda);
   lu_ = std::make_unique<SparseLu<double>>(start_, row_);
 }
 
@@ -83,7 +84,8 @@ bool SaddlePoint::factorise() {
     for (Index k = start_[i]; k < start_[i + 1]; ++k)
       if (row_[k] < s_.n_u && plain_[k] != 0.0)
         d += plain_[k] * plain_[k] / plain_[mass_[row_[k]]];
-    values[diagonal_[i - s_.n_u]] = -regularisation * (d > 0.0 ? d : 1.0);
+    metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
+    values[diagonal_[i - s_.n_u]] = -regularisation * metric_[i - s_.n_u];
   }
   return lu_->factorise();
 }
@@ -138,6 +140,24 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   yp.segment(s_.u0, s_.n_u) = x_.head(s_.n_u);
   y.segment(s_.lambda0, s_.n_lambda) = -x_.tail(s_.n_lambda);
   return x_.allFinite();
+}
+
+double SaddlePoint::independence() {
+  constexpr int iterations = 20; // inverse iteration, x <- (G M^-1 G^T)^-1 D x
+  VectorX x(s_.n_lambda);
+  for (Index i = 0; i < x.size(); ++i) // no symmetry that an eigenvector could hide behind
+    x[i] = 1.0 + 0.5 * std::sin(static_cast<double>(1 + i * i));
+  double smallest = 1.0;
+  for (int i = 0; i < iterations && x.size() > 0; ++i) {
+    x /= std::sqrt(x.dot(metric_.cwiseProduct(x)));
+    r_.head(s_.n_u).setZero();
+    r_.tail(s_.n_lambda) = metric_.cwiseProduct(x);
+    lu_->solve(r_.data());
+    const VectorX next = -r_.tail(s_.n_lambda);
+    smallest = 1.0 / x.dot(metric_.cwiseProduct(next));
+    x = next;
+  }
+  return smallest;
 }
 
 double SaddlePoint::mismatch() {

@@ -25,6 +25,10 @@ public:
   /// What the last `accelerations` left of the equations, relative to the loads [-].
   double mismatch();
 
+  /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
+  /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose.
+  double independence();
+
   /// Changes u by the impulses G^T Lambda that give the velocity rows the rates `rates` (n_lambda,)
   /// [m/s or rad/s], with the matrix of the last `accelerations`; returns Lambda [N s or N m s].
   VectorX strike(double t, VectorX& y, const VectorX& rates);
@@ -56,6 +60,7 @@ private:
   std::vector<Index> diagonal_; ///< slots of eD
   std::vector<Index> mass_;     ///< slots of the diagonal of M
   std::vector<double> plain_;   ///< values with e = 0
+  VectorX metric_;              ///< (n_lambda,) D
   std::unique_ptr<SparseLu<double>> lu_;
   VectorX residual_, rhs_, x_, r_, yp0_;
 };

@@ -2,7 +2,7 @@
 
 The allowance was fixed before the methods were run. It knows the scene only by the size L of its
 motion (m, or the unit of the error), its time scale tau (the reciprocal of its fastest rate that
-matters) and its length T:
+matters: that moves more than the smallest allowance, 1e-3 L) and its length T:
 
 - a run with error control at relative tolerance r:  L sqrt(r) max(1, T / (10 tau)), that is 1e-3 of
   the size for every ten time scales at the default r = 1e-6, and its square root at looser ones
@@ -26,6 +26,9 @@ from hydrodae.case import Case, to_toml
 from hydrodae.results import Results
 
 Array = NDArray[np.float64]
+
+#: Smallest allowance, of the size of the motion.
+SMALLEST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,7 @@ class Scene:
         scales = self.end_time / self.time_scale
         if step is not None:
             return self.size * min(0.1, scales * (step / self.time_scale) ** 2)
-        loose = math.sqrt(max(1e-6 if rtol is None else rtol, 1e-6))
+        loose = max(math.sqrt(rtol or 0.0), SMALLEST)
         return self.size * min(0.1, loose * max(1.0, scales / 10.0))
 
     def error(self, results: Results) -> float:

@@ -1,0 +1,87 @@
+#include "hydrodae/solve/step_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hydrodae::solve {
+
+namespace {
+
+/// Legendre polynomials of degree 0 to n on [0, 1] at x.
+VectorX legendre(int n, double x) {
+  VectorX p(n + 1);
+  p[0] = 1.0;
+  const double y = 2.0 * x - 1.0;
+  for (int k = 1; k <= n; ++k)
+    p[k] = k == 1 ? y : ((2 * k - 1) * y * p[k - 1] - (k - 1) * p[k - 2]) / k;
+  return p;
+}
+
+} // namespace
+
+VectorX body_sizes(const system::System& s, const VectorX& dq) {
+  VectorX sizes(static_cast<Index>(s.bodies.size()));
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[i];
+    const auto own = dq.segment(b.q0, b.n_position);
+    const auto turn = own.tail(b.n_position - b.n_translations);
+    // A quaternion moves by half the angle.
+    const double half = b.rotation == system::BodyData::Rotation::free ? 2.0 : 1.0;
+    sizes[static_cast<Index>(i)] =
+        std::max(own.head(b.n_translations).norm() / b.lever, half * turn.norm());
+  }
+  return sizes;
+}
+
+StageError::StageError(const RungeKutta& rk)
+    : order_(rk.order), with_start_(rk.family != Family::lobatto_iiic) {
+  const int nodes = rk.stages + (with_start_ ? 1 : 0);
+  degree_ = nodes - 1;
+  MatrixX values(nodes, nodes); // of the polynomials at the nodes
+  for (int i = 0; i < nodes; ++i) {
+    const double x = with_start_ ? (i == 0 ? 0.0 : rk.c[i - 1]) : rk.c[i];
+    values.row(i) = legendre(degree_, x).transpose();
+  }
+  last_ = values.inverse().bottomRows(2);
+}
+
+VectorX StageError::operator()(const system::System& s, double h, const VectorX& start,
+                               const MatrixX& stages, double time_scale) {
+  const auto q = stages.topRows(s.n_q);
+  const Index n = stages.cols();
+  auto coefficient = [&](int row) {
+    VectorX v = q * last_.row(row).tail(n).transpose();
+    if (with_start_)
+      v += last_(row, 0) * start;
+    return v;
+  };
+  const VectorX v = coefficient(1);
+  if (degree_ == 1 && order_ == 2) { // h^3 q''' / 12 from the change of q'' = 2 v_1 / h
+    const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.n_q);
+    before_ = v;
+    return body_sizes(s, h / 6.0 * change);
+  }
+  const VectorX top = body_sizes(s, v), next = body_sizes(s, coefficient(0));
+  const double fade = std::exp(-h / time_scale);
+  if (highest_.size() != top.size()) {
+    highest_ = VectorX::Zero(top.size());
+    below_ = highest_;
+  }
+  highest_ = fade * highest_ + top;
+  below_ = fade * below_ + next;
+  VectorX errors(top.size());
+  for (Index i = 0; i < errors.size(); ++i) {
+    const double ratio = highest_[i] < below_[i] ? highest_[i] / below_[i] : 1.0;
+    const double turn = 2.0 * (2 * degree_ - 1) * ratio; // w h
+    double missed = top[i], amplitude = 2.0 * top[i] / turn;
+    for (int k = degree_ + 1; k <= order_; ++k)
+      missed *= turn / (2.0 * (2 * k - 1));
+    for (int k = 1; k <= degree_; ++k)
+      amplitude *= 2.0 * (2 * k - 1) / turn;
+    errors[i] = h * std::min(0.5 * (2 * order_ - 1) * missed,
+                             std::max(amplitude, top[i]) * h / (summed_time_scales * time_scale));
+  }
+  return errors;
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,41 @@
+#pragma once
+/// How far a step of fixed length misses the truth, estimated from what the method has at hand.
+
+#include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::solve {
+
+/// Errors of fixed steps are summed over this many time scales of the bodies (StepGuard).
+inline constexpr double summed_time_scales = 10.0;
+
+/// Size of a small change dq (n_q,) of the positions, body by body (n_bodies,): the angle, or the
+/// displacement over the body's lever [-].
+VectorX body_sizes(const system::System& system, const VectorX& dq);
+
+/// Error of one step of a collocation method of order p, from the rates q' of its stages. In
+/// Legendre polynomials on the step q' has coefficients v_k, known up to a degree d. Those of
+/// A exp(i w t) fall as v_k / v_(k-1) = i w h / (2 (2 k - 1)), so that v_p, the first that the
+/// quadrature misses, follows from the last two; the step's error is about h |v_p| (2 p - 1) / 2
+/// (the error constants of Radau IIA, Gauss and Lobatto IIIC, within a factor of 2). What turns
+/// fast but hardly moves, as stiff springs do, cannot be off by more than 2 A in all.
+class StageError {
+public:
+  explicit StageError(const RungeKutta& rk);
+
+  /// @param h step [s]
+  /// @param start q' (n_q,) at the start of the step; stages: Y' (n, s) at the stages
+  /// @param time_scale longest of the bodies [s]; the ratio of coefficients is averaged over it
+  /// @returns (n_bodies,) error of the positions as body_sizes measures it
+  VectorX operator()(const system::System& system, double h, const VectorX& start,
+                     const MatrixX& stages, double time_scale);
+
+private:
+  int order_, degree_;
+  bool with_start_;         ///< the start is a node of the polynomial of q'
+  MatrixX last_;            ///< (2, nodes): v_(d-1) and v_d from the nodes' values
+  VectorX before_;          ///< v_1 of the last step, where order 2 has but that
+  VectorX highest_, below_; ///< fading sums of |v_d| and |v_(d-1)| by body
+};
+
+} // namespace hydrodae::solve

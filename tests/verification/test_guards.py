@@ -1,0 +1,127 @@
+"""The guards of a run: estimated errors of fixed steps, energy lost at singular poses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hydrodae
+
+ROOT = Path(__file__).resolve().parents[2]
+BENCHMARKS = ROOT / "cases" / "benchmarks"
+FLAPS = ROOT / "cases" / "f3of" / "flap_decay.toml"
+RATE = 2.0  # rad/s
+OSCILLATOR = f"""
+title = "Mass on a spring, whose lever is 1 m"
+
+[[body]]
+name = "mass"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial.displacement = [1.0, 0.0, 0.0]
+
+[[force]]
+type = "mooring_matrix"
+name = "spring"
+body = "mass"
+stiffness = [{2.0 * RATE**2}, 0.0, 0.0, 0.0, 0.0, 0.0]
+
+[solver]
+end_time = 3.0
+
+[output]
+step = 0.1
+"""
+
+
+@pytest.mark.parametrize(
+    ("solver", "step"),
+    [
+        ({"method": "generalized_alpha"}, 0.02),
+        ({"method": "generalized_alpha", "spectral_radius": 0.3}, 0.02),
+        ({"method": "radau", "order": 1}, 0.01),
+        ({"method": "radau", "order": 3}, 0.1),
+        ({"method": "radau", "order": 5}, 0.25),
+        ({"method": "radau", "order": 9}, 0.5),
+        ({"method": "gauss", "order": 2}, 0.05),
+        ({"method": "gauss", "order": 4}, 0.25),
+        ({"method": "gauss", "order": 6}, 0.25),
+        ({"method": "lobatto_iiic", "order": 2}, 0.05),
+        ({"method": "lobatto_iiic", "order": 4}, 0.25),
+        ({"method": "lobatto_iiic", "order": 6}, 0.25),
+        ({"method": "explicit_rk", "order": 8}, 0.75),
+    ],
+    ids=str,
+)
+def test_the_estimated_error_of_fixed_steps_is_the_true_one_within_a_factor(
+    solver: dict[str, Any], step: float
+) -> None:
+    case = hydrodae.Case.from_text(OSCILLATOR)
+    values = {f"solver.{key}": value for key, value in {**solver, "step": step}.items()}
+    values["solver.rtol"] = 1e-10  # of Newton's iteration
+    results = hydrodae.run(case, set={**values, "solver.step_guard": 0.0})
+    true = abs(results["bodies/mass/position"].values[:, 0] - np.cos(RATE * results.time)).max()
+    hydrodae.run(case, set={**values, "solver.step_guard": 4.0 * true})
+    with pytest.raises(hydrodae.SolverError, match="too long for the motion of mass"):
+        hydrodae.run(case, set={**values, "solver.step_guard": true / 4.0})
+
+
+def test_the_step_that_a_stopped_run_names_will_do() -> None:
+    case = hydrodae.Case.read(BENCHMARKS / "heavy_top.toml")
+    values = {"solver.method": "generalized_alpha", "solver.end_time": 2.0, "output.step": 0.02}
+    with pytest.raises(hydrodae.SolverError, match=r"solver\.step_guard = 0\.02") as stop:
+        hydrodae.run(case, set={**values, "solver.step": 2e-3})
+    named = float(str(stop.value).split(" s may do")[0].split()[-1])
+    assert 1e-4 < named < 2e-3
+    hydrodae.run(case, set={**values, "solver.step": named})
+
+
+@pytest.mark.parametrize("order", [4, 6])
+def test_stiff_springs_that_hardly_move_do_not_stop_an_implicit_method(order: int) -> None:
+    """A second mass on a spring of 1e6 N/m swings by 1e-5 m at 1000 rad/s: 50 rad a step."""
+    second = OSCILLATOR.split("[solver]")[0].split("[[body]]")[1].replace('mass"', 'second"')
+    spring = (
+        '\n[[force]]\ntype = "spring_damper"\nname = "stiff"\nbody_a = "mass"\nbody_b = "second"\n'
+        "point_a = [0.0, 0.0, 0.0]\npoint_b = [1.0, 0.0, 0.0]\nstiffness = 1.0e6\n"
+    )
+    body = "[[body]]" + second.split("[[force]]")[0].replace(
+        "[0.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]", 1
+    )
+    case = hydrodae.Case.from_text(OSCILLATOR.replace("[[force]]", f"{body}\n[[force]]") + spring)
+    values = {"solver.method": "lobatto_iiic" if order == 4 else "gauss", "solver.step": 0.05}
+    results = hydrodae.run(case, set=values)
+    both = RATE / np.sqrt(2.0)
+    assert (
+        np.abs(
+            results["bodies/second/position"].values[:, 0] - 1.0 - np.cos(both * results.time)
+        ).max()
+        < 1e-4
+    )
+
+
+def test_estimated_errors_fade_so_that_long_runs_in_water_go_on() -> None:
+    values = {"solver.method": "generalized_alpha", "solver.step": 0.2, "solver.end_time": 400.0}
+    assert hydrodae.run(FLAPS, set=values).statistics["status"] == "completed"
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4])
+@pytest.mark.parametrize("name", ["door", "bricard"])
+def test_rows_that_always_follow_from_others_are_no_singular_pose(name: str, rtol: float) -> None:
+    hydrodae.run(BENCHMARKS / f"{name}.toml", set={"solver.rtol": rtol})
+
+
+@pytest.mark.parametrize("name", ["n_four_bar_2", "slider_crank_equal"])
+def test_little_energy_lost_at_a_singular_pose_stops_a_multi_step_method(name: str) -> None:
+    with pytest.raises(hydrodae.SolverError, match=r"J exchanged, at a singular pose") as stop:
+        hydrodae.run(BENCHMARKS / f"{name}.toml", set={"solver.rtol": 1e-4})
+    lost = abs(float(str(stop.value).split("is off by ")[1].split()[0]))
+    assert lost < 0.1  # J, of 30 to 70
+
+
+def test_the_guard_of_fixed_steps_is_refused_without_one() -> None:
+    with pytest.raises(hydrodae.CaseError, match="belongs to fixed steps"):
+        hydrodae.run(BENCHMARKS / "simple_pendulum.toml", set={"solver.step_guard": 0.1})
