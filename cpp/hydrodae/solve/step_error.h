@@ -16,7 +16,7 @@ VectorX body_sizes(const system::System& system, const VectorX& dq);
 /// Error of one step of a collocation method of order p, from the rates q' of its stages. In
 /// Legendre polynomials on the step q' has coefficients v_k, known up to a degree d. Those of
 /// A exp(i w t) fall as v_k / v_(k-1) = i w h / (2 (2 k - 1)), so that v_p, the first that the
-/// quadrature misses, follows from the last two; the step's error is about h |v_p| (2 p - 1) / 2
+/// quadrature misses, follows from the last two; the step's error is about h |v_p| (p - 1/2)
 /// (the error constants of Radau IIA, Gauss and Lobatto IIIC, within a factor of 2). What turns
 /// fast but hardly moves, as stiff springs do, cannot be off by more than 2 A in all.
 class StageError {

@@ -46,7 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
             time_limit=arguments.time_limit,
             report=lambda cell: status.update(f"{cell.scene}, {cell.method}: {cell.outcome}"),
         )
-    console.print(show.table(cells))
+    for shown in show.tables(cells, console.width):
+        console.print(shown)
     for line in show.reasons(cells):
         console.print("  " + line, markup=False, highlight=False, soft_wrap=True)
     if arguments.json:

@@ -32,24 +32,53 @@ def label(cell: Cell) -> str:
     return {REFUSED: "-", WRONG: "WRONG"}.get(cell.outcome, cell.outcome)
 
 
-def table(cells: Sequence[Cell]) -> Table:
-    """Return the map as a table: methods down, scenes across would be too wide for terminals."""
+def tables(cells: Sequence[Cell], width: int) -> list[Table]:
+    """Return the map as tables of scenes down and methods across.
+
+    Parameters
+    ----------
+    cells : sequence of Cell
+    width : int
+        Characters in a line of the terminal; methods that do not fit go to the next table.
+    """
     from rich.table import Table
     from rich.text import Text
 
     scenes, methods = _names(cells)
     found = {(cell.scene, cell.method): cell for cell in cells}
-    shown = Table(title="Methods against hard scenes", caption=_legend(cells))
-    shown.add_column("scene", no_wrap=True)
+
+    def heading(method: str) -> str:
+        return method.replace(":", "\n").replace("_", "\n")
+
+    def room(method: str) -> int:
+        texts = [label(cell) for cell in cells if cell.method == method]
+        return max(map(len, [*heading(method).splitlines(), *texts])) + 3
+
+    names = max((len(scene) for scene in scenes), default=0) + 4
+    blocks: list[list[str]] = []
+    left = 0
     for method in methods:
-        shown.add_column(method.replace(":", "\n").replace("_", "\n"), justify="right")
-    for scene in scenes:
-        row = [found.get((scene, method)) for method in methods]
-        shown.add_row(
-            scene,
-            *(Text(label(c), style=STYLES[c.outcome]) if c else Text() for c in row),
-        )
-    return shown
+        if not blocks or room(method) > left:
+            blocks.append([])
+            left = width - names
+        blocks[-1].append(method)
+        left -= room(method)
+    made = []
+    for block in blocks:
+        shown = Table()
+        shown.add_column("scene", no_wrap=True)
+        for method in block:
+            shown.add_column(heading(method), justify="right", no_wrap=True)
+        for scene in scenes:
+            row = [found.get((scene, method)) for method in block]
+            shown.add_row(
+                scene,
+                *(Text(label(c), style=STYLES[c.outcome]) if c else Text() for c in row),
+            )
+        made.append(shown)
+    made[0].title = "Methods against hard scenes"
+    made[-1].caption = _legend(cells)
+    return made
 
 
 def _legend(cells: Sequence[Cell]) -> str:
