@@ -55,6 +55,14 @@ def test_the_default_method_takes_every_scene(name: str, tmp_path: Path) -> None
     assert SCENES[name].case({}, tmp_path).end_time > 0.0
 
 
+@pytest.mark.parametrize("rtol", [3e-4, 3e-5, 1e-5, 3e-6])
+@pytest.mark.parametrize("name", ["four_bar", "dead_point"])
+def test_nor_does_ida_at_neighbouring_tolerances(name: str, rtol: float, tmp_path: Path) -> None:
+    """Through singular poses BDF results depend on rounding: one tolerance alone says little."""
+    near = [replace(METHODS["ida:1e-6"], solver={"rtol": rtol * f}) for f in (0.97, 1.0, 1.02)]
+    assert not wrong([run_cell(SCENES[name], method, tmp_path, 10.0) for method in near])
+
+
 def test_a_wrong_truth_is_seen(tmp_path: Path) -> None:
     scene = SCENES["pendulum"]
     assert scene.truth is not None

@@ -89,8 +89,13 @@ def _legend(cells: Sequence[Cell]) -> str:
 def reasons(cells: Sequence[Cell]) -> list[str]:
     """Return one line for each cell that is neither a plain pass nor a time limit."""
     quiet = ("", "time limit")
-    return [f"{c.scene}, {c.method}: {c.outcome}: {c.reason}" for c in cells
-            if c.reason not in quiet]  # fmt: skip
+    return [
+        f"{c.scene}, {c.method}: "
+        + ("" if c.reason.startswith(c.outcome) else f"{c.outcome}: ")
+        + c.reason
+        for c in cells
+        if c.reason not in quiet
+    ]
 
 
 def write_json(cells: Sequence[Cell], path: str | Path) -> None:
