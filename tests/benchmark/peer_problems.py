@@ -54,11 +54,13 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Runs:
-    """One method of hydrodae with several tolerances."""
+    """One method of hydrodae with several tolerances, or fixed steps (s)."""
 
     method: str
-    tolerances: tuple[float, ...]
+    tolerances: tuple[float, ...] = ()
     order: int | None = None
+    steps: tuple[float, ...] = ()
+    formulation: str | None = None  # none: the default
 
 
 @dataclass(frozen=True)
@@ -112,13 +114,14 @@ LONG = (
     Runs("radau", (1e-7,), 5),
     Runs("ida", (1e-8,)),
 )
-LIGHT = (  # explicit steps resolve the motion of the light mass
-    Runs("radau", (1e-2, 3e-3, 1e-3, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6), 5),
+LIGHT = (  # explicit steps, and any from a tolerance of 1e-5 down, follow the light mass
+    Runs("radau", (1e-2, 3e-3, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6), 5, steps=(5e-2, 2.5e-2, 1e-2)),
     Runs("ida", (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
 )
 STIFF = (  # explicit steps are bounded by the dampers
     Runs("radau", (1e-5, 1e-7), 5),
-    Runs("ida", (1e-5, 5e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8)),
+    Runs("ida", (1e-5, 3e-6, 1e-6, 1e-7, 3e-8)),
+    Runs("ida", (1e-5, 5e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8), formulation="index_2"),
 )
 LAST_HINGE = (("hinge6", 3),)
 LOWER_HINGE = tuple(("lower", row) for row in range(6))

@@ -118,11 +118,15 @@ def ours(name: str, problem: Problem, reference: Reference, repeats: int) -> lis
 
     rows = []
     for runs in problem.ours:
-        method = {"method": runs.method} | ({"order": runs.order} if runs.order else {})
-        for rtol in runs.tolerances:
-            label = f"{' '.join(map(str, method.values()))}, {rtol:.0e}"
+        chosen = {"method": runs.method, "order": runs.order, "formulation": runs.formulation}
+        method = {key: value for key, value in chosen.items() if value}
+        controls = [("rtol", value) for value in runs.tolerances]
+        controls += [("step", value) for value in runs.steps]
+        for key, value in controls:
+            size = f"{value:.0e}" if key == "rtol" else f"h {1e3 * value:.3g} ms"
+            label = f"{' '.join(map(str, method.values()))}, {size}"
             try:
-                results, seconds = best_of(partial(run, **method, rtol=rtol), repeats)
+                results, seconds = best_of(partial(run, **method, **{key: value}), repeats)
             except hydrodae.SolverError as stop:
                 print(f"  hydrodae {label:<30}{str(stop).splitlines()[0][:120]}", flush=True)
                 continue
