@@ -152,7 +152,16 @@ void StageNewton::make_full() {
       }
       full_->start.push_back(static_cast<Index>(full_->row.size()));
     }
-  full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row);
+  // Unknown by unknown, all stages of each, in the order of the matrix of one stage: its fill, in
+  // blocks of s x s.
+  const Elimination one = real_->elimination();
+  Elimination all;
+  for (std::size_t k = 0; k < one.row.size(); ++k)
+    for (int i = 0; i < s; ++i) {
+      all.row.push_back(i * p.n + one.row[k]);
+      all.column.push_back(i * p.n + one.column[k]);
+    }
+  full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row, all);
 }
 
 bool StageNewton::factorise_full(double t, double h) {
