@@ -88,7 +88,7 @@ private:
   double contraction_ = 1.0;  ///< of the last step
   bool was_full_ = false;     ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
-  int since_change_ = 0;
+  int since_change_ = 0, slack_ = 0; ///< steps of this order; those last that Newton limited
 };
 
 void Collocation::use(int stages) {
@@ -97,7 +97,7 @@ void Collocation::use(int stages) {
     entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
   newton_ = entry.get();
   factored_ = 0.0;
-  since_change_ = 0;
+  since_change_ = slack_ = 0;
   last_h_ = 0.0; // its error was another method's
 }
 
@@ -223,6 +223,9 @@ double Collocation::error(double h, bool refine) {
   for (int pass = 0; pass < (refine ? 2 : 1); ++pass) {
     if (!e_.residual(t_, at, v_, error_))
       return HUGE_VAL;
+    // The start meets the constraints: what shows of them is left of Newton's iteration.
+    if (s_.formulation != system::Formulation::index_1)
+      error_.tail(s_.n - s_.lambda0).setZero();
     newton_->solve_real(error_);
     error_ = -error_;
     size = e_.norm(w_, error_);
@@ -261,16 +264,19 @@ void Collocation::accept(double h) {
   e_.statistics.last_order = rk.order;
 }
 
-/// More stages where Newton contracts at once (Hairer and Wanner 1999), fewer where Newton limits
-/// the step and the error, here of the last step, does not: two stages change it about 300 times.
+/// More stages where Newton contracts at once (Hairer and Wanner 1999), fewer where for long Newton
+/// limits the step and the error, here of the last step, does not: two stages change it about 300
+/// times.
 void Collocation::choose_order(double error) {
   constexpr double up = 0.02, down = 0.1, little = 1e-3;
-  if (!chooses_order_ || was_full_ || ++since_change_ < 10)
+  if (!chooses_order_ || was_full_)
     return;
+  ++since_change_;
+  slack_ = contraction_ >= down && error <= little ? slack_ + 1 : 0;
   const int stages = newton_->rk().stages;
-  if (contraction_ <= up && stages < most_stages)
+  if (contraction_ <= up && stages < most_stages && since_change_ >= 10)
     use(stages + 2);
-  else if (contraction_ >= down && error <= little && stages > fewest)
+  else if (slack_ >= 20 && stages > fewest) // passing a singular pose takes fewer steps
     use(stages - 2);
 }
 
