@@ -48,6 +48,7 @@ public:
     use(stages_of(family_, options.order));
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
+    reach_ = t0 + h_;
     e_.accept(y_, yp_);
   }
 
@@ -284,6 +285,7 @@ double Collocation::step() {
   constexpr double safety = 0.9, most_growth = 5.0, most_cut = 0.125;
   constexpr double newton_cut = 0.4, aim = 0.25; // of the step; of Newton's contraction
   bool rejected = done_ == 0.0;
+  double hopeless = HUGE_VAL; // step from which on simplified Newton fails
   for (;;) {
     const double left = end_ - t_;
     auto fitted = [&](double h) { return left - h < 0.01 * h ? left : h; };
@@ -295,11 +297,10 @@ double Collocation::step() {
     // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
     // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
     const double allowed = std::min(reach_, end_) - t_;
-    const double shortest = allowed / (2.0 * newton_->rk().stages);
-    const bool jump = !fixed_ && h < shortest;
-    bool solved = !jump && simplified(h);
-    if (!solved && !jump && !fixed_ && newton_cut * h >= shortest) {
-      ++e_.statistics.convergence_failures;
+    const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
+    bool solved = h >= shortest && h < hopeless && simplified(h);
+    if (!solved && !fixed_ && newton_cut * h >= shortest) {
+      hopeless = std::min(hopeless, h);
       h_ = newton_cut * h;
       rejected = true;
       continue;

@@ -203,7 +203,8 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
   // At a stage close to a singular pose rounding keeps the increments above any finer bound.
   const double stalled = 0.5;
   return iterate(t, h, y0, w, Z, 15, stalled, [&] {
-    if (!factorise_full(t, h))
+    const bool settled = iterations > 2 && contraction < 0.01; // then the matrix serves on
+    if (!settled && !factorise_full(t, h))
       return false;
     full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
     return true;
