@@ -45,12 +45,14 @@ public:
         end_(options.end_time),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time), saddle_(e_),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
-        w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)) {
+        w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)), guess_(system.n),
+        guess_rate_(system.n) {
     use(stages_of(family_, options.order));
     if (fixed_)
       stage_error_.emplace(newton_->rk());
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
+    reach_ = t0 + h_;
     e_.accept(y_, yp_);
   }
 
@@ -63,11 +65,15 @@ public:
 private:
   void use(int stages);
   void start_values(double h, bool extrapolate);
-  bool solve_stages(double h);
+  void jacobian(double h, bool extrapolate);
+  bool simplified(double h);
+  bool full(double h);
   double error(double h, bool refine);
   void accept(double h);
-  void choose_order();
-  void evaluate(double x, const RungeKutta& rk, VectorX& y) const;
+  void choose_order(double error);
+  const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
+  void evaluate(double x, VectorX& y) const;
+  void evaluate_rates(double x, VectorX& yp) const;
   [[noreturn]] void fail(const std::string& reason);
 
   const system::System& s_;
@@ -80,7 +86,8 @@ private:
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
   double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0;
-  VectorX y_, yp_, y0_, w_, error_, v_;
+  double reach_ = 0.0; ///< time to which the error control would have stepped [s]
+  VectorX y_, yp_, y0_, w_, error_, v_, guess_, guess_rate_;
   MatrixX Z_, start_, rates_; ///< stages of the last step; start values; their rates
   bool fresh_ = false;        ///< the Jacobian is of this step
   double factored_ = 0.0;     ///< step of the matrices at hand [s]
@@ -89,7 +96,7 @@ private:
   double last_h_ = 0.0, last_error_ = 1.0;
   std::optional<StageError> stage_error_; ///< of fixed steps
   VectorX local_error_;                   ///< (n_bodies,)
-  int since_change_ = 0;
+  int since_change_ = 0, slack_ = 0;      ///< steps of this order; those last that Newton limited
 };
 
 void Collocation::use(int stages) {
@@ -97,11 +104,9 @@ void Collocation::use(int stages) {
   if (!entry)
     entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
   newton_ = entry.get();
-  newton_->accuracy = 0.01;
-  if (fixed_)
-    newton_->accuracy = 1e-3;
   factored_ = 0.0;
-  since_change_ = 0;
+  since_change_ = slack_ = 0;
+  last_h_ = 0.0; // its error was another method's
 }
 
 void Collocation::fail(const std::string& reason) {
@@ -111,7 +116,8 @@ void Collocation::fail(const std::string& reason) {
 
 /// y at x = (t - t0) / h of the last step: through its start and stages; Lobatto's first stage
 /// stands at the start itself, and multipliers of Gauss have no value there.
-void Collocation::evaluate(double x, const RungeKutta& rk, VectorX& y) const {
+void Collocation::evaluate(double x, VectorX& y) const {
+  const RungeKutta& rk = last(); // of the last step: the order may have changed since
   const bool with_start = rk.family != Family::lobatto_iiic;
   y = y0_;
   for (int i = 0; i < rk.stages; ++i) {
@@ -126,17 +132,27 @@ void Collocation::evaluate(double x, const RungeKutta& rk, VectorX& y) const {
   }
 }
 
+/// y' at x of the last step, through its stages.
+void Collocation::evaluate_rates(double x, VectorX& yp) const {
+  const RungeKutta& rk = last();
+  yp.setZero(s_.n);
+  for (int i = 0; i < rk.stages; ++i) {
+    double weight = 1.0;
+    for (int j = 0; j < rk.stages; ++j)
+      if (j != i)
+        weight *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
+    yp += weight * rates_.col(i);
+  }
+}
+
 /// First guess of the stages: the last step's polynomial, or a straight line.
 void Collocation::start_values(double h, bool extrapolate) {
   const RungeKutta& rk = newton_->rk();
   start_.resize(s_.n, rk.stages);
-  if (extrapolate && done_ > 0.0) {
-    VectorX y(s_.n);
-    // The polynomial of the last step may be of another order.
-    const RungeKutta& last = methods_.at(static_cast<int>(Z_.cols()))->rk();
+  if (extrapolate) {
     for (int i = 0; i < rk.stages; ++i) {
-      evaluate(1.0 + rk.c[i] * h / done_, last, y);
-      start_.col(i) = y - y_;
+      evaluate(1.0 + rk.c[i] * h / done_, guess_);
+      start_.col(i) = guess_ - y_;
     }
     return;
   }
@@ -146,35 +162,53 @@ void Collocation::start_values(double h, bool extrapolate) {
   }
 }
 
-bool Collocation::solve_stages(double h) {
-  const double longest_guess = 3.0; // steps of the last polynomial
-  bool extrapolate = !was_full_ && done_ > 0.0 && h <= longest_guess * done_;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    if (attempt == 1 && fresh_ && !extrapolate)
-      break; // nothing would differ
-    if (attempt == 1)
-      extrapolate = false;
-    if (!fresh_ && (attempt == 1 || contraction_ > 1e-3 || factored_ == 0.0)) {
-      e_.jacobian(t_, y_, yp_);
-      fresh_ = true;
-      factored_ = 0.0;
-    }
-    if (factored_ != h) {
-      if (!newton_->factorise(h))
-        break;
-      factored_ = h;
-    }
-    start_values(h, extrapolate);
-    if (newton_->simplified(t_, h, y_, w_, start_) == NewtonResult::converged) {
-      contraction_ = newton_->contraction;
-      was_full_ = false;
-      return true;
-    }
+/// One Jacobian for all stages: in the middle of the step, where the last polynomial tells, so that
+/// it differs least from that of any stage; else at the start.
+void Collocation::jacobian(double h, bool extrapolate) {
+  if (extrapolate) {
+    const double x = 1.0 + 0.5 * h / done_;
+    evaluate(x, guess_);
+    evaluate_rates(x, guess_rate_);
+    e_.jacobian(t_ + 0.5 * h, guess_, guess_rate_);
+  } else {
+    e_.jacobian(t_, y_, yp_);
   }
-  start_values(h, false);
-  contraction_ = 1.0;
+  fresh_ = true;
   factored_ = 0.0;
+}
+
+/// Simplified Newton from the last polynomial, with the matrices at hand where they serve; if it
+/// fails with new ones, and from a straight line with those of the start.
+bool Collocation::simplified(double h) {
+  const double longest_guess = 3.0; // steps of the last polynomial
+  bool extrapolate = done_ > 0.0 && h <= longest_guess * done_;
+  bool renew = !fresh_ && (contraction_ > 1e-3 || factored_ == 0.0);
+  for (;;) {
+    if (renew)
+      jacobian(h, extrapolate);
+    if (factored_ == h || newton_->factorise(h)) {
+      factored_ = h;
+      start_values(h, extrapolate);
+      if (newton_->simplified(t_, h, y_, w_, start_) == NewtonResult::converged) {
+        contraction_ = newton_->contraction;
+        was_full_ = false;
+        return true;
+      }
+    }
+    if (fresh_ && !extrapolate)
+      break;
+    extrapolate = extrapolate && !fresh_;
+    renew = true;
+  }
+  fresh_ = false;
+  factored_ = 0.0;
+  return false;
+}
+
+bool Collocation::full(double h) {
+  start_values(h, false);
   fresh_ = false; // the Jacobian at hand will be that of a stage
+  factored_ = 0.0;
   was_full_ = newton_->full(t_, h, y_, w_, start_) == NewtonResult::converged;
   return was_full_;
 }
@@ -183,10 +217,13 @@ bool Collocation::solve_stages(double h) {
 /// v = sum error_i Z_i / (gamma0 h); once more from y0 + error where it would reject.
 double Collocation::error(double h, bool refine) {
   const RungeKutta& rk = newton_->rk();
-  if (was_full_) {
-    e_.jacobian(t_, y_, yp_);
+  if (was_full_) { // start or end may be singular
+    const int middle = rk.stages / 2;
+    MatrixX rate;
+    newton_->rates(h, start_, rate);
+    e_.jacobian(t_ + rk.c[middle] * h, y_ + start_.col(middle), rate.col(middle));
     if (!newton_->factorise(h))
-      return 0.0; // a singular start: judged by the next steps
+      return 0.0; // judged by the next steps
   }
   v_ = -start_ * rk.error / (rk.gamma0 * h);
   VectorX at = y_;
@@ -194,6 +231,9 @@ double Collocation::error(double h, bool refine) {
   for (int pass = 0; pass < (refine ? 2 : 1); ++pass) {
     if (!e_.residual(t_, at, v_, error_))
       return HUGE_VAL;
+    // The start meets the constraints: what shows of them is left of Newton's iteration.
+    if (s_.formulation != system::Formulation::index_1)
+      error_.tail(s_.n - s_.lambda0).setZero();
     newton_->solve_real(error_);
     error_ = -error_;
     size = e_.norm(w_, error_);
@@ -219,7 +259,7 @@ void Collocation::accept(double h) {
     yp_ = rates_.col(rk.stages - 1);
   } else {
     VectorX at_end(s_.n);
-    evaluate(1.0, rk, at_end);
+    evaluate(1.0, at_end);
     y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
     y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
     interpolate(t_, at_end, yp_);
@@ -234,38 +274,57 @@ void Collocation::accept(double h) {
   e_.statistics.last_order = rk.order;
 }
 
-/// More stages where Newton contracts at once, fewer where it struggles (Hairer and Wanner 1999).
-void Collocation::choose_order() {
-  constexpr double up = 0.05, down = 0.8;
-  if (!chooses_order_ || ++since_change_ < 10)
+/// More stages where Newton contracts at once (Hairer and Wanner 1999), fewer where for long Newton
+/// limits the step and the error, here of the last step, does not: two stages change it about 300
+/// times.
+void Collocation::choose_order(double error) {
+  constexpr double up = 0.02, down = 0.1, little = 1e-3;
+  if (!chooses_order_ || was_full_)
     return;
+  ++since_change_;
+  slack_ = contraction_ >= down && error <= little ? slack_ + 1 : 0;
   const int stages = newton_->rk().stages;
-  if (contraction_ <= up && stages < most_stages)
+  if (contraction_ <= up && stages < most_stages && since_change_ >= 10)
     use(stages + 2);
-  else if (contraction_ >= down && stages > fewest)
+  else if (slack_ >= 20 && stages > fewest) // passing a singular pose takes fewer steps
     use(stages - 2);
 }
 
 double Collocation::step() {
   constexpr double safety = 0.9, most_growth = 5.0, most_cut = 0.125;
+  constexpr double newton_cut = 0.4, aim = 0.25; // of the step; of Newton's contraction
   bool rejected = done_ == 0.0;
+  double hopeless = HUGE_VAL; // step from which on simplified Newton fails
   for (;;) {
     const double left = end_ - t_;
-    double h = std::min(h_, left);
-    if (left - h < 0.01 * h)
-      h = left;
+    auto fitted = [&](double h) { return left - h < 0.01 * h ? left : h; };
+    double h = fitted(h_);
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail("Newton's iteration does not converge, or the local error stays too large, however "
            "short the step");
     e_.weights(y_, w_);
-    if (!solve_stages(h)) {
+    // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
+    // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
+    const double allowed = std::min(reach_, end_) - t_;
+    const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
+    bool solved = h >= shortest && h < hopeless && simplified(h);
+    if (!solved && !fixed_ && newton_cut * h >= shortest) {
+      hopeless = std::min(hopeless, h);
+      h_ = newton_cut * h;
+      rejected = true;
+      continue;
+    }
+    if (!solved) {
+      h = fixed_ ? h : fitted(std::max(h, allowed));
+      solved = full(h);
+    }
+    if (!solved) {
       ++e_.statistics.convergence_failures;
       if (fixed_)
         fail("Newton's iteration does not converge at the fixed step, simplified or full");
-      h_ = 0.5 * h;
+      h_ = std::min(h_, 0.7 * h);
+      reach_ = t_ + 0.7 * h;
       rejected = true;
-      if (chooses_order_ && newton_->rk().stages > fewest)
-        use(newton_->rk().stages - 2);
       continue;
     }
     if (fixed_) {
@@ -278,23 +337,28 @@ double Collocation::step() {
     if (!(err < 1.0)) {
       ++e_.statistics.error_test_failures;
       h_ = h * (std::isfinite(err) ? std::min(grow, 0.9) : most_cut);
+      reach_ = t_ + h_;
       rejected = true;
       continue;
     }
+    const double next_reach = t_ + h + std::min(max_step_, h * grow);
     if (last_h_ > 0.0) // predictive control of Gustafsson
       grow = std::min(grow,
                       std::clamp(h / last_h_ * std::pow(err * err / last_error_, -power) * safety,
                                  most_cut, most_growth));
     if (rejected)
       grow = std::min(grow, 1.0);
+    if (!was_full_) // the contraction goes with the square of the step
+      grow = std::min(grow, std::max(std::sqrt(aim / contraction_), 0.3));
     last_h_ = h;
     last_error_ = std::max(err, 1e-2);
     accept(h);
+    reach_ = std::max(reach_, next_reach);
     if (!(grow >= 1.0 && grow <= 1.2 && contraction_ <= 1e-3)) // else the matrices serve again
       h_ = std::min(max_step_, h * grow);
     else
       h_ = h;
-    choose_order();
+    choose_order(err);
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
   }
@@ -306,20 +370,12 @@ void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
     yp = yp_;
     return;
   }
-  const RungeKutta& rk = methods_.at(static_cast<int>(Z_.cols()))->rk();
   const double x = (t - t0_) / done_;
   if (t >= t_)
     y = y_;
   else
-    evaluate(x, rk, y);
-  yp.setZero(s_.n);
-  for (int i = 0; i < rk.stages; ++i) {
-    double weight = 1.0;
-    for (int j = 0; j < rk.stages; ++j)
-      if (j != i)
-        weight *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
-    yp += weight * rates_.col(i);
-  }
+    evaluate(x, y);
+  evaluate_rates(x, yp);
 }
 
 } // namespace

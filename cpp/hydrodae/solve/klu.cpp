@@ -65,17 +65,37 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
 
 template <class Scalar>
 SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row)
+    : SparseLu(column_start, row, Elimination{}) {}
+
+template <class Scalar>
+SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::vector<Index>& row,
+                           const Elimination& order)
     : impl_(std::make_unique<Impl>()) {
-  klu_l_defaults(&impl_->common);
-  impl_->common.ordering = 0; // AMD: COLAMD fills more on these patterns
-  impl_->start.assign(column_start.begin(), column_start.end());
-  impl_->row.assign(row.begin(), row.end());
-  impl_->values.resize(row.size());
-  impl_->symbolic = klu_l_analyze(static_cast<SuiteSparse_long>(column_start.size()) - 1,
-                                  impl_->start.data(), impl_->row.data(), &impl_->common);
-  if (!impl_->symbolic)
+  Impl& m = *impl_;
+  klu_l_defaults(&m.common);
+  m.common.ordering = 0; // AMD: COLAMD fills more on these patterns
+  m.start.assign(column_start.begin(), column_start.end());
+  m.row.assign(row.begin(), row.end());
+  m.values.resize(row.size());
+  const auto n = static_cast<SuiteSparse_long>(column_start.size()) - 1;
+  if (order.row.empty()) {
+    m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
+  } else {
+    std::vector<SuiteSparse_long> P(order.row.begin(), order.row.end()),
+        Q(order.column.begin(), order.column.end());
+    m.symbolic =
+        klu_l_analyze_given(n, m.start.data(), m.row.data(), P.data(), Q.data(), &m.common);
+  }
+  if (!m.symbolic)
     throw SolverError(0.0, "KLU cannot order the unknowns: the equations are structurally singular "
                            "or too large for the memory");
+}
+
+template <class Scalar> Elimination SparseLu<Scalar>::elimination() const {
+  const Impl& m = *impl_;
+  const SuiteSparse_long n = m.symbolic->n;
+  const SuiteSparse_long* row = m.numeric ? m.numeric->Pnum : m.symbolic->P;
+  return {{row, row + n}, {m.symbolic->Q, m.symbolic->Q + n}};
 }
 
 template <class Scalar> SparseLu<Scalar>::~SparseLu() = default;

@@ -8,7 +8,10 @@ namespace hydrodae::solve {
 
 namespace {
 constexpr double rounding = 1e2 * std::numeric_limits<double>::epsilon();
-}
+// Error of the iteration in units of the error tolerance. It adds up over the steps where the
+// truncation error, which the estimate of lower order exaggerates, does not.
+constexpr double accuracy = 1e-3;
+} // namespace
 
 StageNewton::StageNewton(Equations& equations, const RungeKutta& rk)
     : e_(equations), rk_(rk),
@@ -64,10 +67,11 @@ double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
 }
 
 /// Newton with increments by `solve`, which overwrites residual_ with the increment (sign as in
-/// Z -= increment) and returns false where it cannot.
+/// Z -= increment) and returns false where it cannot. Increments below `stalled` that no longer
+/// shrink are rounding: converged.
 template <class Solve>
 NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const VectorX& w,
-                                  MatrixX& Z, int most, Solve&& solve) {
+                                  MatrixX& Z, int most, double stalled, Solve&& solve) {
   double before = 0.0;
   // Rounding of the residual as the unknowns feel it sets a floor.
   const Index n_q = e_.system.n_q;
@@ -93,8 +97,8 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
         return NewtonResult::converged;
       if (rate >= 0.98 ||
           (iterations > 2 && now * std::pow(rate, most - iterations) > accuracy * 10.0))
-        return now <= std::max(10.0 * floor, accuracy) ? NewtonResult::converged
-                                                       : NewtonResult::slow;
+        return now <= std::max(10.0 * floor, stalled) ? NewtonResult::converged
+                                                      : NewtonResult::slow;
     }
     before = now;
   }
@@ -104,7 +108,7 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
 NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, const VectorX& w,
                                      MatrixX& Z) {
   const int most = 7 + rk_.stages;
-  return iterate(t, h, y0, w, Z, most, [&] {
+  return iterate(t, h, y0, w, Z, most, accuracy, [&] {
     // W = (T^-1 x I) dZ decouples: a real system and complex ones, x + i y from the pair's columns.
     work_.noalias() = residual_ * rk_.T_inverse.transpose();
     int column = 0;
@@ -152,7 +156,16 @@ void StageNewton::make_full() {
       }
       full_->start.push_back(static_cast<Index>(full_->row.size()));
     }
-  full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row);
+  // Unknown by unknown, all stages of each, in the order of the matrix of one stage: its fill, in
+  // blocks of s x s.
+  const Elimination one = real_->elimination();
+  Elimination all;
+  for (std::size_t k = 0; k < one.row.size(); ++k)
+    for (int i = 0; i < s; ++i) {
+      all.row.push_back(i * p.n + one.row[k]);
+      all.column.push_back(i * p.n + one.column[k]);
+    }
+  full_->lu = std::make_unique<SparseLu<double>>(full_->start, full_->row, all);
 }
 
 bool StageNewton::factorise_full(double t, double h) {
@@ -187,8 +200,11 @@ NewtonResult StageNewton::full(double t, double h, const VectorX& y0, const Vect
                                MatrixX& Z) {
   if (!full_)
     make_full();
-  return iterate(t, h, y0, w, Z, 15, [&] {
-    if (!factorise_full(t, h))
+  // At a stage close to a singular pose rounding keeps the increments above any finer bound.
+  const double stalled = 0.5;
+  return iterate(t, h, y0, w, Z, 15, stalled, [&] {
+    const bool settled = iterations > 2 && contraction < 0.01; // then the matrix serves on
+    if (!settled && !factorise_full(t, h))
       return false;
     full_->lu->solve(residual_.data()); // columns one after the other: the order of the blocks
     return true;

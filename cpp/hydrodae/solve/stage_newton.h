@@ -39,8 +39,6 @@ public:
   /// Contraction of the last iteration, and how many it took.
   double contraction = 0.0;
   int iterations = 0;
-  /// Tolerance of the iteration in units of the error tolerance.
-  double accuracy = 1e-2;
 
 private:
   struct Full {
@@ -56,7 +54,7 @@ private:
   bool factorise_full(double t, double h);
   template <class Solve>
   NewtonResult iterate(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z,
-                       int most, Solve&& solve);
+                       int most, double stalled, Solve&& solve);
 
   Equations& e_;
   RungeKutta rk_;
