@@ -220,7 +220,7 @@ private:
   /// motion, relative to its size, measured ten times (slider crank with equal bars) to 200 times
   /// as much (two four-bar windows). Allowed are errors of some sqrt(rtol).
   double guard_at_singular_poses() const {
-    return std::min(0.02 * std::sqrt(std::max(scene_.solver.rtol, 1e-6)), energy_guard_);
+    return std::min(0.01 * std::sqrt(std::max(scene_.solver.rtol, 1e-6)), energy_guard_);
   }
 
   /// Looks at every fourth pose: the way through a singular one takes more steps.
@@ -289,10 +289,11 @@ private:
     while (t_ < end) {
       const bool event = advance();
       choose_quadrature();
+      recorder_->begin(t_, at_);
       for (; next <= samples && static_cast<double>(next) * dt <= t_ * (1.0 + 1e-14); ++next)
         if (!sample(std::min(static_cast<double>(next) * dt, t_)))
           return false;
-      recorder_->accept(t_, at_);
+      recorder_->accept();
       check_energy();
       check_motion();
       remember();

@@ -77,7 +77,7 @@ struct SolverOptions {
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard. By default 0.01; where ida comes to a singular pose of a closed "
-         "loop 0.02 sqrt(rtol), 2e-5 at least: a multi-step method that loses energy there loses "
+         "loop 0.01 sqrt(rtol), 1e-5 at least: a multi-step method that loses energy there loses "
          "the motion.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",

@@ -65,7 +65,8 @@ private:
   ProgressGuard guard_;
   double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
   VectorX y_, yp_, y0_, stage_, stage_yp_, trial_, trial_yp_, w_;
-  MatrixX k_; ///< rates of the stages, one column each
+  MatrixX k_;     ///< rates of the stages, one column each
+  MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
   double last_error_ = 1e-4;
   VectorX local_error_; ///< (n_bodies,), of fixed steps
@@ -206,7 +207,7 @@ double ExplicitRk::step() {
   }
 }
 
-/// The three further stages that the interpolant of order 7 needs.
+/// The three further stages of the interpolant of order 7, and its coefficients.
 void ExplicitRk::extend() {
   if (extended_ || pair_.order == 5)
     return;
@@ -217,6 +218,16 @@ void ExplicitRk::extend() {
       fail("no finite accelerations inside the step");
     k_.col(13 + i) = stage_yp_.head(n_);
   }
+  // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
+  const auto dy = y_.head(n_) - y0_.head(n_);
+  dense_.setZero(n_, 7);
+  dense_.col(0) = dy;
+  dense_.col(1) = done_ * k_.col(0) - dy;
+  dense_.col(2) = 2.0 * dy - done_ * (k_.col(12) + k_.col(0));
+  for (int i = 3; i < 7; ++i)
+    for (int j = 0; j < 16; ++j)
+      if (const double d = tableaux::rk8_d[16 * (i - 3) + j]; d != 0.0)
+        dense_.col(i) += done_ * d * k_.col(j);
   extended_ = true;
 }
 
@@ -238,23 +249,9 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
     }
   } else {
     extend();
-    // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
-    const VectorX dy = y_.head(n_) - y0_.head(n_);
     VectorX sum = VectorX::Zero(n_);
-    for (int i = 6; i >= 0; --i) {
-      if (i >= 3) {
-        for (int j = 0; j < 16; ++j)
-          if (const double d = tableaux::rk8_d[16 * (i - 3) + j]; d != 0.0)
-            sum += done_ * d * k_.col(j);
-      } else if (i == 2) {
-        sum += 2.0 * dy - done_ * (k_.col(12) + k_.col(0));
-      } else if (i == 1) {
-        sum += done_ * k_.col(0) - dy;
-      } else {
-        sum += dy;
-      }
-      sum *= i % 2 == 0 ? x : 1.0 - x;
-    }
+    for (int i = 6; i >= 0; --i)
+      sum = (sum + dense_.col(i)) * (i % 2 == 0 ? x : 1.0 - x);
     y.head(n_) += sum;
   }
   if (!saddle_.accelerations(t, y, yp))

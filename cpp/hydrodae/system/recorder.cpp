@@ -17,7 +17,7 @@ void put(double*& out, const Vector3& v) {
 } // namespace
 
 Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
-    : s_(system), observer_(system), t_(t0), y_(y), yp_(yp) {
+    : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
   const Observation& o = observer_.observe(t0, y, yp);
   power_ = o.powers;
   work_.assign(power_.size(), 0.0);
@@ -111,24 +111,55 @@ void Recorder::make_channels() {
               "solver's error.");
 }
 
-/// Work of every component until t: the rule over [t_, t] on the solver's interpolant. Leaves the
-/// observer at t and the power there in `power`.
-std::vector<double> Recorder::work_until(double t, const Interpolant& at,
-                                         std::vector<double>& power) {
-  std::vector<double> work = work_;
-  const double h = t - t_;
+/// Powers at the nodes of the step from t_ to t, on the solver's interpolant, and the work over it.
+/// Leaves the observer at t.
+void Recorder::begin(double t, const Interpolant& at) {
+  end_ = t;
+  const double h = end_ - t_;
   const std::size_t last = rule_.nodes.size() - 1;
-  for (std::size_t k = 0; k < work.size(); ++k)
-    work[k] += h * rule_.weights[0] * power_[k];
+  powers_.resize(last + 1);
+  powers_[0] = power_;
   for (std::size_t node = 1; node <= last; ++node) {
-    if (h == 0.0 && node < last)
-      continue;
     const double time = node == last ? t : t_ + h * rule_.nodes[node];
-    if (h > 0.0)
-      at(time, y_, yp_);
-    power = observer_.observe(time, y_, yp_).powers;
+    at(time, y_, yp_);
+    powers_[node] = observer_.observe(time, y_, yp_).powers;
+  }
+  end_work_ = work_;
+  for (std::size_t node = 0; node <= last; ++node)
+    for (std::size_t k = 0; k < work_.size(); ++k)
+      end_work_[k] += h * rule_.weights[node] * powers_[node][k];
+  const Observation& o = observer_.observation();
+  end_moving_ = o.kinetic + o.kinetic_added_mass;
+  balance_error_ = balance(end_work_);
+  turns_.clear();
+  for (const auto& motion : o.motions)
+    turns_.push_back(motion[0]);
+}
+
+/// Work until t = t_ + x h, where the observer is: the integral of the polynomial through the
+/// powers at the nodes and at t, h sum_k P_k int_0^x L_k, by the rule itself on [0, x].
+std::vector<double> Recorder::work_at(double x) const {
+  if (x <= 0.0)
+    return work_;
+  std::vector<double> nodes = rule_.nodes;
+  const auto apart = [&](double node) { return std::abs(node - x) > 1e-3; };
+  const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them
+  if (own)
+    nodes.push_back(x);
+  const std::vector<double>& power = observer_.observation().powers;
+  std::vector<double> work = work_;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    double weight = 0.0;
+    for (std::size_t node = 0; node < rule_.nodes.size(); ++node) {
+      double value = x * rule_.weights[node];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (i != j)
+          value *= (x * rule_.nodes[node] - nodes[i]) / (nodes[j] - nodes[i]);
+      weight += value;
+    }
+    const std::vector<double>& P = j < powers_.size() ? powers_[j] : power;
     for (std::size_t k = 0; k < work.size(); ++k)
-      work[k] += h * rule_.weights[node] * power[k];
+      work[k] += (end_ - t_) * weight * P[k];
   }
   return work;
 }
@@ -150,26 +181,18 @@ double Recorder::balance(const std::vector<double>& work) {
   return error;
 }
 
-void Recorder::accept(double t, const Interpolant& at) {
-  std::vector<double> power;
-  work_ = work_until(t, at, power);
-  power_ = power;
-  balance_error_ = balance(work_);
-  turns_.clear();
-  for (const auto& motion : observer_.observation().motions)
-    turns_.push_back(motion[0]);
+void Recorder::accept() {
+  t_ = end_;
+  work_ = end_work_;
+  power_ = powers_.back();
   observer_.follow(turns_);
-  t_ = t;
 }
 
 void Recorder::restart(const VectorX& y, const VectorX& yp, bool struck) {
-  const Observation& o = observer_.observation();
-  const double before = o.kinetic + o.kinetic_added_mass;
-  y_ = y;
-  yp_ = yp;
-  power_ = observer_.observe(t_, y, yp).powers;
+  const Observation& o = observer_.observe(t_, y, yp);
+  power_ = o.powers;
   if (struck) // "constraints"
-    work_.back() += std::min(0.0, o.kinetic + o.kinetic_added_mass - before);
+    work_.back() += std::min(0.0, o.kinetic + o.kinetic_added_mass - end_moving_);
 }
 
 void Recorder::fill_bodies(double*& out) {
@@ -238,8 +261,10 @@ void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
 }
 
 void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
-  std::vector<double> power;
-  const std::vector<double> work = work_until(t, at, power);
+  if (end_ > t_) // else the start of the run
+    at(t, y_, yp_);
+  observer_.observe(t, y_, yp_);
+  const std::vector<double> work = work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0);
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);

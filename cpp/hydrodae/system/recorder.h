@@ -15,7 +15,7 @@ struct Quadrature {
 };
 
 /// Integrates the work of every force over the accepted steps, follows angles over turns, and fills
-/// rows of the results. Lives in accepted-step state: call `accept` once a step, in order.
+/// rows of the results. Each accepted step in order: `begin`, the samples in it, `accept`.
 class Recorder {
 public:
   /// y and y' at a time inside the step that was accepted last.
@@ -30,26 +30,29 @@ public:
   /// From now on (between two steps) the work is summed by this rule; Simpson's at first.
   void set_quadrature(const Quadrature& rule) { rule_ = rule; }
 
-  /// Fills one row at time `t` of the current step (or the start). Values of all channels one after
-  /// the other; length `width()`.
+  /// Takes the accepted step that ends at `t`: balance and turns are those of its end.
+  void begin(double t, const Interpolant& at);
+
+  /// Fills one row at time `t` of the step begun (or at the start). Values of all channels one
+  /// after the other; length `width()`.
   void sample(double t, const Interpolant& at, std::span<double> row);
 
-  /// Closes the step that ends at `t`: work and turns are carried over.
-  void accept(double t, const Interpolant& at);
+  /// Closes the step: work and turns are carried over.
+  void accept();
 
   /// Rows of the system came or went at the end of the last accepted step; y, y' from there on.
   /// Where something `struck`, what the kinetic energy lost was the work of the constraints; a
   /// gain, and any change without an impact, is left as an error of the balance.
   void restart(const VectorX& y, const VectorX& yp, bool struck);
 
-  /// All motions at the end of the last accepted step, angles followed over turns.
+  /// All motions at the end of the last step, angles followed over turns.
   const std::vector<double>& turns() const { return turns_; }
 
   /// Largest |balance error| so far over the largest energy exchanged so far [-], both taken at the
   /// ends of steps and at samples.
   double relative_balance_error() const;
 
-  /// Balance error at the end of the last accepted step, and the largest energy exchanged [J].
+  /// Balance error at the end of the last step, and the largest energy exchanged [J].
   double balance_error() const { return balance_error_; }
   double largest_energy() const { return largest_energy_; }
 
@@ -57,7 +60,7 @@ private:
   void make_channels();
   void add_channel(std::string path, int width, std::string unit, std::string frame,
                    std::string description);
-  std::vector<double> work_until(double t, const Interpolant& at, std::vector<double>& power);
+  std::vector<double> work_at(double x) const;
   void fill_bodies(double*& out);
   void fill_joints(double*& out);
   void fill_markers(double*& out);
@@ -68,10 +71,12 @@ private:
   Observer observer_;
   std::vector<Channel> channels_;
   std::size_t width_ = 0;
-  double t_;                         ///< end of the last accepted step [s]
-  std::vector<double> power_, work_; ///< per component, at t_
-  std::vector<double> turns_;
-  double energy0_ = 0.0; ///< kinetic energies at the start [J]
+  double t_, end_;                          ///< start and end of the step [s]
+  std::vector<double> power_, work_;        ///< per component, at t_
+  std::vector<std::vector<double>> powers_; ///< at the nodes of the step
+  std::vector<double> end_work_, turns_;    ///< at the end of the step
+  double end_moving_ = 0.0;                 ///< kinetic energies there [J]
+  double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
   double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
   Quadrature rule_;
   VectorX y_, yp_;
