@@ -68,6 +68,21 @@ TEST_CASE("the Jacobian is exact in all blocks") {
         REQUIRE(error < 1e-9);
       }
     }
+    // The part for accelerations: its blocks of the same values.
+    const system::Pattern part = system::find_pattern(s, system::Part::accelerations);
+    REQUIRE(part.nonzeros() <= pattern.nonzeros());
+    system::JacobianParts small(part);
+    system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
+    const MatrixX small_y = dense(part, small.by_y), small_yp = dense(part, small.by_yp);
+    const auto difference = [&](const MatrixX& ours, const MatrixX& all, Index row, Index column,
+                                Index rows, Index columns) {
+      const auto block = all.block(row, column, rows, columns).array();
+      return ((ours.block(row, column, rows, columns).array() - block).abs() / (1.0 + block.abs()))
+          .sum();
+    };
+    REQUIRE(difference(small_yp, by_yp, s.u0, s.u0, s.n_u, s.n_u) < 1e-12);
+    REQUIRE(difference(small_y, by_y, s.lambda0, 0, s.n_lambda, s.n) < 1e-12);
+    REQUIRE(difference(small_y, by_y, s.u0, s.lambda0, s.n_u, s.n_lambda) < 1e-12);
     ++scenes;
   }
   CHECK(scenes >= 3 * static_cast<int>(joint::joint_types().size()));

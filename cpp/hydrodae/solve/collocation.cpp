@@ -43,11 +43,13 @@ public:
         fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
         end_(options.end_time),
-        max_step_(options.max_step > 0.0 ? options.max_step : options.end_time), saddle_(e_),
+        max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
         w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)), guess_(system.n),
         guess_rate_(system.n) {
     use(stages_of(family_, options.order));
+    if (project_)
+      saddle_.emplace(e_);
     if (fixed_)
       stage_error_.emplace(newton_->rk());
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
@@ -81,7 +83,7 @@ private:
   const Family family_;
   const bool fixed_, chooses_order_, project_;
   const double end_, max_step_;
-  SaddlePoint saddle_;
+  std::optional<SaddlePoint> saddle_; ///< where the end of a step is projected
   ProgressGuard guard_;
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
@@ -263,8 +265,8 @@ void Collocation::accept(double h) {
     y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
     y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
     interpolate(t_, at_end, yp_);
-    if (project_ && (!saddle_.accelerations(t_, y_, yp_) || !saddle_.project(t_, y_) ||
-                     !saddle_.accelerations(t_, y_, yp_)))
+    if (project_ && (!saddle_->accelerations(t_, y_, yp_) || !saddle_->project(t_, y_) ||
+                     !saddle_->accelerations(t_, y_, yp_)))
       fail("the constraints cannot be met at the end of the step");
   }
   e_.accept(y_, yp_);

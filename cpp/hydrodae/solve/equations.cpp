@@ -79,8 +79,13 @@ bool Equations::residual(double t, const VectorX& y, const VectorX& yp, VectorX&
 }
 
 void Equations::jacobian(double t, const VectorX& y, const VectorX& yp) {
+  jacobian(t, y, yp, pattern, parts);
+}
+
+void Equations::jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
+                         system::JacobianParts& out) {
   ++statistics.jacobian_calls;
-  system::jacobian(system, pattern, jacobian_workspace_, t, y.data(), yp.data(), parts);
+  system::jacobian(system, own, jacobian_workspace_, t, y.data(), yp.data(), out);
 }
 
 void Equations::accept(const VectorX& y, const VectorX& yp) {

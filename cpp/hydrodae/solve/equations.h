@@ -25,6 +25,10 @@ public:
   /// dF/dy and dF/dy' into `parts`.
   void jacobian(double t, const VectorX& y, const VectorX& yp);
 
+  /// The same into `out`, on a pattern of one's own.
+  void jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
+                system::JacobianParts& out);
+
   /// e D / |alpha| for each multiplier, to be added to the diagonal of a Newton matrix
   /// dF/dy + alpha dF/dy' made of the last `jacobian`: D = diag(G M^-1 G^T) roughly, e tiny. In a
   /// singular pose, where the multipliers are not unique, it keeps the matrix regular; the solution

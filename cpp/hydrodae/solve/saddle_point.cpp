@@ -24,9 +24,11 @@ template <class Vector> double largest(const Vector& v) {
 } // namespace
 
 SaddlePoint::SaddlePoint(Equations& equations)
-    : e_(equations), s_(equations.system), n_(s_.n_u + s_.n_lambda), residual_(s_.n), rhs_(n_),
-      x_(n_), r_(n_), yp0_(VectorX::Zero(s_.n)) {
-  const system::Pattern& p = e_.pattern;
+    : e_(equations), s_(equations.system),
+      pattern_(system::find_pattern(s_, system::Part::accelerations)), parts_(pattern_),
+      n_(s_.n_u + s_.n_lambda), residual_(s_.n), rhs_(n_), x_(n_), r_(n_),
+      yp0_(VectorX::Zero(s_.n)) {
+  const system::Pattern& p = pattern_;
   auto place = [&](Index i) -> Index { // of a row or column of y in the small matrix
     if (i >= s_.u0 && i < s_.z0)
       return i - s_.u0;
@@ -122,15 +124,15 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   yp.setZero();
   yp.head(s_.n_q) = -residual_.head(s_.n_q);
   yp.segment(s_.z0, s_.n_z) = -residual_.segment(s_.z0, s_.n_z);
-  e_.jacobian(t, y, yp0_);
+  e_.jacobian(t, y, yp0_, pattern_, parts_);
   for (const Entry& entry : entries_) {
-    const double value = entry.rate ? e_.parts.by_yp[entry.from] : e_.parts.by_y[entry.from];
+    const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];
     plain_[entry.slot] = entry.turned ? -value : value;
   }
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
   rhs_.tail(s_.n_lambda).setZero();
   for (const Rate& rate : rates_)
-    rhs_[rate.row] -= e_.parts.by_y[rate.from] * yp[rate.column];
+    rhs_[rate.row] -= parts_.by_y[rate.from] * yp[rate.column];
   for (const system::CouplerData& c : s_.couplers)
     if (c.kept()) // the explicit time derivative of the velocity row: -f'' or -f'
       rhs_[c.lambda - s_.lambda0 + s_.n_u] += c.drive(t)[c.velocity_level ? 1 : 2];

@@ -53,7 +53,9 @@ private:
 
   Equations& e_;
   const system::System& s_;
-  Index n_ = 0; ///< n_u + n_lambda
+  system::Pattern pattern_;     ///< of what accelerations need
+  system::JacobianParts parts_; ///< on it
+  Index n_ = 0;                 ///< n_u + n_lambda
   std::vector<Index> start_, row_;
   std::vector<Entry> entries_;
   std::vector<Rate> rates_;

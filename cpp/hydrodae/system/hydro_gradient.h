@@ -38,15 +38,31 @@ inline YawGradient yaw_gradient(const BodyState<double>& b) {
   return d;
 }
 
+/// L: forces along the hydrodynamic axes as a load on the body; U = L^T u.
+inline Matrix6 hydro_axes(HydroAxes axes, const BodyState<double>& b) {
+  Matrix6 L = Matrix6::Identity();
+  if (axes == HydroAxes::body) {
+    L.topLeftCorner<3, 3>() = b.R;
+  } else if (axes == HydroAxes::yaw) {
+    const Matrix3 H = yaw<double>(b).H;
+    L.topLeftCorner<3, 3>() = H;
+    L.bottomRightCorner<3, 3>() = b.R.transpose() * H;
+  } else {
+    L.bottomRightCorner<3, 3>() = b.R.transpose();
+  }
+  return L;
+}
+
 /// dU = U_phi dphi + U_v dv + U_w dw and dU' = a_phi dphi + a_v dv + a_w dw + a_acc d(v', w').
 struct HydroMotionGradient {
   Matrix63 U_phi = Matrix63::Zero(), U_v = Matrix63::Zero(), U_w = Matrix63::Zero();
   Matrix63 a_phi = Matrix63::Zero(), a_v = Matrix63::Zero(), a_w = Matrix63::Zero();
-  Matrix6 a_acc = Matrix6::Zero();
+  Matrix6 a_acc;
 };
 
 inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState<double>& b) {
   HydroMotionGradient d;
+  d.a_acc = hydro_axes(axes, b).transpose();
   const Matrix3 wx = skew<double>(b.w), R_T = b.R.transpose();
   if (axes == HydroAxes::body) {
     const Matrix3 Vx = skew<double>(R_T * b.v);
@@ -56,8 +72,6 @@ inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState
     d.a_phi.topRows<3>() = skew<double>(R_T * b.v_dot) - wx * Vx;
     d.a_v.topRows<3>() = -wx * R_T;
     d.a_w.topRows<3>() = Vx;
-    d.a_acc.topLeftCorner<3, 3>() = R_T;
-    d.a_acc.bottomRightCorner<3, 3>().setIdentity();
   } else if (axes == HydroAxes::yaw) {
     const YawGradient psi = yaw_gradient(b);
     const Matrix3 H_T = psi.H.transpose(), T = H_T * b.R, up = skew<double>(Vector3::UnitZ());
@@ -74,15 +88,11 @@ inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState
     d.a_v.topRows<3>() = -psi.rate * up * H_T;
     d.a_w.topRows<3>() = -up * V * psi.s.transpose();
     d.a_w.bottomRows<3>() = -up * W * psi.s.transpose() - psi.rate * up * T;
-    d.a_acc.topLeftCorner<3, 3>() = H_T;
-    d.a_acc.bottomRightCorner<3, 3>() = T;
   } else {
     d.U_phi.bottomRows<3>() = -b.R * wx;
     d.U_v.topRows<3>().setIdentity();
     d.U_w.bottomRows<3>() = b.R;
     d.a_phi.bottomRows<3>() = -b.R * skew<double>(b.w_dot);
-    d.a_acc.topLeftCorner<3, 3>().setIdentity();
-    d.a_acc.bottomRightCorner<3, 3>() = b.R;
   }
   return d;
 }
@@ -104,17 +114,17 @@ inline Eigen::Matrix<double, 6, 2> excitation_gradient(const System& s, const Hy
 /// load = L rate + Q momentum of `hydro_load`: L, Q, and the derivatives by the rotation of the
 /// body (body axes) and by its velocities (v, w), with rate and momentum held.
 struct HydroLoadGradient {
-  Matrix6 L = Matrix6::Identity(), Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
+  Matrix6 L, Q = Matrix6::Zero(), by_velocity = Matrix6::Zero();
   Matrix63 by_rotation = Matrix63::Zero();
 };
 
 inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<double>& b,
                                              const Vector6& rate, const Vector6& momentum) {
   HydroLoadGradient d;
+  d.L = hydro_axes(axes, b);
   if (axes == HydroAxes::body) {
     const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
     const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
-    d.L.topLeftCorner<3, 3>() = b.R;
     d.Q << b.R * wx, Matrix3::Zero(), Vx, wx;
     const Vector3 force = rate.head<3>() + wx * momentum.head<3>();
     d.by_rotation << -b.R * skew<double>(force), -px * Vx;
@@ -124,7 +134,6 @@ inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<dou
     const Matrix3 H_T = psi.H.transpose(), T = H_T * b.R, up = skew<double>(Vector3::UnitZ());
     const Vector3 V = H_T * b.v, W = T * b.w, z = Vector3::UnitZ();
     const Vector3 p = momentum.head<3>(), h = momentum.tail<3>();
-    d.L << psi.H, Matrix3::Zero(), Matrix3::Zero(), T.transpose();
     d.Q << psi.rate * psi.H * up, Matrix3::Zero(), psi.s * (z.transpose() * skew<double>(V)),
         psi.rate * T.transpose() * up + psi.s * (z.transpose() * skew<double>(W));
     const Vector3 force = rate.head<3>() + psi.rate * up * p;
@@ -141,7 +150,6 @@ inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<dou
         psi.s * (pz.transpose() * H_T),
         T.transpose() * up * h * psi.s.transpose() + psi.s * (hz.transpose() * T);
   } else {
-    d.L.bottomRightCorner<3, 3>() = b.R.transpose();
     d.by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
   }
   return d;

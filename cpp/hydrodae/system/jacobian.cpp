@@ -17,7 +17,8 @@ using RowVector3 = Eigen::Matrix<double, 1, 3>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 /// Collects the places that the assembly visits.
-struct PatternSink {
+template <Part made> struct PatternSink {
+  static constexpr bool whole = made == Part::whole;
   Visits visits, rates; ///< (column, row); rates: those of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
   void by_yp(Index row, Index column, double) {
@@ -27,7 +28,8 @@ struct PatternSink {
 };
 
 /// Adds the values into the slots found before.
-struct ValueSink {
+template <Part made> struct ValueSink {
+  static constexpr bool whole = made == Part::whole;
   const Index* slot;
   JacobianParts& out;
   void by_y(Index, Index, double value) { out.by_y[*slot++] += value; }
@@ -38,6 +40,7 @@ struct ValueSink {
 /// (translations in world axes, rotations in body axes); they become columns of position unknowns
 /// through `tangent` of the body.
 template <class Sink> struct Assembly {
+  static constexpr bool whole = Sink::whole; ///< else what accelerations need
   const System& s;
   JacobianWorkspace& ws;
   const double t;
@@ -118,6 +121,7 @@ template <class Sink> struct Assembly {
   void body_rows();
   void hydrodynamics();
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
+  void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const Matrix6& L);
   void phase_columns(const HydroBody& i, const Matrix6& L);
@@ -129,8 +133,10 @@ template <class Sink> struct Assembly {
   void run() {
     joints();
     couplers();
-    for_each_element(s.body_forces, [&](const auto& f) { force(f); });
-    for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
+    if constexpr (whole) {
+      for_each_element(s.body_forces, [&](const auto& f) { force(f); });
+      for_each_element(s.motion_forces, [&](const auto& f) { force(f); });
+    }
     hydrodynamics();
     morison();
     body_rows();
@@ -144,8 +150,8 @@ template <class Sink>
 void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
                                     const Vector12& gradient, const Matrix12& curvature,
                                     const Vector12& u) {
-  const bool level_1 = s.formulation == Formulation::index_1;
-  const bool level_3 = s.formulation == Formulation::index_3 && mu >= 0;
+  const bool level_1 = whole && s.formulation == Formulation::index_1;
+  const bool level_3 = whole && s.formulation == Formulation::index_3 && mu >= 0;
   Vector12 by_pose = level_3 ? gradient : Vector12(curvature.transpose() * u);
   Vector12 by_velocity = gradient;
   if (level_1) {
@@ -155,7 +161,7 @@ void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
     by_velocity = curvature * u + by_pose + rate * gradient;
     by_pose = (curvature.transpose() * u_dot + rate * by_pose + gap * gradient).eval();
   }
-  if (mu >= 0 && s.formulation != Formulation::stabilised)
+  if (whole && mu >= 0 && s.formulation != Formulation::stabilised)
     sink.by_y(mu, mu, 1.0);
   for (int side = 0; side < 2; ++side) {
     const int b = side == 0 ? j.A.body : j.B.body;
@@ -169,7 +175,7 @@ void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
     displacement_columns(lambda, b, by_pose.segment<6>(6 * side).transpose());
     for (int k = 0; k < s.bodies[b].n_active; ++k)
       sink.by_y(s.bodies[b].u0 + k, lambda, -G[s.bodies[b].active[k]]);
-    if (mu < 0)
+    if (!whole || mu < 0)
       continue;
     if (s.formulation == Formulation::stabilised)
       displacement_columns(mu, b, G);
@@ -206,13 +212,16 @@ template <class Sink> void Assembly<Sink>::joints() {
       const Vector12 gradient =
           joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
       const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, j.parameters, g);
-      by_lambda += y[row.lambda] * curvature;
-      by_mu += y[row.mu] * curvature;
-      shift += y[row.mu] * gradient;
+      if constexpr (whole) {
+        by_lambda += y[row.lambda] * curvature;
+        by_mu += y[row.mu] * curvature;
+        shift += y[row.mu] * gradient;
+      }
       constraint_row(j, row.lambda, row.mu, gradient, curvature, u);
     }
-    if (!j.rows.empty())
-      constraint_curvature(j, by_lambda, by_mu);
+    if (!whole || j.rows.empty())
+      continue;
+    constraint_curvature(j, by_lambda, by_mu);
     add_to_bodies<double>(j, shift, ws.state.shifts);
   }
 }
@@ -231,6 +240,8 @@ template <class Sink> void Assembly<Sink>::couplers() {
       const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
       constraint_row(j, coupler.lambda, coupler.velocity_level ? -1 : coupler.mu, gradient,
                      curvature, joint_velocity<double>(j, ws.state.bodies));
+      if (!whole)
+        continue;
       constraint_curvature(j, y[coupler.lambda] * curvature, mu * curvature);
       add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
     }
@@ -299,8 +310,11 @@ template <class Sink> void Assembly<Sink>::body_rows() {
         skew<double>(body.w) * b.inertia - skew<double>(b.inertia * body.w);
     for (int k = 0; k < b.n_active; ++k) {
       acceleration_columns(b.u0 + k, i, mass.row(b.active[k]));
-      velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
+      if constexpr (whole)
+        velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
     }
+    if (!whole)
+      continue;
     position_rows(i, [&](Index row, const RowVector6& weights) {
       sink.by_yp(row, row, 1.0);
       velocity_columns(row, i, weights);
@@ -415,10 +429,29 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   }
 }
 
+/// L A L^T of each pair, all that the accelerations feel of the water at once.
+template <class Sink> void Assembly<Sink>::hydro_masses() {
+  for (const HydroBody& i : s.hydro.bodies)
+    for (const HydroBody& j : s.hydro.bodies) {
+      if (!i.moves || !j.moves)
+        continue;
+      Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
+      if (!s.hydro.convolution.empty() && ws.state.past)
+        A += hydro_block(ws.state.past->by_U_dot, i, j);
+      const Matrix6 mass = hydro_axes(s.hydro.axes, state(i.body)) * A *
+                           hydro_axes(s.hydro.axes, state(j.body)).transpose();
+      const BodyData& b = s.bodies[i.body];
+      for (int k = 0; k < b.n_active; ++k)
+        acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));
+    }
+}
+
 template <class Sink> void Assembly<Sink>::hydrodynamics() {
   const HydroData& h = s.hydro;
   if (h.n_moving == 0)
     return;
+  if (!whole)
+    return hydro_masses();
   Workspace<double>& w = ws.state;
   hydro_loads<double>(s, w, t, y + h.z0);
   for (const HydroBody& i : h.bodies) {
@@ -442,8 +475,10 @@ template <class Sink> void Assembly<Sink>::morison() {
     if (b.n_active == 0)
       continue;
     const LoadGradient d = morison_gradient(s.water, m, state(m.body), t, ws.state.fluid, ws.fluid);
-    load_by_displacement(m.body, m.body, d.by_displacement);
-    load_by_velocity(m.body, m.body, d.by_velocity);
+    if constexpr (whole) {
+      load_by_displacement(m.body, m.body, d.by_displacement);
+      load_by_velocity(m.body, m.body, d.by_velocity);
+    }
     for (int k = 0; k < b.n_active; ++k)
       acceleration_columns(b.u0 + k, m.body, -d.by_acceleration.row(b.active[k]));
   }
@@ -461,19 +496,33 @@ void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, 
   }
 }
 
+template <Part made> Pattern pattern_of(const System& system) {
+  JacobianWorkspace ws(system);
+  const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
+  prepare(system, ws, 0.0, y.data(), yp.data());
+  PatternSink<made> sink;
+  Assembly<PatternSink<made>>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
+  Pattern pattern = make_pattern(system.n, sink.visits, sink.rates);
+  pattern.part = made;
+  return pattern;
+}
+
+template <Part made>
+void fill(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
+          const double* y, const double* yp, JacobianParts& out) {
+  ValueSink<made> sink{pattern.slots.data(), out};
+  Assembly<ValueSink<made>>{system, ws, t, y, yp, sink}.run();
+}
+
 } // namespace
+
 JacobianWorkspace::JacobianWorkspace(const System& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
       fluid(state.fluid.size()) {}
 
-Pattern find_pattern(const System& system) {
-  JacobianWorkspace ws(system);
-  const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
-  prepare(system, ws, 0.0, y.data(), yp.data());
-  PatternSink sink;
-  Assembly<PatternSink>{system, ws, 0.0, y.data(), yp.data(), sink}.run();
-
-  return make_pattern(system.n, sink.visits, sink.rates);
+Pattern find_pattern(const System& system, Part part) {
+  return part == Part::whole ? pattern_of<Part::whole>(system)
+                             : pattern_of<Part::accelerations>(system);
 }
 
 void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
@@ -481,8 +530,10 @@ void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& w
   std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
   std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);
   prepare(system, ws, t, y, yp);
-  ValueSink sink{pattern.slots.data(), out};
-  Assembly<ValueSink>{system, ws, t, y, yp, sink}.run();
+  if (pattern.part == Part::whole)
+    fill<Part::whole>(system, pattern, ws, t, y, yp, out);
+  else
+    fill<Part::accelerations>(system, pattern, ws, t, y, yp, out);
 }
 
 } // namespace hydrodae::system

@@ -8,10 +8,15 @@
 
 namespace hydrodae::system {
 
+/// What of the Jacobian is made: all of it, or what accelerations follow from: the mass matrix, and
+/// the velocity rows of the constraints with their derivatives by positions and multipliers.
+enum class Part { whole, accelerations };
+
 /// Compressed columns of the Jacobian. The assembly always visits the same entries in the same
 /// order; `slots[k]` is the place of the k-th visit in the values array.
 struct Pattern {
   Index n = 0;
+  Part part = Part::whole;
   std::vector<Index> column_start; ///< (n + 1,)
   std::vector<Index> row;          ///< (nonzeros,) ascending in each column
   std::vector<Index> slots;
@@ -26,7 +31,7 @@ using Visits = std::vector<std::pair<Index, Index>>;
 Pattern make_pattern(Index n, const Visits& visits, const Visits& rates);
 
 /// Runs the assembly once without values to find the pattern.
-Pattern find_pattern(const System& system);
+Pattern find_pattern(const System& system, Part part = Part::whole);
 
 /// The two parts of the Jacobian, kept apart so that any real or complex alpha can join them.
 struct JacobianParts {
@@ -43,7 +48,8 @@ struct JacobianWorkspace {
   std::vector<sea::FluidGradient> fluid;             ///< at the segments of one Morison element
 };
 
-/// dF/dy and dF/dy' at (t, y, y'). Pure apart from the scratch; no allocation.
+/// dF/dy and dF/dy' at (t, y, y'), the part that the pattern is of; accelerations take the rows as
+/// they are in the stabilised formulation. Pure apart from the scratch; no allocation.
 void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
               const double* y, const double* yp, JacobianParts& out);
 
