@@ -84,9 +84,12 @@ class Pair:
         return f"{self.ratio:6.1f} x ({self.own.label}, {self.own.error:.1e}){note}"
 
 
+def two_digits(value: float) -> str:
+    return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
+
+
 def milliseconds(seconds: float) -> str:
-    """Two digits."""
-    return f"{1e3 * seconds:.{max(0, 1 - math.floor(math.log10(1e3 * seconds)))}f}"
+    return two_digits(1e3 * seconds)
 
 
 def case_of(name: str) -> Path:
@@ -197,7 +200,7 @@ def cheapest(pairs: list[Pair], bound: float) -> Pair | None:
 
 
 def ratio_text(pair: Pair | None) -> str:
-    return f"{pair.ratio:.2g}" if pair and pair.own else "-"
+    return two_digits(pair.ratio) if pair and pair.own else "-"
 
 
 def table(found: dict[str, list[Pair]]) -> str:
