@@ -94,11 +94,10 @@ public:
     formulate(scene.solver);
     begin_history();
     energy_guard_ = scene.solver.energy_guard.value_or(1e-2);
-    singular_energy_guard_ = energy_guard_;
-    if (!scene.solver.energy_guard && scene.solver.method == "ida" && solve::has_loop(system_)) {
-      singular_energy_guard_ = guard_at_singular_poses();
+    singular_energy_guard_ =
+        scene.solver.energy_guard ? energy_guard_ : guard_at_singular_poses(scene.solver);
+    if (solve::has_loop(system_))
       pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
-    }
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (scene.solver.branch_guard) {
@@ -159,11 +158,11 @@ private:
   /// @returns whether it ends in such an event
   bool advance() {
     const Clock::time_point before = Clock::now();
-    const double start = t_;
+    step_start_ = t_;
     t_ = integrator_->step();
     std::optional<double> event;
     if (switching_)
-      event = switching_->locate(start, t_, quadrature_nodes_ + 2, at_);
+      event = switching_->locate(step_start_, t_, quadrature_nodes_ + 2, at_);
     t_ = event.value_or(t_);
     statistics_.solver_time += seconds_since(before);
     solve::Statistics all = before_events_;
@@ -216,15 +215,30 @@ private:
     history_->append(t_, y_, yp_);
   }
 
-  /// In singular poses of loops a multi-step method loses energy and motion together; of the
-  /// motion, relative to its size, measured ten times (slider crank with equal bars) to 200 times
-  /// as much (two four-bar windows). Allowed are errors of some sqrt(rtol).
-  double guard_at_singular_poses() const {
-    return std::min(0.01 * std::sqrt(std::max(scene_.solver.rtol, 1e-6)), energy_guard_);
+  /// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy
+  /// and motion are lost together; of the motion, relative to its size, measured ten times (slider
+  /// crank with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are
+  /// errors of some sqrt(rtol), of some hundredths with fixed steps.
+  static double guard_at_singular_poses(const model::SolverOptions& options) {
+    return options.step > 0.0 ? 5e-4
+                              : std::min(1e-2, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
   }
 
-  /// Looks at every fourth pose: the way through a singular one takes more steps.
-  bool at_singular_pose() { return ++poses_ % 4 == 0 && pose_guard_->near_singular(t_, y_, yp_); }
+  /// Was the last step at or next to a singular pose? One step of `ida` in four is looked at, since
+  /// the way through such a pose takes more; long steps are looked at inside, too.
+  bool at_singular_pose() {
+    const bool short_steps = scene_.solver.method == "ida";
+    if (!pose_guard_ || (short_steps && ++asked_ % 4 != 0))
+      return false;
+    const int looks = short_steps ? 1 : 6;
+    for (int k = 1; k <= looks; ++k) {
+      const double t = k == looks ? t_ : step_start_ + (t_ - step_start_) * k / looks;
+      at_(t, y_, yp_);
+      if (pose_guard_->near_singular(t, y_, yp_))
+        return true;
+    }
+    return false;
+  }
 
   /// The rule by which the work over the coming step is summed.
   void choose_quadrature() {
@@ -275,8 +289,11 @@ private:
     at_(t_, y_, yp_);
     if (branch_guard_)
       branch_guard_->check(t_, y_);
-    if (drift_guard_)
-      drift_guard_->check(t_, y_, yp_);
+    if (!drift_guard_)
+      return;
+    drift_guard_->check(t_, y_, yp_);
+    if (drift_guard_->misses_singular_poses() && at_singular_pose())
+      drift_guard_->fail_at_singular_pose(t_);
   }
 
   /// Steps until the end; false when the progress callback asked to stop.
@@ -341,15 +358,15 @@ private:
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::StepGuard> step_guard_;     ///< of fixed steps
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
-  std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where ida may lose energy in loops
+  std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where loops may be singular
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
-  double t_ = 0.0;
+  double t_ = 0.0, step_start_ = 0.0;
   double energy_guard_ = 0.0;          ///< part of the energy exchanged
   double singular_energy_guard_ = 0.0; ///< the same at singular poses
-  long poses_ = 0;                     ///< at which more than that was missing
+  long asked_ = 0;                     ///< times that a singular pose would have mattered
   double least_energy_ = 0.0;          ///< balance errors below say nothing [J]
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {

@@ -13,6 +13,8 @@ import pytest
 
 from hydrodae import cli
 from hydrodae.stability import Cell, Scene, all_methods, all_scenes, run_cell, show, stability_map
+from hydrodae.stability.grid import WRONG
+from hydrodae.stability.methods import Method
 from hydrodae.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
 
 SCENES, METHODS = all_scenes(), all_methods()
@@ -61,6 +63,33 @@ def test_nor_does_ida_at_neighbouring_tolerances(name: str, rtol: float, tmp_pat
     """Through singular poses BDF results depend on rounding: one tolerance alone says little."""
     near = [replace(METHODS["ida:1e-6"], solver={"rtol": rtol * f}) for f in (0.97, 1.0, 1.02)]
     assert not wrong([run_cell(SCENES[name], method, tmp_path, 10.0) for method in near])
+
+
+@pytest.mark.parametrize(
+    ("name", "solver", "settings"),
+    [
+        ("four_bar", {"method": "explicit_rk", "order": 5}, (6e-4, 1e-3, 2e-3, 3e-3)),
+        ("four_bar", {"method": "generalized_alpha", "spectral_radius": 0.3}, (24.0, 28.0, 40.0)),
+        ("four_bar", {"method": "lobatto_iiic", "order": 2}, (12.0, 18.0, 25.0)),
+        ("four_bar", {"method": "radau", "order": 3}, (7.5, 10.0, 15.0)),
+        ("dead_point", {"method": "radau", "formulation": "index_1"}, (2.2e-4, 7.7e-4, 1.7e-3)),
+        ("dead_point", {"method": "radau", "formulation": "index_2"}, (1.5e-3, 2.5e-3, 4.3e-3)),
+    ],
+)
+def test_what_is_lost_at_singular_poses_is_seen_at_loose_settings(
+    name: str, solver: dict[str, object], settings: tuple[float, ...], tmp_path: Path
+) -> None:
+    """Settings below 1 are rtol, others steps per time scale; off is more than 0.2 of the size."""
+    scene = SCENES[name]
+    for setting in (s * f for s in settings for f in (0.98, 1.0, 1.02)):
+        fixed = setting > 1.0
+        method = Method(
+            str(solver["method"]),
+            solver if fixed else {**solver, "rtol": setting},
+            setting if fixed else 0.0,
+        )
+        cell = run_cell(scene, method, tmp_path, 10.0)
+        assert cell.outcome != WRONG or (cell.error or 0.0) < 0.2 * scene.size, cell
 
 
 def test_a_wrong_truth_is_seen(tmp_path: Path) -> None:

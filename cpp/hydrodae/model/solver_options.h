@@ -76,9 +76,9 @@ struct SolverOptions {
          "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01; where ida comes to a singular pose of a closed "
-         "loop 0.01 sqrt(rtol), 1e-5 at least: a multi-step method that loses energy there loses "
-         "the motion.",
+         "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
+         "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
+         "there.",
          false, at_least(0)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "

@@ -20,10 +20,20 @@ public:
   /// Throws SolverError when a gap is above a hundredth of its scale.
   void check(double t, const VectorX& y, const VectorX& yp);
 
+  /// Are the positions checked last further apart than 1e-5 of their scale? Loops that do not close
+  /// pass a singular pose at a distance of sqrt(gap), which turns the motion into another branch.
+  bool misses_singular_poses() const;
+
+  /// Throws SolverError for such a gap.
+  [[noreturn]] void fail_at_singular_pose(double t) const;
+
 private:
+  [[noreturn]] void fail(double t, Index row, const std::string& where) const;
+
   system::System stabilised_; ///< the same equations with both levels as rows
   system::Workspace<double> workspace_;
   VectorX residual_;
+  Index worst_ = 0; ///< row of the widest gap of the positions
 };
 
 /// Tells singular poses of closed loops from rows that always follow from others.
