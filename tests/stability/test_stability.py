@@ -181,3 +181,9 @@ def test_a_wrong_cell_stands_out() -> None:
     cell = Cell("s", "m", "wrong", "off by 1 m", 1.0)
     assert show.label(cell) == "WRONG 1e+00"
     assert show.reasons([cell]) == ["s, m: wrong: off by 1 m"]
+
+
+@pytest.mark.parametrize("name", ["pendulum", "lock"])
+def test_a_run_without_time_is_stopped_not_judged(name: str, tmp_path: Path) -> None:
+    cell = run_cell(SCENES[name], METHODS["ida:1e-6"], tmp_path, 0.0)
+    assert (cell.outcome, cell.reason) == ("stopped", "time limit")

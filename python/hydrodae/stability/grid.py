@@ -166,7 +166,8 @@ def _judge(
     off, allowed = scene.error(results), method.allowance(scene)
     if scene.lock_time is not None:
         late = results.end_time - scene.lock_time
-        if late > LOCK_MARGIN + results.time[1]:
+        sample = results.time[1] if len(results.time) > 1 else 0.0
+        if late > LOCK_MARGIN + sample:
             return WRONG, f"passes the lock by {late:.3g} s", late
         if complaint == "time limit" or late < -LOCK_MARGIN:
             return STOPPED, complaint, off
