@@ -96,10 +96,10 @@ public:
     energy_guard_ = scene.solver.energy_guard.value_or(1e-2);
     singular_energy_guard_ =
         scene.solver.energy_guard ? energy_guard_ : guard_at_singular_poses(scene.solver);
-    if (solve::has_loop(system_))
-      pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
+    if (solve::has_loop(system_) && (singular_energy_guard_ < energy_guard_ || drift_guard_))
+      pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
     if (scene.solver.branch_guard) {
       branch_guard_ = std::make_unique<solve::BranchGuard>(system_);
       if (!branch_guard_->active())
@@ -358,7 +358,7 @@ private:
   std::unique_ptr<solve::DriftGuard> drift_guard_;   ///< where the formulation lets gaps grow
   std::unique_ptr<solve::StepGuard> step_guard_;     ///< of fixed steps
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
-  std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where loops may be singular
+  std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where energy or gaps matter there
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
