@@ -9,12 +9,15 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/energy_guard.h"
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/solve/switching.h"
+#include "hydrodae/solve/trust.h"
+#include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/recorder.h"
 
@@ -59,6 +62,9 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
           {"wall_time", s.wall_time},
           {"end_time", s.end_time},
           {"relative_balance_error", balance_error},
+          {"estimated_error", s.estimated_error},
+          {"estimated_error_of", s.estimated_error_of},
+          {"estimated_error_time", s.estimated_error_time},
           {"method", scene.solver.method},
           {"rtol", scene.solver.rtol}};
 }
@@ -87,18 +93,19 @@ public:
         y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
+    forcing_ = std::make_unique<system::Forcing>(system_, scene.solver.end_time, scene.output.step);
+    motion_scale_ = std::make_unique<system::MotionScale>(
+        system_, pattern_, y_, yp_, forcing_->motion(), scene.sea.ramp, scene.solver.rtol);
     if (!system_.switches.empty()) {
       switching_ = std::make_unique<solve::Switching>(system_, scene.solver.rtol);
       switching_->settle(0.0, y_, yp_);
     }
     formulate(scene.solver);
     begin_history();
-    energy_guard_ = scene.solver.energy_guard.value_or(1e-2);
-    singular_energy_guard_ =
-        scene.solver.energy_guard ? energy_guard_ : guard_at_singular_poses(scene.solver);
+    energy_guard_ = std::make_unique<solve::EnergyGuard>(system_, scene.solver);
     if (system_.formulation != system::Formulation::stabilised && !scene.solver.force)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
-    if (solve::has_loop(system_) && (singular_energy_guard_ < energy_guard_ || drift_guard_))
+    if (solve::has_loop(system_) && (energy_guard_->minds_singular_poses() || drift_guard_))
       pose_guard_ = std::make_unique<solve::PoseGuard>(system_, y_);
     if (scene.solver.branch_guard) {
       branch_guard_ = std::make_unique<solve::BranchGuard>(system_);
@@ -109,6 +116,7 @@ public:
         scene.solver.step > 0.0 && allowed > 0.0)
       step_guard_ = std::make_unique<solve::StepGuard>(system_, allowed, scene.solver.end_time);
     integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
+    trust_ = std::make_unique<solve::Trust>(system_, pattern_, scene.solver);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -116,10 +124,6 @@ public:
     if (!output_path.empty())
       file_ =
           std::make_unique<io::ResultsFile>(output_path, channels, header(scene, system_.notes));
-    for (const system::BodyData& b : system_.bodies) {
-      const double speed = b.length_scale / b.time_scale;
-      least_energy_ = std::max(least_energy_, 100.0 * scene.solver.rtol * b.mass * speed * speed);
-    }
     statistics_.unknowns = system_.n;
     statistics_.nonzeros = pattern_.nonzeros();
     statistics_.notes = system_.notes;
@@ -159,6 +163,7 @@ private:
   bool advance() {
     const Clock::time_point before = Clock::now();
     step_start_ = t_;
+    limit_step();
     t_ = integrator_->step();
     std::optional<double> event;
     if (switching_)
@@ -171,12 +176,25 @@ private:
     return event.has_value();
   }
 
+  /// No step may pass over what is known ahead of time.
+  void limit_step() {
+    const system::Forcing::Limit limit = forcing_->limit(recorder_->turns());
+    integrator_->bound(limit.time);
+    const double step = scene_.solver.step;
+    constexpr double too_long = 4.0;
+    if (step > too_long * (limit.time - t_))
+      throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: the step of " +
+                                number_text(step) + " s is too long for " + *limit.by +
+                                ", which may be passed over; " + rounded_text(limit.time - t_) +
+                                " s may do");
+  }
+
   /// Goes on from an event with the rows that hold from now on.
   void restart() {
     const Clock::time_point before = Clock::now();
     at_(t_, y_, yp_);
     switching_->follow(recorder_->turns());
-    const bool struck = switching_->settle(t_, y_, yp_);
+    const std::optional<double> struck = switching_->settle(t_, y_, yp_);
     recorder_->restart(y_, yp_, struck);
     if (history_)
       history_->append(t_, y_, yp_);
@@ -186,6 +204,7 @@ private:
       pattern_ = system::find_pattern(system_);
       integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
     }
+    trust_->restart(pattern_, t_);
     if (drift_guard_)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (pose_guard_)
@@ -215,15 +234,6 @@ private:
     history_->append(t_, y_, yp_);
   }
 
-  /// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy
-  /// and motion are lost together; of the motion, relative to its size, measured ten times (slider
-  /// crank with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are
-  /// errors of some sqrt(rtol), of some hundredths with fixed steps.
-  static double guard_at_singular_poses(const model::SolverOptions& options) {
-    return options.step > 0.0 ? 5e-4
-                              : std::min(1e-2, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
-  }
-
   /// Was the last step at or next to a singular pose? One step of `ida` in four is looked at, since
   /// the way through such a pose takes more; long steps are looked at inside, too.
   bool at_singular_pose() {
@@ -250,32 +260,25 @@ private:
     recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
   }
 
-  /// Ends a run that went wrong without the integrator's noticing (a branch lost in a singular
-  /// pose, a tolerance too loose): the energy that the equations keep is a witness of its own.
   void check_energy() {
-    const double error = recorder_->balance_error(), exchanged = recorder_->largest_energy();
-    const double missing = std::abs(error) - least_energy_;
-    double part = energy_guard_;
-    if (part == 0.0 || missing <= std::min(part, singular_energy_guard_) * exchanged)
-      return;
+    energy_guard_->check(
+        t_, *recorder_, [this] { return at_singular_pose(); },
+        [this] {
+          VectorX reactions = VectorX::Zero(system_.n);
+          at_(t_, y_, yp_);
+          for (Index i = system_.lambda0; i < system_.mu0; ++i)
+            reactions[i] = y_[i] / system_.scale[i];
+          return system_.n_lambda == 0 ? std::string()
+                                       : "\n  largest reactions, relative to the weights: " +
+                                             solve::worst(reactions, system_.names);
+        });
+  }
+
+  /// The tolerances follow the motion; the error that has piled up is judged against it.
+  void check_trust() {
     at_(t_, y_, yp_);
-    const bool singular = missing <= part * exchanged;
-    if (singular && !at_singular_pose())
-      return;
-    if (singular)
-      part = singular_energy_guard_;
-    VectorX reactions = VectorX::Zero(system_.n);
-    for (Index i = system_.lambda0; i < system_.mu0; ++i)
-      reactions[i] = y_[i] / system_.scale[i];
-    throw SolverError(
-        t_, "stopped at t = " + number_text(t_) + " s: the energy balance is off by " +
-                number_text(error) + " J, more than " + number_text(part) + " of the " +
-                number_text(exchanged) + " J exchanged" + (singular ? ", at a singular pose" : "") +
-                " (solver.energy_guard): the motion is not to be trusted; a smaller "
-                "tolerance or step, or another method may help" +
-                (system_.n_lambda > 0 ? "\n  largest reactions, relative to the weights: " +
-                                            solve::worst(reactions, system_.names)
-                                      : ""));
+    motion_scale_->accept(t_, y_);
+    trust_->accept(t_, *integrator_, motion_scale_->reached(), y_);
   }
 
   /// The other witnesses: fixed steps too long, constraints that drift, velocities that jump.
@@ -313,6 +316,7 @@ private:
       recorder_->accept();
       check_energy();
       check_motion();
+      check_trust();
       remember();
       if (event)
         restart();
@@ -323,6 +327,7 @@ private:
           return false;
       }
     }
+    energy_guard_->finish(t_, *recorder_);
     return true;
   }
 
@@ -339,6 +344,12 @@ private:
 
   void close(const std::string& message) {
     statistics_.wall_time = seconds_since(started_);
+    const solve::Trust::Estimate estimate = trust_->estimate(motion_scale_->reached());
+    statistics_.estimated_error = estimate.error;
+    statistics_.estimated_error_of = estimate.body;
+    statistics_.estimated_error_time = estimate.time;
+    for (const std::string& note : motion_scale_->notes())
+      statistics_.notes.push_back(note);
     if (file_)
       file_->close(statistics_.status, message,
                    attributes(statistics_, scene_, recorder_->relative_balance_error()));
@@ -359,15 +370,16 @@ private:
   std::unique_ptr<solve::StepGuard> step_guard_;     ///< of fixed steps
   std::unique_ptr<solve::BranchGuard> branch_guard_; ///< where loops may be singular
   std::unique_ptr<solve::PoseGuard> pose_guard_;     ///< where energy or gaps matter there
+  std::unique_ptr<solve::EnergyGuard> energy_guard_;
+  std::unique_ptr<system::Forcing> forcing_;          ///< limits the steps
+  std::unique_ptr<system::MotionScale> motion_scale_; ///< adapts the tolerances
+  std::unique_ptr<solve::Trust> trust_;
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
   double t_ = 0.0, step_start_ = 0.0;
-  double energy_guard_ = 0.0;          ///< part of the energy exchanged
-  double singular_energy_guard_ = 0.0; ///< the same at singular poses
-  long asked_ = 0;                     ///< times that a singular pose would have mattered
-  double least_energy_ = 0.0;          ///< balance errors below say nothing [J]
+  long asked_ = 0; ///< times that a singular pose would have mattered
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);

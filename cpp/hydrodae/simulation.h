@@ -24,11 +24,14 @@ struct RunStatistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long convergence_failures = 0;
-  long events = 0;          ///< changes of stops, one-sided joints and dry friction
-  double end_time = 0.0;    ///< time reached [s]
-  double setup_time = 0.0;  ///< wall time before the first step [s]
-  double solver_time = 0.0; ///< wall time inside the integrator and the residual [s]
-  double wall_time = 0.0;   ///< wall time of the whole run with output [s]
+  long events = 0;                   ///< changes of stops, one-sided joints and dry friction
+  double end_time = 0.0;             ///< time reached [s]
+  double setup_time = 0.0;           ///< wall time before the first step [s]
+  double solver_time = 0.0;          ///< wall time inside the integrator and the residual [s]
+  double wall_time = 0.0;            ///< wall time of the whole run with output [s]
+  double estimated_error = 0.0;      ///< of the motion, relative to its size [-]; see solve::Trust
+  std::string estimated_error_of;    ///< the body that is off most
+  double estimated_error_time = 0.0; ///< when [s]
   long unknowns = 0;
   long nonzeros = 0;
   std::vector<std::string> notes; ///< what the assembly found worth telling

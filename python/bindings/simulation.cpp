@@ -104,7 +104,9 @@ py::dict as_dict(const RunStatistics& s) {
                   "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
                   "end_time"_a = s.end_time, "setup_time"_a = s.setup_time,
                   "solver_time"_a = s.solver_time, "wall_time"_a = s.wall_time,
-                  "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
+                  "estimated_error"_a = s.estimated_error,
+                  "estimated_error_of"_a = s.estimated_error_of,
+                  "estimated_error_time"_a = s.estimated_error_time, "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,

@@ -43,6 +43,13 @@ std::string number_text(double value) {
   return text;
 }
 
+std::string rounded_text(double value) {
+  if (value == 0.0 || !std::isfinite(value))
+    return number_text(value);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  return number_text(std::round(value / unit) * unit);
+}
+
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, (wanted.size() + 1) / 3) + 1;

@@ -33,6 +33,9 @@ struct Drive {
       table = CubicSpline(time, values);
   }
 
+  /// Does f change other than linearly?
+  bool moves() const { return amplitude != 0.0 || !table.empty() || static_cast<bool>(function); }
+
   /// f, f', f'' at time t [s].
   std::array<double, 3> operator()(double t) const {
     std::array<double, 3> f{constant + rate * t, rate, 0.0};

@@ -22,6 +22,7 @@ struct SolverOptions {
   double baumgarte_time = 0.0;
   std::optional<double> energy_guard;
   bool branch_guard = true;
+  double error_guard = 0.1;
   std::optional<double> step_guard;
   bool force = false;
   std::optional<double> length_scale;
@@ -84,6 +85,10 @@ struct SolverOptions {
          "A run of a scene with closed loops ends as failed when its velocities jump though "
          "nothing "
          "strikes: at a singular pose the motion left its branch."},
+        {"error_guard", &O::error_guard, "-",
+         "A run ends as failed when the errors of its steps, carried along by the linearised "
+         "equations, add up to more than this part of the motion; 0: no guard.",
+         false, at_least(0)},
         {"step_guard", &O::step_guard, "-",
          "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "
          "ten time scales of the bodies, are more than this angle [rad], or this part of a body's "

@@ -24,6 +24,8 @@ public:
 
   Eigen::Index size() const { return coefficients_.rows(); }
   bool empty() const { return coefficients_.rows() == 0; }
+  const std::vector<Component>& components() const { return components_; }
+  const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C
 
   /// Functions first .. first + count - 1 into `out`; their derivatives by x and y where these are
   /// not null. No allocation.

@@ -32,7 +32,9 @@ public:
 
   Eigen::Index size() const { return coefficients_.rows(); }
   bool empty() const { return coefficients_.rows() == 0; }
-  double step() const { return step_; } ///< of the table [s]; 0 without table
+  double step() const { return step_; }           ///< of the table [s]; 0 without table
+  const VectorX& omega() const { return omega_; } ///< [rad/s]
+  const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C
 
 private:
   void sum(double t, Eigen::Ref<VectorX> out) const;

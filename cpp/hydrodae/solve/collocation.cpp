@@ -50,15 +50,17 @@ public:
     use(stages_of(family_, options.order));
     if (project_)
       saddle_.emplace(e_);
-    if (fixed_)
-      stage_error_.emplace(newton_->rk());
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
     reach_ = t0 + h_;
-    e_.accept(y_, yp_);
+    driven_ = std::any_of(s_.couplers.begin(), s_.couplers.end(),
+                          [](const auto& c) { return c.kept() && c.drive.moves(); });
+    e_.accept(t_, y_, yp_);
   }
 
   double step() override;
+  void bound(double latest) override { bound_ = latest; }
+  const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
@@ -71,10 +73,13 @@ private:
   bool simplified(double h);
   bool full(double h);
   double error(double h, bool refine);
+  double drive_error(double h);
   void accept(double h);
   void choose_order(double error);
   const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
   void evaluate(double x, VectorX& y) const;
+  static void evaluate(const system::System& s, const RungeKutta& rk, const VectorX& start,
+                       const MatrixX& Z, double x, VectorX& y);
   void evaluate_rates(double x, VectorX& yp) const;
   [[noreturn]] void fail(const std::string& reason);
 
@@ -87,18 +92,20 @@ private:
   ProgressGuard guard_;
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
-  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0;
+  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0, bound_ = INFINITY;
+  VectorX step_error_; ///< (lambda0,)
   double reach_ = 0.0; ///< time to which the error control would have stepped [s]
   VectorX y_, yp_, y0_, w_, error_, v_, guess_, guess_rate_;
   MatrixX Z_, start_, rates_; ///< stages of the last step; start values; their rates
+  bool driven_ = false;       ///< by drives that depend on time
   bool fresh_ = false;        ///< the Jacobian is of this step
   double factored_ = 0.0;     ///< step of the matrices at hand [s]
   double contraction_ = 1.0;  ///< of the last step
   bool was_full_ = false;     ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
-  std::optional<StageError> stage_error_; ///< of fixed steps
-  VectorX local_error_;                   ///< (n_bodies,)
-  int since_change_ = 0, slack_ = 0;      ///< steps of this order; those last that Newton limited
+  std::optional<StageError> stage_error_;
+  VectorX local_error_;              ///< (n_bodies,)
+  int since_change_ = 0, slack_ = 0; ///< steps of this order; those last that Newton limited
 };
 
 void Collocation::use(int stages) {
@@ -106,6 +113,7 @@ void Collocation::use(int stages) {
   if (!entry)
     entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
   newton_ = entry.get();
+  stage_error_.emplace(newton_->rk());
   factored_ = 0.0;
   since_change_ = slack_ = 0;
   last_h_ = 0.0; // its error was another method's
@@ -119,9 +127,13 @@ void Collocation::fail(const std::string& reason) {
 /// y at x = (t - t0) / h of the last step: through its start and stages; Lobatto's first stage
 /// stands at the start itself, and multipliers of Gauss have no value there.
 void Collocation::evaluate(double x, VectorX& y) const {
-  const RungeKutta& rk = last(); // of the last step: the order may have changed since
+  evaluate(s_, last(), y0_, Z_, x, y); // of the last step: the order may have changed since
+}
+
+void Collocation::evaluate(const system::System& s_, const RungeKutta& rk, const VectorX& start,
+                           const MatrixX& Z_, double x, VectorX& y) {
   const bool with_start = rk.family != Family::lobatto_iiic;
-  y = y0_;
+  y = start;
   for (int i = 0; i < rk.stages; ++i) {
     double stages_only = 1.0;
     for (int j = 0; j < rk.stages; ++j)
@@ -246,12 +258,41 @@ double Collocation::error(double h, bool refine) {
   return std::max(size, 1e-10);
 }
 
+/// What the polynomial of the step leaves of the driven constraints between its stages, in units of
+/// the tolerance. At the stages they hold, whatever the step: the estimate above does not see them.
+double Collocation::drive_error(double h) {
+  const RungeKutta& rk = newton_->rk();
+  double size = 0.0;
+  const double last = rk.stages > 1 ? rk.c[rk.stages - 2] : 0.0;
+  for (const double x : {0.5 * rk.c[0], 0.5 * (last + 1.0)}) {
+    evaluate(s_, rk, y_, start_, x, guess_);
+    v_.setZero();
+    if (!e_.residual(t_ + x * h, guess_, v_, error_))
+      return HUGE_VAL;
+    for (const system::CouplerData& c : s_.couplers) {
+      if (!c.kept() || !c.drive.moves())
+        continue;
+      const system::JointData& j = s_.joints[static_cast<std::size_t>(
+          s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
+      const int body = j.B.body >= 0 && s_.bodies[static_cast<std::size_t>(j.B.body)].group >= 0
+                           ? j.B.body
+                           : j.A.body;
+      const double scale = s_.motion_scale[s_.bodies[static_cast<std::size_t>(body)].group];
+      const Index row =
+          !c.velocity_level && s_.formulation == system::Formulation::stabilised ? c.mu : c.lambda;
+      size = std::max(size, std::abs(error_[row]) / (e_.rtol * scale * s_.row_scale[row]));
+    }
+  }
+  return size;
+}
+
 void Collocation::accept(double h) {
   const RungeKutta& rk = newton_->rk();
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
-  if (stage_error_)
-    local_error_ = (*stage_error_)(s_, h, yp_.head(s_.n_q), rates_, e_.time_scale());
+  local_error_ = (*stage_error_)(s_, h, yp_.head(s_.n_q), rates_, e_.time_scale());
+  step_error_.setZero(s_.lambda0);
+  step_error_.head(s_.n_q) = stage_error_->pattern();
   y0_ = y_;
   t0_ = t_;
   done_ = h;
@@ -269,7 +310,7 @@ void Collocation::accept(double h) {
                      !saddle_->accelerations(t_, y_, yp_)))
       fail("the constraints cannot be met at the end of the step");
   }
-  e_.accept(y_, yp_);
+  e_.accept(t_, y_, yp_);
   fresh_ = false;
   ++e_.statistics.steps;
   e_.statistics.last_step = h;
@@ -298,8 +339,8 @@ double Collocation::step() {
   bool rejected = done_ == 0.0;
   double hopeless = HUGE_VAL; // step from which on simplified Newton fails
   for (;;) {
-    const double left = end_ - t_;
-    auto fitted = [&](double h) { return left - h < 0.01 * h ? left : h; };
+    const double left = end_ - t_, bounded = fixed_ ? HUGE_VAL : bound_ - t_;
+    auto fitted = [&](double h) { return std::min(left - h < 0.01 * h ? left : h, bounded); };
     double h = fitted(h_);
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail("Newton's iteration does not converge, or the local error stays too large, however "
@@ -307,7 +348,7 @@ double Collocation::step() {
     e_.weights(y_, w_);
     // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
     // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
-    const double allowed = std::min(reach_, end_) - t_;
+    const double allowed = std::min({reach_, end_, fixed_ ? end_ : bound_}) - t_;
     const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
     bool solved = h >= shortest && h < hopeless && simplified(h);
     if (!solved && !fixed_ && newton_cut * h >= shortest) {
@@ -333,7 +374,9 @@ double Collocation::step() {
       accept(h);
       return t_;
     }
-    const double err = error(h, rejected);
+    double err = error(h, rejected);
+    if (driven_)
+      err = std::max(err, drive_error(h));
     const double power = 1.0 / (newton_->rk().stages + 1);
     double grow = std::clamp(safety * std::pow(err, -power), most_cut, most_growth);
     if (!(err < 1.0)) {

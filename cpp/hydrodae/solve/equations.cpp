@@ -88,10 +88,10 @@ void Equations::jacobian(double t, const VectorX& y, const VectorX& yp, const sy
   system::jacobian(system, own, jacobian_workspace_, t, y.data(), yp.data(), out);
 }
 
-void Equations::accept(const VectorX& y, const VectorX& yp) {
+void Equations::accept(double t, const VectorX& y, const VectorX& yp) {
   if (system.motions.empty())
     return;
-  system::accept_turns(system, y.data(), yp.data(), workspace_);
+  system::accept_turns(system, t, y.data(), yp.data(), workspace_);
   jacobian_workspace_.state.turns = workspace_.turns;
 }
 
@@ -99,10 +99,20 @@ void Equations::weights(const VectorX& y, VectorX& w) const {
   w = (rtol * (system.scale.array() + system.relative.array() * y.array().abs())).inverse();
 }
 
+double largest_by_group(const system::System& s, const double* squares, VectorX& sums) {
+  sums.setZero(s.n_groups);
+  for (Index i = 0; i < s.lambda0; ++i)
+    sums[s.group[static_cast<std::size_t>(i)]] += squares[i];
+  return sums.allFinite() ? std::sqrt(sums.cwiseQuotient(s.group_size).maxCoeff()) : INFINITY;
+}
+
 double Equations::norm(const VectorX& w, const VectorX& e) const {
   const Index n = system.lambda0;
-  return std::sqrt(w.head(n).cwiseProduct(e.head(n)).squaredNorm() /
-                   static_cast<double>(std::max<Index>(n, 1)));
+  if (system.n_groups <= 1)
+    return std::sqrt(w.head(n).cwiseProduct(e.head(n)).squaredNorm() /
+                     static_cast<double>(std::max<Index>(n, 1)));
+  squares_ = w.head(n).cwiseProduct(e.head(n)).cwiseAbs2();
+  return largest_by_group(system, squares_.data(), sums_);
 }
 
 double Equations::first_step(const VectorX& y, const VectorX& yp) const {
@@ -110,7 +120,7 @@ double Equations::first_step(const VectorX& y, const VectorX& yp) const {
   for (const system::BodyData& b : system.bodies)
     for (int k = 0; k < b.n_active; ++k) {
       const Index u = b.u0 + k;
-      const double size = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
+      const double size = system.scale[u] * b.time_scale;
       time = std::min({time, b.time_scale, size / std::max(std::abs(y[u]), 1e-300),
                        std::sqrt(size / std::max(std::abs(yp[u]), 1e-300))});
     }

@@ -37,12 +37,13 @@ public:
   void regularisation(double alpha, VectorX& out) const;
 
   /// What belongs to accepted steps moves on (angles over turns).
-  void accept(const VectorX& y, const VectorX& yp);
+  void accept(double t, const VectorX& y, const VectorX& yp);
 
   /// Weights 1 / (rtol (scale + |y|)); |y| only where the origin means something.
   void weights(const VectorX& y, VectorX& w) const;
 
-  /// Root mean square of w e over the positions, velocities and memory states.
+  /// Root mean square of w e over the positions, velocities and memory states of a group of
+  /// bodies, of the group where it is largest: none hides behind the number of the others.
   double norm(const VectorX& w, const VectorX& e) const;
 
   /// First step [s]: short enough for order 1 to meet the tolerance, sqrt(tolerance) of the
@@ -62,9 +63,14 @@ private:
   void find_multipliers();
 
   std::vector<Multiplier> multipliers_;
+  mutable VectorX squares_, sums_; ///< scratch of `norm`
   system::Workspace<double> workspace_;
   system::JacobianWorkspace jacobian_workspace_;
 };
+
+/// Square root of the mean of `squares` (lambda0,) over the group where it is largest; `sums` is
+/// scratch.
+double largest_by_group(const system::System& system, const double* squares, VectorX& sums);
 
 /// "a (2.1), b (0.4)": the three largest entries of `values` by name.
 std::string worst(const VectorX& values, const std::vector<std::string>& names);

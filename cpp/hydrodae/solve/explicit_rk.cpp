@@ -36,12 +36,14 @@ public:
     // could make, as it is for one of order 1.
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
-    e_.accept(y_, yp_);
+    e_.accept(t_, y_, yp_);
     if (!saddle_.accelerations(t_, y_, yp_))
       throw SolverError(t_, "no finite accelerations at the start");
   }
 
   double step() override;
+  void bound(double latest) override { bound_ = latest; }
+  const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
@@ -68,7 +70,8 @@ private:
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
-  double last_error_ = 1e-4;
+  double last_error_ = 1e-4, bound_ = INFINITY;
+  VectorX step_error_;  ///< (lambda0,)
   VectorX local_error_; ///< (n_bodies,), of fixed steps
 };
 
@@ -129,6 +132,22 @@ double ExplicitRk::error(double h) {
   return of_order_8(five, size(tableaux::rk8_e3));
 }
 
+/// The same as a vector, of the last step.
+const VectorX& ExplicitRk::step_error() {
+  if (pair_.order == 5) {
+    combine(done_, tableaux::rk5_e);
+    step_error_ = stage_.head(n_);
+    return step_error_;
+  }
+  e_.weights(y_, w_);
+  combine(done_, tableaux::rk8_e3);
+  const double three = e_.norm(w_, stage_);
+  combine(done_, tableaux::rk8_e5);
+  const double five = e_.norm(w_, stage_), size = std::hypot(five, 0.1 * three);
+  step_error_ = (size > 0.0 ? five / size : 0.0) * stage_.head(n_);
+  return step_error_;
+}
+
 /// The same for the positions of each body, relative to the scales.
 void ExplicitRk::estimate(double h) {
   const system::System& s = e_.system;
@@ -149,7 +168,7 @@ double ExplicitRk::step() {
   bool failed = false;
   for (;;) {
     const double left = end_ - t_;
-    double h = std::min(h_, left);
+    double h = std::min({h_, left, fixed_ ? left : bound_ - t_});
     if (left - h < 0.1 * h)
       h = left;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
@@ -186,7 +205,7 @@ double ExplicitRk::step() {
     t0_ = t_;
     done_ = h;
     t_ = h == left ? end_ : t_ + h;
-    e_.accept(y_, trial_yp_);
+    e_.accept(t_, y_, trial_yp_);
     if (!saddle_.accelerations(t_, y_, yp_))
       fail("no finite accelerations");
     k_.col(pair_.stages) = yp_.head(n_);

@@ -8,6 +8,7 @@
 #include "hydrodae/math/rotation.h"
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/assemble.h"
 
 namespace hydrodae::solve {
@@ -40,10 +41,12 @@ public:
     gamma_ = 0.5 - alpha_m_ + alpha_f_;
     beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
     error_constant_ = std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6.0);
-    e_.accept(y_, yp_);
+    e_.accept(t_, y_, yp_);
   }
 
   double step() override;
+  void bound(double) override {}
+  const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
@@ -66,6 +69,7 @@ private:
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
   VectorX velocity_;      ///< G^T mu of the last residual, tangent
   VectorX local_error_;   ///< (n_bodies,)
+  VectorX step_error_;    ///< (lambda0,)
   double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
 };
 
@@ -165,6 +169,9 @@ bool GeneralizedAlpha::newton(double t, double h) {
 /// (beta + (alpha_m - alpha_f) / 2 - 1/6) h^3 q''' along each coordinate; and turns do not
 /// commute, h^3 w x w' / 12 (Magnus).
 void GeneralizedAlpha::estimate(double h) {
+  step_error_ = VectorX::Zero(s_.lambda0);
+  step_error_.head(s_.n_q) =
+      to_positions(s_, y_, error_constant_ * h * h * (yp_ - yp0_).segment(s_.u0, s_.n_u));
   local_error_.resize(static_cast<Index>(s_.bodies.size()));
   for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
     const system::BodyData& b = s_.bodies[i];
@@ -217,7 +224,7 @@ double GeneralizedAlpha::step() {
   yp_.head(s_.n_q) -= residual_.head(s_.n_q); // the rows are q' - E(q) (u + G^T mu)
   a_ = a_new_;
   estimate(h);
-  e_.accept(y_, yp_);
+  e_.accept(t_, y_, yp_);
   ++e_.statistics.steps;
   e_.statistics.last_step = h;
   e_.statistics.last_order = 2;

@@ -19,12 +19,6 @@ constexpr double allowed_jump = 0.3; ///< of the largest kinetic energy so far
 constexpr double singular = 1e-2;    ///< of the best independence of the rows seen
 constexpr double window = 3e-3;      ///< of the shortest time scale of a body
 
-/// Two digits, for what is an estimate.
-std::string rounded(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return number_text(std::round(value / unit) * unit);
-}
-
 system::System stabilised(system::System s) {
   s.formulation = system::Formulation::stabilised;
   return s;
@@ -173,10 +167,10 @@ void StepGuard::check(double t, double h, int order, const VectorX& errors) {
       t, "stopped at t = " + number_text(t) + " s: the step of " + number_text(h) +
              " s is too long for the motion of " +
              s_.bodies[static_cast<std::size_t>(worst_body)].name + ": within the last " +
-             rounded(since) + " s its errors add up to about " + rounded(sum) +
+             rounded_text(since) + " s its errors add up to about " + rounded_text(sum) +
              " (rad, or of its lever), more than solver.step_guard = " + number_text(allowed_) +
-             " (0: no guard); " + rounded(h * std::pow(0.5 * allowed_ / expected, 1.0 / order)) +
-             " s may do");
+             " (0: no guard); " +
+             rounded_text(h * std::pow(0.5 * allowed_ / expected, 1.0 / order)) + " s may do");
 }
 
 } // namespace hydrodae::solve

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -61,6 +62,35 @@ SUNContext make_context() {
   return context;
 }
 
+/// In place of SUNDIALS' norm over the unknowns whose `id` is positive: `id` numbers the groups of
+/// bodies, and the norm is that of the group where it is largest.
+double norm_by_group(N_Vector x, N_Vector w, N_Vector id) {
+  thread_local std::vector<double> sums, counts;
+  sums.assign(sums.size(), 0.0);
+  counts.assign(counts.size(), 0.0);
+  const double *values = N_VGetArrayPointer(x), *weights = N_VGetArrayPointer(w),
+               *groups = N_VGetArrayPointer(id);
+  for (sunindextype i = 0; i < N_VGetLength(x); ++i) {
+    if (groups[i] <= 0.0)
+      continue;
+    const auto group = static_cast<std::size_t>(groups[i]);
+    if (group >= sums.size()) {
+      sums.resize(group + 1, 0.0);
+      counts.resize(group + 1, 0.0);
+    }
+    const double value = values[i] * weights[i];
+    sums[group] += value * value;
+    counts[group] += 1.0;
+  }
+  double largest = 0.0;
+  for (std::size_t group = 0; group < sums.size(); ++group) {
+    if (!std::isfinite(sums[group]))
+      return sums[group];
+    largest = std::max(largest, sums[group] / std::max(counts[group], 1.0));
+  }
+  return std::sqrt(largest);
+}
+
 class Ida : public Integrator {
 public:
   Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
@@ -72,6 +102,8 @@ public:
     start(options, y0, yp0);
   }
   double step() override;
+  void bound(double latest) override { bound_ = latest; }
+  const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override;
 
@@ -85,7 +117,8 @@ private:
   int restarts = 0;
   Statistics before;          ///< of the starts before the last
   VectorX now, now_rate, out; ///< copies for the calls that take our vectors
-  double t_ = 0.0, end_time = 0.0;
+  double t_ = 0.0, end_time = 0.0, bound_ = INFINITY;
+  VectorX error_;
   double first = 0.0;      ///< first step [s]
   double time_scale = 0.0; ///< longest of the bodies [s]
   double rounding = 1e3;   ///< of the multipliers, in units of the machine epsilon
@@ -98,7 +131,10 @@ private:
   std::unique_ptr<void, IdaDeleter> memory; // freed before what it refers to
 
   N_Vector new_vector() const {
-    return made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
+    N_Vector v = made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
+    if (system.n_groups > 1)
+      v->ops->nvwrmsnormmask = norm_by_group; // its clones take it over
+    return v;
   }
   void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
@@ -172,8 +208,8 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
     N_VGetArrayPointer(id.get())[i] =
         system.is_algebraic(i) || (system.formulation == system::Formulation::index_3 &&
                                    i >= system.u0 && i < system.z0)
-            ? 0.0
-            : 1.0; // in index 3 the velocities behave like multipliers
+            ? 0.0 // in index 3 the velocities behave like multipliers
+            : 1.0 + system.group[static_cast<std::size_t>(i)];
   memory.reset(made(IDACreate(context.get()), "IDACreate"));
   void* ida = memory.get();
   check(IDASetErrHandlerFn(
@@ -204,7 +240,7 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
 void Ida::accept() {
   now = view(y.get(), system.n);
   now_rate = view(yp.get(), system.n);
-  equations.accept(now, now_rate);
+  equations.accept(t_, now, now_rate);
 }
 
 /// Which unknowns failed the error test, and which equations Newton could not satisfy, at the point
@@ -250,7 +286,17 @@ bool Ida::restart() {
   return true;
 }
 
+/// The correction of the predictor; of it the error of BDF is 1 / (k + 1) at constant steps.
+const VectorX& Ida::step_error() {
+  int order = 0;
+  check(IDAGetLastOrder(memory.get(), &order), "IDAGetLastOrder");
+  check(IDAGetEstLocalErrors(memory.get(), scratch.get()), "IDAGetEstLocalErrors");
+  error_ = view(scratch.get(), system.n).head(system.lambda0) / (order + 1.0);
+  return error_;
+}
+
 double Ida::step() {
+  check(IDASetStopTime(memory.get(), std::min(bound_, end_time)), "IDASetStopTime");
   int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
   while (flag == IDA_CONV_FAIL && restart())
     flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);

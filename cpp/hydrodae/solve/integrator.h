@@ -19,6 +19,13 @@ public:
   /// and the unknowns or equations that are worst.
   virtual double step() = 0;
 
+  /// From now on no step goes beyond `latest` [s], which is later than the time reached; methods of
+  /// a fixed step keep their step.
+  virtual void bound(double latest) = 0;
+
+  /// Estimated error of the last step in q, u, z (lambda0,), signed as far as the method knows it.
+  virtual const VectorX& step_error() = 0;
+
   /// y and y' at a time inside the last step. Of y', the velocities' part is always meant to be
   /// read; the rest where the method knows it.
   virtual void interpolate(double t, VectorX& y, VectorX& yp) = 0;

@@ -174,11 +174,12 @@ double SaddlePoint::mismatch() {
   return std::max(forces > 0.0 ? forces / load : 0.0, rates > 0.0 ? rates / motion : 0.0);
 }
 
-VectorX SaddlePoint::strike(double t, VectorX& y, const VectorX& rates) {
+VectorX SaddlePoint::strike(double t, VectorX& y, const VectorX& rates, VectorX& before) {
   if (!e_.residual(t, y, yp0_, residual_))
     throw SolverError(t, "no finite velocities at the impact");
+  before = residual_.segment(s_.lambda0, s_.n_lambda);
   rhs_.setZero();
-  rhs_.tail(s_.n_lambda) = rates - residual_.segment(s_.lambda0, s_.n_lambda);
+  rhs_.tail(s_.n_lambda) = rates - before;
   solve(x_);
   y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
   return -x_.tail(s_.n_lambda);

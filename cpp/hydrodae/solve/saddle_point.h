@@ -31,7 +31,8 @@ public:
 
   /// Changes u by the impulses G^T Lambda that give the velocity rows the rates `rates` (n_lambda,)
   /// [m/s or rad/s], with the matrix of the last `accelerations`; returns Lambda [N s or N m s].
-  VectorX strike(double t, VectorX& y, const VectorX& rates);
+  /// @param before takes the rates that the rows had, over those of their drives (n_lambda,)
+  VectorX strike(double t, VectorX& y, const VectorX& rates, VectorX& before);
 
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
   /// matrix of the last `accelerations`. False when it does not converge.

@@ -62,8 +62,12 @@ bool StageNewton::residuals(double t, double h, const VectorX& y0, const MatrixX
 /// from these linearly; in a singular pose they are not unique, and say nothing.
 double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
   const Index d = e_.system.lambda0;
-  return std::sqrt((dZ.topRows(d).array().colwise() * w.head(d).array()).square().sum() /
-                   static_cast<double>(std::max<Index>(d * rk_.stages, 1)));
+  if (e_.system.n_groups <= 1)
+    return std::sqrt((dZ.topRows(d).array().colwise() * w.head(d).array()).square().sum() /
+                     static_cast<double>(std::max<Index>(d * rk_.stages, 1)));
+  const VectorX squares =
+      dZ.topRows(d).rowwise().squaredNorm().cwiseProduct(w.head(d).cwiseAbs2()) / rk_.stages;
+  return largest_by_group(e_.system, squares.data(), sums_);
 }
 
 /// Newton with increments by `solve`, which overwrites residual_ with the increment (sign as in

@@ -63,6 +63,7 @@ private:
   std::unique_ptr<Full> full_;
   MatrixX stage_, rate_, residual_, work_;
   VectorX y_, yp_, r_;
+  mutable VectorX sums_; ///< scratch of `size`
   std::vector<std::complex<double>> complex_;
 };
 

@@ -33,6 +33,32 @@ VectorX body_sizes(const system::System& s, const VectorX& dq) {
   return sizes;
 }
 
+VectorX to_positions(const system::System& s, const VectorX& y, const VectorX& tangent) {
+  VectorX dq = VectorX::Zero(s.n_q);
+  for (const system::BodyData& b : s.bodies) {
+    const bool free = b.rotation == system::BodyData::Rotation::free;
+    const Index u = b.u0 - s.u0, q = b.q0 + b.n_translations;
+    for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+      dq[b.q0 + k] = tangent[u + k];
+    if (free)
+      dq.segment<4>(q) = 0.5 * quaternion_rate_matrix<double>(Vector4(y.segment<4>(q))) *
+                         tangent.segment<3>(u + b.n_translations);
+  }
+  return dq;
+}
+
+/// Body by body the error along v.
+VectorX StageError::take_pattern(const system::System& s, const VectorX& v, VectorX errors) {
+  const VectorX sizes = body_sizes(s, v);
+  pattern_ = v;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const double size = sizes[static_cast<Index>(i)];
+    pattern_.segment(s.bodies[i].q0, s.bodies[i].n_position) *=
+        size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
+  }
+  return errors;
+}
+
 StageError::StageError(const RungeKutta& rk)
     : order_(rk.order), with_start_(rk.family != Family::lobatto_iiic) {
   const int nodes = rk.stages + (with_start_ ? 1 : 0);
@@ -60,7 +86,7 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
   if (degree_ == 1 && order_ == 2) {
     const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.n_q);
     before_ = v;
-    return body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
+    return take_pattern(s, change, body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change));
   }
   const VectorX top = body_sizes(s, v), next = body_sizes(s, coefficient(0));
   const double fade = std::exp(-h / time_scale);
@@ -82,7 +108,7 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
     errors[i] = h * std::min(std::max(order_ - 0.5, 1.0) * missed,
                              std::max(amplitude, top[i]) * h / (summed_time_scales * time_scale));
   }
-  return errors;
+  return take_pattern(s, v, std::move(errors));
 }
 
 } // namespace hydrodae::solve

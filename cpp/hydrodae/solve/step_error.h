@@ -13,6 +13,10 @@ inline constexpr double summed_time_scales = 10.0;
 /// displacement over the body's lever [-].
 VectorX body_sizes(const system::System& system, const VectorX& dq);
 
+/// A small change of the positions (n_q,) from one along the velocities (n_u,): quaternions change
+/// by E(p) times the angle.
+VectorX to_positions(const system::System& system, const VectorX& y, const VectorX& tangent);
+
 /// Error of one step of a collocation method of order p, from the rates q' of its stages. In
 /// Legendre polynomials on the step q' has coefficients v_k, known up to a degree d. Those of
 /// A exp(i w t) fall as v_k / v_(k-1) = i w h / (2 (2 k - 1)), so that v_p, the first that the
@@ -30,7 +34,13 @@ public:
   VectorX operator()(const system::System& system, double h, const VectorX& start,
                      const MatrixX& stages, double time_scale);
 
+  /// The same as a change of the positions (n_q,): the pattern of the last coefficient known.
+  const VectorX& pattern() const { return pattern_; }
+
 private:
+  VectorX take_pattern(const system::System& system, const VectorX& v, VectorX errors);
+
+  VectorX pattern_;
   int order_, degree_;
   bool with_start_;         ///< the start is a node of the polynomial of q'
   MatrixX last_;            ///< (2, nodes): v_(d-1) and v_d from the nodes' values

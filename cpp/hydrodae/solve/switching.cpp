@@ -57,7 +57,8 @@ Switching::~Switching() = default;
 
 Switching::Switching(system::System& system, double rtol)
     : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
-      y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
+      struck_(system.switches.size()), y_(system::initial_state(system)),
+      yp_(VectorX::Zero(system.n)) {
   for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
     set(k, s_.switches[k].kind == Kind::stop ? State::upper : State::stick);
   lay_out(s_);
@@ -73,7 +74,7 @@ Switching::Switching(system::System& system, double rtol)
   time_scale_ = INFINITY;
   for (const system::BodyData& b : s_.bodies)
     time_scale_ = std::min(time_scale_, b.time_scale);
-  unpack(y_, yp_);
+  unpack(0.0, y_, yp_);
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const Data& element = s_.switches[k];
     const double s = motion(element).value;
@@ -113,10 +114,10 @@ void Switching::count(double t) {
   checked_ = t;
 }
 
-void Switching::follow(const std::vector<double>& turns) {
+void Switching::follow(const system::Turns& turns) {
   ws_.turns = turns;
-  for (std::size_t m = 0; m < turns.size(); ++m)
-    s_.motions[m].start = turns[m];
+  for (std::size_t m = 0; m < turns.value.size(); ++m)
+    s_.motions[m].start = turns.value[m];
 }
 
 /// y, y' at t, with the loads that belong to the pose and velocities: those of the integrator are
@@ -125,10 +126,11 @@ void Switching::look(double t, const Interpolant& at) {
   at(t, y_, yp_);
   if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
     fail(t, "no finite accelerations inside the step");
-  unpack(y_, yp_);
+  unpack(t, y_, yp_);
 }
 
-void Switching::unpack(const VectorX& y, const VectorX& yp) {
+void Switching::unpack(double t, const VectorX& y, const VectorX& yp) {
+  ws_.time = t;
   system::unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
 }
 
@@ -141,6 +143,17 @@ Switching::Motion Switching::motion(const Data& element) const {
       joint::motion_curvature(m.motion, j.A, j.B, system::joint_geometry<double>(j, ws_.bodies));
   return {row.value, row.gradient.dot(u),
           row.gradient.dot(system::joint_acceleration<double>(j, ws_.bodies)) + u.dot(T * u)};
+}
+
+/// Part of the full scales that the motion of its bodies takes.
+double Switching::motion_scale(const Data& element) const {
+  const system::JointData& j = s_.joints[static_cast<std::size_t>(
+      s_.motions[static_cast<std::size_t>(element.motion)].joint)];
+  double scale = 1.0;
+  for (int body : {j.A.body, j.B.body})
+    if (body >= 0 && s_.bodies[static_cast<std::size_t>(body)].group >= 0)
+      scale = std::min(scale, s_.motion_scale[s_.bodies[static_cast<std::size_t>(body)].group]);
+  return scale;
 }
 
 /// Load of a row that holds on its coordinate [N or N m].
@@ -233,8 +246,8 @@ std::optional<double> Switching::locate(double t0, double t1, int nodes, const I
     speed = now;
     a = b;
   }
-  system::accept_turns(s_, y_.data(), yp_.data(), ws_);
-  present_->equations.accept(y_, yp_);
+  system::accept_turns(s_, t1, y_.data(), yp_.data(), ws_);
+  present_->equations.accept(t1, y_, yp_);
   return std::nullopt;
 }
 
@@ -246,19 +259,20 @@ bool Switching::touches(std::size_t k) const {
 }
 
 /// Impulses at all stops that are hit at once. Leaves the stops closed that do not rebound.
-/// @returns whether anything was hit
-bool Switching::impacts(double t, VectorX& y, VectorX& yp) {
+/// @returns the work of all rows, where anything was hit [J]
+std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
   const std::size_t count = size_.size();
   std::vector<double> after(count, 0.0); // rate that a stop is left with
   std::vector<bool> acts(count, false);
-  unpack(y, yp);
+  unpack(t, y, yp);
   bool any = false;
   const auto hit = [&](std::size_t k) {
     const Motion m = motion(s_.switches[k]);
     const bool upper = approach(k) == m.rate;
     const double rebound = -s_.switches[k].restitution * m.rate;
-    // A rebound of a height below the tolerance, some rtol times a length, is none.
-    after[k] = std::abs(rebound) > 3.0 * std::sqrt(rtol_) * size_[k].rate ? rebound : 0.0;
+    // A rebound of a height below the tolerance, some rtol times the motion, is none.
+    const double slow = 3.0 * std::sqrt(rtol_) * size_[k].rate * motion_scale(s_.switches[k]);
+    after[k] = std::abs(rebound) > slow ? rebound : 0.0;
     acts[k] = true;
     set(k, upper ? State::upper : State::lower);
   };
@@ -274,6 +288,7 @@ bool Switching::impacts(double t, VectorX& y, VectorX& yp) {
     }
   }
   const VectorX u = y.segment(s_.u0, s_.n_u);
+  double work = 0.0;
   for (std::size_t pass = 0; any; ++pass) {
     if (pass > 4 * count + 4)
       fail(t, "no impulses fit the impact");
@@ -291,8 +306,9 @@ bool Switching::impacts(double t, VectorX& y, VectorX& yp) {
     for (std::size_t k = 0; k < count; ++k)
       if (acts[k])
         rates[row(k)] = after[k];
-    const VectorX impulses = present.saddle.strike(t, y, rates);
-    unpack(y, yp);
+    VectorX before;
+    const VectorX impulses = present.saddle.strike(t, y, rates, before);
+    unpack(t, y, yp);
     bool good = true;
     for (std::size_t k = 0; k < count && good; ++k) {
       const Data& element = s_.switches[k];
@@ -309,13 +325,34 @@ bool Switching::impacts(double t, VectorX& y, VectorX& yp) {
         good = false;
       }
     }
-    if (good)
-      break;
+    if (!good)
+      continue;
+    work = take_impact(t, impulses, before, rates);
+    break;
   }
   for (std::size_t k = 0; k < count; ++k)
     if (acts[k] && after[k] != 0.0)
       set(k, State::open);
-  return any;
+  return any ? std::optional(work) : std::nullopt;
+}
+
+/// Sums up the impulses on the stops, and the work of all rows: an impulse acts over the mean of
+/// the rates before and after, those of a drive among them.
+double Switching::take_impact(double t, const VectorX& impulses, const VectorX& before,
+                              const VectorX& after) {
+  double work = 0.5 * impulses.dot(before + after);
+  for (const system::CouplerData& c : s_.couplers)
+    if (c.kept())
+      work += impulses[c.lambda - s_.lambda0] * c.drive(t)[c.velocity_level ? 0 : 1];
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
+    if (!c.kept() || s_.switches[k].kind != Kind::stop)
+      continue;
+    const Index row = c.lambda - s_.lambda0;
+    struck_[k].impulse += std::abs(impulses[row]);
+    struck_[k].energy_lost -= 0.5 * impulses[row] * (before[row] + after[row]);
+  }
+  return work;
 }
 
 /// The state that contradicts its own load or acceleration most is changed; false when none does.
@@ -356,12 +393,12 @@ bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
   return true;
 }
 
-bool Switching::settle(double t, VectorX& y, VectorX& yp) {
+std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
   const Stabilised lock(s_);
   present_.reset();
   count(t);
-  unpack(y, yp);
-  const bool struck = impacts(t, y, yp);
+  unpack(t, y, yp);
+  const std::optional<double> struck = impacts(t, y, yp);
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const Data& element = s_.switches[k];
     if (element.kind != Kind::friction)
@@ -381,7 +418,7 @@ bool Switching::settle(double t, VectorX& y, VectorX& yp) {
     SaddlePoint& saddle = present_->saddle;
     if (!saddle.accelerations(t, y, yp) || !saddle.project(t, y) || !saddle.accelerations(t, y, yp))
       fail(t, struck ? "no motion goes on from the impact" : "the constraints contradict a stop");
-    unpack(y, yp);
+    unpack(t, y, yp);
     if (!correct(y, changes))
       break;
   }

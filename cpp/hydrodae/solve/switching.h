@@ -33,11 +33,19 @@ public:
   /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
   /// loads. Changes the layout of the system; y, y' come out in the new one, consistent. Throws
   /// SolverError when no consistent set of rows is found, or when events accumulate.
-  /// @returns whether something struck: else the velocities have not jumped
-  bool settle(double t, VectorX& y, VectorX& yp);
+  /// @returns the work of all rows through their impulses [J] where something struck (that of
+  /// driven rows among it); nothing: the velocities have not jumped
+  std::optional<double> settle(double t, VectorX& y, VectorX& yp);
+
+  /// What a stop or one-sided joint has taken in its impacts so far.
+  struct Struck {
+    double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
+    double energy_lost = 0.0; ///< [J]
+  };
+  const std::vector<Struck>& struck() const { return struck_; } ///< one for each switch
 
   /// Angles go on from these values of all motions (of an accepted step).
-  void follow(const std::vector<double>& turns);
+  void follow(const system::Turns& turns);
 
   long events() const { return events_; }
 
@@ -52,15 +60,18 @@ private:
   };
 
   void look(double t, const Interpolant& at);
-  void unpack(const VectorX& y, const VectorX& yp);
+  void unpack(double t, const VectorX& y, const VectorX& yp);
   Motion motion(const Data& element) const;
+  double motion_scale(const Data& element) const;
   double load(const Data& element, const VectorX& y) const;
   double margin(std::size_t k, const VectorX& y) const;
   double approach(std::size_t k) const;
   std::optional<double> first_root(double a, double b, const Interpolant& at);
   double bisect(double a, double b, const Interpolant& at, const std::function<bool()>& past);
   bool touches(std::size_t k) const;
-  bool impacts(double t, VectorX& y, VectorX& yp);
+  std::optional<double> impacts(double t, VectorX& y, VectorX& yp);
+  double take_impact(double t, const VectorX& impulses, const VectorX& before,
+                     const VectorX& after);
   bool correct(const VectorX& y, std::vector<int>& changes);
   void set(std::size_t k, Data::State state) { system::set_state(s_, s_.switches[k], state); }
   [[noreturn]] void fail(double t, const std::string& reason) const;
@@ -70,6 +81,7 @@ private:
   const double rtol_;
   system::Workspace<double> ws_;
   std::vector<Size> size_;
+  std::vector<Struck> struck_;
   double time_scale_ = 0.0; ///< shortest of the bodies [s]
   VectorX y_, yp_;
   std::unique_ptr<Present> present_; ///< the rows that hold now

@@ -11,6 +11,7 @@
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/initial_pose.h"
 #include "hydrodae/system/kinematics.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
 
@@ -348,6 +349,7 @@ void set_offsets(System& s) {
 
 void lay_out(System& s) {
   set_offsets(s);
+  set_groups(s);
   set_scales(s);
   set_names(s);
 }
@@ -388,6 +390,7 @@ System build(const model::Scene& scene) {
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
                          m.axes == "body"});
   set_coupler_offsets(scene, s);
+  find_mechanisms(s);
   lay_out(s);
   if (s.n_u == 0)
     throw ModelError("body", "nothing can move: every body of the scene is fixed");

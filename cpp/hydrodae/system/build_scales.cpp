@@ -66,6 +66,7 @@ void set_row(System& s, const JointScale& scale, Index lambda, Index mu, bool an
 } // namespace
 
 void set_body_scales(const model::Scene& scene, System& s) {
+  s.scales_follow = !scene.solver.length_scale;
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
     BodyData& b = s.bodies[i];
     b.lever = lever(s, scene, i);
@@ -147,6 +148,8 @@ void set_scales(System& s) {
       s.row_scale[h.z0 + b.state + k] = both;
     }
   }
+  for (Index i = 0; i < s.lambda0; ++i)
+    s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
 }
 
 } // namespace hydrodae::system

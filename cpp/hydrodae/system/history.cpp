@@ -56,11 +56,11 @@ History::History(const System& system) : s_(system), ws_(system) {
 }
 
 /// U and U'; of each delayed motion s, s' = W u and s'' = W u' + u . T u.
-void History::signals(const VectorX& y, const VectorX& yp, Node& node) {
+void History::signals(double t, const VectorX& y, const VectorX& yp, Node& node) {
   const auto n_delays = static_cast<Eigen::Index>(s_.delays.size());
   node.value.resize(n_U_ + 2 * n_delays);
   node.rate.resize(node.value.size());
-  accept_turns(s_, y.data(), yp.data(), ws_);
+  accept_turns(s_, t, y.data(), yp.data(), ws_);
   if (n_U_ > 0) {
     hydro_motion<double>(s_, ws_);
     node.value.head(n_U_) = ws_.U;
@@ -100,7 +100,7 @@ void History::add_points(const Node& from, const Node& to) {
 void History::append(double t, const VectorX& y, const VectorX& yp) {
   Node node;
   node.t = t;
-  signals(y, yp, node);
+  signals(t, y, yp, node);
   if (nodes_.empty()) {
     first_ = node.value;
     start_ = t;

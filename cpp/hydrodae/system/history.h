@@ -55,7 +55,7 @@ private:
     std::size_t points = 0; ///< quadrature points up to here, since the start
   };
   void forget();
-  void signals(const VectorX& y, const VectorX& yp, Node& node);
+  void signals(double t, const VectorX& y, const VectorX& yp, Node& node);
   void add_points(const Node& from, const Node& to);
   void evaluate(double t, bool locked, Past& out) const;
   std::size_t node_before(double t) const;

@@ -487,6 +487,7 @@ template <class Sink> void Assembly<Sink>::morison() {
 /// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.
 void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, const double* yp) {
   unpack<double>(s, y, yp, ws.state.bodies);
+  ws.state.time = t;
   ws.state.past = past_at(s, t);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.state.shifts[i].setZero();

@@ -18,6 +18,13 @@ template <class S> struct BodyState {
 
 struct Past;
 
+/// Coordinates and rates of all motions at the last accepted step, angles followed over turns.
+struct Turns {
+  double time = 0.0;
+  bool known = false; ///< else the values are near those of the start, and the rates are not known
+  std::vector<double> value, rate;
+};
+
 /// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which
 /// belongs to the last accepted step and changes only there.
 template <class S> struct Workspace {
@@ -29,20 +36,21 @@ template <class S> struct Workspace {
   const Past* past = nullptr;            ///< at the time of this evaluation (history.h)
   VectorX excitation;                    ///< on the coordinates of U
   std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
-  std::vector<double> turns; ///< motions at the last accepted step, angles followed over turns
+  double time = 0.0;                     ///< of this evaluation [s]
+  Turns turns;
 
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
-        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
-        turns(s.motions.size()) {
+        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)) {
     std::size_t segments = 0;
     for (const MorisonData& m : s.morison)
       segments = std::max(segments, static_cast<std::size_t>(m.segments));
     fluid.resize(segments);
-    for (std::size_t m = 0; m < turns.size(); ++m)
-      turns[m] = s.motions[m].start;
+    turns.rate.assign(s.motions.size(), 0.0);
+    for (const MotionData& m : s.motions)
+      turns.value.push_back(m.start);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const BodyData& body = s.bodies[i];
       BodyState<S>& state = bodies[i];
@@ -156,22 +164,38 @@ joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodySta
   return a;
 }
 
-/// Coordinate of a motion with its gradient; angles on the turn nearest to the last accepted step.
+/// Coordinate of a motion with its gradient. Angles are on the turn nearest to where the rates at
+/// the last accepted step and now lead, however many turns the step takes.
 template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>& ws, int motion) {
   const MotionData& m = s.motions[motion];
   const JointData& j = s.joints[m.joint];
   joint::Row<S> row = joint::motion_row<S>(m.motion, j.A, j.B, joint_geometry<S>(j, ws.bodies));
-  if (m.motion.is_angle())
-    row.value = joint::nearest_turn<S>(row.value, ws.turns[motion]);
+  if (!m.motion.is_angle())
+    return row;
+  const auto k = static_cast<std::size_t>(motion);
+  double reference = ws.turns.value[k];
+  if (const double since = ws.time - ws.turns.time; ws.turns.known && since != 0.0) {
+    const S rate = row.gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
+    reference += 0.5 * since * (ws.turns.rate[k] + joint::value_of(rate));
+  }
+  if (std::isfinite(reference))
+    row.value = joint::nearest_turn<S>(row.value, reference);
   return row;
 }
 
-/// Moves `turns` on to an accepted state.
-inline void accept_turns(const System& s, const double* y, const double* yp,
+/// Moves `turns` on to an accepted state at time t.
+inline void accept_turns(const System& s, double t, const double* y, const double* yp,
                          Workspace<double>& ws) {
   unpack<double>(s, y, yp, ws.bodies);
-  for (int m = 0; m < static_cast<int>(s.motions.size()); ++m)
-    ws.turns[m] = motion_row<double>(s, ws, m).value;
+  ws.time = t;
+  for (std::size_t m = 0; m < s.motions.size(); ++m) {
+    const joint::Row<double> row = motion_row<double>(s, ws, static_cast<int>(m));
+    const JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
+    ws.turns.value[m] = row.value;
+    ws.turns.rate[m] = row.gradient.dot(joint_velocity<double>(j, ws.bodies));
+  }
+  ws.turns.time = t;
+  ws.turns.known = true;
 }
 
 /// Adds a load or shift (12 numbers of a joint) to its two bodies.

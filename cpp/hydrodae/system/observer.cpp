@@ -82,7 +82,8 @@ void Observer::add_load(const Vector6& world_load) {
   ComponentLoad& entry = out_.loads[next_load_++];
   const BodyState<double>& state = ws_.bodies[entry.body];
   entry.load = world_load;
-  out_.powers[entry.component] += world_load.dot(twist<double>(state));
+  entry.power = world_load.dot(twist<double>(state));
+  out_.powers[entry.component] += entry.power;
   if (!entry.part)
     totals_[entry.body] -= to_tangent<double>(state, world_load);
 }
@@ -297,11 +298,18 @@ void Observer::share_reactions(const double* y) {
 /// Takes the load of a constraint into the balance of its bodies, and its power (nonzero only where
 /// a drive moves the constraint).
 void Observer::subtract(const JointData& j, const joint::Vector12& load) {
-  if (j.A.body >= 0)
-    totals_[j.A.body] -= load.head<6>();
-  if (j.B.body >= 0)
-    totals_[j.B.body] -= load.tail<6>();
-  out_.powers.back() += load.dot(joint_velocity<double>(j, ws_.bodies));
+  const joint::Vector12 u = joint_velocity<double>(j, ws_.bodies);
+  const auto take = [&](int body, const Vector6& own, const Vector6& velocity) {
+    if (body < 0)
+      return;
+    totals_[body] -= own;
+    const double power = own.dot(velocity);
+    out_.powers.back() += power;
+    if (const int m = s_.bodies[body].mechanism; m >= 0)
+      out_.mechanism_constraints[static_cast<std::size_t>(m)] += power;
+  };
+  take(j.A.body, load.head<6>(), u.head<6>());
+  take(j.B.body, load.tail<6>(), u.tail<6>());
 }
 
 /// Kinetic energies, and what the locked coordinates must carry: inertia minus all other loads.
@@ -310,7 +318,10 @@ void Observer::observe_energy() {
     const BodyData& b = s_.bodies[i];
     const BodyState<double>& state = ws_.bodies[i];
     const Vector3 spin = b.inertia * state.w;
-    out_.kinetic += 0.5 * b.mass * state.v.squaredNorm() + 0.5 * state.w.dot(spin);
+    const double kinetic = 0.5 * b.mass * state.v.squaredNorm() + 0.5 * state.w.dot(spin);
+    out_.kinetic += kinetic;
+    if (b.mechanism >= 0)
+      out_.mechanism_kinetic[static_cast<std::size_t>(b.mechanism)] += kinetic;
     Vector6 support = totals_[i];
     support.head<3>() += b.mass * state.v_dot;
     support.tail<3>() += b.inertia * state.w_dot + state.w.cross(spin);
@@ -322,9 +333,12 @@ void Observer::observe_energy() {
 
 const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
   unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+  ws_.time = t;
   ws_.past = s_.history ? &s_.history->at(t, true) : nullptr;
   std::fill(totals_.begin(), totals_.end(), Vector6(Vector6::Zero()));
   std::fill(out_.powers.begin(), out_.powers.end(), 0.0);
+  out_.mechanism_kinetic.assign(static_cast<std::size_t>(s_.n_mechanisms), 0.0);
+  out_.mechanism_constraints.assign(static_cast<std::size_t>(s_.n_mechanisms), 0.0);
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
   next_load_ = 0;
   observe_forces(y.data());

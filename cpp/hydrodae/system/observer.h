@@ -12,7 +12,8 @@ namespace hydrodae::system {
 struct ComponentLoad {
   int component = 0; ///< index into Observation::components
   int body = 0;
-  bool part = false; ///< of another component: not in the balance by itself
+  bool part = false;  ///< of another component: not in the balance by itself
+  double power = 0.0; ///< [W]
   Vector6 load = Vector6::Zero();
 };
 
@@ -28,6 +29,8 @@ struct Observation {
   std::vector<double> constraints;            ///< per coupler: multiplier [N or N m]
   double kinetic = 0.0;                       ///< of the bodies [J]
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
+  std::vector<double> mechanism_kinetic;      ///< per mechanism: of its bodies [J]
+  std::vector<double> mechanism_constraints;  ///< per mechanism: power of its rows [W]
   double elevation = 0.0;                     ///< of the waves at the origin [m]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
 };
@@ -43,7 +46,7 @@ public:
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
   /// Angles go on from these values (of an accepted step).
-  void follow(const std::vector<double>& turns) { ws_.turns = turns; }
+  void follow(const Turns& turns) { ws_.turns = turns; }
 
 private:
   void add_load(const Vector6& world_load);

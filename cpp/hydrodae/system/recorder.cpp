@@ -19,9 +19,14 @@ void put(double*& out, const Vector3& v) {
 Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
   const Observation& o = observer_.observe(t0, y, yp);
-  power_ = o.powers;
+  power_ = powers();
   work_.assign(power_.size(), 0.0);
   energy0_ = o.kinetic + o.kinetic_added_mass;
+  if (s_.n_mechanisms > 1)
+    for (double kinetic : o.mechanism_kinetic)
+      mechanisms_.push_back({0.0, 0.0, kinetic});
+  take_turns();
+  observer_.follow(turns_);
   make_channels();
 }
 
@@ -122,18 +127,60 @@ void Recorder::begin(double t, const Interpolant& at) {
   for (std::size_t node = 1; node <= last; ++node) {
     const double time = node == last ? t : t_ + h * rule_.nodes[node];
     at(time, y_, yp_);
-    powers_[node] = observer_.observe(time, y_, yp_).powers;
+    observer_.observe(time, y_, yp_);
+    powers_[node] = powers();
   }
   end_work_ = work_;
   for (std::size_t node = 0; node <= last; ++node)
     for (std::size_t k = 0; k < work_.size(); ++k)
       end_work_[k] += h * rule_.weights[node] * powers_[node][k];
-  const Observation& o = observer_.observation();
-  end_moving_ = o.kinetic + o.kinetic_added_mass;
   balance_error_ = balance(end_work_);
-  turns_.clear();
-  for (const auto& motion : o.motions)
-    turns_.push_back(motion[0]);
+  balance_mechanisms();
+  end_kinetic_ = observer_.observation().mechanism_kinetic;
+  take_turns();
+}
+
+/// All motions where the observer is.
+void Recorder::take_turns() {
+  turns_.time = end_;
+  turns_.known = true;
+  turns_.value.clear();
+  turns_.rate.clear();
+  for (const auto& [value, rate] : observer_.observation().motions) {
+    turns_.value.push_back(value);
+    turns_.rate.push_back(rate);
+  }
+}
+
+/// By component; where there are several mechanisms then by load, and of each mechanism's rows.
+std::vector<double> Recorder::powers() const {
+  const Observation& o = observer_.observation();
+  std::vector<double> out = o.powers;
+  if (s_.n_mechanisms <= 1)
+    return out;
+  for (const ComponentLoad& load : o.loads)
+    out.push_back(load.power);
+  out.insert(out.end(), o.mechanism_constraints.begin(), o.mechanism_constraints.end());
+  return out;
+}
+
+/// Change of the kinetic energy of each mechanism's bodies minus the work of all loads on them.
+void Recorder::balance_mechanisms() {
+  const Observation& o = observer_.observation();
+  const std::size_t loads = o.powers.size(), rows = loads + o.loads.size();
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+    Balance& b = mechanisms_[m];
+    b.error = o.mechanism_kinetic[m] - b.start - end_work_[rows + m];
+    b.exchanged = std::max({b.exchanged, o.mechanism_kinetic[m], std::abs(end_work_[rows + m])});
+  }
+  for (std::size_t k = 0; k < o.loads.size() && !mechanisms_.empty(); ++k) {
+    const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism;
+    if (m < 0 || o.loads[k].part)
+      continue;
+    Balance& b = mechanisms_[static_cast<std::size_t>(m)];
+    b.error -= end_work_[loads + k];
+    b.exchanged = std::max(b.exchanged, std::abs(end_work_[loads + k]));
+  }
 }
 
 /// Work until t = t_ + x h, where the observer is: the integral of the polynomial through the
@@ -146,7 +193,7 @@ std::vector<double> Recorder::work_at(double x) const {
   const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them
   if (own)
     nodes.push_back(x);
-  const std::vector<double>& power = observer_.observation().powers;
+  const std::vector<double> power = powers();
   std::vector<double> work = work_;
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     double weight = 0.0;
@@ -169,7 +216,7 @@ double Recorder::balance(const std::vector<double>& work) {
   const Observation& o = observer_.observation();
   const double moving = o.kinetic + o.kinetic_added_mass;
   double total_work = 0.0, exchanged = std::abs(moving);
-  for (std::size_t k = 0; k < work.size(); ++k) {
+  for (std::size_t k = 0; k < o.powers.size(); ++k) {
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
     if (o.components[k] != "added_mass_inf" && !o.parts[k])
       total_work += work[k];
@@ -188,11 +235,18 @@ void Recorder::accept() {
   observer_.follow(turns_);
 }
 
-void Recorder::restart(const VectorX& y, const VectorX& yp, bool struck) {
+void Recorder::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {
   const Observation& o = observer_.observe(t_, y, yp);
-  power_ = o.powers;
-  if (struck) // "constraints"
-    work_.back() += std::min(0.0, o.kinetic + o.kinetic_added_mass - end_moving_);
+  power_ = powers();
+  end_ = t_;
+  take_turns();
+  observer_.follow(turns_);
+  if (!work)
+    return;
+  work_[o.powers.size() - 1] += *work; // "constraints"
+  // Of one mechanism alone: the water may have passed on a part of the impulse.
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m)
+    work_[o.powers.size() + o.loads.size() + m] += o.mechanism_kinetic[m] - end_kinetic_[m];
 }
 
 void Recorder::fill_bodies(double*& out) {
@@ -255,8 +309,8 @@ void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
   *out++ = o.kinetic_added_mass;
   *out++ = o.potential;
   *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
-  for (double w : work)
-    *out++ = w;
+  for (std::size_t k = 0; k < o.powers.size(); ++k)
+    *out++ = work[k];
   *out++ = balance(work);
 }
 

@@ -2,6 +2,7 @@
 /// From the solution to the columns of the results.
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "hydrodae/core/channel.h"
@@ -41,12 +42,12 @@ public:
   void accept();
 
   /// Rows of the system came or went at the end of the last accepted step; y, y' from there on.
-  /// Where something `struck`, what the kinetic energy lost was the work of the constraints; a
-  /// gain, and any change without an impact, is left as an error of the balance.
-  void restart(const VectorX& y, const VectorX& yp, bool struck);
+  /// What the kinetic energy changed by otherwise is left as an error of the balance.
+  /// @param work of all rows through their impulses, where something struck [J]
+  void restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work);
 
   /// All motions at the end of the last step, angles followed over turns.
-  const std::vector<double>& turns() const { return turns_; }
+  const Turns& turns() const { return turns_; }
 
   /// Largest |balance error| so far over the largest energy exchanged so far [-], both taken at the
   /// ends of steps and at samples.
@@ -55,6 +56,13 @@ public:
   /// Balance error at the end of the last step, and the largest energy exchanged [J].
   double balance_error() const { return balance_error_; }
   double largest_energy() const { return largest_energy_; }
+
+  /// The same for each mechanism by itself, with all that acts on it from outside.
+  struct Balance {
+    double error = 0.0, exchanged = 0.0; ///< [J]
+    double start = 0.0;                  ///< kinetic energy of its bodies at the start [J]
+  };
+  const std::vector<Balance>& mechanisms() const { return mechanisms_; }
 
 private:
   void make_channels();
@@ -66,16 +74,22 @@ private:
   void fill_markers(double*& out);
   void fill_energy(double*& out, const std::vector<double>& work);
   double balance(const std::vector<double>& work);
+  void balance_mechanisms();
+  void take_turns();
+  std::vector<double> powers() const;
 
   const System& s_;
   Observer observer_;
   std::vector<Channel> channels_;
   std::size_t width_ = 0;
-  double t_, end_;                          ///< start and end of the step [s]
-  std::vector<double> power_, work_;        ///< per component, at t_
+  double t_, end_; ///< start and end of the step [s]
+  /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
+  std::vector<double> power_, work_;
   std::vector<std::vector<double>> powers_; ///< at the nodes of the step
-  std::vector<double> end_work_, turns_;    ///< at the end of the step
-  double end_moving_ = 0.0;                 ///< kinetic energies there [J]
+  std::vector<double> end_work_;            ///< at the end of the step
+  Turns turns_;                             ///< there
+  std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
+  std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
   double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
   double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
   Quadrature rule_;

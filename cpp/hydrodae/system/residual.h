@@ -192,6 +192,7 @@ void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp,
 template <class S>
 void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
   unpack<S>(s, y, yp, ws.bodies);
+  ws.time = t;
   ws.past = past_at(s, t);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.loads[i].setZero();

@@ -49,6 +49,8 @@ struct BodyData {
   double lever = 1.0;               ///< [m], turns lengths into angles
   bool time_scale_known = true;     ///< else taken from the start (no gravity, none given)
   double time_scale = 1.0;          ///< [s], turns lengths into velocities
+  int mechanism = -1; ///< of bodies that constraint rows hold together; -1: cannot move
+  int group = -1;     ///< of bodies that move each other in any way: by rows, forces, or the water
 };
 
 inline constexpr Index redundant = -1; ///< in place of a multiplier: the row follows from others
@@ -281,6 +283,11 @@ struct System {
   Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states
   Index n_lambda = 0, n_mu = 0;    ///< rows at velocity level, those also at position level
   Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
+  int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
+  std::vector<int> group;             ///< (lambda0,) of each position, velocity and memory state
+  VectorX group_size;                 ///< (n_groups,) how many of these each has
+  bool scales_follow = true;          ///< the motion; else length_scale was given
+  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
   VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages

@@ -1,0 +1,40 @@
+#pragma once
+/// The energy that the equations keep is a witness that the integrator does not look at: what is
+/// missing tells of a branch lost in a singular pose, or of a tolerance too loose.
+
+#include <functional>
+
+#include "hydrodae/model/solver_options.h"
+#include "hydrodae/system/recorder.h"
+
+namespace hydrodae::solve {
+
+class EnergyGuard {
+public:
+  EnergyGuard(const system::System& system, const model::SolverOptions& options);
+
+  /// Is less allowed at singular poses of closed loops than elsewhere?
+  bool minds_singular_poses() const { return at_singular_ < part_; }
+
+  /// Throws SolverError when the balance of the scene, or of one of its mechanisms, is off by more
+  /// than is allowed.
+  /// @param at_singular_pose asked only where it matters: was the last step next to such a pose?
+  /// @param reactions the largest ones, for the message
+  void check(double t, const system::Recorder& recorder,
+             const std::function<bool()>& at_singular_pose,
+             const std::function<std::string()>& reactions) const;
+
+  /// The same at the end of the run, with next to no energy too little to tell.
+  void finish(double t, const system::Recorder& recorder) const;
+
+private:
+  [[noreturn]] void fail(double t, double error, double part, double exchanged,
+                         const std::string& of, const std::string& where) const;
+  double least(int mechanism) const;
+  std::string members(std::size_t mechanism) const;
+
+  const system::System& s_;
+  double rtol_, part_, at_singular_;
+};
+
+} // namespace hydrodae::solve

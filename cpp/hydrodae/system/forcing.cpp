@@ -1,0 +1,178 @@
+#include "hydrodae/system/forcing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/text.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+constexpr double share_of_period = 0.2; ///< of the shortest wave that matters, in one step
+constexpr double kept = 0.999;          ///< of the variance of the waves: longer than that
+
+/// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
+/// each component: sqrt(2 sum |C|^2 / max(1/T, w)^4), twice the standard deviation.
+double response(const Eigen::VectorXcd& C, const VectorX& omega, double time_scale) {
+  double sum = 0.0;
+  for (Index i = 0; i < C.size(); ++i) {
+    const double rate = std::max(1.0 / time_scale, omega[i]);
+    sum += std::norm(C[i]) / std::pow(rate, 4.0);
+  }
+  return std::sqrt(2.0 * sum);
+}
+
+/// 2^k cells of [0, end], of length `cell` at most.
+std::size_t cells(double end, double cell, double fewest, double most) {
+  const double count = std::clamp(end / cell, fewest, most);
+  return std::size_t{1} << static_cast<unsigned>(std::ceil(std::log2(count)));
+}
+
+/// The frequency below which all but a thousandth of the waves' variance is [rad/s].
+double highest(std::vector<std::pair<double, double>> parts) {
+  std::sort(parts.begin(), parts.end());
+  double total = 0.0, below = 0.0;
+  for (const auto& [omega, variance] : parts)
+    total += variance;
+  for (const auto& [omega, variance] : parts) {
+    below += variance;
+    if (below >= kept * total)
+      return omega;
+  }
+  return 0.0;
+}
+
+} // namespace
+
+Forcing::Forcing(const System& s, double end, double output_step)
+    : motion_(VectorX::Zero(s.n_groups)) {
+  add_drives(s, end, output_step);
+  add_waves(s);
+  add_paths(s);
+}
+
+void Forcing::expect(const BodyData& body, bool turns, double motion) {
+  if (body.group < 0 || !std::isfinite(motion))
+    return;
+  double& most = motion_[body.group];
+  most = std::max(most, turns ? motion : motion / body.lever);
+}
+
+void Forcing::add_drives(const System& s, double end, double output_step) {
+  for (const CouplerData& c : s.couplers) {
+    const model::Drive& d = c.drive;
+    const bool sine = d.amplitude != 0.0 && d.period > 0.0;
+    if (!sine && d.table.empty() && !d.function && d.rate == 0.0)
+      continue;
+    double cell = end;
+    if (sine)
+      cell = std::min(cell, d.period / 32.0);
+    for (std::size_t i = 1; i < d.time.size(); ++i)
+      cell = std::min(cell, 0.5 * (d.time[i] - d.time[i - 1]));
+    const std::size_t count = d.function
+                                  ? cells(end, std::min(cell, 0.5 * output_step), 2048.0, 32768.0)
+                                  : cells(end, cell, 16.0, 1048576.0);
+    std::vector<double> values(count + 1);
+    for (std::size_t i = 0; i <= count; ++i)
+      values[i] = d(end * static_cast<double>(i) / static_cast<double>(count))[0];
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const MotionData& m = s.motions[static_cast<std::size_t>(c.terms.front().motion)];
+    const JointData& j = s.joints[static_cast<std::size_t>(m.joint)];
+    for (int body : {j.A.body, j.B.body})
+      if (body >= 0) {
+        const BodyData& b = s.bodies[static_cast<std::size_t>(body)];
+        // A given rate moves the body over its time scale.
+        expect(b, m.motion.is_angle(), (*high - *low) * (c.velocity_level ? b.time_scale : 1.0));
+      }
+    if (sine || !d.table.empty() || d.function)
+      tracks_.push_back(
+          {"the drive of constraint " + in_quotes(c.name), smooth_windows(values, end), 0});
+  }
+}
+
+void Forcing::add_waves(const System& s) {
+  std::vector<std::pair<double, double>> parts; // frequency, variance
+  VectorX omega;
+  const Eigen::MatrixXcd* C = nullptr;
+  if (!s.hydro.excitation.empty()) {
+    omega = s.hydro.excitation.omega();
+    C = &s.hydro.excitation.coefficients();
+  } else if (!s.hydro.drifting.empty()) {
+    const std::vector<sea::Component>& components = s.hydro.drifting.components();
+    omega.resize(static_cast<Index>(components.size()));
+    for (Index i = 0; i < omega.size(); ++i)
+      omega[i] = components[static_cast<std::size_t>(i)].omega;
+    C = &s.hydro.drifting.coefficients();
+  }
+  for (Index i = 0; C && i < omega.size(); ++i)
+    parts.emplace_back(omega[i], std::norm((*C)(C->rows() - 1, i)));
+  for (Index u = 0; C && u < s.hydro.n_moving; ++u) {
+    const HydroData::Coordinate& k = s.hydro.coordinates[static_cast<std::size_t>(u)];
+    const BodyData& b = s.bodies[static_cast<std::size_t>(
+        s.hydro.bodies[static_cast<std::size_t>(k.hydro_body)].body)];
+    const bool turns = k.component >= 3;
+    const double mass =
+        s.hydro.added_mass(u, u) + (turns ? b.inertia(k.component - 3, k.component - 3) : b.mass);
+    const Index row =
+        s.hydro.drifting.empty() ? u : s.hydro.n_moving + 6 * k.hydro_body + k.component;
+    if (mass > 0.0)
+      expect(b, turns, response(C->row(row).transpose(), omega, b.time_scale) / mass);
+  }
+  double variance = 0.0;
+  for (const sea::WaveField::Term& w : s.water.terms) {
+    parts.emplace_back(w.omega, w.amplitude * w.amplitude);
+    variance += w.amplitude * w.amplitude;
+  }
+  for (const MorisonData& m : s.morison)
+    expect(s.bodies[static_cast<std::size_t>(m.body)], false, std::sqrt(2.0 * variance));
+  if (const double most = highest(parts); most > 0.0)
+    wave_limit_ = share_of_period * 2.0 * pi / most;
+}
+
+void Forcing::add_paths(const System& s) {
+  constexpr std::size_t count = 4096;
+  for (std::size_t m = 0; m < s.motions.size(); ++m) {
+    const JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
+    if (s.motions[m].motion.kind != joint::FreeMotion::Kind::travels || !j.A.path)
+      continue;
+    const double length = j.A.path->length();
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values(count + 1);
+      for (std::size_t i = 0; i <= count; ++i)
+        values[i] =
+            j.A.path->at_arc(length * static_cast<double>(i) / static_cast<double>(count))[0][axis];
+      Curve curve{"the path of joint " + in_quotes(j.name), m, length, {}, {}, 0, 0};
+      curve.forward = smooth_windows(values, length);
+      std::reverse(values.begin(), values.end());
+      curve.backward = smooth_windows(values, length);
+      curves_.push_back(std::move(curve));
+    }
+  }
+}
+
+Forcing::Limit Forcing::limit(const Turns& turns) {
+  const double t = turns.time;
+  Limit out{t + wave_limit_, &waves_};
+  const auto take = [&](double time, const std::string& name) {
+    if (time < out.time)
+      out = {time, &name};
+  };
+  for (Track& track : tracks_)
+    take(track.windows.reach(t, track.hint), track.name);
+  for (Curve& c : curves_) {
+    const double rate = turns.rate[c.motion];
+    if (rate == 0.0)
+      continue;
+    const bool forward = rate > 0.0;
+    const double place = forward ? turns.value[c.motion] : c.length - turns.value[c.motion];
+    std::size_t& hint = forward ? c.forward_hint : c.backward_hint;
+    const Windows& windows = forward ? c.forward : c.backward;
+    // Straight before its first point, and behind its last.
+    const double reach = place < 0.0 ? windows.reach(0.0, hint) : windows.reach(place, hint);
+    take(t + (reach - place) / std::abs(rate), c.name);
+  }
+  return out;
+}
+
+} // namespace hydrodae::system

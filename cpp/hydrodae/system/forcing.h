@@ -1,0 +1,56 @@
+#pragma once
+/// What is known of the loads and drives ahead of time. A step's error estimate knows the load at a
+/// few points only; while nothing moves, steps grow, and would pass over what comes later.
+
+#include <vector>
+
+#include "hydrodae/math/windows.h"
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+/// Limits of the steps by the functions of time that act on a scene.
+class Forcing {
+public:
+  /// Samples all drives from 0 to `end` [s]; those that are Python functions at half the
+  /// `output_step` [s] or finer.
+  Forcing(const System& system, double end, double output_step);
+
+  /// The latest time that a step may reach [s], and what limits it, in words.
+  struct Limit {
+    double time = 0.0;
+    const std::string* by = nullptr;
+  };
+
+  /// @param turns of the state from which the step starts: tells where bodies are on their paths
+  Limit limit(const Turns& turns);
+
+  /// By group: how far its bodies will about be moved, in units of their lever [-]; 0: not at all.
+  const VectorX& motion() const { return motion_; }
+
+private:
+  void add_drives(const System& s, double end, double output_step);
+  void add_waves(const System& s);
+  void add_paths(const System& s);
+  void expect(const BodyData& body, bool turns, double motion);
+
+  struct Track {
+    std::string name;
+    Windows windows;
+    std::size_t hint = 0;
+  };
+  struct Curve { ///< a path in either direction, windows of its arc length [m]
+    std::string name;
+    std::size_t motion = 0;
+    double length = 0.0;
+    Windows forward, backward;
+    std::size_t forward_hint = 0, backward_hint = 0;
+  };
+  std::vector<Track> tracks_;
+  std::vector<Curve> curves_;
+  double wave_limit_ = INFINITY; ///< [s]
+  std::string waves_ = "the waves", end_ = "the end of the run";
+  VectorX motion_;
+};
+
+} // namespace hydrodae::system

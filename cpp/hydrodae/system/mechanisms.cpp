@@ -1,0 +1,105 @@
+#include "hydrodae/system/mechanisms.h"
+
+#include <numeric>
+
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+/// Disjoint sets of bodies.
+class Sets {
+public:
+  explicit Sets(const System& s) : s_(s), root_(s.bodies.size()) {
+    std::iota(root_.begin(), root_.end(), 0);
+  }
+  void join(int a, int b) {
+    if (moves(a) && moves(b))
+      root_[static_cast<std::size_t>(find(a))] = find(b);
+  }
+  void join(const JointData& j) { join(j.A.body, j.B.body); }
+  int find(int i) {
+    while (root_[static_cast<std::size_t>(i)] != i)
+      i = root_[static_cast<std::size_t>(i)];
+    return i;
+  }
+  bool moves(int body) const {
+    return body >= 0 && s_.bodies[static_cast<std::size_t>(body)].n_active > 0;
+  }
+  /// Numbers the sets of the bodies that move; -1 for the others.
+  int number(System& s, int BodyData::* which) {
+    std::vector<int> numbers(root_.size(), -1);
+    int count = 0;
+    for (int i = 0; i < static_cast<int>(root_.size()); ++i) {
+      int& number = numbers[static_cast<std::size_t>(find(i))];
+      if (moves(i) && number < 0)
+        number = count++;
+      s.bodies[static_cast<std::size_t>(i)].*which = moves(i) ? number : -1;
+    }
+    return count;
+  }
+
+private:
+  const System& s_;
+  std::vector<int> root_;
+};
+
+const JointData& joint_of(const System& s, int motion) {
+  return s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)];
+}
+
+} // namespace
+
+void find_mechanisms(System& s) {
+  Sets sets(s);
+  for (const JointData& j : s.joints)
+    if (!j.rows.empty())
+      sets.join(j);
+  for (const CouplerData& c : s.couplers) { // those of switches too
+    int first = -1;
+    for (const CouplerData::Term& term : c.terms) {
+      const JointData& j = joint_of(s, term.motion);
+      sets.join(j);
+      for (int body : {j.A.body, j.B.body}) {
+        if (sets.moves(body) && sets.moves(first))
+          sets.join(first, body);
+        if (sets.moves(body))
+          first = body;
+      }
+    }
+  }
+  s.n_mechanisms = sets.number(s, &BodyData::mechanism);
+  for_each_element(s.motion_forces,
+                   [&](const auto& force) { sets.join(joint_of(s, force.motion)); });
+  int wet = -1;
+  for (const HydroBody& hb : s.hydro.bodies) {
+    if (sets.moves(hb.body) && wet >= 0)
+      sets.join(wet, hb.body);
+    if (sets.moves(hb.body))
+      wet = hb.body;
+  }
+  s.n_groups = sets.number(s, &BodyData::group);
+  s.motion_scale = VectorX::Ones(s.n_groups);
+}
+
+void set_groups(System& s) {
+  s.group.assign(static_cast<std::size_t>(s.lambda0), 0);
+  int wet = 0;
+  for (const HydroBody& hb : s.hydro.bodies)
+    if (const int group = s.bodies[static_cast<std::size_t>(hb.body)].group; group >= 0)
+      wet = group;
+  for (const BodyData& b : s.bodies) {
+    for (Index k = 0; k < b.n_position; ++k)
+      s.group[static_cast<std::size_t>(b.q0 + k)] = b.group;
+    for (Index k = 0; k < b.n_active; ++k)
+      s.group[static_cast<std::size_t>(b.u0 + k)] = b.group;
+  }
+  for (Index z = s.z0; z < s.lambda0; ++z)
+    s.group[static_cast<std::size_t>(z)] = wet;
+  s.group_size = VectorX::Zero(s.n_groups);
+  for (const int group : s.group)
+    ++s.group_size[group];
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,17 @@
+#pragma once
+/// Which bodies belong together. What goes wrong in one mechanism must not hide behind the size of
+/// another: tolerances, norms and guards are taken for each by itself.
+
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::system {
+
+/// Numbers the mechanisms (bodies that rows of joints, couplers, stops or dry friction hold to each
+/// other) and the groups (mechanisms that act on each other by forces or through the water).
+/// Bodies that cannot move, and the ground, join nothing.
+void find_mechanisms(System& system);
+
+/// The group of each position, velocity and memory state; needs the layout.
+void set_groups(System& system);
+
+} // namespace hydrodae::system

@@ -1,0 +1,137 @@
+#include "hydrodae/system/motion_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/build_parts.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+constexpr double full = 0.1;     ///< motion [levers] from which on the full scales hold
+constexpr double rounding = 1e3; ///< epsilons of a position that a step's error may not be below
+constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
+constexpr double slack = 1.5;    ///< of a change that is worth new scales
+
+} // namespace
+
+VectorX displacements(const System& s, const VectorX& from, const VectorX& y) {
+  VectorX out(static_cast<Index>(s.bodies.size()));
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const BodyData& b = s.bodies[i];
+    const Index turns = b.q0 + b.n_translations, n = b.n_position - b.n_translations;
+    const double moved =
+        (y.segment(b.q0, b.n_translations) - from.segment(b.q0, b.n_translations)).norm() / b.lever;
+    double angle = (y.segment(turns, n) - from.segment(turns, n)).norm();
+    if (b.rotation == BodyData::Rotation::free) // p and -p are the same rotation
+      angle = 2.0 * std::min(angle, (y.segment(turns, n) + from.segment(turns, n)).norm());
+    out[static_cast<Index>(i)] = std::max(moved, angle);
+  }
+  return out;
+}
+
+MotionScale::MotionScale(System& s, const Pattern& pattern, const VectorX& y, const VectorX& yp,
+                         const VectorX& forced, double hold, double rtol)
+    : s_(s), start_(y.head(s.n_q)), expected_(forced), reached_(VectorX::Zero(s.n_groups)),
+      least_(VectorX::Zero(s.n_groups)), hold_(VectorX::Constant(s.n_groups, hold)) {
+  for (const BodyData& b : s.bodies)
+    if (b.group >= 0) {
+      constexpr double epsilon = std::numeric_limits<double>::epsilon();
+      const double place = b.position.cwiseAbs().maxCoeff() / b.lever + 1.0;
+      least_[b.group] =
+          std::max(least_[b.group], std::min(1.0, rounding * epsilon * place / (full * rtol)));
+      hold_[b.group] = std::max(hold_[b.group], settled * b.time_scale);
+    }
+  expect_start(pattern, y, yp);
+  if (s.scales_follow)
+    update(0.0);
+}
+
+/// Velocities and accelerations of the start over the time scale of each coordinate, or the shorter
+/// one of its own stiffness; and how far floating bodies are from the pose of their hydrostatics.
+void MotionScale::expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp) {
+  JacobianParts parts(pattern);
+  JacobianWorkspace workspace(s_);
+  jacobian(s_, pattern, workspace, 0.0, y.data(), yp.data(), parts);
+  VectorX mass = VectorX::Zero(s_.n), stiffness = VectorX::Zero(s_.n);
+  for (Index column = 0; column < s_.z0; ++column)
+    for (Index k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
+      const Index row = pattern.row[k];
+      if (row < s_.u0 || row >= s_.z0)
+        continue;
+      if (row == column)
+        mass[row] = parts.by_yp[k];
+      else if (column < s_.n_q)
+        stiffness[row] = std::max(stiffness[row], std::abs(parts.by_y[k]));
+    }
+  for (const BodyData& b : s_.bodies)
+    for (int k = 0; k < b.n_active; ++k) {
+      const Index u = b.u0 + k;
+      const double unit = b.active[k] < 3 ? b.lever : 1.0;
+      const double rate = std::max(1.0 / b.time_scale, mass[u] > 0.0 && std::isfinite(stiffness[u])
+                                                           ? std::sqrt(stiffness[u] / mass[u])
+                                                           : 0.0);
+      double& most = expected_[b.group];
+      most = std::max({most, std::abs(y[u]) / rate / unit, std::abs(yp[u]) / (rate * rate) / unit});
+    }
+  for (const HydroBody& hb : s_.hydro.bodies) {
+    const BodyData& b = s_.bodies[static_cast<std::size_t>(hb.body)];
+    if (b.group < 0)
+      continue;
+    const Vector3 turn = rotation_vector<double>(b.orientation);
+    for (int k = 0; k < b.n_active; ++k) {
+      const int c = b.active[k];
+      const double moved = c < 3 ? (b.position - b.reference)[c] / b.lever : turn[c - 3];
+      expected_[b.group] = std::max(expected_[b.group], std::abs(moved));
+    }
+  }
+}
+
+bool MotionScale::update(double t) {
+  bool changed = false;
+  for (Index g = 0; g < s_.n_groups; ++g) {
+    const double expected = expected_[g] * std::exp(-std::max(0.0, t / hold_[g] - 1.0));
+    const double wanted = std::clamp(std::max(reached_[g], expected) / full, least_[g], 1.0);
+    double& scale = s_.motion_scale[g];
+    if (t > 0.0 && wanted < slack * scale && wanted > scale / slack)
+      continue;
+    changed = changed || scale != wanted;
+    scale = wanted;
+  }
+  if (changed)
+    set_scales(s_);
+  return changed;
+}
+
+void MotionScale::accept(double t, const VectorX& y) {
+  bool grown = false;
+  const VectorX moved = displacements(s_, start_, y);
+  for (std::size_t i = 0; i < s_.bodies.size(); ++i)
+    if (const int g = s_.bodies[i].group; g >= 0 && moved[static_cast<Index>(i)] > reached_[g]) {
+      reached_[g] = moved[static_cast<Index>(i)];
+      grown = true;
+    }
+  if (s_.scales_follow && (grown || (s_.motion_scale.array() > least_.array()).any()))
+    update(t);
+}
+
+std::vector<std::string> MotionScale::notes() const {
+  std::vector<std::string> out;
+  if (!s_.scales_follow)
+    return out;
+  for (Index g = 0; g < s_.n_groups; ++g) {
+    if (reached_[g] == 0.0 || reached_[g] / full >= least_[g])
+      continue;
+    const auto first = std::find_if(s_.bodies.begin(), s_.bodies.end(),
+                                    [&](const BodyData& b) { return b.group == g; });
+    out.push_back("body '" + first->name + "' moves by " + number_text(reached_[g]) +
+                  " of its lever only: rounding of its position keeps the tolerance at that of " +
+                  number_text(full * least_[g]));
+  }
+  return out;
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,46 @@
+#pragma once
+/// Tolerances follow the motion: an error of a micrometre is none where a device moves by metres,
+/// and all where it moves by micrometres.
+
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::system {
+
+/// Keeps System::motion_scale: by group, the part of the full scales (a tenth of a body's lever)
+/// that the motion takes, between 1 and what rounding of the positions leaves. It is the largest of
+/// the displacement reached so far and, fading, of what the start and the loads let expect.
+class MotionScale {
+public:
+  /// @param pattern of the Jacobian
+  /// @param y, yp a consistent start
+  /// @param forced motion to expect of loads and drives, by group in levers (Forcing::motion)
+  /// @param hold time over which that is believed [s]
+  /// @param rtol of the run
+  MotionScale(System& system, const Pattern& pattern, const VectorX& y, const VectorX& yp,
+              const VectorX& forced, double hold, double rtol);
+
+  /// Takes an accepted state; the scales of the system change where the motion outgrew them, or
+  /// stayed far below what was expected.
+  void accept(double t, const VectorX& y);
+
+  /// Largest displacement so far from the start, by group in levers or rad (n_groups,).
+  const VectorX& reached() const { return reached_; }
+
+  /// Groups whose motion is below what rounding lets the tolerance follow.
+  std::vector<std::string> notes() const;
+
+private:
+  void expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp);
+  bool update(double t);
+
+  System& s_;
+  VectorX start_;                      ///< positions (n_q,)
+  VectorX expected_, reached_, least_; ///< by group
+  VectorX hold_;                       ///< by group [s]
+};
+
+/// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the
+/// angle [-] (n_bodies,).
+VectorX displacements(const System& system, const VectorX& from, const VectorX& y);
+
+} // namespace hydrodae::system
