@@ -131,8 +131,8 @@ def test_numbers_that_are_none_are_refused_by_their_key(tmp_path, key, value):
             {"solver.baumgarte_time": "1e-200", "solver.formulation": '"index_1"'},
             "into more than 1e+10 times",
         ),
-        ({"constraint.motor.drive.period": "1e-300"}, "must be >= 1e-09 and <= 1e+10 s"),
-        ({"wave.w.period": "1e-300"}, "must be >= 0.001 and <= 1000000 s"),
+        ({"constraint.motor.drive.period": "1e-300"}, "drive makes more than 1e+10 periods"),
+        ({"wave.w.period": "1e-300"}, "waves shorter than 0.001 s are none of gravity"),
     ],
 )
 def test_steps_that_would_never_come_to_the_end_are_refused(tmp_path, values, expected):
