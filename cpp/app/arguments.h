@@ -13,7 +13,8 @@ inline constexpr const char* usage =
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --version | --help
 
-  -o RESULTS       results file (HDF5), replaced if it exists
+  -o RESULTS       results file (HDF5); an older one is replaced when the run ends, until then it
+                   is written beside it (RESULTS.partial.h5 for RESULTS.h5)
   --set KEY=VALUE  replace a value of the case, for example --set solver.rtol=1e-8 or
                    --set joint.hinge1.initial.angle_deg=5
   --method NAME    the same as --set solver.method="NAME": ida, radau, explicit_rk, ...

@@ -9,6 +9,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <new>
 
 #include "arguments.h"
 #include "hydrodae/core/error.h"
@@ -55,6 +56,7 @@ private:
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell is told as a full disk is
   Reporter reporter(arguments.quiet);
   const hydrodae::RunStatistics statistics =
       hydrodae::simulate(scene, arguments.output, std::ref(reporter));
@@ -92,12 +94,20 @@ ExitCode perform(const Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-  const auto report = [](const std::exception& error, ExitCode code) {
-    std::cerr << "hydrodae-solve: " << error.what() << '\n';
+  const auto complain = [](const std::string& message, ExitCode code) {
+    std::cerr << "hydrodae-solve: " << message << '\n';
     return static_cast<int>(code);
   };
+  const auto report = [&](const std::exception& error, ExitCode code) {
+    return complain(error.what(), code);
+  };
   try {
-    return static_cast<int>(perform(hydrodae::app::parse(argc, argv)));
+    const ExitCode code = perform(hydrodae::app::parse(argc, argv));
+    if (!std::cout.flush() || std::fflush(stdout) != 0)
+      return complain("standard output cannot be written", ExitCode::bad_case);
+    return static_cast<int>(code);
+  } catch (const std::bad_alloc&) {
+    return complain("not enough memory for this case", ExitCode::bad_case);
   } catch (const hydrodae::SolverError& error) {
     return report(error, ExitCode::solver_failure);
   } catch (const hydrodae::Error& error) {

@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/io/output_place.h"
 #include "hydrodae/io/results_file.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/energy_guard.h"
@@ -318,6 +319,8 @@ private:
       check_motion();
       check_trust();
       remember();
+      if (file_)
+        file_->flush_if_due();
       if (event)
         restart();
       // Between samples that are far apart in steps, a request to stop is heard as well.
@@ -390,6 +393,8 @@ private:
 
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress) {
+  if (!output_path.empty())
+    io::check_output(output_path, {scene.path, scene.database ? scene.database->path : ""});
   return Run(scene, output_path, progress)();
 }
 

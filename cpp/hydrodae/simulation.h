@@ -42,9 +42,11 @@ struct RunStatistics {
 /// coordinates that nothing moves, and what could be modelled with less. Throws ModelError.
 std::string examine(const model::Scene& scene);
 
-/// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty).
-/// Throws ModelError when the scene cannot start, SolverError when the integration fails (the file
-/// then has status "failed" and keeps what was computed).
+/// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty), which
+/// has its name when the run has ended; see ResultsFile.
+/// Throws ModelError when the scene cannot start, CaseError when `output_path` cannot be written,
+/// SolverError when the integration fails or the disk is full (the file then has status "failed"
+/// and keeps what was computed).
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress = {});
 

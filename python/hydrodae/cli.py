@@ -10,10 +10,14 @@ import argparse
 import os
 import platform
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TextIO
 
 from hydrodae import chart_command
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
+from hydrodae.results import ResultsWarning
 
 DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
 
@@ -29,7 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else list(arguments)
     parsed = _parser(given[:1]).parse_args(given)
     try:
-        code: int | None = parsed.call(parsed)
+        with _plain_warnings():
+            code: int | None = parsed.call(parsed)
         sys.stdout.flush()
     except SolverError as error:
         return _complain(error, SOLVER_FAILURE)
@@ -38,9 +43,44 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # whoever read our output has gone, as in `hydrodae ... | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
+    except MemoryError:
+        return _complain(MemoryError("not enough memory"), BAD_CASE)
     except (HydrodaeError, OSError) as error:
+        _give_up_full_output()
         return _complain(error, BAD_CASE)
     return code or DONE
+
+
+def _give_up_full_output() -> None:
+    """What standard output does not take now, Python would try to write again when it ends."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextmanager
+def _plain_warnings() -> Iterator[None]:
+    """What `Results` has to tell is a line for people, without a place in the source."""
+    with warnings.catch_warnings():
+        usual = warnings.showwarning
+
+        def show(
+            message: Warning | str,
+            category: type[Warning],
+            filename: str,
+            lineno: int,
+            file: TextIO | None = None,
+            line: str | None = None,
+        ) -> None:
+            if issubclass(category, ResultsWarning):
+                print(f"hydrodae: note: {message}", file=sys.stderr)
+            else:
+                usual(message, category, filename, lineno, file, line)
+
+        warnings.simplefilter("always", ResultsWarning)
+        warnings.showwarning = show
+        yield
 
 
 def _parser(command: list[str]) -> argparse.ArgumentParser:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import warnings
 from collections.abc import Iterator, Mapping
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -35,12 +36,32 @@ class ChannelError(ResultsError, KeyError):
     __str__ = Exception.__str__  # KeyError would show the message in quotes
 
 
+class ResultsWarning(UserWarning):
+    """The results that are read are not those of the last run, or not all of them."""
+
+
+def partial_path(path: str | os.PathLike[str]) -> Path:
+    """Return where a run writes until it ends: ``X.partial.h5`` beside ``X.h5``.
+
+    Parameters
+    ----------
+    path : path
+        Results file; links are followed.
+    """
+    target = Path(os.path.realpath(path))
+    return target.with_name(f"{target.stem}.partial{target.suffix}")
+
+
 class Results(Mapping[str, "xarray.DataArray"]):
     """The channels of a results file by name, such as "joints/hinge1/angle".
 
     A channel is an `xarray.DataArray` with dimension `time` [s], for vectors also `component`
     (x, y, z), for orientations `quaternion` (w, x, y, z); its attributes are `unit`, `frame` and
     `description`. It is read from the file when it is first asked for.
+
+    A run that has not ended, or was killed, has its samples in the file that `partial_path` tells:
+    these are read where there is no other file, up to at most half a second before the run was
+    killed. That, and a later run beside the one that is read, is told as a `ResultsWarning`.
 
     Parameters
     ----------
@@ -63,11 +84,9 @@ class Results(Mapping[str, "xarray.DataArray"]):
     """
 
     def __init__(self, path: str | os.PathLike[str], owner: object = None) -> None:
-        self.path = Path(path)
+        self.path = _find(Path(path))
         self._owner = owner
         self._read: dict[str, xarray.DataArray] = {}
-        if not self.path.is_file():
-            raise ResultsError(f"{self.path}: no such results file")
         try:
             with h5py.File(self.path, "r") as file:
                 self._read_header(file)
@@ -157,7 +176,7 @@ class Results(Mapping[str, "xarray.DataArray"]):
 
     @property
     def status(self) -> str:
-        """How the run ended: completed, interrupted or failed; "running" if it was killed."""
+        """How the run ended: completed, interrupted or failed; "running" if not yet, or killed."""
         return str(self._header["status"])
 
     @property
@@ -235,6 +254,31 @@ class Results(Mapping[str, "xarray.DataArray"]):
             return f"{message}; the nearest name is {near[0]!r}"
         groups = sorted({channel.split("/")[0] for channel in self._names})
         return f"{message}; there are channels in {', '.join(groups) or 'no group'}"
+
+
+def _find(path: Path) -> Path:
+    """The file to read: `path`, or what its run has written so far."""
+    partial = partial_path(path)
+    if path.is_file():
+        if partial.is_file():
+            _warn(
+                f"{path} holds an earlier run: a later one is being written to {partial}, or was "
+                "cut off there"
+            )
+        return path
+    if not partial.is_file():
+        raise ResultsError(f"{path}: no such results file")
+    if not h5py.is_hdf5(partial):
+        raise ResultsError(
+            f"{path}: no such results file; {partial} is what a run left that was cut off before "
+            "its first sample"
+        )
+    _warn(f"{path}: its run has not ended, or was cut off; what it wrote is read from {partial}")
+    return partial
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, ResultsWarning, stacklevel=4)
 
 
 def _plain(value: Any) -> Any:

@@ -14,12 +14,10 @@ from threading import Event, current_thread, main_thread
 from types import FrameType
 from typing import Any
 
-import h5py
-
 from hydrodae.case import Case
 from hydrodae.drives import Drive, Kernel, kernel_drives
-from hydrodae.errors import CaseError, RunInterrupted, SolverError
-from hydrodae.results import FORMAT, Results
+from hydrodae.errors import RunInterrupted, SolverError
+from hydrodae.results import Results
 
 #: Called with the time and the end time [s] at every output sample; return False to stop the run.
 Progress = Callable[[float, float], bool | None]
@@ -40,8 +38,9 @@ def run(
     case : Case or path
         The case, or the path of its file.
     output : path, optional
-        Results file (HDF5); replaced if it exists, folders are made. Without it the results live
-        in a temporary file that goes when the returned object does.
+        Results file (HDF5); folders are made. The run writes ``X.partial.h5`` beside ``X.h5`` and
+        renames it when it ends, completed or not: until then an older results file stands. Without
+        `output` the results live in a temporary file that goes when the returned object does.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key: ``{"solver.rtol": 1e-8}``.
     progress : callable, optional
@@ -59,10 +58,11 @@ def run(
     Raises
     ------
     CaseError
-        The case or a drive cannot be used, or `output` is a file that is no results file.
+        The case or a drive cannot be used, `output` exists and is no results file (it is not
+        replaced), or another run is writing it.
     SolverError
-        The integration failed. What was computed is kept: the attribute `results` of the exception
-        is a `Results`, or None when the run did not even start.
+        The integration failed, or the disk is full. What was computed is kept: the attribute
+        `results` of the exception is a `Results`, or None when the run did not even start.
     RunInterrupted
         Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
     """
@@ -77,11 +77,12 @@ def run(
         path = folder.path / "results.h5"
     else:
         path = Path(output)
-        _make_way(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+    older = _stamp(path)
     try:
         status = _integrate(case, path, progress, functions)
     except SolverError as error:
-        error.results = Results(path, owner=folder) if path.exists() else None
+        error.results = None if _stamp(path) == older else Results(path, owner=folder)
         raise
     results = Results(path, owner=folder)
     if status == "interrupted":
@@ -115,23 +116,13 @@ def _integrate(case: Case, path: Path, progress: Progress | None, drives: dict[s
     return status
 
 
-def _make_way(path: Path) -> None:
-    """Make the folder and remove an older run, so that nobody takes it for this one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if path.exists():
-        if not _is_results(path):
-            raise CaseError(f"{path}: exists and is no results file; it is not replaced")
-        path.unlink()
-
-
-def _is_results(path: Path) -> bool:
-    if not (path.is_file() and h5py.is_hdf5(path)):
-        return False
+def _stamp(path: Path) -> tuple[int, int] | None:
+    """What tells a file from the one that had its name before; None where there is none."""
     try:
-        with h5py.File(path, "r") as file:
-            return bool(file.attrs.get("format") == FORMAT)
-    except OSError:  # HDF5 by its signature, but cut off: a run that was killed
-        return True
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
 
 
 @contextmanager

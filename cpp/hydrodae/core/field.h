@@ -13,16 +13,23 @@
 
 namespace hydrodae {
 
-/// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself.
+/// Closed interval of allowed values (in the unit of the file); `open_min` excludes `min` itself. A
+/// `far_max` is far from all sense, and told only to those who exceed it.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool open_min = false;
+  bool far_max = false;
 };
 inline constexpr Range any_value{};
 constexpr Range at_least(double x) { return {x, std::numeric_limits<double>::infinity(), false}; }
 constexpr Range more_than(double x) { return {x, std::numeric_limits<double>::infinity(), true}; }
+constexpr Range at_least(double x, double far) { return {x, far, false, true}; }
+constexpr Range more_than(double x, double far) { return {x, far, true, true}; }
 constexpr Range between(double a, double b) { return {a, b, false}; }
+
+/// Longest time and most distant moment that a case may name [s]: three centuries.
+inline constexpr double longest_time = 1e10;
 
 /// No restriction of the words of a string. (A named constant: g++ 12 crashes on `= {}` below.)
 inline const std::vector<std::string_view> any_word;

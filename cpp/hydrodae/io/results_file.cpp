@@ -4,7 +4,10 @@
 #include <cassert>
 #include <chrono>
 
+#include "hydrodae/core/text.h"
 #include "hydrodae/io/hdf5.h"
+#include "hydrodae/io/ordered_file.h"
+#include "hydrodae/io/output_place.h"
 
 namespace hydrodae::io {
 namespace {
@@ -13,9 +16,8 @@ using hdf5::checked;
 using hdf5::Handle;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t rows_per_flush = 512;
-constexpr hsize_t rows_per_chunk = 512;
-constexpr Clock::duration longest_wait = std::chrono::seconds(2);
+constexpr std::size_t rows_per_chunk = 512;
+constexpr Clock::duration longest_wait = std::chrono::milliseconds(500);
 
 void write_attribute(hid_t object, const std::string& name, const Attribute& value,
                      const std::string& what) {
@@ -24,16 +26,23 @@ void write_attribute(hid_t object, const std::string& name, const Attribute& val
   const Handle text = hdf5::text_type();
   const hid_t type =
       is_text ? static_cast<hid_t>(text) : (is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64);
-  if (checked(H5Aexists(object, name.c_str()), what) > 0)
-    checked(H5Adelete(object, name.c_str()), what);
+  // Overwritten rather than made anew: that changes one block of the file.
+  const bool exists = checked(H5Aexists(object, name.c_str()), what) > 0;
   const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, what);
-  const Handle attribute = checked(
-      H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  const Handle attribute =
+      checked(exists ? H5Aopen(object, name.c_str(), H5P_DEFAULT)
+                     : H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, what);
   const char* characters = is_text ? std::get<std::string>(value).c_str() : nullptr;
   const void* data = is_text   ? static_cast<const void*>(&characters)
                      : is_real ? static_cast<const void*>(&std::get<double>(value))
                                : static_cast<const void*>(&std::get<std::int64_t>(value));
   checked(H5Awrite(attribute, type, data), what);
+}
+
+/// Two messages below each other; either may be empty.
+std::string lines(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "\n  ") + second;
 }
 
 /// A dataset that grows by rows.
@@ -46,31 +55,46 @@ struct Column {
 } // namespace
 
 struct ResultsFile::Impl {
-  std::string path;
+  OutputPlace place;
+  OrderedFile disk;
   Handle file;
   std::vector<Column> columns; ///< time first
   std::size_t row_size = 0;    ///< values in a row of the buffer
-  std::vector<double> buffer;  ///< rows that are not in the file yet
+  std::vector<double> buffer;  ///< rows that HDF5 has not got yet, at most those of a chunk
   std::vector<double> scratch; ///< one column of them
   std::size_t buffered = 0;    ///< rows
-  std::size_t written = 0;     ///< rows
-  Clock::time_point last_flush = Clock::now();
+  std::size_t written = 0;     ///< rows that HDF5 has got
+  std::size_t committed = 0;   ///< rows on disk
+  double last_time = 0.0;      ///< of the last row [s]
+  double committed_time = 0.0; ///< of the last row on disk [s]
+  bool waiting = false;        ///< rows that are not on disk
+  bool closed = false;
+  Clock::time_point last_commit = Clock::now();
 
-  std::string what() const { return path + ": cannot be written"; }
+  Impl(const std::string& path, WriteObserver observer) : place(path), disk(std::move(observer)) {}
+
+  std::string what() const { return place.path() + ": cannot be written"; }
   void create(const Attributes& header);
   void add_column(const Channel& channel);
   void write_column(const Column& column);
-  void flush();
+  void write_rows();
+  void commit();
+  void write_end(const std::string& status, const std::string& message,
+                 const Attributes& statistics);
+  void salvage(const std::string& message, const Attributes& statistics);
+  void require_written() const;
 };
 
 void ResultsFile::Impl::create(const Attributes& header) {
-  file =
-      checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, what());
+  const Handle access = disk.access_properties();
+  file = checked(H5Fcreate(place.partial().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+                 what());
   write_attribute(file, "format", std::string("hydrodae-results"), what());
   write_attribute(file, "format_version", std::int64_t{1}, what());
   for (const auto& [name, value] : header)
     write_attribute(file, name, value, what());
   write_attribute(file, "status", std::string("running"), what());
+  write_attribute(file, "message", std::string(), what());
 }
 
 void ResultsFile::Impl::add_column(const Channel& channel) {
@@ -84,10 +108,13 @@ void ResultsFile::Impl::add_column(const Channel& channel) {
   checked(H5Pset_chunk(layout, rank, chunk), what());
   const Handle links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what());
   checked(H5Pset_create_intermediate_group(links, 1), what());
+  // Only the last chunk changes: HDF5's own cache holds a megabyte a dataset.
+  const Handle cache = checked(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what());
+  checked(H5Pset_chunk_cache(cache, 3, rows_per_chunk * width * sizeof(double), 1.0), what());
 
   Column column;
   column.dataset = checked(
-      H5Dcreate2(file, channel.path.c_str(), H5T_NATIVE_DOUBLE, space, links, layout, H5P_DEFAULT),
+      H5Dcreate2(file, channel.path.c_str(), H5T_NATIVE_DOUBLE, space, links, layout, cache),
       H5Dclose, what() + " (channel " + channel.path + ")");
   column.offset = row_size;
   column.width = static_cast<std::size_t>(channel.width);
@@ -113,39 +140,105 @@ void ResultsFile::Impl::write_column(const Column& column) {
           what());
 }
 
-void ResultsFile::Impl::flush() {
-  if (buffered > 0) {
+void ResultsFile::Impl::write_rows() {
+  if (buffered > 0)
     for (const Column& column : columns)
       write_column(column);
-    written += buffered;
-    buffered = 0;
-  }
+  written += buffered;
+  buffered = 0;
+}
+
+/// Brings all rows to disk.
+void ResultsFile::Impl::commit() {
+  write_rows();
   checked(H5Fflush(file, H5F_SCOPE_LOCAL), what());
-  last_flush = Clock::now();
+  disk.commit();
+  require_written();
+  committed = written;
+  committed_time = last_time;
+  waiting = false;
+  last_commit = Clock::now();
+}
+
+void ResultsFile::Impl::require_written() const {
+  if (disk.failure().empty())
+    return;
+  if (written == 0)
+    throw CaseError(what() + ": " + disk.failure());
+  throw SolverError(
+      last_time,
+      what() + " at t = " + number_text(last_time) + " s: " + disk.failure() + "; it keeps " +
+          (committed == 0 ? "no sample"
+                          : "the samples up to t = " + number_text(committed_time) + " s"));
+}
+
+void ResultsFile::Impl::write_end(const std::string& status, const std::string& message,
+                                  const Attributes& statistics) {
+  {
+    const bool exists = checked(H5Lexists(file, "solver", H5P_DEFAULT), what()) > 0;
+    const Handle group =
+        checked(exists ? H5Gopen2(file, "solver", H5P_DEFAULT)
+                       : H5Gcreate2(file, "solver", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                H5Gclose, what());
+    for (const auto& [name, value] : statistics)
+      write_attribute(group, name, value, what());
+  }
+  write_attribute(file, "status", status, what());
+  write_attribute(file, "message", message, what());
+  columns.clear();
+  checked(file.reset(), what());
+  disk.commit();
+}
+
+/// After a failure to write: the end of the run into what is on disk, in the space that the
+/// samples leave that were lost. Where even that fails, the file stays as it is.
+void ResultsFile::Impl::salvage(const std::string& message, const Attributes& statistics) {
+  columns.clear();
+  file.reset();
+  disk.recover();
+  try {
+    const Handle access = disk.access_properties();
+    file = checked(H5Fopen(place.partial().c_str(), H5F_ACC_RDWR, access), H5Fclose, what());
+    write_end("failed", message, statistics);
+  } catch (const CaseError&) {
+    file.reset();
+  }
 }
 
 ResultsFile::ResultsFile(const std::string& path, const std::vector<Channel>& channels,
-                         const Attributes& header)
-    : impl_(std::make_unique<Impl>()) {
+                         const Attributes& header, WriteObserver observer)
+    : impl_(std::make_unique<Impl>(path, std::move(observer))) {
   const hdf5::Quiet quiet;
-  impl_->path = path;
-  impl_->create(header);
-  impl_->add_column({"time", 1, "s", "-", "Time."});
+  Impl& f = *impl_;
+  f.create(header); // in memory, so that what is on disk is never less than a file
+  f.add_column({"time", 1, "s", "-", "Time."});
   std::size_t widest = 1;
   for (const Channel& channel : channels) {
-    impl_->add_column(channel);
+    f.add_column(channel);
     widest = std::max(widest, static_cast<std::size_t>(channel.width));
   }
-  impl_->buffer.resize(rows_per_flush * impl_->row_size);
-  impl_->scratch.resize(rows_per_flush * widest);
-  impl_->flush();
+  f.buffer.resize(rows_per_chunk * f.row_size);
+  f.scratch.resize(rows_per_chunk * widest);
+  checked(H5Fflush(f.file, H5F_SCOPE_LOCAL), f.what());
+  f.disk.attach(f.place.open());
+  try {
+    f.commit();
+  } catch (const Error&) {
+    f.place.discard();
+    throw;
+  }
 }
 
 ResultsFile::~ResultsFile() {
   const hdf5::Quiet quiet;
+  Impl& f = *impl_;
+  if (f.closed)
+    return;
   try {
-    if (impl_->file >= 0)
-      impl_->flush();
+    f.commit();
+    f.columns.clear();
+    f.file.reset();
+    f.disk.commit();
   } catch (const Error&) { // a destructor has nobody to tell; the status stays "running"
   }
 }
@@ -153,34 +246,50 @@ ResultsFile::~ResultsFile() {
 void ResultsFile::append(double time, std::span<const double> values) {
   Impl& f = *impl_;
   assert(values.size() + 1 == f.row_size);
-  if (f.buffered == rows_per_flush || Clock::now() - f.last_flush > longest_wait) {
-    const hdf5::Quiet quiet;
-    f.flush();
-  }
   double* row = f.buffer.data() + f.buffered * f.row_size;
   *row = time;
   std::copy(values.begin(), values.end(), row + 1);
   ++f.buffered;
+  f.last_time = time;
+  f.waiting = true;
+  if ((f.written + f.buffered) % rows_per_chunk == 0)
+    flush();
+  else
+    flush_if_due();
+}
+
+void ResultsFile::flush() {
+  const hdf5::Quiet quiet;
+  impl_->commit();
+}
+
+void ResultsFile::flush_if_due() {
+  if (impl_->waiting && Clock::now() - impl_->last_commit >= longest_wait)
+    flush();
 }
 
 void ResultsFile::close(const std::string& status, const std::string& message,
                         const Attributes& statistics) {
   const hdf5::Quiet quiet;
   Impl& f = *impl_;
-  f.flush();
-  {
-    const bool exists = checked(H5Lexists(f.file, "solver", H5P_DEFAULT), f.what()) > 0;
-    const Handle group =
-        checked(exists ? H5Gopen2(f.file, "solver", H5P_DEFAULT)
-                       : H5Gcreate2(f.file, "solver", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                H5Gclose, f.what());
-    for (const auto& [name, value] : statistics)
-      write_attribute(group, name, value, f.what());
+  if (std::exchange(f.closed, true))
+    return;
+  std::string failure; // that nobody has told yet
+  if (f.disk.failure().empty()) {
+    try {
+      f.commit();
+      f.write_end(status, message, statistics);
+      f.require_written();
+    } catch (const Error& error) {
+      failure = error.what();
+    }
   }
-  write_attribute(f.file, "status", status, f.what());
-  write_attribute(f.file, "message", message, f.what());
-  f.columns.clear();
-  checked(f.file.reset(), f.what());
+  if (!failure.empty() || !f.disk.failure().empty())
+    f.salvage(lines(message, failure), statistics);
+  if (const std::string why = f.place.finish(); !why.empty())
+    failure = lines(failure, why + "; the results are in " + f.place.partial());
+  if (!failure.empty())
+    throw SolverError(f.last_time, lines(message, failure));
 }
 
 } // namespace hydrodae::io

@@ -1,6 +1,7 @@
 #pragma once
 /// `results.h5`, written as the run goes.
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -15,23 +16,36 @@ namespace hydrodae::io {
 using Attribute = std::variant<double, std::int64_t, std::string>;
 using Attributes = std::map<std::string, Attribute>;
 
+/// Called before every write to the disk: tests look at the file as a killed process leaves it.
+using WriteObserver = std::function<void()>;
+
 /// One results file: dataset `time` and one chunked dataset a channel, each with unit, frame and
-/// description as attributes. Rows are buffered and flushed so that a killed run stays readable.
+/// description as attributes. It is written as `X.partial.h5` (see output_place.h), which a killed
+/// process leaves readable up to half a second before its end; `close` gives it its name.
 class ResultsFile {
 public:
-  /// Creates (replaces) the file with root attributes `header` and status "running".
-  /// Throws CaseError when the file cannot be written.
+  /// Creates the partial file with root attributes `header` and status "running". Throws CaseError
+  /// when it cannot be written, another run writes it, or `path` holds no results file.
   ResultsFile(const std::string& path, const std::vector<Channel>& channels,
-              const Attributes& header);
-  ~ResultsFile(); ///< flushes and closes; status stays "running" when close was not called
+              const Attributes& header, WriteObserver observer = {});
+  ~ResultsFile(); ///< without close, the partial file keeps its samples and the status "running"
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
   /// Appends one sample; `values` holds all channels one after the other. No allocation.
+  /// Throws SolverError when the file cannot be written any more (a full disk).
   void append(double time, std::span<const double> values);
 
+  /// Brings all samples to disk.
+  void flush();
+
+  /// Writes samples that have waited for half a second: to be called where samples are rare.
+  void flush_if_due();
+
   /// Writes what is buffered, the status ("completed", "interrupted", "failed"), the message and
-  /// the statistics (attributes of group `solver`), and closes the file.
+  /// the statistics (attributes of group `solver`), and gives the file its final name.
+  /// Where that fails, the status becomes "failed", what was written before stays, and SolverError
+  /// is thrown unless `append` has told it. Does nothing the second time.
   void close(const std::string& status, const std::string& message, const Attributes& statistics);
 
 private:

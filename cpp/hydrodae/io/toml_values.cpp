@@ -34,8 +34,10 @@ std::string in_unit(const Key& key) {
   throw CaseError(key.where + ": expected " + expected + ", got " + found(node));
 }
 
-std::string range_text(const Range& range) {
-  const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
+/// What `x` should have been.
+std::string range_text(const Range& range, double x) {
+  const bool low = std::isfinite(range.min),
+             high = std::isfinite(range.max) && (!range.far_max || x > range.max);
   const std::string lowest = (range.open_min ? "> " : ">= ") + number_text(range.min);
   if (low && high)
     return lowest + " and <= " + number_text(range.max);
@@ -55,7 +57,7 @@ double number(const toml::node& node, const Key& key) {
   if (!std::isfinite(x))
     throw CaseError(key.where + ": must be finite, got " + number_text(x) + unit);
   if (x < key.range.min || x > key.range.max || (key.range.open_min && x == key.range.min))
-    throw CaseError(key.where + ": must be " + range_text(key.range) + unit + ", got " +
+    throw CaseError(key.where + ": must be " + range_text(key.range, x) + unit + ", got " +
                     number_text(x) + unit);
   return x;
 }

@@ -64,6 +64,10 @@ void check_table(const Entry& entry, const Drive& drive, double end_time) {
 void check_drive(const Entry& entry, const Drive& drive, double end_time) {
   if (drive.amplitude != 0.0 && !(drive.period > 0.0))
     refuse(entry, "drive.amplitude", "drive has an 'amplitude' but no 'period' of its sine");
+  if (drive.amplitude != 0.0 && drive.period < 1e-10 * end_time)
+    refuse(entry, "drive.period",
+           "drive makes more than 1e+10 periods of " + number_text(drive.period) +
+               " s until solver.end_time = " + number_text(end_time) + " s");
   check_table(entry, drive, end_time);
 }
 

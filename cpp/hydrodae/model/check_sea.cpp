@@ -8,6 +8,8 @@
 namespace hydrodae::model {
 namespace {
 
+constexpr double shortest_period = 1e-3; // [s]
+
 const std::vector<std::string> irregular_keys = {"spreading", "components", "spacing",
                                                  "frequency_range", "seed"};
 
@@ -98,6 +100,12 @@ void check_record(const Scene& scene, const sea::Wave& wave) {
 void check_wave(const Scene& scene, const sea::Wave& wave) {
   const Entry entry{"wave", wave.name};
   check_keys(scene, wave);
+  for (const auto& [key, period] :
+       {std::pair{"period", wave.period}, std::pair{"peak_period", wave.peak_period}})
+    if (period && *period < shortest_period)
+      refuse(entry, key,
+             "waves shorter than " + number_text(shortest_period) + " s are none of gravity, got " +
+                 number_text(*period) + " s");
   if (wave.type == "measured")
     check_record(scene, wave);
   if (wave.type == "table") {
