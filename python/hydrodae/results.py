@@ -96,7 +96,9 @@ class Results(Mapping[str, "xarray.DataArray"]):
         self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
         lengths: dict[str, int] = {}
 
-        def note(name: str, node: h5py.Group | h5py.Dataset) -> None:
+        def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
+            if not isinstance(name, str):
+                raise TypeError(f"the name {name!r} is no text")
             if isinstance(node, h5py.Dataset):
                 lengths[name] = len(node) if node.ndim else 0
 

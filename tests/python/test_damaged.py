@@ -75,6 +75,22 @@ def test_a_damaged_channel_is_refused_and_the_others_are_read(data: Any, tmp_pat
     assert results["joints/hinge2/angle"].shape == (50,)
 
 
+def test_a_summary_does_without_units_and_counts(tmp_path: Path) -> None:
+    path = write_results(tmp_path / "r.h5", np.linspace(0.0, 1.0, 50))
+    with h5py.File(path, "r+") as file:
+        del file["joints/hinge1/angle"].attrs["unit"]
+        file.require_group("solver").attrs["steps"] = "many"
+    assert "joints/hinge1/angle" in Results.read(path).summary()
+
+
+def test_a_name_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    path = write_results(tmp_path / "r.h5", np.linspace(0.0, 1.0, 50))
+    with h5py.File(path, "r+") as file:
+        file[b"joints/\xff\xfe"] = np.zeros(50)
+    with pytest.raises(ResultsError, match="is no text"):
+        Results.read(path)
+
+
 @pytest.fixture
 def database(repository: Path, tmp_path: Path) -> Path:
     return Path(shutil.copy(repository / "cases" / "sphere" / "hydro.h5", tmp_path / "hydro.h5"))
