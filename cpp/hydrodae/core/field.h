@@ -24,6 +24,9 @@ constexpr Range at_least(double x) { return {x, std::numeric_limits<double>::inf
 constexpr Range more_than(double x) { return {x, std::numeric_limits<double>::infinity(), true}; }
 constexpr Range between(double a, double b) { return {a, b, false}; }
 
+/// Longest time and most distant moment that a case may name [s]: three centuries.
+inline constexpr double longest_time = 1e10;
+
 /// No restriction of the words of a string. (A named constant: g++ 12 crashes on `= {}` below.)
 inline const std::vector<std::string_view> any_word;
 

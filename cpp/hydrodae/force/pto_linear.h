@@ -47,7 +47,7 @@ struct PtoLinear {
         {"neutral", &P::neutral, "m or rad", "Joint coordinate s0 at which the spring is slack."},
         {"delay", &P::delay, "s",
          "Pure delay tau of damper and spring: they act on the coordinate as it was tau ago.",
-         false, at_least(0)},
+         false, between(0, longest_time)},
     };
   }
 };

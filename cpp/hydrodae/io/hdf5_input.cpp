@@ -10,6 +10,12 @@
 namespace hydrodae::io::hdf5 {
 namespace {
 
+/// A file may claim more than it holds, or than memory does. No database needs more numbers in a
+/// table (sixty bodies, 300 frequencies), in a list or texts of this length.
+constexpr double most_numbers = 5e7;
+constexpr hsize_t longest_list = 10'000'000, most_labels = 100'000;
+constexpr std::size_t longest_text = 4096;
+
 std::string shape_text(const std::vector<hsize_t>& shape) {
   std::vector<std::string> sizes;
   for (hsize_t size : shape)
@@ -116,6 +122,7 @@ Input::Source Input::open_dataset(const std::string& dataset) const {
   source.type = checked(H5Dget_type(source.id), H5Tclose, what);
   source.space = checked(H5Dget_space(source.id), H5Sclose, what);
   source.shape = shape_of(source.space);
+  refuse_null(source);
   return source;
 }
 
@@ -130,29 +137,57 @@ Input::Source Input::open_attribute(const std::string& object, const std::string
   source.type = checked(H5Aget_type(source.id), H5Tclose, what);
   source.space = checked(H5Aget_space(source.id), H5Sclose, what);
   source.shape = shape_of(source.space);
+  refuse_null(source);
   source.is_attribute = true;
   return source;
+}
+
+/// A null dataspace looks like one number, and reads as nothing.
+void Input::refuse_null(const Source& source) const {
+  if (H5Sget_simple_extent_type(source.space) == H5S_NULL)
+    refuse(source.name, "is empty (a null dataspace)");
 }
 
 void Input::require_shape(const Source& source, const std::vector<hsize_t>& shape) const {
   if (source.shape != shape)
     refuse(source.name,
            "expected shape " + shape_text(shape) + ", found " + shape_text(source.shape));
+  double count = 1.0;
+  for (hsize_t n : shape)
+    count *= static_cast<double>(n);
+  if (count > most_numbers)
+    refuse(source.name, "expected at most " + number_text(most_numbers) + " numbers, found shape " +
+                            shape_text(shape));
+}
+
+/// A list, whose length the file alone tells.
+void Input::require_list(const Source& source, hsize_t longest) const {
+  if (source.shape.size() != 1)
+    refuse(source.name, "expected a list, found shape " + shape_text(source.shape));
+  if (source.shape[0] > longest)
+    refuse(source.name, "expected a list of at most " + std::to_string(longest) + ", found " +
+                            std::to_string(source.shape[0]));
 }
 
 std::vector<double> Input::numbers(const Source& source, const std::vector<hsize_t>& shape) const {
   require_shape(source, shape);
   const H5T_class_t kind = H5Tget_class(source.type);
   if (kind != H5T_FLOAT && kind != H5T_INTEGER && kind != H5T_ENUM) // h5py's bool is an enum
-    refuse(source.name, "expected numbers");
+    refuse(source.name, "expected numbers, found another type");
   std::vector<double> out(size_of(source.shape));
   checked(source.read(H5T_NATIVE_DOUBLE, out.data()), path_ + ": " + source.name);
   return out;
 }
 
 std::vector<std::complex<double>> Input::complex_numbers(const Source& source) const {
-  if (H5Tget_class(source.type) != H5T_COMPOUND)
-    refuse(source.name, "expected complex numbers (a compound of r and i)");
+  // HDF5 leaves out what a compound does not have, and says nothing.
+  const auto has = [&](const char* part) {
+    const int member = H5Tget_member_index(source.type, part);
+    return member >= 0 &&
+           H5Tget_member_class(source.type, static_cast<unsigned>(member)) == H5T_FLOAT;
+  };
+  if (H5Tget_class(source.type) != H5T_COMPOUND || !has("r") || !has("i"))
+    refuse(source.name, "expected complex numbers (a compound of r and i), found another type");
   std::vector<std::complex<double>> out(size_of(source.shape));
   checked(source.read(complex_type(), out.data()), path_ + ": " + source.name);
   for (const std::complex<double>& x : out)
@@ -163,7 +198,7 @@ std::vector<std::complex<double>> Input::complex_numbers(const Source& source) c
 
 std::vector<std::string> Input::strings(const Source& source) const {
   if (H5Tget_class(source.type) != H5T_STRING)
-    refuse(source.name, "expected text");
+    refuse(source.name, "expected text, found another type");
   const std::size_t count = size_of(source.shape);
   std::vector<std::string> out;
   const std::string what = path_ + ": " + source.name;
@@ -175,6 +210,9 @@ std::vector<std::string> Input::strings(const Source& source) const {
     H5Dvlen_reclaim(source.type, source.space, H5P_DEFAULT, texts.data());
   } else {
     const std::size_t length = H5Tget_size(source.type);
+    if (length > longest_text)
+      refuse(source.name, "expected texts of at most " + std::to_string(longest_text) +
+                              " characters, found " + std::to_string(length));
     std::vector<char> texts(count * length);
     checked(source.read(source.type, texts.data()), what);
     for (std::size_t i = 0; i < count; ++i)
@@ -204,8 +242,7 @@ Vector3 Input::vector3(const std::string& object, const std::string& attribute) 
 
 std::vector<std::string> Input::labels(const std::string& dataset) const {
   const Source source = open_dataset(dataset);
-  if (source.shape.size() != 1)
-    refuse(dataset, "expected a list");
+  require_list(source, most_labels);
   return strings(source);
 }
 
@@ -221,8 +258,7 @@ MatrixX Input::matrix(const std::string& dataset, std::size_t rows, std::size_t 
 
 std::vector<double> Input::list(const std::string& dataset) const {
   const Source source = open_dataset(dataset);
-  if (source.shape.size() != 1)
-    refuse(dataset, "expected a list");
+  require_list(source, longest_list);
   return finite_numbers(source, source.shape);
 }
 
@@ -248,8 +284,7 @@ Input::complex_table(const std::string& dataset, const std::vector<std::size_t>&
 
 Eigen::VectorXcd Input::complex_list(const std::string& dataset) const {
   const Source source = open_dataset(dataset);
-  if (source.shape.size() != 1)
-    refuse(dataset, "expected a list");
+  require_list(source, most_labels);
   const std::vector<std::complex<double>> values = complex_numbers(source);
   return Eigen::Map<const Eigen::VectorXcd>(values.data(),
                                             static_cast<Eigen::Index>(values.size()));

@@ -49,7 +49,10 @@ private:
   std::vector<double> finite_numbers(const Source& source, const std::vector<hsize_t>& shape) const;
   std::vector<std::complex<double>> complex_numbers(const Source& source) const;
   std::vector<std::string> strings(const Source& source) const;
+  // All sizes are checked before memory is asked for.
+  void refuse_null(const Source& source) const;
   void require_shape(const Source& source, const std::vector<hsize_t>& shape) const;
+  void require_list(const Source& source, hsize_t longest) const;
 
   Quiet quiet_;
   std::string path_;

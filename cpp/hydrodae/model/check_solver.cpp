@@ -10,6 +10,40 @@ namespace {
   throw ModelError("solver." + key, message);
 }
 
+/// A run of more steps or samples would never end, or never fit on a disk.
+constexpr double most_steps = 1e10, most_samples = 1e9;
+
+/// `step` may divide the run into `most` parts at most.
+void check_count(const Scene& scene, const std::string& key, double step, double most,
+                 const std::string& parts) {
+  const double end = scene.solver.end_time;
+  if (!(end > step * most))
+    return;
+  const std::string step_text = key + " = " + number_text(step) + " s",
+                    end_text = "solver.end_time = " + number_text(end) + " s";
+  // Where only one of the two is written down, that one is to blame.
+  const bool given = scene.positions.contains(key);
+  throw ModelError(given ? key : "solver.end_time",
+                   (given ? step_text + " divides the run to " + end_text
+                          : end_text + " is divided by " + step_text + " (the default)") +
+                       " into more than " + number_text(most) + " " + parts + "; for this end " +
+                       key + " must be " + number_text(end / most) + " s or more");
+}
+
+void check_counts(const Scene& scene) {
+  const SolverOptions& o = scene.solver;
+  check_count(scene, "output.step", scene.output.step, most_samples, "samples");
+  if (o.step > 0.0)
+    check_count(scene, "solver.step", o.step, most_steps, "steps");
+  if (o.max_step > 0.0)
+    check_count(scene, "solver.max_step", o.max_step, most_steps, "steps");
+  if (o.baumgarte_time > 0.0)
+    check_count(scene, "solver.baumgarte_time", o.baumgarte_time, most_steps, "times");
+  for (const force::PtoLinear& pto : std::get<std::vector<force::PtoLinear>>(scene.forces))
+    if (pto.delay > 0.0) // no step is longer than it
+      check_count(scene, "force." + pto.name + ".delay", pto.delay, most_steps, "steps");
+}
+
 struct Orders {
   int low, high;
   bool odd;
@@ -72,6 +106,7 @@ void check_solver(const Scene& scene) {
   check_order(o);
   check_step(o);
   check_formulation(o);
+  check_counts(scene);
   if (o.method != "ida" && o.max_order != 5)
     refuse_solver("max_order", "belongs to ida; " + o.method + " takes solver.order");
 }

@@ -275,7 +275,7 @@ struct OutputOptions {
 
   static Fields<OutputOptions> fields() {
     return {{"step", &OutputOptions::step, "s", "Time between two samples of the results.", false,
-             more_than(0)}};
+             Range{0, longest_time, true}}};
   }
 };
 

@@ -54,15 +54,16 @@ struct SolverOptions {
          false,
          any_value,
          {"given", "equilibrium"}},
-        {"end_time", &O::end_time, "s", "End of the run.", true, more_than(0)},
+        {"end_time", &O::end_time, "s", "End of the run.", true, Range{0, longest_time, true}},
         {"rtol", &O::rtol, "-",
          "Local error tolerance relative to the scales of the scene (see length_scale, "
          "time_scale).",
          false, Range{1e-13, 1e-1, false}},
         {"step", &O::step, "s",
          "Fixed step; 0: the method chooses. Needed by gauss, lobatto_iiic and generalized_alpha.",
-         false, at_least(0)},
-        {"max_step", &O::max_step, "s", "Longest step; 0: no limit.", false, at_least(0)},
+         false, between(0, longest_time)},
+        {"max_step", &O::max_step, "s", "Longest step; 0: no limit.", false,
+         between(0, longest_time)},
         {"max_order", &O::max_order, "-", "Highest order of the BDF method.", false, between(1, 5)},
         {"order", &O::order, "-",
          "Order of a Runge-Kutta method: radau 1, 3, .. 19, gauss 2, 4, .. 20, lobatto_iiic 2, 4, "
@@ -73,13 +74,14 @@ struct SolverOptions {
          "Of generalized_alpha for infinitely fast modes: 1 no damping, 0 most.", false,
          between(0, 1)},
         {"baumgarte_time", &O::baumgarte_time, "s",
-         "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false, at_least(0)},
+         "Time in which index 1 takes back a gap (Baumgarte); 0: never.", false,
+         between(0, longest_time)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
          "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
          "there.",
-         false, at_least(0)},
+         false, between(0, 1e6)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "
          "nothing "
@@ -88,17 +90,17 @@ struct SolverOptions {
          "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "
          "ten time scales of the bodies, are more than this angle [rad], or this part of a body's "
          "lever; 0: no guard. By default 0.02.",
-         false, at_least(0)},
+         false, between(0, 1e6)},
         {"force", &O::force, "-",
          "Run what is known to fail, for comparisons: a pair of method and formulation, a memory "
          "that is not passive."},
         {"length_scale", &O::length_scale, "m",
          "Length that the tolerance of positions refers to; default: from the bodies and joints.",
-         false, more_than(0)},
+         false, between(1e-12, 1e12)},
         {"time_scale", &O::time_scale, "s",
          "Time that turns the position scale into the velocity scale; default: from gravity, "
          "else from the start.",
-         false, more_than(0)},
+         false, between(1e-12, 1e12)},
     };
   }
 };

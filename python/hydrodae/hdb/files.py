@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 FORMAT = "hydrodae-hydro"
 FORMAT_VERSION = 1
+#: More than any table of a database holds; as in cpp/hydrodae/io/hdf5_input.cpp.
+MOST_NUMBERS = 50_000_000
 UNITS = {
     "omega": "rad/s",
     "added_mass": "kg, kg m, kg m2",
@@ -104,7 +106,21 @@ def read(path: str | Path) -> HydroDatabase:
             )
         if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
             raise DatabaseError(f"{source}: written by a newer hydrodae (format_version)")
+        _refuse_oversized(source, f)
         return _read(f)
+
+
+def _refuse_oversized(source: Path, f: h5py.File) -> None:
+    """Before memory is asked for: a file may claim more than it holds."""
+
+    def check(name: str, node: h5py.Group | h5py.Dataset) -> None:
+        if isinstance(node, h5py.Dataset) and node.shape is not None and node.size > MOST_NUMBERS:
+            raise DatabaseError(
+                f"{source}: {name}: expected at most {MOST_NUMBERS:,} numbers, found shape "
+                f"{node.shape}"
+            )
+
+    f.visititems(check)
 
 
 def _write_tables(f: h5py.File, db: HydroDatabase, *, kernel: bool, single: bool) -> None:
