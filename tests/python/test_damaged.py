@@ -116,6 +116,14 @@ def test_a_damaged_fit_is_refused(dataset: str, data: Any, message: str, databas
         hdb.read(database)
 
 
+@pytest.mark.parametrize("value", ["text", [1.0, 2.0, 3.0], h5py.Empty("f8")])
+def test_a_report_that_is_no_number_is_refused(value: Any, database: Path) -> None:
+    with h5py.File(database, "r+") as file:
+        file["radiation_kernel"].attrs["min_eig_relative"] = value
+    with pytest.raises(DatabaseError, match=r"radiation_kernel: attribute min_eig_relative is "):
+        hdb.read(database)
+
+
 @pytest.mark.parametrize("size", [2540, 30_000])
 def test_a_database_cut_off_is_refused(size: int, database: Path) -> None:
     database.write_bytes(database.read_bytes()[:size])

@@ -32,6 +32,8 @@ UNITS = {
     "added_mass_inf_std": "kg, kg m, kg m2",
     "heading": "rad",
 }
+#: Attributes of fits and kernels that are shown, and how many numbers each has.
+SHOWN = {"band": 2, "h_error_band": 1, "rest": 1, "min_eig_relative": 1, "n_states": 1}
 DAMAGED = "incomplete or damaged"
 ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
@@ -163,7 +165,7 @@ def _read_kernel(group: h5py.Group) -> RadiationKernel:
         inputs=_read_labels(group["inputs"]),
         outputs=_read_labels(group["outputs"]),
         added_mass_inf=_numbers(group, "added_mass_inf"),
-        report={key: _plain(value) for key, value in group.attrs.items()},
+        report=_report(group),
     )
 
 
@@ -233,7 +235,6 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
 def _read_fit(name: str, group: h5py.Group) -> ExponentialMemory:
     from hydrodae.memory import ExponentialMemory
 
-    report = {key: _plain(value) for key, value in group.attrs.items()}
     return ExponentialMemory(
         name=name,
         inputs=_read_labels(group["inputs"]),
@@ -242,7 +243,7 @@ def _read_fit(name: str, group: h5py.Group) -> ExponentialMemory:
         input_matrix=_numbers(group, "input_matrix", complex),
         output_matrix=_numbers(group, "output_matrix", complex),
         added_mass_inf=_numbers(group, "added_mass_inf"),
-        report=report,
+        report=_report(group),
     )
 
 
@@ -268,6 +269,20 @@ def _numbers(group: h5py.Group, name: str, kind: type = float) -> np.ndarray[Any
     if not np.all(np.isfinite(values)):
         raise DatabaseError(f"{where}: holds values that are not finite")
     return values.astype(kind)
+
+
+def _report(group: h5py.Group) -> dict[str, Any]:
+    """How a fit or a kernel was made; what is shown as numbers must be numbers."""
+    report = {key: _plain(value) for key, value in group.attrs.items()}
+    for key, count in SHOWN.items():
+        value = report.get(key, (0.0,) * count)
+        values = value if isinstance(value, tuple) else (value,)
+        if len(values) != count or not all(isinstance(v, int | float) for v in values):
+            raise DatabaseError(
+                f"{group.file.filename}: {group.name}: attribute {key} is {value!r}, expected "
+                f"{count} number{'s' if count > 1 else ''}"
+            )
+    return report
 
 
 def _read_labels(dataset: h5py.Dataset) -> tuple[str, ...]:
