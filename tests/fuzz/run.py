@@ -27,7 +27,7 @@ from random import Random
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tests.fuzz import cases, hdf5  # noqa: E402
+from tests.fuzz import cases, hdf5, values  # noqa: E402
 
 DOCUMENTED = (0, 2, 3, 4)
 PATIENCE = 900.0  # s of wall time; workers count processor time themselves
@@ -154,12 +154,12 @@ class Fuzz:
             how = random.choice(("exponential", "exponential", "none", "constant", "convolution"))
             tables["hydro"] = {**tables["hydro"], "database": "hydro.h5", "radiation": how}
             tables["solver"] = {**tables["solver"], "end_time": 2.0}
-            text = cases.case_text(tables)
+            text = values.case_text(tables)
             requests = [(kind, "reader", f"database {place / 'hydro.h5'}")]
         else:
             text, requests = cases.mutated(self.corpus, random), []
             if kind == "command" and random.random() < 0.7:
-                text = cases.case_text(random.choice(self.corpus.cases))
+                text = values.case_text(random.choice(self.corpus.cases))
         (place / "case.toml").write_bytes(text.encode("utf-8", "replace"))
         if kind == "command":
             words = cases.words(text, self.corpus, random)

@@ -9,6 +9,7 @@ Omega, epsilon). With that dz/dq and the part of z'' by q' alone follow at once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,7 +98,8 @@ def rates(_t: float, s: Array) -> Array:
     along, _ = closed(q, np.zeros(7))
     velocity = along * speed
     _, beside = closed(q, velocity)
-    inertia, load = 0.0, TORQUE
+    inertia: Any = 0.0
+    load: Any = TORQUE
     for centre, mass, turning, weights in BODIES:
         _, gradient, bias = centre(q, velocity)
         moves, turns = gradient @ along, weights @ along
@@ -108,7 +110,7 @@ def rates(_t: float, s: Array) -> Array:
     reach = abs(place - C)
     pull = STIFFNESS * (reach - LENGTH) * (place - C) / reach
     load -= (pull.conjugate() * (gradient @ along)).real
-    return np.r_[velocity, load / inertia]
+    return np.asarray(np.r_[velocity, load / inertia])
 
 
 def andrews(time: Array, accuracy: Accuracy) -> Array:

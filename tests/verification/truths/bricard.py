@@ -12,6 +12,7 @@ c the least q'' that the closed loop needs, a from the equation of motion along 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from tests.verification.truths.problem import GRAVITY, Accuracy, Array, Problem, integrated
@@ -107,7 +108,8 @@ def rates(_t: float, s: Array) -> Array:
     rows, bias = closing(end)
     left, values, right = np.linalg.svd(rows)
     beside = -right[:4].T @ ((left[:, :4].T @ bias) / values[:4])
-    inertia, load = 0.0, 0.0
+    inertia: Any = 0.0
+    load: Any = 0.0
     for centre, rod in zip(centres, RODS, strict=True):
         matrix = ACROSS * np.eye(3) + (ALONG - ACROSS) * np.outer(rod, rod)
         matrix = centre.turn @ matrix @ centre.turn.T
@@ -116,12 +118,12 @@ def rates(_t: float, s: Array) -> Array:
         load += MASS * moves @ (DOWN - centre.bias - centre.by_place @ beside)
         spin = np.cross(centre.rate, matrix @ centre.rate)
         load -= turns @ (matrix @ (centre.bias_turn + centre.by_turn @ beside) + spin)
-    return np.r_[u, beside + n * load / inertia]
+    return np.asarray(np.r_[u, beside + n * load / inertia])
 
 
 def energy(s: Array) -> float:
     """Kinetic and potential energy of a state, J; a witness of the motion."""
-    total = 0.0
+    total: Any = 0.0
     for centre, rod in zip(frames(s[:5], s[5:])[0], RODS, strict=True):
         matrix = ACROSS * np.eye(3) + (ALONG - ACROSS) * np.outer(rod, rod)
         velocity, local = centre.by_place @ s[5:], centre.turn.T @ centre.rate
@@ -139,7 +141,7 @@ def bricard(time: Array, accuracy: Accuracy) -> Array:
 
     def third(s: Array) -> Array:
         centre = frames(s[:5], s[5:])[0][2]
-        return centre.place + 0.5 * (centre.turn @ RODS[2])
+        return np.asarray(centre.place + 0.5 * (centre.turn @ RODS[2]))
 
     return np.array([third(s) for s in states])
 

@@ -57,7 +57,7 @@ class Problem:
     @property
     def time(self) -> Array:
         """(nt,) output times, s."""
-        return self.step * np.arange(round(self.end_time / self.step) + 1)
+        return np.asarray(self.step * np.arange(round(self.end_time / self.step) + 1), dtype=float)
 
 
 def integrated(rates: Rates, start: Sequence[float], time: Array, accuracy: Accuracy) -> Array:
@@ -74,4 +74,4 @@ def integrated(rates: Rates, start: Sequence[float], time: Array, accuracy: Accu
         atol=accuracy.atol,
     )
     assert solved.success, solved.message
-    return np.asarray(solved.y)
+    return np.asarray(solved.y, dtype=np.float64)

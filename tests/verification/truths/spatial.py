@@ -45,7 +45,7 @@ def tumbling_body(time: Array, accuracy: Accuracy) -> Array:
 
     def rates(_t: float, s: Array) -> Array:
         w, rows = s[:3], s[3:].reshape(3, 3)
-        return np.r_[-np.cross(w, inertia * w) / inertia, np.cross(rows, w).ravel()]
+        return np.asarray(np.r_[-np.cross(w, inertia * w) / inertia, np.cross(rows, w).ravel()])
 
     start = [0.01, 5.0, 0.01, *np.eye(3).ravel()]
     states = integrated(rates, start, time, accuracy)
