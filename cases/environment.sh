@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What cases/quickstart.sh and tests/run.sh need: Debian packages, .venv, the built package.
+# What cases/quickstart.sh, tests/run.sh and tests/fuzz/run.sh need: Debian packages, .venv, the built package.
 # Source it from bash; it leaves `root` (the repository) and `python` (that of .venv) behind.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -81,6 +81,14 @@ print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"
 PYTHON
   "$python" -m pip install -qq --no-build-isolation "$root${extra:+[$extra]}"
   printf '%s\n' "$hash" | tee "$stamp.sha256" >"$stamp${extra:+-$extra}.sha256"
+}
+
+# build_sanitized [TARGET]: the C++ tests and the fuzz driver, with assertions and sanitizers.
+build_sanitized() {
+  mkdir -p "$root/build"
+  (cd "$root" && cmake --preset tests) >"$root/build/tests.log" ||
+    { cat "$root/build/tests.log"; fail "CMake failed"; }
+  cmake --build "$root/build/tests" ${1:+--target "$1"} -- --quiet
 }
 
 # install_environment [EXTRA]: all of the above.

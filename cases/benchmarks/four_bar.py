@@ -12,7 +12,7 @@ from pathlib import Path
 HEADER = """\
 # Chain of {n} four-bar windows: {uprights} uprights and {n} couplers, uniform bars of 1 m and 1 kg,
 # upright, B0 (the top of the first upright) at +1 m/s. Written by four_bar.py {n}.
-# Source: shared/reference/multibody/{source}.
+# Source: {source}.
 # Tests: singular poses (level uprights), where the mechanism may fork; all uprights stay parallel.
 # Compared: B0, twice the position x, z of up0, with B0x, B0y.
 # The reference is in the x-y plane; its y is our z, so that its angles turn about our -y.
@@ -42,7 +42,8 @@ axis = [0.0, -1.0, 0.0]
 
 def four_bar(n: int, end_time: float = 10.0, step: float = 0.05) -> str:
     """Text of the case."""
-    source = "n_four_bar_2.json (DOP853, one angle)" if n == 2 else "README.md, by definition"
+    stored = "tests/verification/truths/n_four_bar_2.json (DOP853, one angle)"
+    source = stored if n == 2 else "by definition, by convergence of two methods"
     text = HEADER.format(n=n, uprights=n + 1, source=source)
     inertia = repr(1.0 / 12.0)
     for i in range(n + 1):

@@ -118,7 +118,7 @@ def _cost(results: Results) -> str:
         "jacobian_calls": "Jacobians",
         "events": "events",
     }
-    known = results.statistics
+    known = {k: v for k, v in results.statistics.items() if isinstance(v, int | float)}
     parts = [f"{int(known[key])} {word}" for key, word in names.items() if known.get(key)]
     if "wall_time" in known:
         wall = float(known["wall_time"])
@@ -132,7 +132,7 @@ def _extrema(results: Results, name: str) -> str:
     values = channel.to_numpy()
     if not len(values):
         return "no samples"
-    factor, unit = displayed(str(channel.attrs["unit"]))
+    factor, unit = displayed(str(channel.attrs.get("unit", "")))
     low, high = (
         f"{factor * values[i]:8.3f} {unit} at {results.time[i]:.2f} s"
         for i in (int(np.argmin(values)), int(np.argmax(values)))

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.damaged import opened
 from hydrodae.errors import HydrodaeError
 
 if TYPE_CHECKING:
@@ -87,11 +88,10 @@ class Results(Mapping[str, "xarray.DataArray"]):
         self.path = _find(Path(path))
         self._owner = owner
         self._read: dict[str, xarray.DataArray] = {}
-        try:
-            with h5py.File(self.path, "r") as file:
-                self._read_header(file)
-        except OSError as error:
-            raise ResultsError(f"{self.path}: not a readable HDF5 file ({error})") from error
+        if not self.path.is_file():
+            raise ResultsError(f"{self.path}: no such results file")
+        with opened(self.path, ResultsError, "not a readable results file", search=True) as file:
+            self._read_header(file)
         self._identity = _identity(self.path)
 
     @classmethod
@@ -111,18 +111,24 @@ class Results(Mapping[str, "xarray.DataArray"]):
                 f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
             )
         self._header = {name: _plain(value) for name, value in file.attrs.items()}
+        if not isinstance(self._header.get("status"), str):
+            raise ResultsError(f"{self.path}: damaged: it has no status")
         solver = file.get("solver")
         self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
         lengths: dict[str, int] = {}
 
-        def note(name: str, node: h5py.Group | h5py.Dataset) -> None:
+        def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
+            if not isinstance(name, str):
+                raise TypeError(f"the name {name!r} is no text")
             if isinstance(node, h5py.Dataset):
-                lengths[name] = len(node)
+                lengths[name] = len(node) if node.ndim else 0
 
         file.visititems(note)
+        if "time" not in lengths or file["time"].ndim != 1:
+            raise ResultsError(f"{self.path}: damaged: it has no list of times")
         # A run that was killed may have died between two channels: keep the samples that all have.
         samples = min(lengths.values()) if self.status == "running" else lengths["time"]
-        self._time: NDArray[np.float64] = file["time"][:samples]
+        self._time: NDArray[np.float64] = _real(file["time"][:samples])
         self._names = tuple(name for name in lengths if name != "time")
 
     def __getitem__(self, name: str) -> xarray.DataArray:
@@ -228,8 +234,9 @@ class Results(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: the file has changed since it was opened; read it again"
             )
-        with h5py.File(self.path, "r") as file:
-            values = file[name][: len(self._time)]
+        damaged = f"channel {name} is damaged"
+        with opened(self.path, ResultsError, damaged) as file:
+            values = _real(file[name][: len(self._time)])
             attributes = {key: _plain(value) for key, value in file[name].attrs.items()}
         dims: list[str] = ["time"]
         coords: dict[str, Any] = {"time": self._time_coordinate()}
@@ -286,6 +293,14 @@ def _plain(value: Any) -> Any:
     if isinstance(value, bytes):
         return value.decode()
     return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _real(values: Any) -> NDArray[np.float64]:
+    """Values as they are written: real numbers."""
+    found = np.asarray(values)
+    if found.dtype.kind not in "fiu":
+        raise TypeError(f"expected numbers, found {found.dtype}")
+    return found.astype(float)
 
 
 def _identity(path: Path) -> tuple[int, int, int]:

@@ -2,15 +2,12 @@
 
     .venv/bin/python tests/benchmark/multibody.py [--method METHOD] [NAME ...]
 
-Makes the figures of cases/benchmarks/README.md. Needs the reference solutions ($HYDRODAE_REFERENCE
-or shared/reference beside the repository).
+Makes the figures of cases/benchmarks/README.md.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import os
 import sys
 from pathlib import Path
 
@@ -18,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.verification.multibody import PROBLEMS  # noqa: E402
+from tests.verification.truths import make as truths  # noqa: E402
 
 import hydrodae  # noqa: E402
 
@@ -25,14 +23,12 @@ TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11)
 
 
 def main() -> None:
-    folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
     parser = argparse.ArgumentParser(description="Errors and times over a ladder of tolerances.")
     parser.add_argument("--method", default="ida")
     parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
     for name in arguments.names or PROBLEMS:
-        file = folder / "multibody" / f"{name}.json"  # heavy_top has a definition only
-        document = json.loads(file.read_text()) if file.exists() else {}
+        document = truths.read(name) if name in truths.PROBLEMS else {}  # others are solved here
         print(name)
         for rtol in TOLERANCES:
             case = ROOT / "cases" / "benchmarks" / f"{name}.toml"

@@ -2,8 +2,8 @@
 
     .venv/bin/python tests/benchmark/peers.py [--repeats 3] [NAME ...]
 
-Error: largest deviation of one quantity of the mechanism from the reference solution over all
-output times, the same quantity and times for both. Time, best of the repeats: for hydrodae the wall
+Error: largest deviation of one quantity of the mechanism from its exact motion over all output
+times, the same quantity and times for both. Time, best of the repeats: for hydrodae the wall
 time of the integrator with residuals and Jacobians (statistics solver_time), in brackets with all
 that follows the steps (samples of all channels, energy balance, guards, writing the results); for
 Exudyn the processor time of SolveDynamic, which keeps the one quantity in memory and writes no
@@ -13,16 +13,13 @@ building and assembling the models is in neither.
 Exudyn runs with its fast build and with the settings of peer_problems.py, hydrodae the case as it
 is with a ladder of methods and tolerances. The ratio of a row is Exudyn's time over that of the
 fastest run of hydrodae with an error no larger. The table at the end holds, of each problem, the
-cheapest run of Exudyn that meets the criterion. Needs the reference solutions
-($HYDRODAE_REFERENCE or shared/reference beside the repository). Gates nothing.
+cheapest run of Exudyn that meets the criterion. Gates nothing.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import math
-import os
 import sys
 import tomllib
 from collections.abc import Callable
@@ -38,6 +35,7 @@ sys.path.insert(0, str(ROOT))
 
 from tests.benchmark.peer_problems import ALPHA, PROBLEMS, TRAPEZOIDAL, Problem, Setting  # noqa: E402
 from tests.verification import multibody  # noqa: E402
+from tests.verification.truths import make as truths  # noqa: E402
 
 import hydrodae  # noqa: E402
 
@@ -96,12 +94,11 @@ def case_of(name: str) -> Path:
     return ROOT / "cases" / "benchmarks" / f"{name}.toml"
 
 
-def reference_of(name: str, folder: Path, end_time: float | None) -> Reference:
+def reference_of(name: str, end_time: float | None) -> Reference:
     """The document, its rows to the end time; empty where the truth is computed."""
-    file = folder / "multibody" / f"{name}.json"
-    if name in ("heavy_top", "flyball_governor"):
+    if name not in truths.PROBLEMS:
         return {}
-    reference: Reference = json.loads(file.read_text())
+    reference = truths.read(name)
     if end_time:
         time = reference["columns"].index("t")
         reference["rows"] = [row for row in reference["rows"] if row[time] < end_time + 1e-9]
@@ -234,8 +231,6 @@ def main() -> None:
     options = parser.parse_args()
     if unknown := [name for name in options.names if name not in PROBLEMS]:
         parser.error(f"no problem {', '.join(unknown)}: {', '.join(PROBLEMS)}")
-    folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-    folder = folder.resolve()
     try:
         from tests.benchmark import exudyn_models
     except ModuleNotFoundError as missing:
@@ -250,7 +245,7 @@ def main() -> None:
     found: dict[str, list[Pair]] = {}
     for name in options.names or PROBLEMS:
         problem = PROBLEMS[name]
-        reference = reference_of(name, folder, problem.end_time)
+        reference = reference_of(name, problem.end_time)
         print(f"\n{name}: criterion {problem.criterion:.0e} {problem.unit}")
         own = ours(name, problem, reference, options.repeats)
         meet = [row for row in own if row.error <= problem.criterion]

@@ -156,7 +156,7 @@ def test_bad_files(tmp_path, results_writer):
         Results.read(tmp_path / "none.h5")
     text = tmp_path / "text.h5"
     text.write_text("hello")
-    with pytest.raises(ResultsError, match="not a readable HDF5 file"):
+    with pytest.raises(ResultsError, match="not a readable results file"):
         Results.read(text)
     with h5py.File(tmp_path / "other.h5", "w"):
         pass

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.verification.truths import make as truths
 
 from hydrodae import cli
 from hydrodae.stability import Cell, Scene, all_methods, all_scenes, run_cell, show, stability_map
@@ -21,7 +22,7 @@ SCENES, METHODS = all_scenes(), all_methods()
 SHORT = ("ida:1e-6", "ida:1e-3", "radau:1e-6", "radau:1e-3", "explicit_rk:1e-6")
 REST = tuple(name for name in METHODS if name not in SHORT)
 
-# File of the full reference of a truth, and its columns in our axes.
+# File of the same motion in tests/verification/truths, and its columns in our axes.
 REFERENCES: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "pendulum": ("simple_pendulum", ("x", "y")),
     "four_bar": ("n_four_bar_2", ("B0x", "B0y")),
@@ -138,9 +139,9 @@ def test_the_allowance_follows_tolerance_and_step() -> None:
 
 
 @pytest.mark.parametrize("name", REFERENCES)
-def test_the_truths_agree_with_the_references(name: str, reference: Path) -> None:
+def test_the_truths_agree_with_those_of_the_benchmarks(name: str) -> None:
     file, columns = REFERENCES[name]
-    document = json.loads((reference / "multibody" / f"{file}.json").read_text(encoding="utf-8"))
+    document = truths.read(file)
     rows = np.array(document["rows"], dtype=float)
     time = rows[:, document["columns"].index("t")]
     exact = rows[:, [document["columns"].index(c) for c in columns]]

@@ -1,7 +1,7 @@
-"""Errors of the multibody benchmark cases against the reference solutions.
+"""Errors of the multibody benchmark cases against exact motions.
 
 Each function takes results (or any mapping from channel name to an array with `.values`) and the
-document of the reference, and returns the errors by name.
+document of the motion (tests/verification/truths), and returns the errors by name.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/io/hdf5_collections.h"
 
 namespace hydrodae::io::hdf5 {
 namespace {
@@ -74,6 +75,7 @@ Input::Input(const std::string& path) : path_(path) {
     throw CaseError(path + ": no such file");
   if (H5Fis_hdf5(path.c_str()) <= 0)
     throw CaseError(path + ": not an HDF5 file");
+  check_collections(path);
   file_ = checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                   path + ": cannot be opened");
 }

@@ -301,8 +301,8 @@ bool drop_redundant_rows(System& s) {
     return false;
   std::vector<std::string> dropped;
   for_each_row(s, [&](Index& lambda, Index& mu, bool velocity_level) {
-    if (std::binary_search(best.begin(), best.end(), lambda - s.lambda0))
-      return;
+    if (lambda == redundant || std::binary_search(best.begin(), best.end(), lambda - s.lambda0))
+      return; // a switch that is open has no row now
     dropped.push_back(s.row_names[velocity_level ? lambda : mu]);
     lambda = mu = redundant;
   });

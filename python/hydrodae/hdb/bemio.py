@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
@@ -48,7 +49,7 @@ def read_bemio(path: Path) -> SourceData:
     DatabaseError
         Something is missing or has an unexpected shape; the message names file and dataset.
     """
-    with h5py.File(path, "r") as f:
+    with opened(path, DatabaseError, "incomplete or damaged") as f:
         return _read(path, f)
 
 

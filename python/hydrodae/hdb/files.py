@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import h5py
 import numpy as np
 
+from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.database import Body, HydroDatabase
@@ -31,6 +32,9 @@ UNITS = {
     "added_mass_inf_std": "kg, kg m, kg m2",
     "heading": "rad",
 }
+#: Attributes of fits and kernels that are shown, and how many numbers each has.
+SHOWN = {"band": 2, "h_error_band": 1, "rest": 1, "min_eig_relative": 1, "n_states": 1}
+DAMAGED = "incomplete or damaged"
 ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
 
@@ -38,13 +42,13 @@ def is_hydro_file(path: Path) -> bool:
     """Tell whether a file is a `hydro.h5` (by its root attribute)."""
     if not h5py.is_hdf5(path):
         return False
-    with h5py.File(path, "r") as f:
+    with opened(path, DatabaseError, DAMAGED, search=True) as f:
         return bool(_text(f.attrs.get("format", "")) == FORMAT)
 
 
 def is_single(path: str | Path) -> bool:
     """Tell whether a `hydro.h5` stores its tables in single precision."""
-    with h5py.File(path, "r") as f:
+    with opened(Path(path), DatabaseError, DAMAGED) as f:
         return bool(f["added_mass"].dtype == np.float32)
 
 
@@ -97,7 +101,7 @@ def read(path: str | Path) -> HydroDatabase:
         raise DatabaseError(f"{source}: no such file")
     if not h5py.is_hdf5(source):
         raise DatabaseError(f"{source}: not an HDF5 file")
-    with h5py.File(source, "r") as f:
+    with opened(source, DatabaseError, DAMAGED, search=True) as f:
         if _text(f.attrs.get("format", "")) != FORMAT:
             raise DatabaseError(
                 f"{source}: not a {FORMAT} file; make one with 'hydrodae hdb import'"
@@ -105,10 +109,7 @@ def read(path: str | Path) -> HydroDatabase:
         if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
             raise DatabaseError(f"{source}: written by a newer hydrodae (format_version)")
         _refuse_oversized(source, f)
-        try:
-            return _read(f)
-        except KeyError as error:
-            raise DatabaseError(f"{source}: incomplete: {error.args[0]}") from error
+        return _read(f)
 
 
 def _refuse_oversized(source: Path, f: h5py.File) -> None:
@@ -159,12 +160,12 @@ def _write_kernel(group: h5py.Group, kernel: RadiationKernel, real: type) -> Non
 
 def _read_kernel(group: h5py.Group) -> RadiationKernel:
     return RadiationKernel(
-        time=group["time"][()].astype(float),
-        values=group["kernel"][()].astype(float),
+        time=_numbers(group, "time"),
+        values=_numbers(group, "kernel"),
         inputs=_read_labels(group["inputs"]),
         outputs=_read_labels(group["outputs"]),
-        added_mass_inf=group["added_mass_inf"][()].astype(float),
-        report={key: _plain(value) for key, value in group.attrs.items()},
+        added_mass_inf=_numbers(group, "added_mass_inf"),
+        report=_report(group),
     )
 
 
@@ -196,11 +197,11 @@ def _read(f: h5py.File) -> HydroDatabase:
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
     texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
-    values: dict[str, Any] = {name: f[name][()].astype(float) for name in UNITS}
+    values: dict[str, Any] = {name: _numbers(f, name) for name in UNITS}
     return HydroDatabase(
         coordinates=coordinates,
-        froude_krylov=f["excitation/froude_krylov"][()],
-        diffraction=f["excitation/diffraction"][()],
+        froude_krylov=_numbers(f, "excitation/froude_krylov", complex),
+        diffraction=_numbers(f, "excitation/diffraction", complex),
         excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
         bodies=_read_bodies(f, co.bodies_of(coordinates)),
         rho=float(f.attrs["rho"]),
@@ -234,16 +235,15 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
 def _read_fit(name: str, group: h5py.Group) -> ExponentialMemory:
     from hydrodae.memory import ExponentialMemory
 
-    report = {key: _plain(value) for key, value in group.attrs.items()}
     return ExponentialMemory(
         name=name,
         inputs=_read_labels(group["inputs"]),
         outputs=_read_labels(group["outputs"]),
-        poles=group["poles"][()],
-        input_matrix=group["input_matrix"][()],
-        output_matrix=group["output_matrix"][()],
-        added_mass_inf=group["added_mass_inf"][()],
-        report=report,
+        poles=_numbers(group, "poles", complex),
+        input_matrix=_numbers(group, "input_matrix", complex),
+        output_matrix=_numbers(group, "output_matrix", complex),
+        added_mass_inf=_numbers(group, "added_mass_inf"),
+        report=_report(group),
     )
 
 
@@ -258,6 +258,31 @@ def _labels(labels: Iterable[str]) -> np.ndarray[Any, Any]:
     if long:
         raise DatabaseError(f"label {long[0]!r} is longer than 32 characters: rename the body")
     return np.array(labels, dtype="S32")
+
+
+def _numbers(group: h5py.Group, name: str, kind: type = float) -> np.ndarray[Any, Any]:
+    """Finite numbers of a dataset, as float or complex."""
+    values = np.asarray(group[name][()])
+    where = f"{group.file.filename}: {group.name.rstrip('/')}/{name}"
+    if values.dtype.kind not in ("fiu" if kind is float else "fiuc"):
+        raise DatabaseError(f"{where}: expected numbers, found {values.dtype}")
+    if not np.all(np.isfinite(values)):
+        raise DatabaseError(f"{where}: holds values that are not finite")
+    return values.astype(kind)
+
+
+def _report(group: h5py.Group) -> dict[str, Any]:
+    """How a fit or a kernel was made; what is shown as numbers must be numbers."""
+    report = {key: _plain(value) for key, value in group.attrs.items()}
+    for key, count in SHOWN.items():
+        value = report.get(key, (0.0,) * count)
+        values = value if isinstance(value, tuple) else (value,)
+        if len(values) != count or not all(isinstance(v, int | float) for v in values):
+            raise DatabaseError(
+                f"{group.file.filename}: {group.name}: attribute {key} is {value!r}, expected "
+                f"{count} number{'s' if count > 1 else ''}"
+            )
+    return report
 
 
 def _read_labels(dataset: h5py.Dataset) -> tuple[str, ...]:

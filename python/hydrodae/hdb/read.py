@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 from numpy.typing import ArrayLike
 
+from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import files
 from hydrodae.hdb.bemio import is_bemio_file, read_bemio
@@ -51,7 +52,7 @@ def kind(source: str | Path) -> str:
     if h5py.is_hdf5(path):
         if files.is_hydro_file(path):
             return "hydro"
-        with h5py.File(path, "r") as f:
+        with opened(path, DatabaseError, "not a readable HDF5 file") as f:
             if "added_mass" in f and "radiating_dof" in f:
                 return "capytaine"
             if is_bemio_file(f):

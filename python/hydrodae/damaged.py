@@ -1,0 +1,81 @@
+"""Damaged files: one error instead of what h5py and NumPy make of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import h5py
+
+from hydrodae.errors import HydrodaeError
+
+#: Start of a collection of texts of variable length: HDF5 File Format Specification, III.E.
+_COLLECTION = re.compile(rb"GCOL\x01\0\0\0(.{8})", re.DOTALL)
+_HEADER = 16  # bytes, of a collection and of an object in it
+_PART = 16 << 20  # bytes at either end of a file, where texts are written
+
+
+def _damaged_texts(path: Path) -> int | None:
+    """Place of a collection whose objects do not follow each other up to its end."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        for start in sorted({0, max(0, size - _PART)}):
+            file.seek(start)
+            part = file.read(_PART)
+            for found in _COLLECTION.finditer(part):
+                length = int.from_bytes(found[1], "little")
+                if length < _HEADER or start + found.start() + length > size:
+                    return start + found.start()
+                objects = part[found.start() + _HEADER : found.start() + length]
+                if len(objects) == length - _HEADER and not _sound(objects):
+                    return start + found.start()
+    return None
+
+
+def _sound(objects: bytes) -> bool:
+    at, end = 0, len(objects)
+    while end - at >= _HEADER:
+        index = int.from_bytes(objects[at : at + 2], "little")
+        length = int.from_bytes(objects[at + 8 : at + _HEADER], "little")
+        # index 0 is the free space, header included; others are padded to eight bytes
+        taken = length if index == 0 else _HEADER + (length + 7) // 8 * 8
+        if not _HEADER <= taken <= end - at:
+            return False
+        at += taken
+    return True
+
+
+@contextmanager
+def opened(
+    path: Path, error: type[HydrodaeError], what: str, *, search: bool = False
+) -> Iterator[h5py.File]:
+    """Open an HDF5 file for reading.
+
+    Parameters
+    ----------
+    path : Path
+        An existing file.
+    error : type
+        Raised for everything that its contents make impossible: it is cut off, bytes have changed,
+        a dataset has another shape or type, something is missing.
+    what : str
+        Said of the file then, for example "not a readable results file".
+    search : bool
+        Search it for what the HDF5 library would read for ever.
+    """
+    if search and (at := _damaged_texts(path)) is not None:
+        raise error(f"{path}: {what}: a collection of texts at byte {at} is damaged")
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except HydrodaeError:
+        raise
+    except (
+        *(ArithmeticError, AttributeError, LookupError, MemoryError),
+        *(OSError, RuntimeError, TypeError, ValueError),
+    ) as cause:
+        # str() of a KeyError is its text in quotes
+        text = cause.args[0] if isinstance(cause, KeyError) and cause.args else cause
+        raise error(f"{path}: {what}: {text or type(cause).__name__}") from cause
