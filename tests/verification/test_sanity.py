@@ -224,6 +224,101 @@ def test_a_joint_far_from_its_body(repository: Path) -> None:
     assert any("joint 'hinge'" in note for note in run_notes(case))
 
 
+def test_a_point_that_is_not_in_world_axes_is_worth_a_look(repository: Path) -> None:
+    case = flap(repository, point="[12.5, 0.0, -9.0]")
+    assert "look at: joint 'hinge' is 25.2 m from the centre of gravity" in case.examine()
+    assert not any("joint 'hinge'" in note for note in run_notes(case))
+
+
+def test_below_the_sea_bed() -> None:
+    text = """
+[environment]
+water_density = 1025.0
+water_depth = 10.0
+[[body]]
+name = "anchor"
+motion = "heave"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, -20.0]
+[[morison]]
+name = "leg"
+body = "anchor"
+point_a = [0, 0, -4]
+point_b = [0, 0, 0]
+diameter = 0.2
+drag_coefficient = 1.0
+added_mass_coefficient = 1.0
+segments = 3
+[solver]
+end_time = 1.0
+"""
+    (found,) = complaints(hydrodae.Case.from_text(text))
+    assert "body 'anchor' is at z = -20 m, below the sea bed at -10 m" in found
+
+
+def test_a_take_off_at_a_dead_point_is_not_locked() -> None:
+    """Two equal bars in line: the slide of a crank does not move there, but beside it."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "crank"
+motion = "planar"
+mass = 1.0
+center_of_gravity = [0.5, 0, 0]
+inertia = [0.1, 0.1, 0.1]
+initial.angular_velocity = [0, 1, 0]
+initial.velocity = [0, 0, -0.5]
+[[body]]
+name = "rod"
+motion = "planar"
+mass = 1.0
+center_of_gravity = [2.0, 0, 0]
+inertia = [0.4, 0.4, 0.4]
+[[body]]
+name = "piston"
+motion = "surge"
+mass = 1.0
+center_of_gravity = [3.0, 0, 0]
+[[joint]]
+name = "main"
+type = "revolute"
+body_a = "ground"
+body_b = "crank"
+point = [0, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "pin"
+type = "revolute"
+body_a = "crank"
+body_b = "rod"
+point = [1, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "wrist"
+type = "revolute"
+body_a = "piston"
+body_b = "rod"
+point = [3, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "piston"
+point = [3, 0, 0]
+axis = [1, 0, 0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+damping = 1.0
+[solver]
+end_time = 1.0
+"""
+    assert complaints(hydrodae.Case.from_text(text)) == []
+
+
 def test_a_take_off_along_a_locked_motion(repository: Path) -> None:
     pto = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
     fixed = """

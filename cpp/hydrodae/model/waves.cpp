@@ -44,8 +44,9 @@ std::vector<sea::Component> spectral(const Scene& scene, const sea::Wave& wave, 
   sea::Band covered;
   if (wave.type != "regular" && scene.database && scene.database->omega.size() > 0)
     covered = {scene.database->omega[0], scene.database->omega[scene.database->omega.size() - 1]};
-  const double lost =
-      wave.type == "regular" ? 0.0 : sea::lost_variance(wave, water.gravity, covered);
+  double lost = 0.0;
+  std::vector<sea::Component> out =
+      sea::components(wave, water.depth, water.gravity, note, covered, &lost);
   const double allowed = wave.lost_variance.value_or(0.1);
   const std::string table =
       "the database, " + number_text(covered.low) + " to " + number_text(covered.high) + " rad/s";
@@ -56,8 +57,6 @@ std::vector<sea::Component> spectral(const Scene& scene, const sea::Wave& wave, 
                          ", more than lost_variance = " + number_text(allowed) +
                          " allows; a database of more frequencies, or another "
                          "'frequency_range' or 'lost_variance'");
-  std::vector<sea::Component> out =
-      sea::components(wave, water.depth, water.gravity, note, covered);
   if (note && lost > 0.0)
     *note += "; " + part + " lies outside " + table + ", and is left out";
   return out;

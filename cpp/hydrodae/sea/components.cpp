@@ -56,9 +56,8 @@ Cut usual_cut(const Wave& wave, const Spectrum& s) {
   return {cut_below * s.m0, (1.0 - cut_above) * s.m0};
 }
 
-/// The usual cut, and a range that nobody gave no wider than what is covered.
-Cut cut_to(const Wave& wave, const Spectrum& s, const Band& covered) {
-  Cut cut = usual_cut(wave, s);
+/// A cut, and a range that nobody gave no wider than what is covered.
+Cut cut_to(const Wave& wave, Cut cut, const Spectrum& s, const Band& covered) {
   if (!wave.frequency_range.empty())
     return cut;
   if (covered.low > s.omega.front())
@@ -71,14 +70,8 @@ Cut cut_to(const Wave& wave, const Spectrum& s, const Band& covered) {
 
 } // namespace
 
-double lost_variance(const Wave& wave, double gravity, const Band& covered) {
-  const Spectrum s = spectrum(wave, gravity);
-  const Cut usual = usual_cut(wave, s), cut = cut_to(wave, s, covered);
-  return s.m0 > 0.0 ? (usual.high - usual.low - (cut.high - cut.low)) / s.m0 : 0.0;
-}
-
 std::vector<Component> components(const Wave& wave, double depth, double gravity, std::string* note,
-                                  const Band& covered) {
+                                  const Band& covered, double* lost) {
   if (wave.type == "regular") {
     const double w = 2.0 * pi / *wave.period;
     return {{w, wavenumber(w, depth, gravity), wave.heading, 0.5 * *wave.height, wave.phase}};
@@ -86,7 +79,10 @@ std::vector<Component> components(const Wave& wave, double depth, double gravity
   const Spectrum s = spectrum(wave, gravity);
   if (!(s.m0 > 0.0))
     return {};
-  const auto [low, high] = cut_to(wave, s, covered);
+  const Cut usual = usual_cut(wave, s), cut = cut_to(wave, usual, s, covered);
+  const double low = cut.low, high = cut.high;
+  if (lost)
+    *lost = (usual.high - usual.low - (high - low)) / s.m0;
   const double w_low = s.frequency_at(low), w_high = s.frequency_at(high);
   Random random(static_cast<std::uint64_t>(wave.seed));
   std::vector<Component> out;

@@ -31,11 +31,11 @@ struct Band {
 /// @param depth, gravity [m], [m/s2]
 /// @param note if not null, gets a sentence on what part of the energy the components hold
 /// @param covered an irregular wave without a frequency range of its own is cut to these [rad/s]
+/// @param lost if not null, gets the part of the variance that this cut leaves out, beyond what is
+/// left out without it [-]
 std::vector<Component> components(const Wave& wave, double depth, double gravity,
-                                  std::string* note = nullptr, const Band& covered = {});
-
-/// Part of the variance that such a cut leaves out, beyond what is left out without it [-].
-double lost_variance(const Wave& wave, double gravity, const Band& covered);
+                                  std::string* note = nullptr, const Band& covered = {},
+                                  double* lost = nullptr);
 
 /// Growth of the waves at the start: 0 for t <= 0, 1 for t >= duration, between them the polynomial
 /// of degree 7 with three vanishing derivatives at both ends. Without duration 1 at all times.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
@@ -15,7 +16,7 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double far = 8.0, very_far = 30.0; ///< distance of a joint, in sizes of the body
+constexpr double far = 3.0, very_far = 10.0; ///< distance of a joint, in sizes of the body
 
 std::string rounded(double value) {
   if (value == 0.0)
@@ -76,7 +77,7 @@ void judge_joints(const model::Scene& scene, const System& s, std::vector<Findin
       const auto body = static_cast<std::size_t>(marker->body);
       const double size = size_of(scene, s, body), away = distance(j, *marker);
       if (size > 0.0 && away > far * size)
-        out.push_back({away > very_far * size,
+        out.push_back({scene.bodies[body].hydro && away > very_far * size,
                        "joint " + in_quotes(j.name) + " is " + rounded(away) +
                            " m from the centre of gravity of body " +
                            in_quotes(s.bodies[body].name) + ", " + rounded(away / size) +
@@ -102,49 +103,53 @@ void judge_depth(const model::Scene& scene, std::vector<Finding>& out) {
       judge("the point of joint " + in_quotes(joint.name), joint.point[2] + 1e-9 * depth);
 }
 
-/// Gradient of a motion by the free velocities, each in units of its scale.
-VectorX motion_gradient(const System& s, const Workspace<double>& ws, int motion,
-                        const VectorX& scale) {
+/// Rate of a motion at velocities u (n_u,), and the largest that velocities of that size can give.
+std::pair<double, double> motion_rate(const System& s, const Workspace<double>& ws, int motion,
+                                      const VectorX& u) {
   const JointData& j =
       s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)];
   const joint::Vector12 gradient = motion_row<double>(s, ws, motion).gradient;
-  VectorX out = VectorX::Zero(s.n_u);
+  double rate = 0.0, most = 0.0;
   for (int side = 0; side < 2; ++side) {
     const int body = side == 0 ? j.A.body : j.B.body;
     if (body < 0)
       continue;
     const BodyData& b = s.bodies[static_cast<std::size_t>(body)];
-    for (int k = 0; k < b.n_active; ++k)
-      out[b.u0 - s.u0 + k] += gradient[6 * side + b.active[static_cast<std::size_t>(k)]];
+    for (int k = 0; k < b.n_active; ++k) {
+      const double part =
+          gradient[6 * side + b.active[static_cast<std::size_t>(k)]] * u[b.u0 - s.u0 + k];
+      rate += part;
+      most += std::abs(part);
+    }
   }
-  return out.cwiseProduct(scale);
+  return {rate, most};
 }
 
-/// Is the motion a sum of constraint rows, none of which a drive moves? Then it cannot change.
-bool is_locked(const System& s, const VectorX& y, int motion) {
-  Workspace<double> ws(s);
-  const VectorX rest = VectorX::Zero(s.n);
-  unpack<double>(s, y.data(), rest.data(), ws.bodies);
-  const VectorX wanted = motion_gradient(s, ws, motion, displacement_scale(s));
-  if (wanted.norm() < 1e-12)
-    return true;
+/// Random velocities that the constraints let pass, those that a drive moves too: a random vector
+/// less its part in the rows of the constraints. In units of the scales.
+VectorX allowed_velocities(const System& s, const VectorX& y, std::mt19937& random) {
+  VectorX u(s.n_u);
+  for (Index k = 0; k < s.n_u; ++k)
+    u[k] = 2.0 * (random() / 4294967296.0) - 1.0;
   if (s.n_lambda == 0)
-    return false;
-  const SparseMatrix rows = SparseMatrix(constraint_gradient(s, y).transpose());
-  const VectorX parts = smallest_solution(rows, wanted);
-  if ((rows * parts - wanted).norm() > 1e-7 * wanted.norm())
-    return false;
-  return std::none_of(s.couplers.begin(), s.couplers.end(), [&](const CouplerData& c) {
+    return u;
+  VectorX acts = VectorX::Ones(s.n_lambda);
+  for (const CouplerData& c : s.couplers) {
     const bool steady =
         c.drive.rate == 0.0 && c.drive.amplitude == 0.0 && c.drive.time.empty() && !c.drive.python;
-    return c.kept() && !steady && std::abs(parts[c.lambda - s.lambda0]) > 1e-7;
-  });
+    if (c.kept() && !steady)
+      acts[c.lambda - s.lambda0] = 0.0;
+  }
+  SparseMatrix rows = acts.asDiagonal() * constraint_gradient(s, y);
+  rows.prune(0.0);
+  for (int pass = 0; pass < 2; ++pass) // the second removes what the first leaves by rounding
+    u -= smallest_solution(rows, rows * u);
+  return u;
 }
 
 /// A pose beside the start that keeps the constraints, to tell a lock from a dead point.
-VectorX pose_beside(const System& s) {
+VectorX pose_beside(const System& s, std::mt19937& random) {
   const VectorX start = initial_state(s), scale = displacement_scale(s);
-  std::mt19937 random(5);
   VectorX y = start, step(s.n_u);
   for (Index k = 0; k < s.n_u; ++k)
     step[k] = 0.5 * (2.0 * (random() / 4294967296.0) - 1.0) * scale[k];
@@ -152,20 +157,39 @@ VectorX pose_beside(const System& s) {
   return close(s, y) ? y : start;
 }
 
+/// Forces along motions that cannot change, neither at the start nor beside it.
 void judge_forces(const System& s, std::vector<Finding>& out) {
-  std::vector<VectorX> poses;
+  std::vector<std::string> names;
+  for_each_element(s.motion_forces, [&](const auto& f) { names.push_back(f.component); });
+  if (names.empty())
+    return;
+  std::mt19937 random(5);
+  const VectorX scale = displacement_scale(s), rest = VectorX::Zero(s.n);
+  std::vector<bool> moves(names.size(), false);
+  for (const VectorX& y : {VectorX(initial_state(s)), pose_beside(s, random)}) {
+    const VectorX u = allowed_velocities(s, y, random);
+    Workspace<double> ws(s);
+    unpack<double>(s, y.data(), rest.data(), ws.bodies);
+    // What one unit of the scales gives tells which rates count.
+    std::size_t k = 0;
+    for_each_element(s.motion_forces, [&](const auto& f) {
+      const double rate = motion_rate(s, ws, f.motion, u.cwiseProduct(scale)).first;
+      const double most = motion_rate(s, ws, f.motion, scale).second;
+      moves[k] = moves[k] || std::abs(rate) > 1e-7 * most;
+      ++k;
+    });
+  }
+  std::size_t k = 0;
   for_each_element(s.motion_forces, [&](const auto& f) {
+    if (moves[k++])
+      return;
     const MotionData& motion = s.motions[static_cast<std::size_t>(f.motion)];
     const JointData& j = s.joints[static_cast<std::size_t>(motion.joint)];
-    if (poses.empty())
-      poses = {initial_state(s), pose_beside(s)};
-    const auto locked = [&](const VectorX& y) { return is_locked(s, y, f.motion); };
-    if (std::all_of(poses.begin(), poses.end(), locked))
-      out.push_back(
-          {true, "force " + in_quotes(f.component) + " acts along " +
-                     (j.hidden ? "a distance" : motion.name + " of joint " + in_quotes(j.name)) +
-                     ", which cannot change: the bodies' motion or other joints lock "
-                     "it, and the force does no work"});
+    out.push_back(
+        {true, "force " + in_quotes(f.component) + " acts along " +
+                   (j.hidden ? "a distance" : motion.name + " of joint " + in_quotes(j.name)) +
+                   ", which cannot change: the bodies' motion or other joints lock it, "
+                   "and the force does no work"});
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/scene.h"
@@ -43,15 +44,27 @@ void judge_regular(const sea::Wave& wave, const model::Water& water, std::vector
     out.push_back({false, text + "linear theory is meant for less than " + rounded(linear)});
 }
 
+/// Significant height and peak period of a spectrum [m], [s].
+std::pair<double, double> height_and_period(const sea::Wave& wave, double gravity) {
+  if (wave.type != "table")
+    return {*wave.significant_height, 2.0 * pi / sea::peak_frequency(wave, gravity)};
+  double m0 = 0.0;
+  std::size_t peak = 0;
+  for (std::size_t k = 1; k < wave.frequency.size(); ++k) {
+    m0 +=
+        0.5 * (wave.density[k] + wave.density[k - 1]) * (wave.frequency[k] - wave.frequency[k - 1]);
+    if (wave.density[k] > wave.density[peak])
+      peak = k;
+  }
+  return {4.0 * std::sqrt(m0), 2.0 * pi / wave.frequency[peak]};
+}
+
 /// @returns the significant height [m]
 double judge_irregular(const sea::Wave& wave, const model::Water& water,
                        std::vector<Finding>& out) {
-  const sea::Spectrum s = sea::spectrum(wave, water.gravity);
-  const double height = 4.0 * std::sqrt(s.m0);
+  const auto [height, period] = height_and_period(wave, water.gravity);
   if (!(height > 0.0))
     return 0.0;
-  const auto peak = std::max_element(s.density.begin(), s.density.end()) - s.density.begin();
-  const double period = 2.0 * pi / s.omega[static_cast<std::size_t>(peak)];
   const double steepness = height / (water.gravity * period * period / (2.0 * pi));
   if (steepness > steepest_sea(period))
     out.push_back({true, "wave " + in_quotes(wave.name) + ": significant height " +
