@@ -173,6 +173,24 @@ void add_water(const System& s, system::Workspace<double>& ws, LinearModel& out)
              : " has in the linear model only the slope that the current gives it"));
 }
 
+/// What limits or damps large motions has no part in a linear model.
+void note_nonlinear(const System& s, LinearModel& out) {
+  std::vector<std::string> stops, damped;
+  for (const system::SwitchData& element : s.switches)
+    if (element.kind == system::SwitchData::Kind::stop && !element.holds())
+      stops.push_back(s.couplers[static_cast<std::size_t>(element.coupler)].name);
+  if (!stops.empty())
+    out.notes.push_back("stops and one-sided joints are open in the linear model: " +
+                        joined(stops));
+  for (const auto& f : std::get<1>(s.body_forces))
+    if (!f.law.quadratic.isZero(0.0))
+      damped.push_back(f.component);
+  if (!damped.empty())
+    out.notes.push_back("quadratic viscous_damping is zero in the linear model (it has no slope at "
+                        "rest): " +
+                        joined(damped));
+}
+
 } // namespace
 
 LinearModel linearize(const model::Scene& scene) {
@@ -211,6 +229,7 @@ LinearModel linearize(const model::Scene& scene) {
   add_hydro_map(still, s, ws, out);
   add_motions(s, ws, out);
   add_water(s, ws, out);
+  note_nonlinear(s, out);
   add_reactions(s, y, out);
   return out;
 }

@@ -305,6 +305,7 @@ std::string examine(const model::Scene& scene) {
   advise_joints(out, scene);
   for (const std::string& note : s.notes)
     out << "  note: " << note << "\n";
+  write_sanity(out, scene, s);
   return out.str();
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// Parts of `examine`: what the elements of a scene cost, and which coordinates nothing moves.
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
+#include "hydrodae/model/scene.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae {
@@ -27,5 +29,9 @@ std::vector<ElementCost> element_costs(const system::System& system,
 /// reaches them. Joints or symmetry keep them at zero; a disturbance may break the symmetry.
 /// Empty where the accelerations cannot be determined.
 std::vector<bool> never_excited(const system::System& system, const system::Pattern& pattern);
+
+/// Weight and buoyancy of what floats, where it rests in still water, and what looks wrong with the
+/// scene, line by line (examine_sanity.cpp).
+void write_sanity(std::ostream& out, const model::Scene& scene, const system::System& system);
 
 } // namespace hydrodae

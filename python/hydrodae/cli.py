@@ -90,6 +90,9 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         description="Simulate wave energy converters with awkward mechanisms.",
         epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted.",
     )
+    parser.add_argument(
+        "--version", action=_PrintVersion, nargs=0, help="print the versions and exit"
+    )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
     run = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
@@ -295,14 +298,26 @@ def _plot(arguments: argparse.Namespace) -> int:
 
 
 def _version(_arguments: argparse.Namespace) -> int:
+    print(_versions())
+    return DONE
+
+
+def _versions() -> str:
     import hydrodae
     from hydrodae import _core
 
-    print(
+    return (
         f"hydrodae {hydrodae.__version__} (kernel {_core.version}, "
         f"Python {platform.python_version()})"
     )
-    return DONE
+
+
+class _PrintVersion(argparse.Action):
+    """`--version`: the kernel is loaded only if somebody asks."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
+        print(_versions())
+        parser.exit()
 
 
 def _complain(error: BaseException, code: int) -> int:

@@ -76,13 +76,14 @@ class Ladder:
         ]
         for rung in self.rungs:
             if rung.reason:
-                lines.append(f"{rung.name:12} {rung.memory:>28} {rung.reason}")
+                lines.append(f"{rung.name:12} {rung.memory:>28} did not run (see below)")
                 continue
             lines.append(
                 f"{rung.name:12} {rung.memory:>28} {1e3 * rung.time:9.2f} ms {rung.steps:7d} "
                 f"{_figure(rung.kernel_error):>11} {_figure(rung.transfer_error):>11} "
                 f"{_figure(rung.motion_error):>16}"
             )
+        lines += [f"{rung.name}: {rung.reason}" for rung in self.rungs if rung.reason]
         return "\n".join(lines)
 
 

@@ -98,14 +98,22 @@ def gather(lines: Iterable[Line]) -> list[Panel]:
 
 
 def overview(results: Results) -> list[Panel]:
-    """Panels of the standard picture: joint coordinates, motions of the bodies, energies."""
+    """Panels of the standard picture: what of it the file has.
+
+    Elevation, joint coordinates, motions of the bodies, sizes of the reactions of the joints, loads
+    of the constraints, energies.
+    """
     if not len(results.time):
         return []
     panels = [
-        Panel("joint angle", "deg", _all(results, "joints/*/angle")),
-        Panel("joint displacement", "m", _all(results, "joints/*/displacement")),
+        Panel("elevation", "m", _all(results, "sea/elevation")),
+        Panel("joint angle", "deg", _coordinates(results, "angle")),
+        Panel("joint displacement", "m", _coordinates(results, "displacement")),
         Panel("body displacement\nfrom the start", "m", _from_start(_moving(results, "position"))),
         Panel("body rotation", "deg", _moving(results, "rotation")),
+        _scaled(Panel("reaction force", "N", _sizes(results, "reaction_force"))),
+        _scaled(Panel("reaction moment", "N m", _sizes(results, "reaction_moment"))),
+        *(_scaled(panel) for panel in gather(_constraint_loads(results))),
         _energy(results),
     ]
     return [panel for panel in panels if panel.lines]
@@ -136,21 +144,60 @@ def _from_start(lines: Iterable[Line]) -> list[Line]:
     return [replace(line, values=line.values - line.values[:1]) for line in lines]
 
 
-def _energy(results: Results) -> Panel:
-    """Energies in J, kJ, MJ or GJ; the potential, and so the total, from its least value."""
-    lines = [line for line in _all(results, "energy/*") if not line.label.endswith("error")]
-    if not lines:
-        return Panel("energy", "J")
-    zero = next((line.values.min() for line in lines if line.label == "potential"), 0.0)
-    values = [
-        line.values - zero if line.label in ("potential", "total") else line.values
-        for line in lines
-    ]
-    largest = max(float(np.abs(v).max()) for v in values)
+def _coordinates(results: Results, kind: str) -> list[Line]:
+    """All joint coordinates of a kind: angle, angle_2, ... or displacement, displacement_2, ..."""
+    found = []
+    for name in results.channels(f"joints/*/{kind}*"):
+        last = name.rpartition("/")[2]
+        number = last.removeprefix(kind).removeprefix("_")
+        if number.isdecimal():
+            found += [
+                replace(line, label=f"{line.label} {number}") for line in select(results, name)
+            ]
+        elif last == kind:
+            found += select(results, name)
+    return found
+
+
+def _sizes(results: Results, quantity: str) -> list[Line]:
+    """Magnitudes of a vector of all joints that carry some of it."""
+    found = []
+    for name in results.channels(f"joints/*/{quantity}"):
+        values = np.linalg.norm(results[name].to_numpy(), axis=1)
+        if values.max() > 0.0:
+            unit = str(results[name].attrs.get("unit", "-"))
+            found.append(Line(name.split("/")[1], quantity.replace("_", " "), unit, values))
+    return found
+
+
+def _constraint_loads(results: Results) -> list[Line]:
+    """Loads of the constraints that act."""
+    lines = (select(results, name)[0] for name in results.channels("constraints/*/reaction"))
+    return [replace(line, quantity="constraint load") for line in lines if line.values.any()]
+
+
+def _scaled(panel: Panel) -> Panel:
+    """The panel in k, M or G of its unit, by its largest value."""
+    largest = max((float(np.abs(line.values).max()) for line in panel.lines), default=0.0)
     prefixes = (("G", 1e9), ("M", 1e6), ("k", 1e3))
     prefix, factor = next(((p, f) for p, f in prefixes if largest >= f), ("", 1.0))
-    unit = f"{prefix}J"
-    scaled = [
-        replace(line, unit=unit, values=v / factor) for line, v in zip(lines, values, strict=True)
+    unit = f"{prefix}{panel.unit}"
+    lines = [replace(line, unit=unit, values=line.values / factor) for line in panel.lines]
+    return Panel(panel.quantity, unit, lines, panel.note)
+
+
+def _energy(results: Results) -> Panel:
+    """Energies, and the work of each force by its name; the potential from its least value."""
+    lines = []
+    for name in results.channels("energy/*"):
+        kind, _, force = name.removeprefix("energy/").partition("/")
+        if name.endswith("error"):
+            continue
+        label = f"work of {force}" if force else kind.replace("_", " ")
+        lines.append(replace(select(results, name)[0], label=label, quantity="energy"))
+    zero = next((line.values.min() for line in lines if line.label == "potential"), 0.0)
+    lines = [
+        replace(line, values=line.values - zero) if line.label in ("potential", "total") else line
+        for line in lines
     ]
-    return Panel("energy", unit, scaled, "potential from its least")
+    return _scaled(Panel("energy", "J", lines, "potential from its least"))

@@ -140,7 +140,7 @@ def draw_comparison(
     axes.plot(ours.time, ours.values, label=label, color="black", linewidth=1.8)
     axes.set_xlim(results.time[0], end)
     axes.set_ylabel(f"{lines[0].label} {lines[0].quantity} [{lines[0].unit}]")
-    _legend(axes)
+    outside_legend(axes)
 
 
 def new_figure(
@@ -195,7 +195,7 @@ def _draw(results: Results, panels: list[Panel]) -> Figure:
         for line in panel.lines:
             axes.plot(results.time, line.values, label=line.label)
         axes.set_ylabel(panel.label)
-        _legend(axes, panel.note)
+        outside_legend(axes, panel.note)
     all_axes[0].set_xlim(results.time[0], results.end_time)
     return figure
 
@@ -219,7 +219,7 @@ def _draw_curve(axes: Axes, curve: Curve, color: str) -> None:
     )
 
 
-def _legend(axes: Axes, title: str = "") -> None:
+def outside_legend(axes: Axes, title: str = "") -> None:
     """Legend beside the axes, where it hides nothing."""
     axes.legend(
         loc="upper left",

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import glob
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 if TYPE_CHECKING:
+    import xarray
+
     from hydrodae.results import Results
 
 
@@ -63,6 +66,72 @@ def turning_points(
     s = before + curvature * (t[turn + 1] - t[turn])
     tau = -s / (2 * curvature)
     return t[turn + 1] + tau, x[turn + 1] + s * tau + curvature * tau**2
+
+
+def absorbed_power(results: Results, force: str) -> xarray.DataArray:
+    """Power that a force takes from the bodies, W: positive when energy leaves them.
+
+    P = -sum of (F . v + M . w) over the bodies that it loads. Of a power take-off without a spring
+    that is what its damper absorbs; with a spring also what the spring stores and gives back, which
+    has no mean.
+
+    Parameters
+    ----------
+    results : Results
+    force : str
+        Name of the force in the case, such as "pto".
+
+    Returns
+    -------
+    xarray.DataArray
+        Over the time of the results.
+
+    Raises
+    ------
+    ChannelError
+        There is no such force in the results.
+    """
+    names = results.channels(f"forces/{glob.escape(force)}/*/force")
+    if not names:
+        raise results.missing(f"forces/{force}")
+    import xarray
+
+    total = xarray.DataArray(
+        np.zeros(len(results.time)), {"time": ("time", results.time, {"unit": "s"})}, ["time"]
+    )
+    for name in names:
+        body = name.split("/")[2]
+        if f"bodies/{body}/velocity" not in results:
+            continue  # a fixed body: its load does no work
+        load, moment = results[name], results[f"forces/{force}/{body}/moment"]
+        speed = results[f"bodies/{body}/velocity"]
+        turn = results[f"bodies/{body}/angular_velocity"]
+        total = total - (load * speed).sum("component") - (moment * turn).sum("component")
+    total.attrs = {"unit": "W", "frame": "-", "description": f"Power that {force} absorbs."}
+    return total.rename(f"absorbed power of {force}")
+
+
+def mean_absorbed_power(results: Results, force: str, start: float = 0.0) -> float:
+    """Mean of the absorbed power from `start` [s] to the end of the results, W.
+
+    From the work of the force, which was integrated with the motion: independent of the output
+    step.
+
+    Raises
+    ------
+    ChannelError
+        There is no such force in the results.
+    ValueError
+        `start` is not before the end.
+    """
+    name = f"energy/work/{force}"
+    if name not in results:
+        raise results.missing(name)
+    work, end = results[name].to_numpy(), results.end_time
+    if not start < end:
+        raise ValueError(f"start = {start:g} s is not before the end of the results, {end:g} s")
+    first = float(np.interp(start, results.time, work))
+    return (first - float(work[-1])) / (end - max(start, float(results.time[0])))
 
 
 def displayed(unit: str) -> tuple[float, str]:

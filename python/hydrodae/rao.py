@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import os
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -14,14 +13,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae import rao_output
 from hydrodae.case import Case, parse_assignment
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, Response
+from hydrodae.post import displayed
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 RAMP_PERIODS, FITTED_PERIODS, SAMPLES = 10, 5, 40
+FREQUENCIES = 400
 
 
 @dataclass(frozen=True)
@@ -157,7 +159,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--periods",
         metavar="T1,T2,...",
-        help="periods [s]; default: 40 from the frequencies of the database",
+        help="periods whose values are printed [s]; default: a few within the database",
     )
     parser.add_argument(
         "--heading", metavar="DEG", type=float, default=0.0, help="direction of travel, 0 = +x"
@@ -176,7 +178,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="time between the ramp (10 periods) and the fit (default 100 s)",
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
-    parser.add_argument("-o", "--output", metavar="FILE.csv", help="all responses as a table")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="all responses, reactions too, over all frequencies (or at the --periods): .csv, or "
+        ".nc, .h5 (netCDF, which is HDF5)",
+    )
+    parser.add_argument("--picture", metavar="FILE", help="amplitudes over the period (.png, ...)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -186,38 +195,55 @@ def run(arguments: argparse.Namespace) -> int:
     for note in model.notes:
         print(f"note: {note}")
     for mode in model.modes():
-        main = [f"{n} {v:+.2f}" for n, v in mode.shape.items() if abs(v) >= 0.1]
+        main = [
+            f"{rao_output.short_name(n)} {v:+.2f}" for n, v in mode.shape.items() if abs(v) >= 0.1
+        ]
         print(
             f"mode {mode.period:8.3f} s, damping ratio {mode.damping_ratio:.4f}: {', '.join(main)}"
         )
     heading = float(np.radians(arguments.heading))
-    response = model.response(_frequencies(model, arguments.periods), heading)
-    names = [n for n in response.names if "/reaction_" not in n]
-    _print_table(response, names)
     if arguments.output:
-        _write_table(Path(arguments.output), response)
-        print(f"written: {arguments.output}")
+        rao_output.check_ending(Path(arguments.output))
+    chosen = model.response(_chosen(model, arguments.periods), heading)
+    response = _curves(model, chosen.omega, heading)
+    names = rao_output.coordinates(response)
+    print("\n" + rao_output.table(response, chosen))
+    if arguments.output:
+        written = response if arguments.periods is None else chosen
+        print(f"written: {rao_output.write(arguments.output, written)}")
+    if arguments.picture:
+        from hydrodae import plot
+
+        figure = rao_output.draw(response, case.title or Path(arguments.case).stem)
+        print(f"picture: {plot.save(figure, arguments.picture)}")
     if arguments.time_domain:
         runs = time_domain(
             case,
-            response.omega.tolist(),
+            chosen.omega.tolist(),
             heading,
             names,
             amplitude=arguments.amplitude,
             settle=arguments.settle,
             jobs=arguments.jobs,
         )
-        _print_comparison(response, names, runs)
+        _print_comparison(chosen, names, runs)
     if len(model.case.scene.wave_names):
-        _print_sea(model)
+        _print_sea(model, response)
     return 0
 
 
-def _frequencies(model: LinearModel, periods: str | None) -> Array:
+def _chosen(model: LinearModel, periods: str | None) -> Array:
+    """Frequencies [rad/s] of the periods asked for; else six whole ones within the database."""
     if periods is None:
         if model.database is None:
             raise CaseError("the case has no hydrodynamic database: give the --periods")
-        return np.linspace(model.database.omega[0], model.database.omega[-1], 40)
+        shortest, longest = 2.0 * np.pi / model.database.omega[[-1, 0]]
+        usual = np.array([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20], dtype=float)
+        inside = usual[(usual >= shortest) & (usual <= longest)]
+        if len(inside) == 0:
+            inside = np.linspace(shortest, longest, 6)
+        pick = np.linspace(0, len(inside) - 1, min(6, len(inside))).round().astype(int)
+        return np.asarray(2.0 * np.pi / inside[pick])
     try:
         values = np.array([float(text) for text in periods.split(",")])
     except ValueError:
@@ -227,48 +253,53 @@ def _frequencies(model: LinearModel, periods: str | None) -> Array:
     return np.asarray(2.0 * np.pi / values)
 
 
-def _print_table(response: Response, names: Sequence[str]) -> None:
-    units = dict(zip(response.names, response.units, strict=True))
-    print("\namplitude per metre of wave amplitude")
-    for name in names:
-        print(f"  {name} [{units[name]}]")
-    print("period, s " + " ".join(f"{name.rpartition('/')[2][:11]:>11}" for name in names))
-    for k, w in enumerate(response.omega):
-        row = " ".join(f"{abs(response[name][k]):11.5g}" for name in names)
-        print(f"{2 * np.pi / w:9.4g} {row}")
+def _curves(model: LinearModel, chosen: Array, heading: float) -> Response:
+    """Responses over the whole database, frequencies ascending; without one at those chosen.
 
-
-def _write_table(path: Path, response: Response) -> None:
-    with path.open("w", newline="") as file:
-        table = csv.writer(file)
-        head = ["omega [rad/s]", "period [s]"]
-        for name, unit in zip(response.names, response.units, strict=True):
-            head += [f"{name} amplitude [{unit}]", f"{name} phase [rad]"]
-        table.writerow(head + [f"{name} mean power [W/m2]" for name in response.power])
-        for k, w in enumerate(response.omega):
-            row = [w, 2.0 * np.pi / w]
-            for value in response.values[k]:
-                row += [abs(value), float(np.angle(value))]
-            table.writerow([f"{x:.9g}" for x in row + [p[k] for p in response.power.values()]])
+    Each peak lies between points that are close enough to read it off: they are added about the
+    highest point of every response, three times.
+    """
+    if model.database is None:
+        return model.response(np.sort(chosen), heading)
+    low, high = model.database.omega[[0, -1]]
+    w = np.union1d(np.linspace(low, high, FREQUENCIES), chosen)
+    for mode in model.modes():  # a lightly damped one may fall between two points
+        own = 2.0 * np.pi / mode.period
+        w = np.union1d(w, own * (1.0 + max(mode.damping_ratio, 1e-4) * np.linspace(-4, 4, 33)))
+    w = w[(w >= low) & (w <= high)]
+    for _ in range(3):
+        response = model.response(w, heading)
+        heights = np.hstack(
+            [np.abs(response.values), np.stack([*response.power.values()] or [w]).T]
+        )
+        more = []
+        for k in set(np.argmax(heights, axis=0).tolist()):
+            more.append(np.linspace(w[max(k - 1, 0)], w[min(k + 1, len(w) - 1)], 9))
+        w = np.union1d(w, np.concatenate(more))
+    return model.response(w, heading)
 
 
 def _print_comparison(response: Response, names: Sequence[str], runs: Sequence[Harmonic]) -> None:
     print("\ntime domain against frequency domain: |difference| over amplitude, % (settled to, %)")
-    print("period, s " + " ".join(f"{name.rpartition('/')[2][:15]:>15}" for name in names))
+    width = max([15] + [len(rao_output.short_name(name)) for name in names])
+    print("period, s " + " ".join(f"{rao_output.short_name(name):>{width}}" for name in names))
     for k, harmonic in enumerate(runs):
         cells = []
         for name in names:
             exact = response[name][k]
             error = abs(harmonic.response[name] - exact) / max(abs(exact), 1e-300)
             cells.append(f"{100 * error:8.3f} ({100 * harmonic.unsettled[name]:4.2f})")
-        print(f"{2 * np.pi / response.omega[k]:9.4g} " + " ".join(f"{c:>15}" for c in cells))
+        print(f"{2 * np.pi / response.omega[k]:9.4g} " + " ".join(f"{c:>{width}}" for c in cells))
 
 
-def _print_sea(model: LinearModel) -> None:
+def _print_sea(model: LinearModel, response: Response) -> None:
     deviation, power = model.irregular()
+    units = {n: u.removesuffix("/m") for n, u in zip(response.names, response.units, strict=True)}
     print("\nin the sea of the case (linear): standard deviations")
     for name, value in deviation.items():
-        if "/reaction_" not in name:
-            print(f"  {name:40} {value:.5g}")
+        if "/reaction_" in name:
+            continue
+        factor, unit = displayed(units.get(name, "m"))
+        print(f"  {name:40} {factor * value:.5g} {unit}")
     for name, value in power.items():
         print(f"  mean power of {name:26} {value:.5g} W")

@@ -27,6 +27,10 @@ FORMAT_VERSION = 1
 _COMPONENTS = {3: ("component", ["x", "y", "z"]), 4: ("quaternion", ["w", "x", "y", "z"])}
 
 
+#: Datasets that name the components, no channels.
+_LABELS = tuple(name for name, _ in _COMPONENTS.values())
+
+
 class ResultsError(HydrodaeError):
     """A results file cannot be used."""
 
@@ -120,7 +124,7 @@ class Results(Mapping[str, "xarray.DataArray"]):
         def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
             if not isinstance(name, str):
                 raise TypeError(f"the name {name!r} is no text")
-            if isinstance(node, h5py.Dataset):
+            if isinstance(node, h5py.Dataset) and name not in _LABELS:
                 lengths[name] = len(node) if node.ndim else 0
 
         file.visititems(note)
@@ -134,7 +138,7 @@ class Results(Mapping[str, "xarray.DataArray"]):
     def __getitem__(self, name: str) -> xarray.DataArray:
         if name not in self._read:
             if name not in self._names:
-                raise ChannelError(self._missing(name))
+                raise self.missing(name)
             self._read[name] = self._load(name)
         return self._read[name]
 
@@ -156,14 +160,62 @@ class Results(Mapping[str, "xarray.DataArray"]):
         return [name for name in self._names if fnmatchcase(name, pattern)]
 
     def to_dataset(self, pattern: str = "*") -> xarray.Dataset:
-        """Return the channels that match a shell pattern as one dataset on the common time axis."""
+        """Return the channels that match a shell pattern as one dataset on the common time axis.
+
+        Raises
+        ------
+        ChannelError
+            The pattern matches nothing.
+        """
         import xarray
 
         return xarray.Dataset(
-            {name: self[name] for name in self.channels(pattern)},
+            {name: self[name] for name in self._matching(pattern)},
             coords={"time": self._time_coordinate()},
             attrs={"title": self.title, "status": self.status},
         )
+
+    def to_datatree(self, pattern: str = "*") -> xarray.DataTree:
+        """Return the channels that match a shell pattern as a tree of the groups of the file.
+
+        Every group has the common time axis; the attributes of the file stand at the root.
+        """
+        import xarray
+
+        groups: dict[str, dict[str, xarray.DataArray]] = {"/": {}}
+        for name in self._matching(pattern):
+            group, _, last = name.rpartition("/")
+            groups.setdefault(f"/{group}", {})[last] = self[name]
+        coords = {"time": self._time_coordinate()}
+        tree = {path: xarray.Dataset(held, coords) for path, held in groups.items()}
+        tree["/"].attrs = {key: _storable(value) for key, value in self._header.items()}
+        return xarray.DataTree.from_dict(tree, name=self.title or None)
+
+    def to_netcdf(self, path: str | os.PathLike[str], pattern: str = "*") -> Path:
+        """Write the channels that match a shell pattern into a netCDF file, with their groups.
+
+        `xarray.open_datatree(path)` reads it.
+
+        Raises
+        ------
+        ResultsError
+            `path` is the results file itself.
+        ChannelError
+            The pattern matches nothing.
+        """
+        path = Path(path)
+        if path.exists() and path.samefile(self.path):
+            raise ResultsError(f"{path}: is the results file itself; write the copy elsewhere")
+        tree = self.to_datatree(pattern)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        tree.to_netcdf(path, engine="netcdf4")
+        return path
+
+    def _matching(self, pattern: str) -> list[str]:
+        names = self.channels(pattern)
+        if not names and len(self._names):
+            raise self.missing(pattern)
+        return names
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -237,7 +289,11 @@ class Results(Mapping[str, "xarray.DataArray"]):
         damaged = f"channel {name} is damaged"
         with opened(self.path, ResultsError, damaged) as file:
             values = _real(file[name][: len(self._time)])
-            attributes = {key: _plain(value) for key, value in file[name].attrs.items()}
+            attributes = {
+                key: _plain(value)
+                for key, value in file[name].attrs.items()
+                if key != "DIMENSION_LIST"
+            }
         dims: list[str] = ["time"]
         coords: dict[str, Any] = {"time": self._time_coordinate()}
         if values.ndim == 2 and values.shape[1] in _COMPONENTS:
@@ -251,16 +307,31 @@ class Results(Mapping[str, "xarray.DataArray"]):
             )
         return xarray.DataArray(values, coords, dims, name=name, attrs=attributes)
 
+    def missing(self, name: str) -> ChannelError:
+        """Return the error for a channel that is not there; it names what is near."""
+        return ChannelError(self._missing(name))
+
     def _missing(self, name: str) -> str:
         message = f"{self.path} has no channel {name!r}"
+        if any(c in name for c in "*?["):
+            matches = self.channels(name)
+            if matches:
+                return (
+                    f"{message}: it is a pattern of {len(matches)} channels; get them with "
+                    f"results.to_dataset({name!r}), or names with results.channels({name!r})"
+                )
+            return f"{self.path}: no channel matches the pattern {name!r}{self._groups()}"
         inside = self.channels(f"{name}/*")
         if inside:
             return f"{message}: it is a group of {', '.join(inside)}"
         near = difflib.get_close_matches(name, self._names, n=1)
         if near:
             return f"{message}; the nearest name is {near[0]!r}"
+        return message + self._groups()
+
+    def _groups(self) -> str:
         groups = sorted({channel.split("/")[0] for channel in self._names})
-        return f"{message}; there are channels in {', '.join(groups) or 'no group'}"
+        return f"; there are channels in {', '.join(groups) or 'no group'}"
 
 
 def _find(path: Path) -> Path:
@@ -301,6 +372,11 @@ def _real(values: Any) -> NDArray[np.float64]:
     if found.dtype.kind not in "fiu":
         raise TypeError(f"expected numbers, found {found.dtype}")
     return found.astype(float)
+
+
+def _storable(value: Any) -> Any:
+    """Attribute as netCDF can hold it: no bool."""
+    return int(value) if isinstance(value, bool) else value
 
 
 def _identity(path: Path) -> tuple[int, int, int]:

@@ -38,6 +38,7 @@ from tests.verification import multibody  # noqa: E402
 from tests.verification.truths import make as truths  # noqa: E402
 
 import hydrodae  # noqa: E402
+from hydrodae.extras import install_command  # noqa: E402
 
 Reference = dict[str, Any]
 Timed = Callable[[], tuple[Any, float]]  # a result and the seconds that it took
@@ -236,7 +237,7 @@ def main() -> None:
     except ModuleNotFoundError as missing:
         if missing.name != "exudyn":
             raise
-        print("exudyn is not installed: pip install hydrodae[peers]")
+        print(f"exudyn is not installed: {install_command('peers')}")
         with_peer = False
     else:
         print(f"Exudyn {exudyn_models.VERSION}")

@@ -161,7 +161,8 @@ def test_a_database_from_python_is_read(case):
             'motion = "heave"',
             'motion = ["heave", "pitch"]\ninertia = [0, 5, 0]',
             "case.toml:3:1: no exponential fit in hydro.h5 covers all coordinates that move; "
-            "'heave' lacks float.surge, float.pitch; make one with: hydrodae hdb fit",
+            "'heave' lacks float.surge, float.pitch; make one with: hydrodae hdb fit hydro.h5 "
+            "all=float.surge,float.heave,float.pitch",
         ),
         (
             '"hydro.h5"',

@@ -2,6 +2,10 @@
 /// A named, documented column (or three, or four) of the results.
 
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "hydrodae/core/types.h"
 
 namespace hydrodae {
 
@@ -11,6 +15,7 @@ struct Channel {
   std::string unit;        ///< "m/s", "rad", "-", ...
   std::string frame;       ///< "world", "marker A of hinge1", "-"
   std::string description; ///< one sentence
+  std::vector<std::pair<std::string, Vector3>> vectors = {}; ///< more about the frame, by name
 };
 
 } // namespace hydrodae

@@ -9,12 +9,12 @@ namespace hydrodae {
 
 inline std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// "a, b, c"
-template <class Range> std::string joined(const Range& items) {
+/// "a, b, c", or with another separator
+template <class Range> std::string joined(const Range& items, std::string_view separator = ", ") {
   std::string text;
   for (const auto& item : items) {
     if (!text.empty())
-      text += ", ";
+      text += separator;
     text += item;
   }
   return text;

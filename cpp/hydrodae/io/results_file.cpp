@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/io/dimension_scales.h"
 #include "hydrodae/io/hdf5.h"
 #include "hydrodae/io/ordered_file.h"
 #include "hydrodae/io/output_place.h"
@@ -43,6 +44,16 @@ void write_attribute(hid_t object, const std::string& name, const Attribute& val
 /// Two messages below each other; either may be empty.
 std::string lines(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : "\n  ") + second;
+}
+
+void write_vector(hid_t object, const std::string& name, const Vector3& value,
+                  const std::string& what) {
+  const hsize_t size = 3;
+  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, what);
+  const Handle attribute =
+      checked(H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, what);
+  checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, value.data()), what);
 }
 
 /// A dataset that grows by rows.
@@ -95,6 +106,8 @@ void ResultsFile::Impl::create(const Attributes& header) {
     write_attribute(file, name, value, what());
   write_attribute(file, "status", std::string("running"), what());
   write_attribute(file, "message", std::string(), what());
+  hdf5::write_labels(file, "component", {"x", "y", "z"}, what());
+  hdf5::write_labels(file, "quaternion", {"w", "x", "y", "z"}, what());
 }
 
 void ResultsFile::Impl::add_column(const Channel& channel) {
@@ -121,6 +134,15 @@ void ResultsFile::Impl::add_column(const Channel& channel) {
   write_attribute(column.dataset, "unit", channel.unit, what());
   write_attribute(column.dataset, "frame", channel.frame, what());
   write_attribute(column.dataset, "description", channel.description, what());
+  for (const auto& [name, value] : channel.vectors)
+    write_vector(column.dataset, name, value, what());
+  if (columns.empty()) // the time
+    hdf5::make_scale(column.dataset, channel.path, what());
+  else if (scalar)
+    hdf5::attach_scales(file, column.dataset, {"time"}, what());
+  else
+    hdf5::attach_scales(file, column.dataset,
+                        {"time", channel.width == 4 ? "quaternion" : "component"}, what());
   row_size += column.width;
   columns.push_back(std::move(column));
 }

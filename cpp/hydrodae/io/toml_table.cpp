@@ -4,14 +4,20 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::io {
 
 void check_keys(const Table& table, const std::vector<std::string>& valid) {
-  for (const auto& [key, node] : table.node)
-    if (std::find(valid.begin(), valid.end(), key.str()) == valid.end())
-      throw CaseError(position(key.source()) + ": unknown key " + in_quotes(key.str()) + " in " +
-                      table.label + suggestion(key.str(), valid));
+  for (const auto& [key, node] : table.node) {
+    if (std::find(valid.begin(), valid.end(), key.str()) != valid.end())
+      continue;
+    const std::vector<std::string> own =
+        model::keys_of_type(table.path.substr(0, table.path.find('.')),
+                            table.node["type"].value<std::string>().value_or(""));
+    throw CaseError(position(key.source()) + ": unknown key " + in_quotes(key.str()) + " in " +
+                    table.label + suggestion(key.str(), own.empty() ? valid : own));
+  }
 }
 
 const toml::node* find_key(const Table& table, Key& key, Positions& positions) {

@@ -25,7 +25,8 @@ struct Table {
 /// Key path -> position, for messages of later checks.
 using Positions = std::map<std::string, std::string>;
 
-/// Throws CaseError on the first key of the table that is not in `valid`.
+/// Throws CaseError on the first key of the table that is not in `valid`; the message lists those
+/// that an entry of its `type` has.
 void check_keys(const Table& table, const std::vector<std::string>& valid);
 
 /// The value of `name` with the description of its key filled in, or null. Notes its position.

@@ -2,6 +2,7 @@
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::model {
 namespace {
@@ -74,7 +75,9 @@ void check_drive(const Entry& entry, const Drive& drive, double end_time) {
 /// Refuses what only the other type of constraint has.
 void refuse_if(bool given, const Entry& entry, const std::string& key, const std::string& type) {
   if (given)
-    refuse(entry, key, "a " + type + " constraint has no " + in_quotes(key));
+    refuse(entry, key,
+           "a " + type + " constraint has no " + in_quotes(key) +
+               "; it has: " + joined(keys_of_type("constraint", type)));
 }
 
 void refuse_bounds(const Entry& entry, const Constraint& c) {

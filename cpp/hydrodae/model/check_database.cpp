@@ -87,7 +87,8 @@ void check_kernel(const Scene& scene) {
                                                 in_quotes(hydro.radiation));
   if (!convolution)
     return;
-  const std::string advice = "; make it with: hydrodae hdb kernel " + database.path;
+  const std::string advice = "; make it with: hydrodae hdb kernel " + database.path + " " +
+                             joined(moving_coordinates(scene), ",");
   if (!database.kernel)
     throw ModelError("hydro.radiation",
                      database.path + " holds no radiation kernel for the convolution" + advice);

@@ -3,39 +3,13 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
+#include "hydrodae/model/type_keys.h"
 #include "hydrodae/sea/record.h"
 
 namespace hydrodae::model {
 namespace {
 
 constexpr double shortest_period = 1e-3; // [s]
-
-const std::vector<std::string> irregular_keys = {"spreading", "components", "spacing",
-                                                 "frequency_range", "seed"};
-
-/// Keys that a type of wave must and may have, apart from name, type and heading_deg.
-struct WaveKeys {
-  std::vector<std::string> needed, optional;
-};
-
-WaveKeys keys_of(const std::string& type) {
-  if (type == "regular")
-    return {{"height", "period"}, {"phase_deg"}};
-  if (type == "measured")
-    return {{},
-            {"file", "time", "elevation", "point", "start", "taper", "lost_variance",
-             "frequency_range"}};
-  if (type == "table")
-    return {{"frequency", "density"}, irregular_keys};
-  WaveKeys keys{{"significant_height", "peak_period"}, irregular_keys};
-  if (type == "pierson_moskowitz")
-    keys.needed.pop_back();
-  if (type == "jonswap")
-    keys.optional.emplace_back("gamma");
-  if (type == "ochi_hubble")
-    keys.optional.emplace_back("shape");
-  return keys;
-}
 
 /// Was the key written in the case file (or on the command line)?
 bool given(const Scene& scene, const sea::Wave& wave, const std::string& key) {
@@ -44,9 +18,15 @@ bool given(const Scene& scene, const sea::Wave& wave, const std::string& key) {
 
 void check_keys(const Scene& scene, const sea::Wave& wave) {
   const Entry entry{"wave", wave.name};
-  const WaveKeys keys = keys_of(wave.type);
   const bool has_height = wave.height.has_value(), has_period = wave.period.has_value();
-  for (const std::string& key : keys.needed) {
+  const std::vector<std::string> allowed = keys_of_type("wave", wave.type);
+  for (const Field<sea::Wave>& field : sea::Wave::fields()) {
+    const std::string key(field.key);
+    if (given(scene, wave, key) && std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+      refuse(entry, key,
+             "a " + wave.type + " wave has no " + in_quotes(key) + "; it has: " + joined(allowed));
+  }
+  for (const std::string& key : needed_wave_keys(wave.type)) {
     const bool there = key == "height"               ? has_height
                        : key == "period"             ? has_period
                        : key == "significant_height" ? wave.significant_height.has_value()
@@ -55,15 +35,6 @@ void check_keys(const Scene& scene, const sea::Wave& wave) {
                                                      : !wave.density.empty();
     if (!there)
       refuse(entry, "", "a " + wave.type + " wave needs the key " + in_quotes(key));
-  }
-  std::vector<std::string> allowed = {"name", "type", "heading_deg"};
-  allowed.insert(allowed.end(), keys.needed.begin(), keys.needed.end());
-  allowed.insert(allowed.end(), keys.optional.begin(), keys.optional.end());
-  for (const Field<sea::Wave>& field : sea::Wave::fields()) {
-    const std::string key(field.key);
-    if (given(scene, wave, key) && std::find(allowed.begin(), allowed.end(), key) == allowed.end())
-      refuse(entry, key,
-             "a " + wave.type + " wave has no " + in_quotes(key) + "; it has: " + joined(allowed));
   }
 }
 

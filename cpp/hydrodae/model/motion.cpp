@@ -113,7 +113,8 @@ const hydro::MemoryFit* memory_fit(const Scene& scene) {
   if (moving.empty())
     return nullptr;
   const std::vector<hydro::MemoryFit>& fits = scene.database->fits;
-  const std::string remedy = "; make one with: hydrodae hdb fit";
+  const std::string remedy =
+      "; make one with: hydrodae hdb fit " + scene.database->path + " all=" + joined(moving, ",");
   if (scene.hydro->fit) {
     const std::string& name = *scene.hydro->fit;
     const hydro::MemoryFit* fit = hydro::find_fit(*scene.database, name);

@@ -1,5 +1,8 @@
 #include "hydrodae/model/waves.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "hydrodae/core/text.h"
 #include "hydrodae/sea/record.h"
 
@@ -19,12 +22,13 @@ std::vector<sea::Component> measured(const Scene& scene, const sea::Wave& wave, 
   const sea::RecordComponents r =
       sea::record_components(wave, water.depth, water.gravity, low, high);
   const std::string head = "wave " + in_quotes(wave.name) + ": ";
-  if (1.0 - r.kept > wave.lost_variance)
+  const double allowed = wave.lost_variance.value_or(0.02);
+  if (1.0 - r.kept > allowed)
     throw ModelError("wave." + wave.name + (wave.file ? ".file" : ".elevation"),
                      head + number_text(100.0 * (1.0 - r.kept)) +
                          " % of the variance of the record lies outside " + number_text(low) +
-                         " to " + number_text(high) + " rad/s, more than lost_variance = " +
-                         number_text(wave.lost_variance) + " allows");
+                         " to " + number_text(high) +
+                         " rad/s, more than lost_variance = " + number_text(allowed) + " allows");
   if (note && !r.components.empty())
     *note = head + "mean " + number_text(r.mean) + " m of the record taken off, faded over " +
             number_text(wave.taper) + " s at both ends; " + std::to_string(r.components.size()) +
@@ -34,13 +38,36 @@ std::vector<sea::Component> measured(const Scene& scene, const sea::Wave& wave, 
   return r.components;
 }
 
+/// An irregular wave, without what lies beyond the tables of the database.
+std::vector<sea::Component> spectral(const Scene& scene, const sea::Wave& wave, const Water& water,
+                                     std::string* note) {
+  sea::Band covered;
+  if (wave.type != "regular" && scene.database && scene.database->omega.size() > 0)
+    covered = {scene.database->omega[0], scene.database->omega[scene.database->omega.size() - 1]};
+  double lost = 0.0;
+  std::vector<sea::Component> out =
+      sea::components(wave, water.depth, water.gravity, note, covered, &lost);
+  const double allowed = wave.lost_variance.value_or(0.1);
+  const std::string table =
+      "the database, " + number_text(covered.low) + " to " + number_text(covered.high) + " rad/s";
+  const std::string part = number_text(std::round(1e4 * lost) / 1e2) + " % of the variance";
+  if (lost > std::min(allowed, 0.99))
+    throw ModelError("wave." + wave.name,
+                     "wave " + in_quotes(wave.name) + ": " + part + " lies outside " + table +
+                         ", more than lost_variance = " + number_text(allowed) +
+                         " allows; a database of more frequencies, or another "
+                         "'frequency_range' or 'lost_variance'");
+  if (note && lost > 0.0)
+    *note += "; " + part + " lies outside " + table + ", and is left out";
+  return out;
+}
+
 } // namespace
 
 std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave& wave,
                                             std::string* note) {
   const Water w = water(scene);
-  return wave.type == "measured" ? measured(scene, wave, w, note)
-                                 : sea::components(wave, w.depth, w.gravity, note);
+  return wave.type == "measured" ? measured(scene, wave, w, note) : spectral(scene, wave, w, note);
 }
 
 std::vector<sea::Component> wave_components(const Scene& scene) {

@@ -7,8 +7,8 @@
 namespace hydrodae::model {
 
 /// Components of one wave system of a checked scene. A measured record is cut to its
-/// `frequency_range`, or to the frequencies of the database. Throws ModelError when more of its
-/// variance than `lost_variance` lies outside.
+/// `frequency_range`, or to the frequencies of the database, and so is a spectrum without a range
+/// of its own. Throws ModelError when more of its variance than `lost_variance` lies outside.
 std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave& wave,
                                             std::string* note = nullptr);
 

@@ -1,5 +1,6 @@
 #include "hydrodae/sea/components.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydrodae/core/text.h"
@@ -42,10 +43,35 @@ private:
   std::vector<double> cumulative_ = std::vector<double>(cells + 1);
 };
 
+/// Energies below the lowest and the highest frequency of the components [m2].
+struct Cut {
+  double low = 0.0, high = 0.0;
+};
+
+Cut usual_cut(const Wave& wave, const Spectrum& s) {
+  if (!wave.frequency_range.empty())
+    return {s.energy_below(wave.frequency_range[0]), s.energy_below(wave.frequency_range[1])};
+  if (wave.type == "table")
+    return {s.energy_below(s.omega.front()), s.cumulative.back()};
+  return {cut_below * s.m0, (1.0 - cut_above) * s.m0};
+}
+
+/// A cut, and a range that nobody gave no wider than what is covered.
+Cut cut_to(const Wave& wave, Cut cut, const Spectrum& s, const Band& covered) {
+  if (!wave.frequency_range.empty())
+    return cut;
+  if (covered.low > s.omega.front())
+    cut.low = std::max(cut.low, s.energy_below(covered.low));
+  if (covered.high < s.omega.back())
+    cut.high = std::min(cut.high, s.energy_below(covered.high));
+  cut.high = std::max(cut.low, cut.high);
+  return cut;
+}
+
 } // namespace
 
-std::vector<Component> components(const Wave& wave, double depth, double gravity,
-                                  std::string* note) {
+std::vector<Component> components(const Wave& wave, double depth, double gravity, std::string* note,
+                                  const Band& covered, double* lost) {
   if (wave.type == "regular") {
     const double w = 2.0 * pi / *wave.period;
     return {{w, wavenumber(w, depth, gravity), wave.heading, 0.5 * *wave.height, wave.phase}};
@@ -53,14 +79,10 @@ std::vector<Component> components(const Wave& wave, double depth, double gravity
   const Spectrum s = spectrum(wave, gravity);
   if (!(s.m0 > 0.0))
     return {};
-  double low = s.energy_below(s.omega.front()), high = s.cumulative.back();
-  if (!wave.frequency_range.empty()) {
-    low = s.energy_below(wave.frequency_range[0]);
-    high = s.energy_below(wave.frequency_range[1]);
-  } else if (wave.type != "table") {
-    low = cut_below * s.m0;
-    high = (1.0 - cut_above) * s.m0;
-  }
+  const Cut usual = usual_cut(wave, s), cut = cut_to(wave, usual, s, covered);
+  const double low = cut.low, high = cut.high;
+  if (lost)
+    *lost = (usual.high - usual.low - (high - low)) / s.m0;
   const double w_low = s.frequency_at(low), w_high = s.frequency_at(high);
   Random random(static_cast<std::uint64_t>(wave.seed));
   std::vector<Component> out;
@@ -76,6 +98,8 @@ std::vector<Component> components(const Wave& wave, double depth, double gravity
       energy = s.energy_below(w_low + (w_high - w_low) * b) -
                s.energy_below(w_low + (w_high - w_low) * a);
     }
+    if (wave.frequency_range.empty()) // up to rounding it is there already
+      w = std::clamp(w, covered.low, std::max(covered.low, covered.high));
     if (energy > 0.0)
       out.push_back(
           {w, wavenumber(w, depth, gravity), wave.heading, std::sqrt(2.0 * energy), phase});

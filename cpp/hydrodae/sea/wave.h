@@ -62,7 +62,7 @@ struct Wave {
   std::vector<double> point;
   double start = 0.0;
   double taper = 30.0;
-  double lost_variance = 0.02;
+  std::optional<double> lost_variance;
   double heading = 0.0;
   std::optional<double> spreading;
   int components = 200;
@@ -110,8 +110,8 @@ struct Wave {
          "also load the body, are not known; 30 s by default.",
          false, at_least(0, longest_time)},
         {"lost_variance", &W::lost_variance, "-",
-         "Largest part of the variance of a record that may lie outside the frequencies of the "
-         "database; 0.02 by default.",
+         "Largest part of the variance that may lie outside the frequencies of the database and is "
+         "left out; 0.02 by default for a record, 0.1 for a spectrum without frequency_range.",
          false, between(0, 1)},
         {"heading_deg", &W::heading, "deg", "Mean direction of travel; 0 = +x, 90 = +y.", false,
          between(-360, 360)},
@@ -131,7 +131,7 @@ struct Wave {
          {"energy", "frequency"}},
         {"frequency_range", &W::frequency_range, "rad/s",
          "Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 % "
-         "above.",
+         "above, as far as the database reaches.",
          false, more_than(0)},
         {"seed", &W::seed, "-", "Seed of the random phases, frequencies and directions.", false,
          at_least(0)},

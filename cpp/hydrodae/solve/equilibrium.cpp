@@ -7,8 +7,10 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/motion.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/sanity.h"
 
 namespace hydrodae::solve {
 
@@ -77,14 +79,69 @@ void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) 
                       "from it");
 }
 
-[[noreturn]] void refuse(const System& s, const VectorX& forces) {
+/// A coordinate and the unit of the force along it: "heave of body 'sphere'", "N".
+struct CoordinateName {
+  std::string text, unit;
+};
+
+CoordinateName coordinate_name(const System& s, Index u) {
+  for (const BodyData& b : s.bodies) {
+    const Index k = u - (b.u0 - s.u0);
+    if (k < 0 || k >= b.n_active)
+      continue;
+    const int c = b.active[static_cast<std::size_t>(k)];
+    return {std::string(model::coordinate_names[static_cast<std::size_t>(c)]) + " of body " +
+                in_quotes(b.name),
+            c < 3 ? "N" : "N m"};
+  }
+  return {s.row_names[s.u0 + u], "N or N m"};
+}
+
+/// Coordinates of the motions, free of the constraints, that a force drives and that have no
+/// stiffness: K d = 0 but d . f != 0.
+std::vector<std::string> unrestored(const System& s, const LinearMatrices& m,
+                                    const VectorX& scale) {
+  const MatrixX G = m.constraints * scale.asDiagonal();
+  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
+  if (G.rows() > 0) {
+    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
+    free = svd.matrixV().rightCols(s.n_u - svd.rank());
+  }
+  std::vector<std::string> out;
+  if (free.cols() == 0)
+    return out;
+  const VectorX forces = free.transpose() * scale.cwiseProduct(m.forces);
+  const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
+  Eigen::JacobiSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const VectorX sizes = svd.singularValues();
+  const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff();
+  VectorX drift = VectorX::Zero(free.cols());
+  for (Index k = 0; k < sizes.size(); ++k)
+    if (sizes[k] <= 1e-9 * std::max(sizes[0], weight))
+      drift += svd.matrixU().col(k).dot(forces) * svd.matrixU().col(k);
+  if (!(drift.norm() > 1e-9 * weight))
+    return out;
+  const VectorX moved = (free * drift).cwiseAbs();
+  for (Index u = 0; u < s.n_u; ++u)
+    if (moved[u] > 0.1 * moved.maxCoeff())
+      out.push_back(coordinate_name(s, u).text);
+  return out;
+}
+
+[[noreturn]] void refuse(const System& s, const LinearMatrices& m, const VectorX& scale) {
   Index worst = 0;
-  forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
+  m.forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
       .cwiseAbs()
       .maxCoeff(&worst);
+  const CoordinateName name = coordinate_name(s, worst);
+  const std::vector<std::string> slack = unrestored(s, m, scale);
   throw ModelError("solver.start",
                    "no static equilibrium near the start: " + s.row_names[s.u0 + worst] +
-                       " is off by " + number_text(forces[worst]) + " N or N m");
+                       " is off by " + number_text(m.forces[worst]) + " " + name.unit +
+                       (slack.empty() ? "; start nearer to the equilibrium, or hold what drifts"
+                                      : "; there is no stiffness in " + joined(slack) +
+                                            ": balance weight, buoyancy and constant loads there, "
+                                            "or add a mooring, a spring or hydrostatics"));
 }
 
 /// Newton's method from y to forces in balance and closed rows; y with the reactions.
@@ -111,7 +168,7 @@ LinearMatrices balance(const System& s, VectorX& y) {
       return m;
     }
     if (step == most_steps)
-      refuse(s, m.forces);
+      refuse(s, m, scale);
     const Index n = s.n_u + s.n_lambda;
     MatrixX kkt = MatrixX::Zero(n, n);
     kkt.topLeftCorner(s.n_u, s.n_u) =
@@ -128,7 +185,7 @@ LinearMatrices balance(const System& s, VectorX& y) {
     VectorX x = cod.solve(rhs);
     const double length = x.head(s.n_u).cwiseAbs().maxCoeff();
     if (!x.allFinite())
-      refuse(s, m.forces);
+      refuse(s, m, scale);
     if (length > longest) // the reactions are taken whole: they are linear
       x.head(s.n_u) *= longest / length;
     system::retract(s, x.head(s.n_u).cwiseProduct(scale), y);
@@ -239,6 +296,7 @@ VectorX move_to_equilibrium(System& system) {
 
 System starting_system(const model::Scene& scene) {
   System s = system::build(scene);
+  system::note_findings(scene, s);
   if (scene.solver.start == "equilibrium")
     move_to_equilibrium(s);
   return s;

@@ -37,6 +37,16 @@ void Recorder::add_channel(std::string path, int width, std::string unit, std::s
       {std::move(path), width, std::move(unit), std::move(frame), std::move(description)});
 }
 
+/// The axes and the origin of a marker in the reference pose go with the last channel.
+void Recorder::describe_marker(const joint::Marker& marker) {
+  const Vector3 origin =
+      marker.point + (marker.body < 0 ? Vector3(0, 0, 0) : s_.bodies[marker.body].reference);
+  channels_.back().vectors = {{"axis_x", marker.axes.col(0)},
+                              {"axis_y", marker.axes.col(1)},
+                              {"axis_z", marker.axes.col(2)},
+                              {"origin", origin}};
+}
+
 void Recorder::make_channels() {
   for (const BodyData& b : s_.bodies) {
     const std::string head = "bodies/" + b.name + "/";
@@ -77,9 +87,16 @@ void Recorder::make_channels() {
       add_channel(head + motion.name + "_rate", 1, unit + "/s", frame,
                   "Rate of the joint coordinate.");
     }
-    add_channel(head + "reaction_force", 3, "N", frame, "Force of the joint on body B.");
+    const std::string owner = j.A.body < 0 ? "the ground" : "body " + s_.bodies[j.A.body].name;
+    add_channel(head + "reaction_force", 3, "N", frame,
+                "Force of the joint on body B, along the axes of marker A, which " + owner +
+                    " carries; axis_x, axis_y, axis_z and origin: where they are in the reference "
+                    "pose, world axes.");
+    describe_marker(j.A);
     add_channel(head + "reaction_moment", 3, "N m", frame,
-                "Moment of the joint on body B about its marker.");
+                "Moment of the joint on body B about the origin of its marker, along the axes of "
+                "marker A (see the reaction force).");
+    describe_marker(j.A);
   }
   for (const CouplerData& c : s_.couplers) {
     const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
@@ -89,10 +106,19 @@ void Recorder::make_channels() {
   for (const MarkerData& m : s_.markers) {
     const std::string head = "markers/" + m.name + "/", body = s_.bodies[m.body].name;
     const std::string frame = m.body_axes ? "body " + body : "world";
+    const std::string axes =
+        m.body_axes ? " Along axes that " + body +
+                          " carries: in the reference pose those of the world, axis_x, axis_y, "
+                          "axis_z; origin: the point there."
+                    : " Along the axes of the world; origin: the point in the reference pose.";
+    const joint::Marker marker{m.body, m.point, Matrix3::Identity(), nullptr};
     add_channel(head + "position", 3, "m", "world", "Of a point of " + body + ".");
-    add_channel(head + "velocity", 3, "m/s", frame, "Of a point of " + body + ", over the world.");
+    add_channel(head + "velocity", 3, "m/s", frame,
+                "Of a point of " + body + ", over the world." + axes);
+    describe_marker(marker);
     add_channel(head + "acceleration", 3, "m/s2", frame,
-                "Of a point of " + body + ", over the world; without gravity.");
+                "Of a point of " + body + ", over the world; without gravity." + axes);
+    describe_marker(marker);
   }
   const Observation& o = observer_.observation();
   for (const ComponentLoad& load : o.loads) {

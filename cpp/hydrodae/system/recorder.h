@@ -68,6 +68,7 @@ private:
   void make_channels();
   void add_channel(std::string path, int width, std::string unit, std::string frame,
                    std::string description);
+  void describe_marker(const joint::Marker& marker);
   std::vector<double> work_at(double x) const;
   void fill_bodies(double*& out);
   void fill_joints(double*& out);

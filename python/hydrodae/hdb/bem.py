@@ -19,6 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.extras import install_command
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.lids import lid
 from hydrodae.hdb.shapes import hydrostatics
@@ -189,7 +190,7 @@ def _capytaine() -> Any:
         import capytaine
     except ImportError as error:
         raise DatabaseError(
-            "computing a database needs Capytaine: pip install 'hydrodae[bem]'"
+            f"computing a database needs Capytaine: {install_command('bem')}"
         ) from error
     if int(capytaine.__version__.split(".")[0]) < 3:
         raise DatabaseError(f"needs Capytaine 3 or later, found {capytaine.__version__}")

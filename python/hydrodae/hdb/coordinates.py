@@ -118,12 +118,31 @@ def expand(spec: str, labels: Sequence[str]) -> list[str]:
             if not new:
                 raise DatabaseError(f"{item!r} is empty: the database has none of these")
         else:
-            index([item], labels)
+            if item not in labels:
+                raise DatabaseError(_no_coordinates(item, labels))
             new = [item]
         found += new
     if not found:
         raise DatabaseError(f"no coordinates in {spec!r}")
     return list(dict.fromkeys(found))
+
+
+def _no_coordinates(item: str, labels: Sequence[str]) -> str:
+    """Tell that `item` names no coordinates, and what of that kind does."""
+    bodies = bodies_of(labels)
+    shorthands = [
+        f"{body}.{word}"
+        for body in bodies
+        for word, dofs in GROUPS.items()
+        if any(f"{body}.{dof}" in labels for dof in dofs)
+    ]
+    near = difflib.get_close_matches(item, bodies, n=1, cutoff=0.6)
+    if item in bodies or ("." not in item and near):
+        body = item if item in bodies else near[0]
+        own = [name for name in (*shorthands, *labels) if name.rpartition(".")[0] == body]
+        what = "is a body" if item in bodies else "is no coordinate"
+        return f"{item!r} {what}; name what moves: {', '.join(own)}"
+    return f"no coordinate {item!r} in the database{nearest(item, [*labels, *shorthands])}"
 
 
 def skew(r: ArrayLike) -> NDArray[np.float64]:

@@ -1,0 +1,25 @@
+#pragma once
+/// Names of the dimensions of a dataset (HDF5 dimension scales), by which netCDF and xarray know
+/// that all channels share one time axis.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/io/hdf5.h"
+
+namespace hydrodae::io::hdf5 {
+
+/// Makes a dataset, which lies at the root, the scale of the dimension `name`.
+void make_scale(hid_t dataset, const std::string& name, const std::string& what);
+
+/// A dataset of words at the root that is the scale of a dimension: "component": x, y, z.
+void write_labels(hid_t file, const std::string& name, const std::vector<std::string>& labels,
+                  const std::string& what);
+
+/// The scales of the dimensions of a dataset, by their names at the root, one for each dimension.
+/// Writes the attribute DIMENSION_LIST; the list of users that a scale may carry is left out, since
+/// readers do not need it and its cost grows with the square of the number of channels.
+void attach_scales(hid_t file, hid_t dataset, const std::vector<std::string>& scales,
+                   const std::string& what);
+
+} // namespace hydrodae::io::hdf5

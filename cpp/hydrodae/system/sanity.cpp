@@ -1,0 +1,240 @@
+/// Places and coordinates of the mechanism, and all findings together.
+
+#include "hydrodae/system/sanity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+constexpr double far = 3.0, very_far = 10.0; ///< distance of a joint, in sizes of the body
+
+std::string rounded(double value) {
+  if (value == 0.0)
+    return "0";
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+  return number_text(std::round(value / unit) * unit);
+}
+
+/// Largest radius of gyration about the axes that a body turns about; about all if it does not [m].
+double gyration(const BodyData& b) {
+  double largest = 0.0;
+  for (int k = b.n_translations; k < b.n_active; ++k) {
+    const int axis = b.active[static_cast<std::size_t>(k)] - 3;
+    largest = std::max(largest, b.inertia(axis, axis));
+  }
+  if (b.n_active == b.n_translations)
+    largest = b.inertia.diagonal().maxCoeff();
+  return b.mass > 0.0 ? std::sqrt(largest / b.mass) : 0.0;
+}
+
+/// Size of a body: side of the cube of its displaced volume, or radius of gyration, where larger;
+/// for dry bodies at least the extent of the scene. 0: not known [m].
+double size_of(const model::Scene& scene, const System& s, std::size_t i) {
+  const BodyData& b = s.bodies[i];
+  const double size = gyration(b);
+  if (const std::optional<std::string>& name = scene.bodies[i].hydro; name && scene.database) {
+    const hydro::DatabaseBody* wet = hydro::find_body(*scene.database, *name);
+    if (wet && wet->hydrostatics)
+      return std::max(size, std::cbrt(wet->hydrostatics->displaced_volume));
+  }
+  double extent = 0.0;
+  for (const BodyData& other : s.bodies)
+    extent = std::max(extent, (other.reference - b.reference).norm());
+  return extent > 0.0 ? std::max(size, extent) : 0.0;
+}
+
+/// Distance of a marker from the centre of gravity of its body: of its axis where it may stand
+/// anywhere along it.
+double distance(const JointData& j, const joint::Marker& marker) {
+  const auto slides = [](const joint::FreeMotion& m) {
+    return m.kind == joint::FreeMotion::Kind::slides && m.axis == joint::Z;
+  };
+  Vector3 away = marker.point;
+  if (j.type->name == "planar") // a point anywhere in the plane
+    away = marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
+  else if (std::any_of(j.type->motions.begin(), j.type->motions.end(), slides))
+    away -= marker.axes.col(joint::Z) * marker.axes.col(joint::Z).dot(away);
+  return away.norm();
+}
+
+void judge_joints(const model::Scene& scene, const System& s, std::vector<Finding>& out) {
+  for (const JointData& j : s.joints) {
+    if (j.hidden || j.A.path)
+      continue;
+    for (const joint::Marker* marker : {&j.A, &j.B}) {
+      if (marker->body < 0)
+        continue;
+      const auto body = static_cast<std::size_t>(marker->body);
+      const double size = size_of(scene, s, body), away = distance(j, *marker);
+      if (size > 0.0 && away > far * size)
+        out.push_back({scene.bodies[body].hydro && away > very_far * size,
+                       "joint " + in_quotes(j.name) + " is " + rounded(away) +
+                           " m from the centre of gravity of body " +
+                           in_quotes(s.bodies[body].name) + ", " + rounded(away / size) +
+                           " times the size of that body (" + rounded(size) +
+                           " m); points are in world axes, in the reference pose"});
+    }
+  }
+}
+
+void judge_depth(const model::Scene& scene, std::vector<Finding>& out) {
+  const double depth = model::water(scene).depth;
+  const auto judge = [&](const std::string& what, double z) {
+    if (z < -depth)
+      out.push_back({true, what + " is at z = " + rounded(z) + " m, below the sea bed at " +
+                               rounded(-depth) + " m"});
+  };
+  if (!std::isfinite(depth))
+    return;
+  for (const model::Body& body : scene.bodies)
+    judge("the centre of gravity of body " + in_quotes(body.name), body.center_of_gravity[2]);
+  for (const model::Joint& joint : scene.joints)
+    if (joint.path.empty() && joint.point[2] < 0.0)
+      judge("the point of joint " + in_quotes(joint.name), joint.point[2] + 1e-9 * depth);
+}
+
+/// Rate of a motion at velocities u (n_u,), and the largest that velocities of that size can give.
+std::pair<double, double> motion_rate(const System& s, const Workspace<double>& ws, int motion,
+                                      const VectorX& u) {
+  const JointData& j =
+      s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)];
+  const joint::Vector12 gradient = motion_row<double>(s, ws, motion).gradient;
+  double rate = 0.0, most = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const int body = side == 0 ? j.A.body : j.B.body;
+    if (body < 0)
+      continue;
+    const BodyData& b = s.bodies[static_cast<std::size_t>(body)];
+    for (int k = 0; k < b.n_active; ++k) {
+      const double part =
+          gradient[6 * side + b.active[static_cast<std::size_t>(k)]] * u[b.u0 - s.u0 + k];
+      rate += part;
+      most += std::abs(part);
+    }
+  }
+  return {rate, most};
+}
+
+/// Random velocities that the constraints let pass, those that a drive moves too: a random vector
+/// less its part in the rows of the constraints. In units of the scales.
+VectorX allowed_velocities(const System& s, const VectorX& y, std::mt19937& random) {
+  VectorX u(s.n_u);
+  for (Index k = 0; k < s.n_u; ++k)
+    u[k] = 2.0 * (random() / 4294967296.0) - 1.0;
+  if (s.n_lambda == 0)
+    return u;
+  VectorX acts = VectorX::Ones(s.n_lambda);
+  for (const CouplerData& c : s.couplers) {
+    const bool steady =
+        c.drive.rate == 0.0 && c.drive.amplitude == 0.0 && c.drive.time.empty() && !c.drive.python;
+    if (c.kept() && !steady)
+      acts[c.lambda - s.lambda0] = 0.0;
+  }
+  SparseMatrix rows = acts.asDiagonal() * constraint_gradient(s, y);
+  rows.prune(0.0);
+  for (int pass = 0; pass < 2; ++pass) // the second removes what the first leaves by rounding
+    u -= smallest_solution(rows, rows * u);
+  return u;
+}
+
+/// A pose beside the start that keeps the constraints, to tell a lock from a dead point.
+VectorX pose_beside(const System& s, std::mt19937& random) {
+  const VectorX start = initial_state(s), scale = displacement_scale(s);
+  VectorX y = start, step(s.n_u);
+  for (Index k = 0; k < s.n_u; ++k)
+    step[k] = 0.5 * (2.0 * (random() / 4294967296.0) - 1.0) * scale[k];
+  retract(s, step, y);
+  return close(s, y) ? y : start;
+}
+
+/// Forces along motions that cannot change, neither at the start nor beside it.
+void judge_forces(const System& s, std::vector<Finding>& out) {
+  std::vector<std::string> names;
+  for_each_element(s.motion_forces, [&](const auto& f) { names.push_back(f.component); });
+  if (names.empty())
+    return;
+  std::mt19937 random(5);
+  const VectorX scale = displacement_scale(s), rest = VectorX::Zero(s.n);
+  std::vector<bool> moves(names.size(), false);
+  for (const VectorX& y : {VectorX(initial_state(s)), pose_beside(s, random)}) {
+    const VectorX u = allowed_velocities(s, y, random);
+    Workspace<double> ws(s);
+    unpack<double>(s, y.data(), rest.data(), ws.bodies);
+    // What one unit of the scales gives tells which rates count.
+    std::size_t k = 0;
+    for_each_element(s.motion_forces, [&](const auto& f) {
+      const double rate = motion_rate(s, ws, f.motion, u.cwiseProduct(scale)).first;
+      const double most = motion_rate(s, ws, f.motion, scale).second;
+      moves[k] = moves[k] || std::abs(rate) > 1e-7 * most;
+      ++k;
+    });
+  }
+  std::size_t k = 0;
+  for_each_element(s.motion_forces, [&](const auto& f) {
+    if (moves[k++])
+      return;
+    const MotionData& motion = s.motions[static_cast<std::size_t>(f.motion)];
+    const JointData& j = s.joints[static_cast<std::size_t>(motion.joint)];
+    out.push_back(
+        {true, "force " + in_quotes(f.component) + " acts along " +
+                   (j.hidden ? "a distance" : motion.name + " of joint " + in_quotes(j.name)) +
+                   ", which cannot change: the bodies' motion or other joints lock it, "
+                   "and the force does no work"});
+  });
+}
+
+void judge_stops(const model::Scene& scene, const System& s, std::vector<Finding>& out) {
+  if (scene.solver.start == "equilibrium")
+    return;
+  const Workspace<double> ws(s);
+  for (const SwitchData& element : s.switches) {
+    if (element.kind != SwitchData::Kind::stop)
+      continue;
+    const double value = motion_row<double>(s, ws, element.motion).value;
+    const double unit =
+        s.motions[static_cast<std::size_t>(element.motion)].motion.is_angle() ? 180.0 / pi : 1.0;
+    const std::string& name = s.couplers[static_cast<std::size_t>(element.coupler)].name;
+    const double slack = 1e-6 * std::max(1.0, std::abs(value));
+    if (value < element.lower - slack || value > element.upper + slack)
+      out.push_back({true, "the start is beyond stop " + in_quotes(name) + ": " +
+                               rounded(value * unit) + (unit > 1.0 ? " deg" : " m") +
+                               " is not within " + rounded(element.lower * unit) + " and " +
+                               rounded(element.upper * unit) + "; a run refuses it"});
+  }
+}
+
+} // namespace
+
+std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& s) {
+  std::vector<Finding> out;
+  judge_joints(scene, s, out);
+  judge_depth(scene, out);
+  judge_forces(s, out);
+  judge_stops(scene, s, out);
+  return out;
+}
+
+std::vector<Finding> look_over(const model::Scene& scene, const System& s) {
+  std::vector<Finding> out = look_at_bodies(scene, s);
+  for (const std::vector<Finding>& more : {look_at_mechanism(scene, s), look_at_sea(scene)})
+    out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+void note_findings(const model::Scene& scene, System& s) {
+  for (const Finding& finding : look_over(scene, s))
+    if (finding.serious)
+      s.notes.push_back("looks wrong: " + finding.text);
+}
+
+} // namespace hydrodae::system

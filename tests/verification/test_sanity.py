@@ -1,0 +1,425 @@
+"""What `check` says looks wrong, and what a run repeats: with the numbers of the scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import hydrodae
+
+SPHERE = """
+[hydro]
+database = "hydro.h5"
+radiation = "none"
+
+[[body]]
+name = "sphere"
+hydro = "sphere"
+motion = {motion}
+mass = {mass}
+center_of_gravity = [0.0, 0.0, -2.0]
+inertia = [{inertia}, {inertia}, {inertia}]
+
+{more}
+
+[solver]
+end_time = 1.0
+"""
+MASS = 261.8e3
+GYRATION = 2.0e6
+
+
+def sphere(
+    repository: Path,
+    *,
+    mass: float = MASS,
+    motion: str = '"heave"',
+    inertia: float = GYRATION,
+    more: str = "",
+) -> hydrodae.Case:
+    text = SPHERE.format(mass=mass, motion=motion, inertia=inertia, more=more)
+    return hydrodae.Case.from_text(text, directory=repository / "cases" / "sphere")
+
+
+def flap(repository: Path, *, mass: float = 179250.0, more: str = "", **keys: str) -> hydrodae.Case:
+    """Flap 1 of F3OF, hinged to the ground."""
+    given = {
+        "motion": '"planar"',
+        "point": "[-12.5, 0.0, -9.0]",
+        "inertia": "[1.0e8, 1.3e6, 1.0e8]",
+        "angle": "0.0",
+    } | keys
+    text = f"""
+[hydro]
+database = "hydro.h5"
+[[body]]
+name = "flap"
+hydro = "flap1"
+motion = {given["motion"]}
+mass = {mass}
+center_of_gravity = [-12.5, 0.0, -5.5]
+inertia = {given["inertia"]}
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "flap"
+point = {given["point"]}
+axis = [0.0, 1.0, 0.0]
+initial.angle_deg = {given["angle"]}
+{more}
+[solver]
+end_time = 1.0
+"""
+    return hydrodae.Case.from_text(text, directory=repository / "cases" / "f3of")
+
+
+def complaints(case: hydrodae.Case) -> list[str]:
+    """What `check` finds serious."""
+    mark = "looks wrong: "
+    lines = (line.strip() for line in case.examine().splitlines())
+    return [line.removeprefix(mark) for line in lines if line.startswith(mark)]
+
+
+def run_notes(case: hydrodae.Case) -> list[str]:
+    return [note for note in hydrodae.run(case).notes if note.startswith("looks wrong")]
+
+
+def test_right_scenes_are_left_alone(repository: Path) -> None:
+    cases = repository / "cases"
+    for path in (
+        "sphere/decay.toml",
+        "sphere/wave.toml",
+        "f3of/flap_decay.toml",
+        "f3of/surge_decay.toml",
+        "f3of/rao.toml",
+        "f3of/waves.toml",
+    ):
+        assert complaints(hydrodae.Case.read(cases / path)) == [], path
+    assert complaints(flap(repository)) == []
+
+
+def test_the_cases_of_benchmarks_are_left_alone(repository: Path) -> None:
+    folder = repository / "cases" / "benchmarks"
+    for path in sorted(folder.glob("*.toml")):
+        assert complaints(hydrodae.Case.read(path)) == [], path.name
+
+
+def test_tonnes_for_kg_of_what_floats_freely(repository: Path) -> None:
+    case = sphere(repository, mass=261.8)
+    (text,) = (line for line in complaints(case) if "floats freely" in line)
+    assert "weight 2.568 kN, buoyancy 2.568 MN" in text
+    assert "tonnes" in text
+    (note,) = (line for line in run_notes(case) if "floats freely" in line)
+    assert text in note
+    assert text in hydrodae.run(case).summary()
+
+
+def test_an_imbalance_is_told_with_the_offset_that_it_means(repository: Path) -> None:
+    """A tenth more mass: 25.7 kN over rho g A_w = 770 kN/m is 0.033 m deeper."""
+    from hydrodae.frequency import LinearModel
+
+    case = sphere(repository, mass=1.1 * MASS)
+    (text,) = (line for line in complaints(case) if "floats freely" in line)
+    assert "below the pose of the database" in text
+    offset = float(text.split("rests ")[1].split(" m")[0])
+    assert offset == pytest.approx(-LinearModel(case).offsets["sphere"][2], rel=1e-3)
+    small = sphere(repository, mass=1.01 * MASS)  # worth saying, not alarming
+    assert complaints(small) == []
+    assert "look at: body 'sphere'" in small.examine()
+    assert run_notes(small) == []
+
+
+def test_a_hinged_flap_may_be_buoyant_but_not_a_thousand_times(repository: Path) -> None:
+    light = flap(repository, mass=0.3 * 179250.0)
+    assert complaints(light) == []
+    assert "held vertically" in light.examine()
+    (text,) = (line for line in complaints(flap(repository, mass=179.25)) if "buoyancy" in line)
+    assert "tonnes" in text
+
+
+def test_a_float_on_a_vertical_guide_floats_freely(repository: Path) -> None:
+    """A prismatic joint along z holds no weight, one across does."""
+    guide = """
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "sphere"
+point = [0.0, 0.0, -2.0]
+axis = {axis}
+"""
+    up = sphere(repository, mass=261.8, motion='"rigid"', more=guide.format(axis="[0, 0, 1]"))
+    assert any("floats freely" in line for line in complaints(up))
+    across = sphere(
+        repository, mass=0.5 * MASS, motion='"rigid"', more=guide.format(axis="[1, 0, 0]")
+    )
+    assert "held vertically" in across.examine()
+    assert not any("floats freely" in line for line in complaints(across))
+
+
+def test_a_mooring_with_pretension_is_part_of_the_balance(repository: Path) -> None:
+    missing = 9.81 * 0.4 * MASS
+    mooring = f"""
+[[force]]
+type = "mooring_matrix"
+name = "tether"
+body = "sphere"
+stiffness = [0, 0, 1.0e3, 0, 0, 0]
+pretension = [0, 0, {-missing}, 0, 0, 0]
+"""
+    assert complaints(sphere(repository, mass=0.6 * MASS, more=mooring)) == []
+    assert complaints(sphere(repository, mass=0.6 * MASS)) != []
+
+
+def test_bodies_that_are_joined_balance_together(repository: Path) -> None:
+    """The base of F3OF is too heavy by what its flaps are too light."""
+    text = hydrodae.Case.read(repository / "cases" / "f3of" / "rao.toml").examine()
+    assert "bodies 'base', 'flap1', 'flap2': weight" in text
+    assert "floats freely" in text
+
+
+def test_inertia_in_another_unit_than_the_mass(repository: Path) -> None:
+    (text,) = complaints(flap(repository, inertia="[1.0e5, 1.3e3, 1.0e5]"))
+    assert "radius of gyration of 0.08516 m" in text
+    assert "are both in kg" in text
+
+
+def test_a_body_that_capsizes(repository: Path, tmp_path: Path) -> None:
+    """Flap 1 afloat alone, its centre of buoyancy put 2.5 m below that of gravity."""
+    from dataclasses import replace
+
+    from hydrodae.hdb.database import HydroDatabase
+
+    db = HydroDatabase.read(repository / "cases" / "f3of" / "hydro.h5")
+    own = db.bodies["flap1"].hydrostatics
+    assert own is not None
+    low = replace(own, center_of_buoyancy=own.center_of_buoyancy * [1, 1, 0] + [0, 0, -8.0])
+    db.with_hydrostatics({"flap1": low}).write(tmp_path / "hydro.h5")
+    text = f"""
+[hydro]
+database = "hydro.h5"
+radiation = "none"
+[[body]]
+name = "flap"
+hydro = "flap1"
+motion = "planar"
+mass = {1025 * own.displaced_volume}
+center_of_gravity = [-12.5, 0.0, -5.5]
+inertia = [1.0e8, 1.3e6, 1.0e8]
+[solver]
+end_time = 1.0
+"""
+    (tmp_path / "case.toml").write_text(text)
+    case = hydrodae.Case.read(tmp_path / "case.toml")
+    assert any("capsizes: its pitch stiffness is -" in line for line in complaints(case))
+    assert any("capsizes" in note for note in run_notes(case))
+
+
+def test_a_joint_far_from_its_body(repository: Path) -> None:
+    case = flap(repository, point="[-12.5, 0.0, 490.0]")
+    (text,) = (line for line in complaints(case) if "joint 'hinge'" in line)
+    assert "is 496 m from the centre of gravity of body 'flap'" in text
+    assert any("joint 'hinge'" in note for note in run_notes(case))
+
+
+def test_a_point_that_is_not_in_world_axes_is_worth_a_look(repository: Path) -> None:
+    case = flap(repository, point="[12.5, 0.0, -9.0]")
+    assert "look at: joint 'hinge' is 25.2 m from the centre of gravity" in case.examine()
+    assert not any("joint 'hinge'" in note for note in run_notes(case))
+
+
+def test_below_the_sea_bed() -> None:
+    text = """
+[environment]
+water_density = 1025.0
+water_depth = 10.0
+[[body]]
+name = "anchor"
+motion = "heave"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, -20.0]
+[[morison]]
+name = "leg"
+body = "anchor"
+point_a = [0, 0, -4]
+point_b = [0, 0, 0]
+diameter = 0.2
+drag_coefficient = 1.0
+added_mass_coefficient = 1.0
+segments = 3
+[solver]
+end_time = 1.0
+"""
+    (found,) = complaints(hydrodae.Case.from_text(text))
+    assert "body 'anchor' is at z = -20 m, below the sea bed at -10 m" in found
+
+
+def test_a_take_off_at_a_dead_point_is_not_locked() -> None:
+    """Two equal bars in line: the slide of a crank does not move there, but beside it."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "crank"
+motion = "planar"
+mass = 1.0
+center_of_gravity = [0.5, 0, 0]
+inertia = [0.1, 0.1, 0.1]
+initial.angular_velocity = [0, 1, 0]
+initial.velocity = [0, 0, -0.5]
+[[body]]
+name = "rod"
+motion = "planar"
+mass = 1.0
+center_of_gravity = [2.0, 0, 0]
+inertia = [0.4, 0.4, 0.4]
+[[body]]
+name = "piston"
+motion = "surge"
+mass = 1.0
+center_of_gravity = [3.0, 0, 0]
+[[joint]]
+name = "main"
+type = "revolute"
+body_a = "ground"
+body_b = "crank"
+point = [0, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "pin"
+type = "revolute"
+body_a = "crank"
+body_b = "rod"
+point = [1, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "wrist"
+type = "revolute"
+body_a = "piston"
+body_b = "rod"
+point = [3, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "piston"
+point = [3, 0, 0]
+axis = [1, 0, 0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+damping = 1.0
+[solver]
+end_time = 1.0
+"""
+    assert complaints(hydrodae.Case.from_text(text)) == []
+
+
+def test_a_take_off_along_a_locked_motion(repository: Path) -> None:
+    pto = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
+    fixed = """
+[[joint]]
+name = "weld"
+type = "fixed"
+body_a = "ground"
+body_b = "flap"
+point = [-12.5, 0.0, -9.0]
+"""
+    assert complaints(flap(repository, more=pto)) == []
+    case = flap(repository, more=pto + fixed)
+    (text,) = complaints(case)
+    assert "force 'pto' acts along angle of joint 'hinge', which cannot change" in text
+
+
+def test_a_take_off_beside_a_drive_moves(repository: Path) -> None:
+    pto = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
+    drive = """
+[[constraint]]
+name = "motor"
+type = "coordinate"
+joint = "hinge"
+drive = { amplitude = 0.1, period = 5.0 }
+"""
+    assert not any("force 'pto'" in line for line in complaints(flap(repository, more=pto + drive)))
+
+
+def test_a_start_beyond_a_stop(repository: Path) -> None:
+    stop = """
+[[constraint]]
+name = "stop"
+type = "stop"
+joint = "hinge"
+lower_deg = -5.0
+upper_deg = 5.0
+"""
+    assert complaints(flap(repository, more=stop)) == []
+    (text,) = complaints(flap(repository, more=stop, angle="20.0"))
+    assert "20 deg is not within -5 and 5" in text
+
+
+@pytest.mark.parametrize(
+    ("wave", "words"),
+    [
+        ('type = "regular"\nperiod = 4.0\nheight = 4.0', "waves break at 0.142"),
+        ('type = "jonswap"\npeak_period = 5.0\nsignificant_height = 4.0', "(DNV-RP-C205)"),
+    ],
+)
+def test_waves_that_would_break(repository: Path, wave: str, words: str) -> None:
+    case = sphere(repository, more=f'[[wave]]\nname = "sea"\n{wave}\n')
+    (text,) = complaints(case)
+    assert words in text
+    assert any(words in note for note in run_notes(case))
+    gentle = wave.replace("height = 4.0", "height = 0.3")
+    assert complaints(sphere(repository, more=f'[[wave]]\nname = "sea"\n{gentle}\n')) == []
+
+
+def test_a_sea_too_high_for_its_depth() -> None:
+    text = """
+[environment]
+water_density = 1025.0
+water_depth = 5.0
+[[wave]]
+name = "sea"
+type = "jonswap"
+significant_height = 4.0
+peak_period = 14.0
+[[body]]
+name = "pole"
+motion = "surge"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, -2.0]
+[[morison]]
+name = "leg"
+body = "pole"
+point_a = [0, 0, -4]
+point_b = [0, 0, 0]
+diameter = 0.2
+drag_coefficient = 1.0
+added_mass_coefficient = 1.0
+segments = 3
+[solver]
+end_time = 1.0
+"""
+    case = hydrodae.Case.from_text(text)
+    assert any("0.6 of the depth of 5 m" in line for line in complaints(case))
+    deep = hydrodae.Case.from_text(text.replace("water_depth = 5.0", "water_depth = 50.0"))
+    assert complaints(deep) == []
+
+
+def test_where_the_scene_rests(repository: Path) -> None:
+    """A constant moment that tilts the flap to 30 degrees is told by check."""
+    load = """
+[[force]]
+type = "constant_load"
+name = "push"
+body = "flap"
+moment = [0.0, {moment}, 0.0]
+"""
+    stiffness = 5.0e6
+    text = flap(repository, more=load.format(moment=stiffness)).examine()
+    assert "at rest in still water body 'flap' is at" in text
+    assert "at rest in still water" not in flap(repository).examine()
