@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::solve {
@@ -237,10 +238,26 @@ VectorX move_to_equilibrium(System& system) {
   return y;
 }
 
+VectorX settle(const model::Scene& scene, System& s) {
+  constexpr int most_passes = 20;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const std::size_t notes = s.notes.size();
+    const VectorX y = move_to_equilibrium(s);
+    if (!system::take_mean_yaw(scene, s))
+      return y;
+    s.notes.resize(notes);
+  }
+  throw ModelError("solver.start", "no static equilibrium near the start: the yaw of the bodies, "
+                                   "with which the hydrostatics turn, does not settle");
+}
+
 System starting_system(const model::Scene& scene) {
-  System s = system::build(scene);
-  if (scene.solver.start == "equilibrium")
-    move_to_equilibrium(s);
+  if (scene.solver.start != "equilibrium")
+    return system::build(scene);
+  System s = system::build(scene, false);
+  settle(scene, s);
+  system::note_axes(scene, s);
+  system::add_sea(scene, s);
   return s;
 }
 

@@ -45,6 +45,9 @@ public:
   /// gain, and any change without an impact, is left as an error of the balance.
   void restart(const VectorX& y, const VectorX& yp, bool struck);
 
+  /// The bodies at the last sample.
+  const std::vector<BodyState<double>>& bodies() const { return observer_.bodies(); }
+
   /// All motions at the end of the last step, angles followed over turns.
   const std::vector<double>& turns() const { return turns_; }
 
