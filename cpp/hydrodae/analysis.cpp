@@ -57,7 +57,7 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const system::BodyData& b = s.bodies[body];
-    const auto d = system::hydro_motion_gradient(s.hydro.axes, ws.bodies[body]);
+    const auto d = system::hydro_motion_gradient(s.hydro.axes, hb, ws.bodies[body]);
     Matrix6 by_velocity;
     by_velocity << d.U_v, d.U_w;
     for (std::size_t c = 0; c < 6; ++c) {
@@ -70,6 +70,8 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
       add_row(out.hydro_map, row);
       out.hydro_labels.push_back(*scene.bodies[body].hydro + "." +
                                  std::string(model::coordinate_names[c]));
+      out.hydro_yaws.push_back(hb.yaw);
+      out.hydro_points.push_back(b.position);
     }
   }
 }
@@ -201,17 +203,11 @@ LinearModel linearize(const model::Scene& scene) {
     still.hydro->frequency.reset();
     still.hydro->memory_length.reset();
   }
-  System s = system::build(still);
-  if (s.hydro.axes == system::HydroAxes::yaw)
-    for (const system::HydroBody& hb : s.hydro.bodies)
-      if (std::abs(system::start_yaw(s.bodies[static_cast<std::size_t>(hb.body)])) > 1e-12)
-        throw ModelError("hydro.axes",
-                         "the frequency domain knows no bodies that start turned by a "
-                         "yaw (axes = \"yaw\"); turn the headings of the waves "
-                         "instead");
+  System s = system::build(still, false);
   s.hydro.added_mass.setZero();
   s.hydro.added_mass_all.setZero();
-  const VectorX y = solve::move_to_equilibrium(s);
+  const VectorX y = solve::settle(still, s);
+  system::note_axes(scene, s);
   const solve::LinearMatrices m = solve::linear_matrices(s, system::find_pattern(s), y);
   LinearModel out;
   out.mass = m.mass;

@@ -21,6 +21,8 @@ struct LinearModel {
   MatrixX constraints;                   ///< G (n_lambda, n_u)
   std::vector<std::string> hydro_labels; ///< (m,) labels of the database that move
   MatrixX hydro_map;                     ///< T (m, n_u)
+  std::vector<double> hydro_yaws;        ///< (m,) mean yaw of the body of each [rad]
+  std::vector<Vector3> hydro_points;     ///< (m,) where that body stands in the equilibrium [m]
   std::vector<std::string> motions;      ///< (n_m,) "joints/hinge1/angle"
   MatrixX motion_map;                    ///< (n_m, n_u) of the joint coordinates
   std::vector<std::string> dampers;      ///< (n_d,) forces with damping along a joint coordinate

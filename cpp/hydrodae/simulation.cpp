@@ -20,6 +20,7 @@
 #include "hydrodae/solve/trust.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/system/linear_limits.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -32,20 +33,21 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-io::Attributes header(const model::Scene& scene, const std::vector<std::string>& lines) {
-  std::string notes;
+std::string lines_of(const std::vector<std::string>& lines) {
+  std::string text;
   for (const std::string& line : lines)
-    notes += line + "\n";
-  std::string overrides;
-  for (const std::string& line : scene.overrides)
-    overrides += line + "\n";
+    text += line + "\n";
+  return text;
+}
+
+io::Attributes header(const model::Scene& scene, const std::vector<std::string>& notes) {
   return {{"title", scene.title},
           {"case_text", scene.text},
           {"case_path", scene.path},
-          {"case_overrides", overrides},
+          {"case_overrides", lines_of(scene.overrides)},
           {"hydro_sha256", scene.database ? scene.database->sha256 : std::string()},
           {"version", std::string(version)},
-          {"notes", notes}};
+          {"notes", lines_of(notes)}};
 }
 
 io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
@@ -119,6 +121,7 @@ public:
     integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
     trust_ = std::make_unique<solve::Trust>(system_, pattern_, scene.solver);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
+    linear_limits_ = system::linear_limits(scene, system_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
     row_.resize(recorder_->width() + solver_channels.size());
@@ -336,6 +339,7 @@ private:
 
   bool sample(double t) {
     recorder_->sample(t, at_, row_);
+    system::watch(linear_limits_, t, recorder_->bodies());
     const solve::Statistics s = integrator_->statistics();
     row_[row_.size() - 2] = s.last_step;
     row_[row_.size() - 1] = s.last_order;
@@ -353,9 +357,13 @@ private:
     statistics_.estimated_error_time = estimate.time;
     for (const std::string& note : motion_scale_->notes())
       statistics_.notes.push_back(note);
-    if (file_)
-      file_->close(statistics_.status, message,
-                   attributes(statistics_, scene_, recorder_->relative_balance_error()));
+    const std::vector<std::string> limits = system::notes(linear_limits_);
+    statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
+    if (!file_)
+      return;
+    io::Attributes all = attributes(statistics_, scene_, recorder_->relative_balance_error());
+    all["beyond_linear_theory"] = lines_of(limits);
+    file_->close(statistics_.status, message, all);
   }
 
   const model::Scene& scene_;
@@ -378,6 +386,7 @@ private:
   std::unique_ptr<system::MotionScale> motion_scale_; ///< adapts the tolerances
   std::unique_ptr<solve::Trust> trust_;
   std::unique_ptr<system::Recorder> recorder_;
+  system::LinearLimits linear_limits_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;

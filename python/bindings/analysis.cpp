@@ -23,8 +23,9 @@ py::dict linear_model(const model::Scene& scene) {
   return py::dict(
       "coordinates"_a = m.coordinates, "mass"_a = m.mass, "damping"_a = m.damping,
       "stiffness"_a = m.stiffness, "constraints"_a = m.constraints,
-      "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map, "motions"_a = m.motions,
-      "motion_map"_a = m.motion_map, "dampers"_a = m.dampers, "damper_damping"_a = m.damper_damping,
+      "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map, "hydro_yaws"_a = m.hydro_yaws,
+      "hydro_points"_a = m.hydro_points, "motions"_a = m.motions, "motion_map"_a = m.motion_map,
+      "dampers"_a = m.dampers, "damper_damping"_a = m.damper_damping,
       "damper_stiffness"_a = m.damper_stiffness, "damper_delay"_a = m.damper_delay,
       "damper_map"_a = m.damper_map, "reactions"_a = m.reactions,
       "reaction_by_xi"_a = m.reaction_by_xi, "reaction_by_lambda"_a = m.reaction_by_lambda,

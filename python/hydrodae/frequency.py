@@ -5,7 +5,8 @@ U = T xi' of the hydrodynamic coordinates and phasors x(t) = Re(X e^{+iwt}):
 
     [-w^2 (M + T^T A(w) T) + iw (C + T^T B(w) T) + K] xi - G^T lambda = T^T F(w),    G xi = 0
 
-A(w), B(w) and F(w) come from the database itself, without any memory fit. A force along a joint
+A(w), B(w) and F(w) come from the database itself, without any memory fit; F(w) is that of the
+heading relative to the mean yaw of each body, with the phase of its place. A force along a joint
 coordinate s that acts tau late enters exactly, as (k + iw c) e^{-iw tau} s.
 """
 
@@ -40,14 +41,21 @@ class Mode:
     period : float
         Undamped natural period with the added mass at that period [s].
     damping_ratio : float
-        Radiation and other linear damping over critical damping [-], of this mode alone.
+        Im w / |w| [-] of the complex frequency w of the damped mode, with A(w) and B(w) continued
+        by their Taylor series off the real axis. Of a mode that hardly swings (a ratio above 0.5 to
+        first order), and where Newton's method finds no damped mode beside the undamped one, the
+        first-order value c / (2 w m + w^2 dA/dw) of this mode alone.
     shape : dict
-        Share of each coordinate [m or rad], the largest is 1.
+        Share of each coordinate [m or rad], the largest is 1; of the undamped mode.
+    extrapolated : bool
+        The period is outside the frequencies of the database: below them A is that of the lowest
+        and B falls with w^3, above them A goes to that at infinite frequency, and B to zero.
     """
 
     period: float
     damping_ratio: float
     shape: dict[str, float]
+    extrapolated: bool = False
 
 
 @dataclass(frozen=True)
@@ -182,6 +190,35 @@ class LinearModel:
         moved = t.T @ tables @ t
         return moved[:, 0], moved[:, 1]
 
+    def _continued(self, omega: complex) -> tuple[Complex, Complex]:
+        """T^T A T and T^T B T, (n_u, n_u), near the real axis, also outside the database.
+
+        Below it A = A(w_min) and B = B(w_min) (w/w_min)^3, as heave in deep water (the others fall
+        faster); above it A = A_inf + (A(w_max) - A_inf) (w_max/w)^2 and B the same
+        with (w_max/w)^3. Off the real axis by the Taylor series, to second order inside the
+        database and to first order outside.
+        """
+        n = len(self.coordinates)
+        if self.database is None or not self._model["hydro_labels"]:
+            return np.zeros((n, n), dtype=complex), np.zeros((n, n), dtype=complex)
+        low, high = self.database.omega[[0, -1]]
+        w, aside = omega.real, 1j * omega.imag
+        if w < low:
+            added, damping = self._radiation(low)
+            damping = damping * ((w / low) ** 3 + aside * 3.0 * w**2 / low**3)
+        elif w > high:
+            i = self._labels
+            at_inf = self.database.added_mass_inf[np.ix_(i, i)]
+            added, damping = self._radiation(high)
+            falls = (high / w) ** 2 - aside * 2.0 * high**2 / w**3
+            added = at_inf + (added - at_inf) * falls
+            damping = damping * ((high / w) ** 3 - aside * 3.0 * high**3 / w**4)
+        else:
+            slope, curvature = self._radiation(w, 1), self._radiation(w, 2)
+            added, damping = self._radiation(w) + aside * slope + 0.5 * aside**2 * curvature
+        t = self._model["hydro_map"]
+        return np.asarray(t.T @ added @ t, complex), np.asarray(t.T @ damping @ t, complex)
+
     def _late(self, omega: Array) -> Complex:
         """W^T [(k + iw c) e^{-iw tau} - k] W of the delayed forces; (nw, n_u, n_u).
 
@@ -212,13 +249,10 @@ class LinearModel:
                 f"{2 * np.pi / low:g} s)"
             )
 
-    def _lag(self, omega: Array, heading: Array) -> Array:
-        """Phase k.x of the waves at the reference points, (nw, nh, m) [rad]."""
+    def _lag(self, omega: Array, heading: Array, points: Array) -> Array:
+        """Phase k.x of the waves at points (m, 3), (nw, nh, m) [rad]."""
         db = self.database
         assert db is not None
-        points = np.array(
-            [db.reference_point(label.rpartition(".")[0]) for label in self._model["hydro_labels"]]
-        )
         along = np.multiply.outer(np.cos(heading), points[:, 0])
         along += np.multiply.outer(np.sin(heading), points[:, 1])
         return np.asarray(wavenumber(omega, db.water_depth, db.gravity)[:, None, None] * along)
@@ -228,14 +262,19 @@ class LinearModel:
         """Excitation over frequency with the phase at the reference points taken off."""
         db = self.database
         assert db is not None
-        smooth = db.excitation[:, :, self._labels] * np.exp(1j * self._lag(db.omega, db.heading))
+        points = np.array(
+            [db.reference_point(label.rpartition(".")[0]) for label in self._model["hydro_labels"]]
+        )
+        lag = self._lag(db.omega, db.heading, points)
+        smooth = db.excitation[:, :, self._labels] * np.exp(1j * lag)
         return CubicSpline(db.omega, smooth, bc_type="natural")
 
     def excitation(self, omega: ArrayLike, heading: float) -> Complex:
         """T^T F, loads (nw, n_u) per metre of wave amplitude, phase zero at the origin.
 
         Of the database: the phase at each body's reference point is taken off, natural cubic
-        splines go through the tables in frequency and heading, and the phase is put back. Of the
+        splines go through the tables in frequency and heading, those of the heading relative to the
+        mean yaw of the body are taken, and the phase is put in where the body stands. Of the
         Morison elements: inertia, and the slope that a current gives to the drag.
 
         Raises
@@ -271,13 +310,19 @@ class LinearModel:
         db = self.database
         assert db is not None
         self._check_frequencies(w)
-        heading = _covered_heading(db, heading)
-        at_omega = self._smooth_excitation(w)
-        if db.heading.size > 1:
-            at_omega = CubicSpline(db.heading, at_omega, axis=1, bc_type="natural")(heading)
-        else:
-            at_omega = at_omega[:, 0]
-        force = at_omega * np.exp(-1j * self._lag(w, np.array([heading])))[:, 0]
+        yaws = np.asarray(self._model["hydro_yaws"], dtype=float)
+        points = np.asarray(self._model["hydro_points"], dtype=float).reshape(-1, 3)
+        tables = self._smooth_excitation(w)
+        force = np.empty((w.size, yaws.size), dtype=complex)
+        for yaw in np.unique(yaws):
+            mine = yaws == yaw
+            relative = _covered_heading(db, heading - yaw)
+            if db.heading.size > 1:
+                spline = CubicSpline(db.heading, tables[:, :, mine], axis=1, bc_type="natural")
+                force[:, mine] = spline(relative)
+            else:
+                force[:, mine] = tables[:, 0, mine]
+        force *= np.exp(-1j * self._lag(w, np.array([heading]), points))[:, 0]
         return np.asarray(force @ self._model["hydro_map"])
 
     def response(self, omega: ArrayLike, heading: float = 0.0) -> Response:
@@ -339,7 +384,8 @@ class LinearModel:
         """Natural modes of the constrained system, longest period first.
 
         Each frequency is found together with the added mass at that frequency (fixed point). Modes
-        without restoring force, and those outside the frequencies of the database, are left out.
+        without restoring force are left out; those outside the frequencies of the database are
+        marked.
         """
         found: list[Mode] = []
         count = self._free.shape[1]
@@ -353,36 +399,67 @@ class LinearModel:
         """Mode with the k-th eigenvalue, added mass at its own frequency."""
         free = self._free
         stiffness = free.T @ self.stiffness @ free
-        omega = np.array([1.0])
+        omega = 1.0
         if self.database is not None:
             low, high = self.database.omega[[0, -1]]
-            omega = np.array([np.sqrt(low * high)])
+            omega = float(np.sqrt(low * high))
         for _ in range(200):
-            added, radiation = self._added(omega)
-            mass = free.T @ (self.mass + added[0]) @ free
-            late = self._late(omega)[0]
+            added, _ = self._continued(complex(omega))
+            mass = free.T @ (self.mass + added.real) @ free
+            late = self._late(np.array([omega]))[0]
             spring = stiffness + free.T @ late.real @ free
             values, vectors = eigh(0.5 * (spring + spring.T), 0.5 * (mass + mass.T))
             if values[k] <= 1e-9 * np.abs(values).max():
                 return None
-            new = np.sqrt(values[k])
-            if self.database is not None:
-                new = np.clip(new, low, high)
-            if abs(new - omega[0]) <= 1e-10 * new:
+            new = float(np.sqrt(values[k]))
+            if abs(new - omega) <= 1e-10 * new:
                 break
-            omega = np.array([0.5 * (omega[0] + new)])
-        if self.database is not None and omega[0] in (low, high):
-            return None
+            omega = 0.5 * (omega + new)
         shape = free @ vectors[:, k]
-        late = self._late(omega)[0]
-        damping = shape @ (self.damping + radiation[0] + late.imag / omega[0]) @ shape
-        ratio = damping / (2.0 * omega[0])  # vectors have unit modal mass
-        shape = shape / shape[np.argmax(np.abs(shape))]
+        scaled = shape / shape[np.argmax(np.abs(shape))]
         return Mode(
-            period=float(2.0 * np.pi / omega[0]),
-            damping_ratio=float(ratio),
-            shape=dict(zip(self.coordinates, shape.tolist(), strict=True)),
+            period=2.0 * np.pi / omega,
+            damping_ratio=self._damping_ratio(omega, vectors[:, k]),
+            shape=dict(zip(self.coordinates, scaled.tolist(), strict=True)),
+            extrapolated=self.database is not None and not low <= omega <= high,
         )
+
+    def _dynamic_stiffness(self, omega: complex) -> Complex:
+        """Z(w) of the free motions; Z xi = 0 in a damped mode."""
+        added, radiation = self._continued(omega)
+        z = -(omega**2) * (self.mass + added) + 1j * omega * (self.damping + radiation)
+        z = z + self.stiffness + self._late(np.array([omega]))[0]
+        return np.asarray(self._free.T @ z @ self._free)
+
+    def _damping_ratio(self, omega: float, shape: Array) -> float:
+        """Im w / |w| of the damped mode next to an undamped one (omega, shape).
+
+        Newton's method on Z(w) v = 0, v0^T v = 1, from the undamped mode.
+        """
+        n = shape.size
+
+        def slope(w: complex) -> Complex:
+            h = 1e-5 * abs(w)
+            return (self._dynamic_stiffness(w + h) - self._dynamic_stiffness(w - h)) / (2.0 * h)
+
+        # First order: w - w0 = -v^T Z v / (v^T Z' v), whose real part is of no matter here.
+        z0, z1 = self._dynamic_stiffness(omega), slope(omega)
+        first = float((-(shape @ z0 @ shape) / (shape @ z1 @ shape).real).imag / omega)
+        if abs(first) > 0.5:
+            return first
+        size = np.abs(shape).max() / np.maximum(np.abs(shape), 1e-3 * np.abs(shape).max())
+        left = shape * size**2 / np.sum((shape * size) ** 2)  # of mixed units
+        w, v = complex(omega), shape.astype(complex)
+        for _ in range(30):
+            z = self._dynamic_stiffness(w)
+            jacobian = np.block([[z, (slope(w) @ v)[:, None]], [left[None, :], np.zeros((1, 1))]])
+            step = np.linalg.solve(jacobian, np.append(-z @ v, 1.0 - left @ v))
+            w, v = w + step[-1], v + step[:n]
+            if not abs(w - omega) < 0.5 * omega:
+                return first
+            if abs(step[-1]) <= 1e-9 * abs(w):
+                return float(w.imag / abs(w))
+        return first
 
     def irregular(self) -> tuple[dict[str, float], dict[str, float]]:
         """Response in the sea of the case, from the same components as in the time domain.

@@ -166,7 +166,7 @@ def dominant_frequency(case: Case) -> float:
     waves = np.asarray(_core.wave_components(case.scene))
     if len(waves):
         return float(waves[np.argmax(waves[:, 2]), 0])
-    modes = LinearModel(case).modes()
+    modes = [mode for mode in LinearModel(case).modes() if not mode.extrapolated]
     if not modes:
         raise CaseError("no natural mode within the database: give --frequency [rad/s]")
     return 2.0 * np.pi / min(modes, key=lambda mode: mode.damping_ratio).period

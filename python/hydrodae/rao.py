@@ -198,8 +198,10 @@ def run(arguments: argparse.Namespace) -> int:
         main = [
             f"{rao_output.short_name(n)} {v:+.2f}" for n, v in mode.shape.items() if abs(v) >= 0.1
         ]
+        mark = " (outside the table: extrapolated)" if mode.extrapolated else ""
         print(
-            f"mode {mode.period:8.3f} s, damping ratio {mode.damping_ratio:.4f}: {', '.join(main)}"
+            f"mode {mode.period:8.3f} s{mark}, damping ratio {mode.damping_ratio:.4f}: "
+            f"{', '.join(main)}"
         )
     heading = float(np.radians(arguments.heading))
     if arguments.output:

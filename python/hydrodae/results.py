@@ -240,7 +240,8 @@ class Results(Mapping[str, "xarray.DataArray"]):
     @property
     def notes(self) -> list[str]:
         """What the assembly found worth telling: redundant rows, bodies moved to close joints."""
-        return str(self._header.get("notes", "")).splitlines()
+        before = str(self._header.get("notes", ""))
+        return (before + str(self._statistics.get("beyond_linear_theory", ""))).splitlines()
 
     @property
     def message(self) -> str:

@@ -287,6 +287,18 @@ inline std::unique_ptr<system::History> random_history(system::System& s, Random
   return history;
 }
 
+/// Gives every hydrodynamic body a mean yaw of its own, as if it had been placed so.
+inline void turn_mean_axes(system::System& s) {
+  double yaw = 0.4;
+  for (system::HydroBody& hb : s.hydro.bodies) {
+    hb.turned = true;
+    hb.yaw = yaw;
+    hb.cos_yaw = std::cos(yaw);
+    hb.sin_yaw = std::sin(yaw);
+    yaw -= 1.1;
+  }
+}
+
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.
 inline VectorX random_state(const system::System& s, Random& random) {
   VectorX y = system::initial_state(s);

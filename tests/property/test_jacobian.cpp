@@ -44,6 +44,7 @@ TEST_CASE("the Jacobian is exact in all blocks") {
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
     System s = system::build(named.scene);
+    test::turn_mean_axes(s);
     const auto history = test::random_history(s, random, instant);
     const system::Pattern pattern = system::find_pattern(s);
     const VectorX y = test::random_state(s, random);

@@ -47,7 +47,7 @@ struct Environment {
 /// Table [hydro]: the database and the rungs of the radiation ladder.
 struct HydroOptions {
   std::string database;
-  std::string axes = "body";
+  std::string axes = "mean";
   std::string radiation = "exponential";
   std::optional<std::string> fit;
   std::optional<double> frequency;
@@ -60,13 +60,12 @@ struct HydroOptions {
         {"axes",
          &H::axes,
          "-",
-         "Axes in which added mass, radiation and excitation act: carried by each body, the earth "
-         "axes of the reference pose (mean), or axes that turn with the body's yaw alone (yaw: "
-         "then "
-         "hydrostatics and the heading of the waves go by the yaw at the start).",
+         "Axes in which added mass, radiation and excitation act: earth axes turned by the yaw "
+         "that each body has at the start or in the equilibrium (mean), axes that follow its yaw "
+         "(yaw), or axes carried by each body (body: large rotations in still water).",
          false,
          any_value,
-         {"body", "mean", "yaw"}},
+         {"mean", "yaw", "body"}},
         {"radiation",
          &H::radiation,
          "-",

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hydrodae/sea/components.h"
+#include "hydrodae/sea/signals.h"
 
 namespace hydrodae::sea {
 
@@ -22,7 +23,14 @@ public:
   DriftingSignals(std::vector<Component> components, Eigen::MatrixXcd coefficients, double ramp)
       : components_(std::move(components)), coefficients_(std::move(coefficients)), ramp_(ramp) {}
 
+  /// The same without ramp, each component i ahead by theta_i; see Signals::frozen.
+  DriftingSignals frozen(const VectorX& theta, const VectorX& least) const {
+    return {components_, frozen_coefficients(coefficients_, theta, least), 0.0};
+  }
+
   Eigen::Index size() const { return coefficients_.rows(); }
+  Eigen::Index components() const { return coefficients_.cols(); }
+  VectorX largest() const { return coefficients_.cwiseAbs().rowwise().maxCoeff(); } ///< |C_ri|
   bool empty() const { return coefficients_.rows() == 0; }
   const std::vector<Component>& components() const { return components_; }
   const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C

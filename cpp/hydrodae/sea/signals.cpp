@@ -82,6 +82,22 @@ void Signals::operator()(double t, Eigen::Ref<VectorX> out) const {
     out *= growth;
 }
 
+Eigen::MatrixXcd frozen_coefficients(const Eigen::MatrixXcd& coefficients, const VectorX& theta,
+                                     const VectorX& least) {
+  Eigen::MatrixXcd out(coefficients.rows(), coefficients.cols());
+  for (Eigen::Index i = 0; i < coefficients.cols(); ++i)
+    for (Eigen::Index r = 0; r < coefficients.rows(); ++r)
+      out(r, i) = std::abs(coefficients(r, i)) < least[r]
+                      ? std::complex<double>(0.0)
+                      : coefficients(r, i) * std::polar(1.0, theta[i]);
+  return out;
+}
+
+Signals Signals::frozen(const VectorX& theta, const VectorX& least) const {
+  const VectorX sum = frozen_coefficients(coefficients_, theta, least).real().rowwise().sum();
+  return {VectorX::Zero(1), sum.cast<std::complex<double>>(), 1.0, 0.0};
+}
+
 void Signals::sum(double t, Eigen::Ref<VectorX> out) const {
   out.setZero();
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {

@@ -8,6 +8,10 @@
 
 namespace hydrodae::sea {
 
+/// C_ri exp(i theta_i); 0 where |C_ri| is below least_r.
+Eigen::MatrixXcd frozen_coefficients(const Eigen::MatrixXcd& coefficients, const VectorX& theta,
+                                     const VectorX& least);
+
 /// f_r(t) = ramp(t) Re sum_i C_ri exp(i w_i t)
 ///
 /// With few components the sum itself; with many, a table on equal time steps with f, f' and f''
@@ -30,11 +34,17 @@ public:
   /// The first `out.size()` of the functions at time t [s]. No allocation.
   void operator()(double t, Eigen::Ref<VectorX> out) const;
 
+  /// Constant functions Re sum_i C_ri exp(i theta_i), without ramp: what the waves do at one of all
+  /// the times to come. Of its elements C those below `least` (n_signals,) count as zero.
+  Signals frozen(const VectorX& theta, const VectorX& least) const;
+
   Eigen::Index size() const { return coefficients_.rows(); }
+  Eigen::Index components() const { return coefficients_.cols(); }
   bool empty() const { return coefficients_.rows() == 0; }
   double step() const { return step_; }           ///< of the table [s]; 0 without table
   const VectorX& omega() const { return omega_; } ///< [rad/s]
   const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C
+  VectorX largest() const { return coefficients_.cwiseAbs().rowwise().maxCoeff(); } ///< |C_ri|
 
 private:
   void sum(double t, Eigen::Ref<VectorX> out) const;

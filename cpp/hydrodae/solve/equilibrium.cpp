@@ -9,6 +9,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/residual.h"
 #include "hydrodae/system/sanity.h"
 
@@ -294,11 +295,28 @@ VectorX move_to_equilibrium(System& system) {
   return y;
 }
 
+VectorX settle(const model::Scene& scene, System& s) {
+  constexpr int most_passes = 20;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const std::size_t notes = s.notes.size();
+    const VectorX y = move_to_equilibrium(s);
+    if (!system::take_mean_yaw(scene, s))
+      return y;
+    s.notes.resize(notes);
+  }
+  throw ModelError("solver.start", "no static equilibrium near the start: the yaw of the bodies, "
+                                   "with which the hydrostatics turn, does not settle");
+}
+
 System starting_system(const model::Scene& scene) {
-  System s = system::build(scene);
+  const bool rests = scene.solver.start == "equilibrium";
+  System s = system::build(scene, !rests);
+  if (rests) {
+    settle(scene, s);
+    system::note_axes(scene, s);
+    system::add_sea(scene, s);
+  }
   system::note_findings(scene, s);
-  if (scene.solver.start == "equilibrium")
-    move_to_equilibrium(s);
   return s;
 }
 

@@ -27,6 +27,9 @@ LinearMatrices linear_matrices(const system::System& system, const system::Patte
 /// Throws ModelError when there is no equilibrium near, or velocities are given.
 VectorX move_to_equilibrium(system::System& system);
 
+/// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.
+VectorX settle(const model::Scene& scene, system::System& system);
+
 /// `build`, with the start moved to the equilibrium where the scene asks for it.
 system::System starting_system(const model::Scene& scene);
 

@@ -370,7 +370,7 @@ void set_state(System& s, SwitchData& element, SwitchData::State state) {
                                         : 0.0;
 }
 
-System build(const model::Scene& scene) {
+System build(const model::Scene& scene, bool with_excitation) {
   System s;
   s.gravity = scene.environment.gravity;
   const std::vector<Pose> poses = initial_poses(scene);
@@ -381,7 +381,6 @@ System build(const model::Scene& scene) {
   set_body_scales(scene, s);
   select_rows(s);
   add_hydro(scene, s);
-  add_sea(scene, s);
   add_morison(scene, s);
   add_constraints(scene, s);
   add_forces(scene, s);
@@ -397,6 +396,11 @@ System build(const model::Scene& scene) {
   assemble(s);
   if (drop_redundant_rows(s))
     lay_out(s);
+  take_mean_yaw(scene, s);
+  if (with_excitation) {
+    note_axes(scene, s);
+    add_sea(scene, s);
+  }
   return s;
 }
 

@@ -24,32 +24,6 @@ std::string label(const model::Scene& scene, const HydroBody& hb, int c) {
   return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
 }
 
-/// Buoyancy and linear hydrostatics about the centre of gravity:
-///   force (0, 0, rho g V), moment (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
-force::LinearWrench hydrostatic_law(const hydro::Database& db, const hydro::DatabaseBody& body) {
-  const hydro::Hydrostatics& h = *body.hydrostatics;
-  const Vector3 lift(0.0, 0.0, db.rho * db.gravity * h.displaced_volume);
-  force::LinearWrench law;
-  law.constant << lift, (h.center_of_buoyancy - body.reference_point).cross(lift);
-  law.stiffness = h.stiffness;
-  return law;
-}
-
-/// With yaw axes the law turns with the yaw at the start: W = T (W0 - C_hs T^T xi), xi from the
-/// reference pose turned by it.
-void add_hydrostatics(System& s, int body, force::LinearWrench law) {
-  BodyForce<force::LinearWrench> out{"hydrostatic", body, law};
-  if (s.hydro.axes == HydroAxes::yaw) {
-    const double psi = start_yaw(s.bodies[static_cast<std::size_t>(body)]);
-    Matrix6 T = Matrix6::Zero();
-    T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = rotation_about_axis<double>(2, psi);
-    out.law.constant = T * law.constant;
-    out.law.stiffness = T * law.stiffness * T.transpose();
-    out.turn << std::cos(0.5 * psi), 0.0, 0.0, std::sin(0.5 * psi);
-  }
-  std::get<0>(s.body_forces).push_back(out);
-}
-
 /// U: which coordinates of which body.
 void number_coordinates(const model::Scene& scene, System& s) {
   HydroData& h = s.hydro;
@@ -276,9 +250,17 @@ void check_mass(const System& s) {
                                        "bodies towards the hand");
 }
 
-double start_yaw(const BodyData& body) {
-  const Vector3 ahead = rotation_matrix<double>(body.orientation).col(0);
-  return std::atan2(ahead[1], ahead[0]);
+force::LinearWrench hydrostatic_law(const model::Scene& scene, int body) {
+  const hydro::Database& db = *scene.database;
+  const hydro::DatabaseBody& entry =
+      *hydro::find_body(db, *scene.bodies[static_cast<std::size_t>(body)].hydro);
+  const hydro::Hydrostatics& h = *entry.hydrostatics;
+  // Force (0, 0, rho g V), moment (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
+  const Vector3 lift(0.0, 0.0, db.rho * db.gravity * h.displaced_volume);
+  force::LinearWrench law;
+  law.constant << lift, (h.center_of_buoyancy - entry.reference_point).cross(lift);
+  law.stiffness = h.stiffness;
+  return law;
 }
 
 void add_hydro(const model::Scene& scene, System& s) {
@@ -293,7 +275,8 @@ void add_hydro(const model::Scene& scene, System& s) {
   for (const HydroBody& hb : h.bodies) {
     const hydro::DatabaseBody* body = hydro::find_body(db, *scene.bodies[hb.body].hydro);
     if (body->hydrostatics)
-      add_hydrostatics(s, hb.body, hydrostatic_law(db, *body));
+      std::get<0>(s.body_forces)
+          .push_back({"hydrostatic", hb.body, hydrostatic_law(scene, hb.body)});
   }
   if (h.n_moving == 0)
     return;

@@ -15,8 +15,8 @@ namespace {
 
 std::string degrees(double angle) { return number_text(angle * 180.0 / pi) + " deg"; }
 
-/// How a body meets the waves: with yaw axes turned by its yaw, where it is at the start (or, when
-/// the phase moves with it, where it is in the reference pose); else as the database has it.
+/// How a body meets the waves: turned by its mean yaw, where it is at the start (or, when the phase
+/// moves with it, where it is in the reference pose).
 struct Meeting {
   double yaw = 0.0;                                                  ///< [rad]
   Vector3 point = Vector3::Zero(), database_point = Vector3::Zero(); ///< phases are about these [m]
@@ -24,11 +24,10 @@ struct Meeting {
 
 std::vector<Meeting> meetings(const model::Scene& scene, const System& s) {
   std::vector<Meeting> out(s.hydro.bodies.size());
-  if (s.hydro.axes != HydroAxes::yaw)
-    return out;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const BodyData& b = s.bodies[static_cast<std::size_t>(s.hydro.bodies[i].body)];
-    out[i] = {start_yaw(b), scene.sea.phase == "fixed" ? b.position : b.reference, b.reference};
+    const HydroBody& hb = s.hydro.bodies[i];
+    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    out[i] = {hb.yaw, scene.sea.phase == "fixed" ? b.position : b.reference, b.reference};
   }
   return out;
 }

@@ -38,13 +38,24 @@ inline YawGradient yaw_gradient(const BodyState<double>& b) {
   return d;
 }
 
+/// The turn by the mean yaw.
+inline Matrix3 mean_turn(const HydroBody& hb) {
+  Matrix3 H = Matrix3::Identity();
+  H.topLeftCorner<2, 2>() << hb.cos_yaw, -hb.sin_yaw, hb.sin_yaw, hb.cos_yaw;
+  return H;
+}
+
 /// L: forces along the hydrodynamic axes as a load on the body; U = L^T u.
-inline Matrix6 hydro_axes(HydroAxes axes, const BodyState<double>& b) {
+inline Matrix6 hydro_axes(HydroAxes axes, const HydroBody& hb, const BodyState<double>& b) {
   Matrix6 L = Matrix6::Identity();
   if (axes == HydroAxes::body) {
     L.topLeftCorner<3, 3>() = b.R;
   } else if (axes == HydroAxes::yaw) {
     const Matrix3 H = yaw<double>(b).H;
+    L.topLeftCorner<3, 3>() = H;
+    L.bottomRightCorner<3, 3>() = b.R.transpose() * H;
+  } else if (hb.turned) {
+    const Matrix3 H = mean_turn(hb);
     L.topLeftCorner<3, 3>() = H;
     L.bottomRightCorner<3, 3>() = b.R.transpose() * H;
   } else {
@@ -60,9 +71,10 @@ struct HydroMotionGradient {
   Matrix6 a_acc;
 };
 
-inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState<double>& b) {
+inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const HydroBody& hb,
+                                                 const BodyState<double>& b) {
   HydroMotionGradient d;
-  d.a_acc = hydro_axes(axes, b).transpose();
+  d.a_acc = hydro_axes(axes, hb, b).transpose();
   const Matrix3 wx = skew<double>(b.w), R_T = b.R.transpose();
   if (axes == HydroAxes::body) {
     const Matrix3 Vx = skew<double>(R_T * b.v);
@@ -89,10 +101,11 @@ inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const BodyState
     d.a_w.topRows<3>() = -up * V * psi.s.transpose();
     d.a_w.bottomRows<3>() = -up * W * psi.s.transpose() - psi.rate * up * T;
   } else {
-    d.U_phi.bottomRows<3>() = -b.R * wx;
-    d.U_v.topRows<3>().setIdentity();
-    d.U_w.bottomRows<3>() = b.R;
-    d.a_phi.bottomRows<3>() = -b.R * skew<double>(b.w_dot);
+    const Matrix3 T = d.a_acc.bottomRightCorner<3, 3>(); // H^T R
+    d.U_phi.bottomRows<3>() = -T * wx;
+    d.U_v.topRows<3>() = d.a_acc.topLeftCorner<3, 3>();
+    d.U_w.bottomRows<3>() = T;
+    d.a_phi.bottomRows<3>() = -T * skew<double>(b.w_dot);
   }
   return d;
 }
@@ -118,10 +131,11 @@ struct HydroLoadGradient {
   Matrix63 by_rotation = Matrix63::Zero();
 };
 
-inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<double>& b,
-                                             const Vector6& rate, const Vector6& momentum) {
+inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const HydroBody& hb,
+                                             const BodyState<double>& b, const Vector6& rate,
+                                             const Vector6& momentum) {
   HydroLoadGradient d;
-  d.L = hydro_axes(axes, b);
+  d.L = hydro_axes(axes, hb, b);
   if (axes == HydroAxes::body) {
     const Matrix3 R_T = b.R.transpose(), wx = skew<double>(b.w), Vx = skew<double>(R_T * b.v);
     const Matrix3 px = skew<double>(momentum.head<3>()), hx = skew<double>(momentum.tail<3>());
@@ -150,7 +164,8 @@ inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const BodyState<dou
         psi.s * (pz.transpose() * H_T),
         T.transpose() * up * h * psi.s.transpose() + psi.s * (hz.transpose() * T);
   } else {
-    d.by_rotation.bottomRows<3>() = skew<double>(b.R.transpose() * rate.tail<3>());
+    const Vector3 moment = d.L.bottomRightCorner<3, 3>() * rate.tail<3>();
+    d.by_rotation.bottomRows<3>() = skew<double>(moment);
   }
   return d;
 }

@@ -3,8 +3,9 @@
 ///
 /// In axes carried by the bodies, with U = (R^T v, w), P = A_inf U = (p, h) and y = C z, the fluid
 /// takes from body i the force d/dt(R p) + R y and the moment d/dt(R h) + v x R p + R y (Kirchhoff;
-/// Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when y = 0. In mean axes U = (v, R w) and
-/// the load is A_inf U' + y. The excitation f(t) acts in the same axes: it is taken off y.
+/// Lamb, Hydrodynamics, art. 124), which conserves U.P/2 when y = 0. In mean axes, which
+/// a constant yaw H turns, U = (H^T v, H^T R w) and the load is H (A_inf U' + y). The excitation
+/// f(t) acts in the same axes: it is taken off y.
 ///
 /// In axes H that turn with the yaw psi of the body, U = (H^T v, H^T R w) = (V, W), and the load is
 /// H (p' + W_z x p) and H (h' + W_z x h) + s e_z.(V x p + W x h), with W_z = psi' e_z, psi' = s.w:
@@ -46,21 +47,36 @@ template <class S> Yaw<S> yaw(const BodyState<S>& state) {
 /// e_z x a.
 template <class S> Vec3<S> across_up(const Vec3<S>& a) { return {-a[1], a[0], S(0)}; }
 
+/// H a of the force and moment a by the mean yaw H; `back`: H^T a.
+template <class S> void turn_by_mean_yaw(const HydroBody& hb, bool back, Vec6<S>& a) {
+  const S c(hb.cos_yaw), d(back ? -hb.sin_yaw : hb.sin_yaw);
+  for (int k : {0, 3}) {
+    const S x = a[k], y = a[k + 1];
+    a[k] = c * x - d * y;
+    a[k + 1] = d * x + c * y;
+  }
+}
+
 /// Six velocities of a body in the hydrodynamic axes.
-template <class S> Vec6<S> hydro_velocity(HydroAxes axes, const BodyState<S>& state) {
+template <class S>
+Vec6<S> hydro_velocity(HydroAxes axes, const HydroBody& hb, const BodyState<S>& state) {
   Vec6<S> U;
   if (axes == HydroAxes::body)
     U << state.R.transpose() * state.v, state.w;
   else if (axes == HydroAxes::yaw) {
     const Mat3<S> H_T = yaw<S>(state).H.transpose();
     U << H_T * state.v, H_T * (state.R * state.w);
-  } else
+  } else {
     U << state.v, state.R * state.w;
+    if (hb.turned)
+      turn_by_mean_yaw<S>(hb, true, U);
+  }
   return U;
 }
 
 /// Their rates: (R^T v)' = R^T v' - w x R^T v.
-template <class S> Vec6<S> hydro_acceleration(HydroAxes axes, const BodyState<S>& state) {
+template <class S>
+Vec6<S> hydro_acceleration(HydroAxes axes, const HydroBody& hb, const BodyState<S>& state) {
   Vec6<S> a;
   if (axes == HydroAxes::body) {
     const Vec3<S> V = state.R.transpose() * state.v;
@@ -74,6 +90,8 @@ template <class S> Vec6<S> hydro_acceleration(HydroAxes axes, const BodyState<S>
         H_T * (state.R * state.w_dot) - rate * across_up<S>(W);
   } else {
     a << state.v_dot, state.R * state.w_dot;
+    if (hb.turned)
+      turn_by_mean_yaw<S>(hb, true, a);
   }
   return a;
 }
@@ -84,8 +102,8 @@ template <class S> void hydro_motion(const System& s, Workspace<S>& ws) {
     if (!hb.moves)
       continue;
     const BodyState<S>& state = ws.bodies[hb.body];
-    const Vec6<S> U = hydro_velocity<S>(s.hydro.axes, state);
-    const Vec6<S> U_dot = hydro_acceleration<S>(s.hydro.axes, state);
+    const Vec6<S> U = hydro_velocity<S>(s.hydro.axes, hb, state);
+    const Vec6<S> U_dot = hydro_acceleration<S>(s.hydro.axes, hb, state);
     for (int c = 0; c < 6; ++c) {
       if (hb.moving[c] < 0)
         continue;
@@ -98,8 +116,8 @@ template <class S> void hydro_motion(const System& s, Workspace<S>& ws) {
 /// What the fluid takes from one body (world force, body-axes moment), given its six components of
 /// A_inf U' + C z (`rate`) and of A_inf U (`momentum`).
 template <class S>
-Vec6<S> hydro_load(HydroAxes axes, const BodyState<S>& state, const Vec6<S>& rate,
-                   const Vec6<S>& momentum) {
+Vec6<S> hydro_load(HydroAxes axes, const HydroBody& hb, const BodyState<S>& state,
+                   const Vec6<S>& rate, const Vec6<S>& momentum) {
   Vec6<S> load;
   if (axes == HydroAxes::body) {
     const Vec3<S> p = momentum.template head<3>(), h = momentum.template tail<3>();
@@ -116,7 +134,11 @@ Vec6<S> hydro_load(HydroAxes axes, const BodyState<S>& state, const Vec6<S>& rat
     const Vec3<S> moment = rate.template tail<3>() + turn * across_up<S>(h);
     load << psi.H * force, state.R.transpose() * (psi.H * moment) + munk * psi.s;
   } else {
-    load << rate.template head<3>(), state.R.transpose() * rate.template tail<3>();
+    load = rate;
+    if (hb.turned)
+      turn_by_mean_yaw<S>(hb, false, load);
+    const Vec3<S> moment = load.template tail<3>();
+    load.template tail<3>() = state.R.transpose() * moment;
   }
   return load;
 }
@@ -184,7 +206,7 @@ void add_hydrodynamics(const System& s, Workspace<S>& ws, double t, const S* y, 
       rate[c] = ws.inertia_force[hb.moving[c]];
       momentum[c] = ws.momentum[hb.moving[c]];
     }
-    ws.loads[hb.body] -= hydro_load<S>(h.axes, ws.bodies[hb.body], rate, momentum);
+    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body], rate, momentum);
   }
   const S* z_dot = yp + h.z0;
   S* r = residual + h.z0;

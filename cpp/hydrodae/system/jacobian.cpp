@@ -344,7 +344,7 @@ void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Ma
     LA += L * hydro_block(ws.state.past->by_U_dot, i, j);
     QA += L * hydro_block(ws.state.past->by_U, i, j);
   }
-  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, state(j.body));
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, j, state(j.body));
   Matrix6 by_velocity;
   by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
   const Matrix6 by_acceleration = LA * d.a_acc;
@@ -377,7 +377,7 @@ template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, co
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
 template <class Sink>
 void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
-  const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, state(i.body), rate, momentum);
+  const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, i, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
     rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
@@ -415,8 +415,9 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   }
   for (const HydroData::Input& in : h.inputs) {
     const HydroData::Coordinate& u = h.coordinates[in.coordinate];
-    const int body = h.bodies[u.hydro_body].body, c = u.component;
-    const HydroMotionGradient d = hydro_motion_gradient(h.axes, state(body));
+    const HydroBody& hb = h.bodies[u.hydro_body];
+    const int body = hb.body, c = u.component;
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
     const Index row = h.z0 + in.state;
     RowVector6 by_velocity;
     by_velocity << d.U_v.row(c), d.U_w.row(c);
@@ -438,8 +439,8 @@ template <class Sink> void Assembly<Sink>::hydro_masses() {
       Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
       if (!s.hydro.convolution.empty() && ws.state.past)
         A += hydro_block(ws.state.past->by_U_dot, i, j);
-      const Matrix6 mass = hydro_axes(s.hydro.axes, state(i.body)) * A *
-                           hydro_axes(s.hydro.axes, state(j.body)).transpose();
+      const Matrix6 mass = hydro_axes(s.hydro.axes, i, state(i.body)) * A *
+                           hydro_axes(s.hydro.axes, j, state(j.body)).transpose();
       const BodyData& b = s.bodies[i.body];
       for (int k = 0; k < b.n_active; ++k)
         acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));

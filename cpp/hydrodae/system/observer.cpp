@@ -148,15 +148,16 @@ void Observer::observe_hydrodynamics(const double* y) {
     out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
   }
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
+    const HydroBody& hb = h.bodies[i];
+    const BodyState<double>& state = ws_.bodies[hb.body];
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const Vector6 added =
-        hydro_load<double>(h.axes, state, rate_.segment<6>(row), momentum_.segment<6>(row));
+        hydro_load<double>(h.axes, hb, state, rate_.segment<6>(row), momentum_.segment<6>(row));
     add_load(-to_world(state, added));
     if (!h.radiates())
       continue;
     const Vector6 radiation =
-        hydro_load<double>(h.axes, state, memory_.segment<6>(row), Vector6::Zero());
+        hydro_load<double>(h.axes, hb, state, memory_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
   }
 }
@@ -178,7 +179,8 @@ void Observer::observe_excitation(double t) {
         h.drifting(t, moved[0], moved[1], first, 6, excitation_.data() + first);
     }
     const auto add = [&](const Vector6& force) {
-      add_load(to_world(state, hydro_load<double>(h.axes, state, force, Vector6::Zero())));
+      add_load(
+          to_world(state, hydro_load<double>(h.axes, h.bodies[i], state, force, Vector6::Zero())));
     };
     add(excitation_.segment<6>(row));
     if (h.split) {

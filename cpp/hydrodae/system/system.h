@@ -171,13 +171,16 @@ using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
                                 std::vector<MotionForce<force::SpringDamper::Law>>,
                                 std::vector<MotionForce<force::DryFriction::Law>>>;
 
-/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes of
-/// the reference pose, or those that turn with the body's yaw alone.
+/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes
+/// turned by the mean yaw of each, or those that turn with the body's yaw alone.
 enum class HydroAxes { body, mean, yaw };
 
-/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors.
+/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors, and
+/// its mean yaw, that of the start or equilibrium pose.
 struct HydroBody {
   int body = 0;
+  double yaw = 0.0, cos_yaw = 1.0, sin_yaw = 0.0; ///< [rad], [-], [-]
+  bool turned = false;                            ///< yaw != 0
   std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
   bool moves = false;
   int n_moving() const {
@@ -209,7 +212,7 @@ struct Convolution {
 /// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
 /// stands in place of C z.
 struct HydroData {
-  HydroAxes axes = HydroAxes::body;
+  HydroAxes axes = HydroAxes::mean;
   std::vector<HydroBody> bodies;
   struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
     int hydro_body = 0, component = 0;
@@ -310,8 +313,8 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
 }
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
-/// scales. Throws ModelError.
-System build(const model::Scene& scene);
+/// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
+System build(const model::Scene& scene, bool with_excitation = true);
 
 /// Puts a switch into a state: its coupler holds or not, its friction slips or not. Then
 /// `lay_out` has to be called; of y only q, u, z keep their places.

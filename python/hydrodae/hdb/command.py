@@ -328,7 +328,7 @@ def working_band(path: str, database: HydroDatabase) -> tuple[float, float]:
         replace(database, kernel=None, memory={}).write(stand_in)
         case = Case(path=path, values={"hydro.radiation": "none", "hydro.database": str(stand_in)})
         model = LinearModel(case).with_database(database)
-    found = [2.0 * np.pi / mode.period for mode in model.modes()]
+    found = [2.0 * np.pi / mode.period for mode in model.modes() if not mode.extrapolated]
     found += [float(w) for w in np.asarray(_core.wave_components(case.scene)).reshape(-1, 4)[:, 0]]
     if not found:
         raise CaseError(f"{path}: neither waves nor natural frequencies inside the database")

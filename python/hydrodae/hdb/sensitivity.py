@@ -202,7 +202,7 @@ def _measure(
 ) -> Callable[[LinearModel], Values]:
     """Return the function that takes the values of a result from a linear model."""
     if result == "period":
-        shapes = [mode.shape for mode in model.modes()]
+        shapes = [mode.shape for mode in model.modes() if not mode.extrapolated]
         if not shapes:
             raise CaseError("no mode of the case has a period inside the database")
         return lambda other: _periods(other, shapes)

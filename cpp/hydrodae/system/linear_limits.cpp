@@ -1,0 +1,100 @@
+#include "hydrodae/system/linear_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/waves.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+/// Sum a^2 L / sum a^2 over the wave components, L = 2 pi / k [m].
+double wave_length(const model::Scene& scene) {
+  double energy = 0.0, sum = 0.0;
+  for (const sea::Component& c : model::wave_components(scene)) {
+    energy += c.amplitude * c.amplitude;
+    sum += c.amplitude * c.amplitude * 2.0 * pi / c.wavenumber;
+  }
+  return energy > 0.0 ? sum / energy : INFINITY;
+}
+
+void take(std::optional<Crossing>& crossing, double t, double value, double limit) {
+  if (!crossing && value > limit)
+    crossing = Crossing{t, value, value};
+  if (crossing)
+    crossing->largest = std::max(crossing->largest, value);
+}
+
+/// "15.3 deg", "0.72 m": two digits after those that matter are noise.
+std::string rounded(double value, const std::string& unit) {
+  const double step = value >= 100.0 ? 1.0 : value >= 1.0 ? 0.1 : 0.001;
+  return number_text(std::round(value / step) * step) + " " + unit;
+}
+
+std::string sentence(const std::string& body, const std::string& what, const Crossing& c,
+                     double factor, const std::string& unit, const std::string& limit) {
+  return "beyond linear theory: body " + in_quotes(body) + " " + what + " by " +
+         rounded(factor * c.value, unit) + " at t = " + rounded(c.time, "s") + ", at most " +
+         rounded(factor * c.largest, unit) + " (limit " + limit + ")";
+}
+
+} // namespace
+
+LinearLimits linear_limits(const model::Scene& scene, const System& s) {
+  LinearLimits out;
+  if (!scene.hydro || !scene.database)
+    return out;
+  if (scene.sea.phase == "fixed" && !scene.waves.empty())
+    out.tenth_wave = 0.1 * wave_length(scene);
+  for (const HydroBody& hb : s.hydro.bodies) {
+    if (!hb.moves)
+      continue;
+    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    LinearLimits::Body watched;
+    watched.body = hb.body;
+    watched.name = b.name;
+    watched.mean = rotation_about_axis<double>(2, hb.yaw);
+    watched.place << b.position[0], b.position[1], b.reference[2];
+    watched.free_yaw = s.hydro.axes == HydroAxes::yaw;
+    for (const hydro::DatabaseBody& entry : scene.database->bodies)
+      if (entry.name == *scene.bodies[static_cast<std::size_t>(hb.body)].hydro &&
+          entry.hydrostatics && entry.hydrostatics->displaced_volume > 0.0)
+        watched.half_draught = 0.5 * std::cbrt(entry.hydrostatics->displaced_volume);
+    out.bodies.push_back(watched);
+  }
+  return out;
+}
+
+void watch(LinearLimits& limits, double t, const std::vector<BodyState<double>>& states) {
+  for (LinearLimits::Body& b : limits.bodies) {
+    const BodyState<double>& state = states[static_cast<std::size_t>(b.body)];
+    // cos(angle): of the whole turn from the mean pose, or of the tilt of the z axis.
+    const double cosine =
+        b.free_yaw ? state.R(2, 2) : 0.5 * (b.mean.cwiseProduct(state.R).sum() - 1.0);
+    take(b.turn, t, std::acos(std::clamp(cosine, -1.0, 1.0)), LinearLimits::largest_turn);
+    const Vector3 moved = state.r - b.place;
+    take(b.rise, t, std::abs(moved[2]), b.half_draught);
+    take(b.drift, t, moved.head<2>().norm(), limits.tenth_wave);
+  }
+}
+
+std::vector<std::string> notes(const LinearLimits& limits) {
+  std::vector<std::string> out;
+  constexpr double degrees = 180.0 / pi;
+  for (const LinearLimits::Body& b : limits.bodies) {
+    if (b.turn)
+      out.push_back(sentence(b.name, "turns", *b.turn, degrees, "deg", "15 deg"));
+    if (b.rise)
+      out.push_back(sentence(b.name, "rises or sinks", *b.rise, 1.0, "m",
+                             "half the draught, taken as the cube root of the displaced volume: " +
+                                 rounded(b.half_draught, "m")));
+    if (b.drift)
+      out.push_back(sentence(b.name, "moves off its place in the waves", *b.drift, 1.0, "m",
+                             "a tenth of the wave length: " + rounded(limits.tenth_wave, "m")));
+  }
+  return out;
+}
+
+} // namespace hydrodae::system

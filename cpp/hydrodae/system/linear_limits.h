@@ -1,0 +1,48 @@
+#pragma once
+/// Where a run leaves what linear hydrodynamics are made for: small motion about the mean pose.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+/// A measure of one body that grew beyond its limit.
+struct Crossing {
+  double time = 0.0, value = 0.0; ///< of the first sample beyond the limit [s], [rad] or [m]
+  double largest = 0.0;           ///< of all samples
+};
+
+/// What is watched of one hydrodynamic body that moves, against its mean pose: the pose of the
+/// database, turned by the mean yaw, at the place where the body starts.
+struct LinearLimits {
+  struct Body {
+    int body = 0;
+    std::string name;
+    Matrix3 mean = Matrix3::Identity(); ///< turn by the mean yaw
+    Vector3 place = Vector3::Zero();    ///< x, y of the start, z of the reference pose [m]
+    bool free_yaw = false;              ///< the hydrodynamics follow the yaw: tilt alone counts
+    double half_draught = INFINITY;     ///< half the cube root of the displaced volume [m]
+    std::optional<Crossing> turn;       ///< [rad], beyond `largest_turn`
+    std::optional<Crossing> rise;       ///< vertical [m], beyond half the draught
+    std::optional<Crossing> drift;      ///< horizontal [m], beyond a tenth of the wave length
+  };
+  static constexpr double largest_turn = 15.0 * pi / 180.0; ///< [rad]
+  double tenth_wave = INFINITY; ///< tenth of the wave length, which matters where the phase of the
+                                ///< waves does not follow the bodies [m]
+  std::vector<Body> bodies;
+};
+
+/// What to watch in a scene. The draught is not in the database: the cube root of the displaced
+/// volume stands for it. The wave length is the mean over all components, weighted by energy.
+LinearLimits linear_limits(const model::Scene& scene, const System& system);
+
+/// Takes one sample: the states of all bodies at time t.
+void watch(LinearLimits& limits, double t, const std::vector<BodyState<double>>& states);
+
+/// A sentence for each measure that went beyond its limit, with body, time and value.
+std::vector<std::string> notes(const LinearLimits& limits);
+
+} // namespace hydrodae::system
