@@ -24,15 +24,19 @@ def _response(height: float, period: float) -> float:
     )
 
 
-def _in_waves(title: str, force: Any, size: float, end: float, extra: dict[str, Any],
-              breaks: list[float], kind: str | None) -> Scene:  # fmt: skip
+def _in_waves(
+    title: str, force: Any, size: float, end: float, extra: dict[str, Any],
+    breaks: list[float], kind: str | None, settled: bool = False,
+) -> Scene:  # fmt: skip
     s = sea.sphere()
     scale = np.r_[size, size, np.full(2 * len(s.poles), size)]
     exact = truth.integrated(
-        s.rates(force), s.start(), lambda _t, y: [y[0]], breaks=breaks, scale=scale, longest=0.5,
+        s.rates(force), s.start(s.lift / s.stiffness if settled else 0.0), lambda _t, y: [y[0]], breaks=breaks, scale=scale, longest=0.5,
         rtol=1e-10,
     )  # fmt: skip
     tables = case([sea.float_body()], end, samples=int(2.5 * end), **extra)
+    if settled:  # nothing at all moves until the waves come
+        tables["solver"]["start"] = "equilibrium"
     scene = Scene("", title, tables, size, 0.6, SOURCE, exact, HEAVE, database=sea.stored)
     return beside(scene, kind)
 
@@ -40,7 +44,7 @@ def _in_waves(title: str, force: Any, size: float, end: float, extra: dict[str, 
 def _draw_group(g: np.random.Generator) -> dict[str, Any]:
     return {
         "height": log_uniform(g, 0.01, 2.0), "period": g.uniform(3.5, 10.0),
-        "at": g.uniform(150.0, 300.0), "kind": neighbour(g),
+        "at": g.uniform(150.0, 300.0), "settled": bool(g.integers(2)), "kind": neighbour(g),
     }  # fmt: skip
 
 
@@ -49,8 +53,12 @@ def _draw_group(g: np.random.Generator) -> dict[str, Any]:
     {"height": 1.0, "period": 6.0, "at": 220.0},
     {"height": 0.05, "period": 4.5, "at": 180.0},
     {"height": 0.5, "period": 7.0, "at": 200.0, "kind": "ship"},
+    {"height": 1.0, "period": 6.0, "at": 260.0, "settled": True},
+    {"height": 0.05, "period": 5.0, "at": 220.0, "settled": True},
 )  # fmt: skip
-def wave_group(height: float, period: float, at: float, kind: str | None = None) -> Scene:
+def wave_group(
+    height: float, period: float, at: float, settled: bool = False, kind: str | None = None
+) -> Scene:
     """A measured group of waves after silence."""
     step, deviation, w = 0.2, 1.2 * period, 2.0 * np.pi / period
     time = step * np.arange(int((at + 120.0) / step))
@@ -62,7 +70,7 @@ def wave_group(height: float, period: float, at: float, kind: str | None = None)
     return _in_waves(
         "a measured wave group after silence", sea.record(np.asarray(time), elevation),
         _response(height, period), at + 50.0, {"wave": [wave]},
-        [max(0.0, at - 8.0 * deviation)], kind,
+        [max(0.0, at - 8.0 * deviation)], kind, settled,
     )  # fmt: skip
 
 
