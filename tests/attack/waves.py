@@ -31,8 +31,8 @@ def _in_waves(
     s = sea.sphere()
     scale = np.r_[size, size, np.full(2 * len(s.poles), size)]
     exact = truth.integrated(
-        s.rates(force), s.start(s.lift / s.stiffness if settled else 0.0), lambda _t, y: [y[0]], breaks=breaks, scale=scale, longest=0.5,
-        rtol=1e-10,
+        s.rates(force), s.start(s.lift / s.stiffness if settled else 0.0), lambda _t, y: [y[0]],
+        breaks=breaks, scale=scale, longest=0.5, rtol=1e-10,
     )  # fmt: skip
     tables = case([sea.float_body()], end, samples=int(2.5 * end), **extra)
     if settled:  # nothing at all moves until the waves come
