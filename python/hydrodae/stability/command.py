@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--methods", metavar="NAME", nargs="+", help="columns (default: all)")
     parser.add_argument("--list", action="store_true", help="list scenes and methods, run nothing")
     parser.add_argument(
-        "--time-limit", metavar="S", type=float, default=5.0, help="wall time of a run [s] (5)"
+        "--time-limit", metavar="S", type=float, default=5.0, help="CPU time of a run [s] (5)"
     )
     parser.add_argument("--json", metavar="FILE", help="write the cells")
     parser.add_argument("--picture", metavar="FILE", help="draw the map (PNG, SVG, PDF)")

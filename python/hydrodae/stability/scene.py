@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case, to_toml
+from hydrodae.drives import Drive
 from hydrodae.results import Results
 
 Array = NDArray[np.float64]
@@ -60,6 +61,12 @@ class Scene:
         The motion is compared until then [s].
     impossible : str
         Why the scene has no sound motion: every run that completes is wrong; else empty.
+    told : str
+        Pattern of what must be said where the scene contradicts itself: a refusal or a stop whose
+        message matches it is right. A run that completes needs a note that matches it, or, where
+        there is a truth, the right motion.
+    drives : mapping, optional
+        Python functions of time by the name of the constraint that they drive.
     database : callable, optional
         Writes the hydrodynamic database `hydro.h5` at a path.
     """
@@ -76,6 +83,8 @@ class Scene:
     lock_time: float | None = None
     judged_until: float = math.inf
     impossible: str = ""
+    told: str = ""
+    drives: Mapping[str, Drive] | None = field(default=None, repr=False)
     database: Callable[[Path], None] | None = field(default=None, repr=False)
 
     @property

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydrodae.stability.grid import PASS, REFUSED, STOPPED, WRONG, Cell
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.table import Table
 
 STYLES = {PASS: "green", STOPPED: "yellow", REFUSED: "bright_black", WRONG: "bold white on red"}
@@ -77,11 +78,12 @@ def tables(cells: Sequence[Cell], width: int) -> list[Table]:
             )
         made.append(shown)
     made[0].title = "Methods against hard scenes"
-    made[-1].caption = _legend(cells)
+    made[-1].caption = legend(cells)
     return made
 
 
-def _legend(cells: Sequence[Cell]) -> str:
+def legend(cells: Sequence[Cell]) -> str:
+    """Return how many cells there are of each outcome."""
     counts = {name: sum(cell.outcome == name for cell in cells) for name in STYLES}
     return ", ".join(f"{count} {name}" for name, count in counts.items())
 
@@ -104,31 +106,66 @@ def write_json(cells: Sequence[Cell], path: str | Path) -> None:
     Path(path).write_text(json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def write_picture(cells: Sequence[Cell], path: str | Path) -> None:
-    """Draw the map as a coloured grid."""
+def write_picture(
+    cells: Sequence[Cell],
+    path: str | Path,
+    *,
+    panels: int = 1,
+    text: Callable[[Cell], str] = label,
+) -> None:
+    """Draw the map as a coloured grid.
+
+    Parameters
+    ----------
+    cells : sequence of Cell
+    path : path
+    panels : int
+        Grids side by side among which the scenes are shared out.
+    text : callable
+        What a cell says.
+    """
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch, Rectangle
+    from matplotlib.patches import Patch
 
     scenes, methods = _names(cells)
+    panels = max(1, min(panels, len(scenes)))
+    rows = -(-len(scenes) // panels)
     figure = Figure(
-        figsize=(2.0 + 0.62 * len(methods), 1.9 + 0.34 * len(scenes)), layout="constrained"
+        figsize=(panels * (2.0 + 0.62 * len(methods)), 1.9 + 0.34 * rows), layout="constrained"
     )
-    axes = figure.add_subplot()
+    grids = figure.subplots(1, panels, squeeze=False)[0]
+    for k, axes in enumerate(grids):
+        _draw_grid(axes, cells, scenes[k * rows : (k + 1) * rows], methods, rows, text)
+    figure.legend(
+        handles=[Patch(color=colour, label=name) for name, colour in COLOURS.items()],
+        loc="outside lower center", ncols=4, frameon=False,
+    )  # fmt: skip
+    figure.savefig(path, dpi=150 if panels == 1 else 80)
+
+
+def _draw_grid(
+    axes: Axes,
+    cells: Sequence[Cell],
+    scenes: Sequence[str],
+    methods: Sequence[str],
+    rows: int,
+    text: Callable[[Cell], str],
+) -> None:
+    """Draw the cells of some scenes; `rows` high, so that all grids have the same scale."""
+    from matplotlib.patches import Rectangle
+
     for cell in cells:
+        if cell.scene not in scenes:
+            continue
         x, y = methods.index(cell.method), scenes.index(cell.scene)
         box = Rectangle((x, y), 1, 1, facecolor=COLOURS[cell.outcome], edgecolor="white")
         axes.add_patch(box)
-        axes.text(x + 0.5, y + 0.5, label(cell).replace(" ", "\n"), ha="center", va="center",
+        axes.text(x + 0.5, y + 0.5, text(cell).replace(" ", "\n"), ha="center", va="center",
                   fontsize=6.5)  # fmt: skip
-    axes.set(xlim=(0, len(methods)), ylim=(len(scenes), 0))
+    axes.set(xlim=(0, len(methods)), ylim=(rows, 0))
     axes.set_xticks([i + 0.5 for i in range(len(methods))], methods, rotation=45, ha="left")
     axes.set_yticks([i + 0.5 for i in range(len(scenes))], scenes)
     axes.xaxis.tick_top()
     axes.tick_params(length=0)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    figure.legend(
-        handles=[Patch(color=colour, label=name) for name, colour in COLOURS.items()],
-        loc="outside lower center", ncols=4, frameon=False,
-    )  # fmt: skip
-    figure.savefig(path, dpi=150)

@@ -1,0 +1,73 @@
+"""Families of attack scenes: a function of parameters, chosen values, and how to draw others."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hydrodae.stability import Scene
+
+Draw = Callable[[np.random.Generator], dict[str, Any]]
+Make = Callable[..., Scene]
+
+
+@dataclass(frozen=True)
+class Family:
+    """Scenes of one sort.
+
+    Attributes
+    ----------
+    kind, name : str
+        Kind of attack, name of the family.
+    make : callable
+        Parameters to a scene.
+    chosen : sequence of mapping
+        Parameters of the scenes of the suite.
+    draw : callable
+        Draws the parameters of a new scene.
+    """
+
+    kind: str
+    name: str
+    make: Callable[..., Scene]
+    chosen: Sequence[Mapping[str, Any]]
+    draw: Draw
+
+    def scenes(self) -> list[Scene]:
+        """Return the scenes of the suite."""
+        return [
+            replace(self.make(**values), name=f"{self.name}_{k + 1}")
+            for k, values in enumerate(self.chosen)
+        ]
+
+    def drawn(self, seed: int) -> Scene:
+        """Return the scene of a seed."""
+        generator = np.random.default_rng([seed, zlib.crc32(self.name.encode())])
+        return replace(self.make(**self.draw(generator)), name=f"{self.name}_s{seed}")
+
+
+FAMILIES: dict[str, Family] = {}
+
+
+def family(kind: str, draw: Draw, *chosen: Mapping[str, Any]) -> Callable[[Make], Make]:
+    """Register the decorated function of parameters as a family of scenes."""
+
+    def register(make: Make) -> Make:
+        FAMILIES[make.__name__] = Family(kind, make.__name__, make, chosen, draw)
+        return make
+
+    return register
+
+
+def log_uniform(generator: np.random.Generator, low: float, high: float) -> float:
+    """Draw a number whose logarithm is uniform."""
+    return float(np.exp(generator.uniform(np.log(low), np.log(high))))
+
+
+def neighbour(generator: np.random.Generator) -> str | None:
+    """Draw an unrelated mechanism, or none in half the cases."""
+    return [None, None, None, "ship", "barge", "rotor"][int(generator.integers(6))]

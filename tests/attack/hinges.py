@@ -1,0 +1,50 @@
+"""Misaligned hinges: a door whose second hinge is off by little."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.parts import beside
+
+from hydrodae.stability import Scene, all_scenes
+
+KIND = "misaligned hinges"
+#: The message names a hinge, the misfit, and that it is one.
+TOLD = (
+    r"(?is)(?=.*(upper|lower))(?=.*\d)"
+    r"(?=.*(inconsist|misfit|misalign|apart|do not fit|does not fit|tolerance_assembly|compliant))"
+)
+
+
+def _draw(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "misfit": log_uniform(g, 1e-9, 1e-3),
+        "direction": ("side", "across", "tilt")[g.integers(3)],
+        "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw,
+    *({"misfit": m, "direction": d} for m in (1e-8, 1e-6, 1e-4) for d in ("side", "tilt")),
+    {"misfit": 1e-8, "direction": "across"},
+    {"misfit": 1e-8, "direction": "side", "kind": "ship"},
+)  # fmt: skip
+def misaligned_door(misfit: float, direction: str, kind: str | None = None) -> Scene:
+    """The door of the benchmarks, its lower hinge off by `misfit` metres (or its axis, in rad)."""
+    scene = all_scenes()["door"]
+    tables = dict(scene.tables)
+    joints = [dict(entry) for entry in tables["joint"]]
+    axis = np.array(joints[1]["axis"])
+    across = np.cross([0.0, 1.0, 0.0], axis)
+    off = misfit * (across if direction == "across" else np.array([0.0, 1.0, 0.0]))
+    if direction == "tilt":
+        joints[1]["axis"] = [float(x) for x in axis + off]
+    else:
+        joints[1]["point"] = [float(x) for x in np.array(joints[1]["point"]) + off]
+    tables["joint"] = joints
+    title = f"a door whose hinges are misaligned by {misfit:g}"
+    return beside(replace(scene, title=title, tables=tables, told=TOLD), kind)

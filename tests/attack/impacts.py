@@ -1,0 +1,406 @@
+"""Impacts: shaken tables, driven boxes, stops of hinges and of floats, balls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from tests.attack import sea, truth
+from tests.attack.drives import functions, motion
+from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.parts import (
+    DOWN_Y,
+    GRAVITY,
+    X,
+    Z,
+    beside,
+    body,
+    both,
+    case,
+    driven,
+    joint,
+    position,
+)
+
+from hydrodae.stability import Scene
+
+KIND = "impacts"
+
+
+def stop(name: str, guide: str, restitution: float, **bounds: float) -> dict[str, Any]:
+    """Return a stop of a joint."""
+    return {"name": name, "type": "stop", "joint": guide, "restitution": restitution, **bounds}
+
+
+def _draw_ball(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "height": log_uniform(g, 1e-3, 100.0), "restitution": g.uniform(0.0, 0.95),
+        "mass": log_uniform(g, 1e-3, 1e5), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_ball,
+    {"height": 1.0, "restitution": 0.3, "mass": 1.0},
+    {"height": 1.0, "restitution": 0.8, "mass": 1.0, "kind": "ship"},
+    {"height": 1e-3, "restitution": 0.6, "mass": 1e-3},
+    {"height": 50.0, "restitution": 0.9, "mass": 1e4},
+)  # fmt: skip
+def falling_ball(height: float, restitution: float, mass: float, kind: str | None = None) -> Scene:
+    """A ball that falls onto the floor and bounces until it rests."""
+    tau = float(np.sqrt(2.0 * height / GRAVITY))
+    end = 1.3 * tau * (1.0 + restitution) / (1.0 - restitution) + tau
+    exact = truth.walls(
+        lambda _t: (0.0, 0.0, 0.0), -height, np.inf, restitution, (0.0, 0.0), GRAVITY, tau / 20.0,
+        GRAVITY * tau,
+    )  # fmt: skip
+    tables = case(
+        [body("ball", "heave", mass, [0.0, 0.0, height])], end, samples=500,
+        joints=[joint("guide", "prismatic", "ground", "ball", [0.0, 0.0, height], Z)],
+        constraints=[stop("floor", "guide", restitution, lower=-height)],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a ball dropped {height:g} m, restitution {restitution:g}", tables, height, tau,
+        "closed flights", exact, position("ball", 2, origin=[0.0, 0.0, height]),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_table(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "how": ("sine", "python", "table")[g.integers(3)], "period": log_uniform(g, 0.2, 5.0),
+        "shake": g.uniform(0.2, 1.3), "restitution": g.uniform(0.0, 0.8),
+        "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_table,
+    {"how": "sine", "period": 1.0, "shake": 0.5, "restitution": 0.5},
+    {"how": "sine", "period": 0.5, "shake": 1.2, "restitution": 0.6},
+    {"how": "python", "period": 2.0, "shake": 0.4, "restitution": 0.7},
+    {"how": "sine", "period": 1.0, "shake": 0.8, "restitution": 0.0, "kind": "ship"},
+    {"how": "table", "period": 1.5, "shake": 0.3, "restitution": 0.4},
+)  # fmt: skip
+def shaken_table(
+    how: str, period: float, shake: float, restitution: float, kind: str | None = None
+) -> Scene:
+    """A ball on a table that is shaken with `shake` g."""
+    w = 2.0 * np.pi / period
+    amplitude = shake * GRAVITY / w**2
+    height = 1.5 * amplitude
+    end = 5.0 * period
+    f, drive = motion(how, amplitude, period, end)
+
+    def wall(t: float) -> tuple[float, float, float]:
+        value, rate, change = f(t)
+        return float(value), float(rate), float(change)
+
+    solved = truth.walls(wall, -height, np.inf, restitution, (0.0, 0.0), GRAVITY, period / 400.0,
+                         amplitude * w)  # fmt: skip
+    bodies = [body("table", "heave", 10.0), body("ball", "heave", 1.0, [0.0, 0.0, height])]
+    tables = case(
+        bodies, end, samples=500,
+        joints=[joint("guide", "prismatic", "table", "ball", [0.0, 0.0, height], Z)],
+        constraints=[driven("motor", drive, body="table", coordinate="heave"),
+                     stop("top", "guide", restitution, lower=-height)],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a ball on a table shaken with {shake:g} g", tables, amplitude, 1.0 / w,
+        "closed flights", lambda t: np.column_stack([f(t)[0], solved(t)]),
+        both(position("table", 2), position("ball", 2, origin=[0.0, 0.0, height])),
+        drives=functions("motor", how, f),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_box(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "how": ("sine", "python", "table")[g.integers(3)], "period": log_uniform(g, 0.2, 10.0),
+        "amplitude": log_uniform(g, 0.01, 2.0), "gap": g.uniform(0.3, 2.0),
+        "restitution": g.uniform(0.0, 0.8), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_box,
+    {"how": "sine", "period": 2.0, "amplitude": 0.5, "gap": 0.6, "restitution": 0.5},
+    {"how": "table", "period": 3.0, "amplitude": 0.2, "gap": 1.0, "restitution": 0.2},
+    {"how": "sine", "period": 2.0, "amplitude": 0.5, "gap": 0.8, "restitution": 0.0,
+     "kind": "barge"},
+)  # fmt: skip
+def driven_box(
+    how: str, period: float, amplitude: float, gap: float, restitution: float,
+    kind: str | None = None,
+) -> Scene:  # fmt: skip
+    """A block that slides freely between the walls of a driven box (gap in amplitudes)."""
+    w, room = 2.0 * np.pi / period, gap * amplitude
+    end = 4.0 * period
+    f, drive = motion(how, amplitude, period, end)
+
+    def wall(t: float) -> tuple[float, float, float]:
+        value, rate, change = f(t)
+        return float(value), float(rate), float(change)
+
+    solved = truth.walls(wall, -room, room, restitution, (0.0, 0.0), 0.0, period / 400.0,
+                         amplitude * w)  # fmt: skip
+    tables = case(
+        [body("box", "surge", 10.0), body("block", "surge", 1.0)], end, samples=500,
+        joints=[joint("guide", "prismatic", "box", "block", axis=X)],
+        constraints=[driven("motor", drive, body="box", coordinate="surge"),
+                     stop("walls", "guide", restitution, lower=-room, upper=room)],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a block in a box driven by a {how}", tables, amplitude, 1.0 / w, "closed flights",
+        lambda t: np.column_stack([f(t)[0], solved(t)]),
+        both(position("box", 0), position("block", 0)), drives=functions("motor", how, f),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "length": log_uniform(g, 0.01, 100.0), "start_deg": g.uniform(30.0, 120.0),
+        "stop_deg": g.uniform(-30.0, 20.0), "restitution": g.uniform(0.0, 1.0),
+        "kind": neighbour(g),
+    }  # fmt: skip
+
+
+def _against(angle: float, below: bool, rate2: float, restitution: float) -> dict[str, Any]:
+    """Flows and guards of phi'' = -rate2 sin phi with a stop at `angle` (from above if `below`)."""
+    pull = rate2 * abs(np.sin(angle))
+    tiny = 1e-8 * np.sqrt(rate2)
+    pressed = (angle > 0.0) == below  # gravity holds it against the stop
+
+    def strike(_t: float, y: Any) -> tuple[str, Any]:
+        away = -restitution * y[1]
+        if abs(away) < tiny and pressed:
+            return "rest", np.array([angle, 0.0])
+        return "swing", np.array([angle, away])
+
+    def longest(mode: str, y: Any) -> float:
+        usual = 0.02 / np.sqrt(rate2)
+        if mode == "rest" or not pressed or abs(y[0] - angle) > 1e-12:
+            return float(usual)
+        return float(min(usual, max(abs(y[1]), tiny) / pull / 5.0))
+
+    return {
+        "flows": {"swing": lambda _t, y: [y[1], -rate2 * np.sin(y[0])],
+                  "rest": lambda _t, _y: [0.0, 0.0]},
+        "guards": {"swing": [truth.Guard(lambda _t, y: y[0] - angle, not below, strike)]},
+        "longest": longest,
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_arm,
+    {"length": 1.0, "start_deg": 60.0, "stop_deg": -10.0, "restitution": 0.5},
+    {"length": 1.0, "start_deg": 90.0, "stop_deg": 15.0, "restitution": 0.5},
+    {"length": 0.1, "start_deg": 60.0, "stop_deg": 0.0, "restitution": 0.9, "kind": "ship"},
+    {"length": 20.0, "start_deg": 80.0, "stop_deg": 5.0, "restitution": 0.0},
+)  # fmt: skip
+def arm_and_stop(
+    length: float, start_deg: float, stop_deg: float, restitution: float, kind: str | None = None
+) -> Scene:
+    """A bar that swings down against a stop of its hinge."""
+    start, at, half = np.radians(start_deg), np.radians(stop_deg), 0.5 * length
+    rate2 = 1.5 * GRAVITY / length
+    end = 15.0 / np.sqrt(rate2)
+    exact = truth.hybrid(
+        "swing", [start, 0.0], place=lambda _t, y, _m: [np.sin(y[0]) * half, -np.cos(y[0]) * half],
+        **_against(at, True, rate2, restitution),
+    )  # fmt: skip
+    place = [half * np.sin(start), 0.0, -half * np.cos(start)]
+    tables = case(
+        [body("bar", "planar", 3.0, place, [0.25 * length**2] * 3)], float(end), samples=500,
+        joints=[joint("hinge", "revolute", "ground", "bar", axis=DOWN_Y)],
+        constraints=[stop("stop", "hinge", restitution, lower_deg=stop_deg - start_deg)],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a bar against a stop at {stop_deg:g} deg", tables, half, float(1.0 / np.sqrt(rate2)),
+        "an angle between impacts (DOP853)", exact, position("bar", 0, 2),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "mass": log_uniform(g, 1e-3, 1e6), "rate": log_uniform(g, 0.1, 100.0),
+        "release": log_uniform(g, 1e-4, 1.0), "room": g.uniform(0.2, 0.9),
+        "restitution": g.uniform(0.0, 1.0), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_stops,
+    {"mass": 1.0, "rate": 3.0, "release": 0.5, "room": 0.4, "restitution": 0.7},
+    {"mass": 1e3, "rate": 1.0, "release": 1e-3, "room": 0.5, "restitution": 0.9},
+    {"mass": 1.0, "rate": 10.0, "release": 0.1, "room": 0.3, "restitution": 1.0, "kind": "ship"},
+)  # fmt: skip
+def spring_and_stop(
+    mass: float, rate: float, release: float, room: float, restitution: float,
+    kind: str | None = None,
+) -> Scene:  # fmt: skip
+    """A sprung mass whose way is bounded at `room` of its release on the other side."""
+    bound = room * release
+    end = 30.0 / rate
+    exact = truth.hybrid(
+        "", [release, 0.0], {"": lambda _t, y: [y[1], -(rate**2) * y[0]]},
+        {"": [truth.Guard(lambda _t, y: y[0] + bound, False,
+                          lambda _t, y: ("", np.array([-bound, -restitution * y[1]])))]},
+        lambda _t, y, _m: [y[0]], longest=0.02 / rate, scale=[release, release * rate],
+    )  # fmt: skip
+    pto = {"type": "pto_linear", "name": "spring", "joint": "guide", "stiffness": mass * rate**2}
+    tables = case(
+        [body("mass", "surge", mass, displacement=[release, 0.0, 0.0])], end, samples=500,
+        joints=[joint("guide", "prismatic", "ground", "mass", axis=X)], forces=[pto],
+        constraints=[stop("stop", "guide", restitution, lower=-bound)],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a sprung mass against a stop, restitution {restitution:g}", tables, release,
+        1.0 / rate, "pieces between impacts (DOP853)", exact, position("mass", 0),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_sea(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "height": log_uniform(g, 0.05, 1.0), "period": g.uniform(4.0, 8.0),
+        "room": g.uniform(0.3, 0.9), "restitution": g.uniform(0.0, 0.8), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND,
+    _draw_sea,
+    {"height": 0.5, "period": 5.0, "room": 0.6, "restitution": 0.5},
+    {"height": 0.02, "period": 5.0, "room": 0.6, "restitution": 0.3},
+    {"height": 0.5, "period": 6.0, "room": 0.5, "restitution": 0.0},
+)
+def stop_in_waves(
+    height: float, period: float, room: float, restitution: float, kind: str | None = None
+) -> Scene:
+    """A sphere in waves under an end stop at `room` of its free amplitude."""
+    s, w, ramp = sea.sphere(), 2.0 * np.pi / period, 2.0 * period
+    amplitude = float(0.5 * height * abs(
+        s.excitation(w) / (s.stiffness - w**2 * s.inertia + 1j * w * s.radiation(np.array([w]))[0])
+    ))  # fmt: skip
+    bound, end = room * amplitude, 12.0 * period
+    force = sea.regular(height, period, ramp)
+    free = s.rates(force)
+    tiny = 1e-9 * amplitude * w
+
+    def push(t: float, y: Any) -> float:  # acceleration upwards without the stop
+        return float(free(t, np.r_[y[0], 0.0, y[2:]])[1])
+
+    def held(t: float, y: Any) -> Any:
+        rates = free(t, np.r_[y[0], 0.0, y[2:]])
+        return np.r_[0.0, 0.0, rates[2:]]
+
+    def strike(t: float, y: Any) -> tuple[str, Any]:
+        y = np.array(y)
+        y[0], y[1] = bound, -restitution * y[1]
+        if abs(y[1]) < max(tiny, 1e-9 * abs(push(t, y))) and push(t, y) > 0.0:
+            y[1] = 0.0
+            return "held", y
+        return "free", y
+
+    def longest(mode: str, y: Any) -> float:
+        if mode == "held" or y[1] == 0.0 or abs(y[0] - bound) > 1e-12 * bound:
+            return 0.02 * period
+        strong = amplitude * (w**2 + s.stiffness / s.inertia)
+        return float(min(0.02 * period, abs(y[1]) / strong))
+
+    exact = truth.hybrid(
+        "free", s.start(), {"free": free, "held": held},
+        {"free": [truth.Guard(lambda _t, y: y[0] - bound, True, strike)],
+         "held": [truth.Guard(push, False, lambda _t, y: ("free", y))]},
+        lambda _t, y, _m: [y[0]], longest=longest, breaks=[ramp], scale=amplitude, rtol=1e-9,
+    )  # fmt: skip
+    tables = case(
+        [sea.float_body()], end, samples=400, sea={"ramp": ramp},
+        joints=[joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -sea.DRAFT], Z)],
+        constraints=[stop("stop", "guide", restitution, upper=bound)],
+        wave=[{"name": "swell", "type": "regular", "period": period, "height": height}],
+    )  # fmt: skip
+    scene = Scene(
+        "", f"a sphere in waves of {height:g} m under an end stop", tables, amplitude, 0.6,
+        "linear states between impacts (DOP853)", exact,
+        position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]), database=sea.stored,
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "masses": (log_uniform(g, 0.1, 10.0), log_uniform(g, 0.1, 10.0)),
+        "height": log_uniform(g, 0.01, 10.0), "apart": g.uniform(0.01, 0.5),
+        "restitution": g.uniform(0.4, 1.0), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_balls,
+    {"masses": (2.0, 1.0), "height": 1.0, "apart": 0.1, "restitution": 0.7},
+    {"masses": (1.0, 3.0), "height": 0.1, "apart": 0.3, "restitution": 0.9},
+    {"masses": (2.0, 1.0), "height": 1.0, "apart": 0.1, "restitution": 0.7, "kind": "ship"},
+)  # fmt: skip
+def two_balls(
+    masses: tuple[float, float], height: float, apart: float, restitution: float,
+    kind: str | None = None,
+) -> Scene:  # fmt: skip
+    """Two balls one above the other, dropped onto the floor, over their first eight impacts."""
+    m, n = masses
+    space = apart * height
+    pieces, end = _two_balls(m, n, height, space, restitution, 8)
+
+    def exact(time: Any) -> Any:
+        out = np.empty((len(time), 2))
+        for t0, a, u, b, v in pieces:
+            now = time >= t0
+            s = time[now] - t0
+            fall = 0.5 * GRAVITY * s**2
+            out[now] = np.column_stack([a + u * s - fall, b + v * s - fall])
+        return out
+
+    low, high = [0.0, 0.0, height], [0.0, 0.0, height + space]
+    tables = case(
+        [body("low", "heave", m, low), body("high", "heave", n, high)], end, samples=500,
+        joints=[joint("guide", "prismatic", "ground", "low", low, Z),
+                joint("between", "prismatic", "low", "high", high, Z)],
+        constraints=[stop("floor", "guide", restitution, lower=-height),
+                     stop("touch", "between", restitution, lower=-space)],
+    )  # fmt: skip
+    scene = Scene(
+        "", "two balls one above the other", tables, height, float(np.sqrt(2 * height / GRAVITY)),
+        "closed flights", exact,
+        both(position("low", 2), position("high", 2, origin=[0.0, 0.0, space])),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _two_balls(
+    m: float, n: float, height: float, space: float, e: float, impacts: int
+) -> tuple[list[tuple[float, float, float, float, float]], float]:
+    """Flights (start, places and rates of both) and the end, short of the next impact.
+
+    The places are heights above the floor, of the upper ball less the reach of the lower one.
+    """
+    now, a, u, b, v = 0.0, height, 0.0, height + space, 0.0
+    pieces = []
+    for _ in range(impacts + 1):
+        pieces.append((now, a, u, b - space, v))
+        floor = (u + np.sqrt(u * u + 2.0 * GRAVITY * a)) / GRAVITY
+        touch = (b - a) / (u - v) if u > v else np.inf
+        s = float(min(floor, touch))
+        if len(pieces) > impacts:
+            break
+        a, b = a + u * s - 0.5 * GRAVITY * s**2, b + v * s - 0.5 * GRAVITY * s**2
+        u, v, now = u - GRAVITY * s, v - GRAVITY * s, now + s
+        if floor < touch:
+            a, u = 0.0, -e * u
+        else:
+            common, away = (m * u + n * v) / (m + n), -e * (v - u)
+            u, v = common - n / (m + n) * away, common + m / (m + n) * away
+            b = a
+    return pieces, now + 0.9 * s
