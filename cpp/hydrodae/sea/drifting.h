@@ -32,7 +32,7 @@ public:
   Eigen::Index components() const { return coefficients_.cols(); }
   VectorX largest() const { return coefficients_.cwiseAbs().rowwise().maxCoeff(); } ///< |C_ri|
   bool empty() const { return coefficients_.rows() == 0; }
-  const std::vector<Component>& components() const { return components_; }
+  const std::vector<Component>& waves() const { return components_; }
   const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C
 
   /// Functions first .. first + count - 1 into `out`; their derivatives by x and y where these are

@@ -48,7 +48,7 @@ VectorX to_positions(const system::System& s, const VectorX& y, const VectorX& t
 }
 
 /// Body by body the error along v.
-VectorX StageError::take_pattern(const system::System& s, const VectorX& v, VectorX errors) {
+void StageError::take_pattern(const system::System& s, const VectorX& v, const VectorX& errors) {
   const VectorX sizes = body_sizes(s, v);
   pattern_ = v;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -56,7 +56,6 @@ VectorX StageError::take_pattern(const system::System& s, const VectorX& v, Vect
     pattern_.segment(s.bodies[i].q0, s.bodies[i].n_position) *=
         size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
   }
-  return errors;
 }
 
 StageError::StageError(const RungeKutta& rk)
@@ -86,7 +85,9 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
   if (degree_ == 1 && order_ == 2) {
     const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.n_q);
     before_ = v;
-    return take_pattern(s, change, body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change));
+    VectorX sizes = body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
+    take_pattern(s, change, sizes);
+    return sizes;
   }
   const VectorX top = body_sizes(s, v), next = body_sizes(s, coefficient(0));
   const double fade = std::exp(-h / time_scale);
@@ -108,7 +109,8 @@ VectorX StageError::operator()(const system::System& s, double h, const VectorX&
     errors[i] = h * std::min(std::max(order_ - 0.5, 1.0) * missed,
                              std::max(amplitude, top[i]) * h / (summed_time_scales * time_scale));
   }
-  return take_pattern(s, v, std::move(errors));
+  take_pattern(s, v, errors);
+  return errors;
 }
 
 } // namespace hydrodae::solve

@@ -38,7 +38,7 @@ public:
   const VectorX& pattern() const { return pattern_; }
 
 private:
-  VectorX take_pattern(const system::System& system, const VectorX& v, VectorX errors);
+  void take_pattern(const system::System& system, const VectorX& v, const VectorX& errors);
 
   VectorX pattern_;
   int order_, degree_;

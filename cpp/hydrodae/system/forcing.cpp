@@ -99,7 +99,7 @@ void Forcing::add_waves(const System& s) {
     omega = s.hydro.excitation.omega();
     C = &s.hydro.excitation.coefficients();
   } else if (!s.hydro.drifting.empty()) {
-    const std::vector<sea::Component>& components = s.hydro.drifting.components();
+    const std::vector<sea::Component>& components = s.hydro.drifting.waves();
     omega.resize(static_cast<Index>(components.size()));
     for (Index i = 0; i < omega.size(); ++i)
       omega[i] = components[static_cast<std::size_t>(i)].omega;
