@@ -169,7 +169,7 @@ def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
 def _against(angle: float, below: bool, rate2: float, restitution: float) -> dict[str, Any]:
     """Flows and guards of phi'' = -rate2 sin phi with a stop at `angle` (from above if `below`)."""
     pull = rate2 * abs(np.sin(angle))
-    tiny = 1e-8 * np.sqrt(rate2)
+    tiny = 1e-6 * np.sqrt(rate2)  # the way of a slower rebound is lost in rounding
     pressed = (angle > 0.0) == below  # gravity holds it against the stop
 
     def strike(_t: float, y: Any) -> tuple[str, Any]:
@@ -288,7 +288,7 @@ def stop_in_waves(
     bound, end = room * amplitude, 12.0 * period
     force = sea.regular(height, period, ramp)
     free = s.rates(force)
-    tiny = 1e-9 * amplitude * w
+    tiny = 1e-6 * amplitude * w  # the way of a slower rebound is lost in rounding
 
     def push(t: float, y: Any) -> float:  # acceleration upwards without the stop
         return float(free(t, np.r_[y[0], 0.0, y[2:]])[1])

@@ -234,10 +234,13 @@ def rope_catch(
     start, end = 0.5, coast + 10.0
     length = start + speed * coast
 
+    def least(y: Any) -> float:  # speed of a rebound whose way is not lost in rounding
+        return float(np.sqrt(2e-12 * length * rate**2 * abs(y[0])))
+
     def snap(_t: float, y: Any) -> tuple[str, Any]:
         common = (m * y[1] + n * y[3]) / (m + n)
         away = -restitution * (y[3] - y[1])
-        if abs(away) < 1e-9 * speed and y[0] > 0.0:  # the spring keeps the rope taut
+        if abs(away) < least(y) and y[0] > 0.0:  # the spring keeps the rope taut
             return "taut", np.array([y[0], common, y[0] + length, common])
         return "slack", np.array(
             [y[0], common - n / (m + n) * away, y[0] + length, common + m / (m + n) * away]
@@ -245,7 +248,7 @@ def rope_catch(
 
     def longest(mode: str, y: Any) -> float:
         gap, apart = y[2] - y[0] - length, abs(y[3] - y[1])
-        if mode == "taut" or abs(gap) > 1e-12 * length or y[0] <= 0.0 or apart < 1e-9 * speed:
+        if mode == "taut" or abs(gap) > 1e-12 * length or y[0] <= 0.0 or apart < 1e-9 * least(y):
             return 0.1 / rate
         return float(min(0.1 / rate, apart / (rate**2 * y[0]) / 5.0))
 
