@@ -83,12 +83,14 @@ PYTHON
   printf '%s\n' "$hash" | tee "$stamp.sha256" >"$stamp${extra:+-$extra}.sha256"
 }
 
-# build_sanitized [TARGET]: the C++ tests and the fuzz driver, with assertions and sanitizers.
-build_sanitized() {
+# build_preset PRESET [TARGET]: the C++ tests and the fuzz driver with assertions (preset `tests`), or
+# with address and undefined-behaviour sanitizers as well (`sanitized`).
+build_preset() {
+  local preset=$1
   mkdir -p "$root/build"
-  (cd "$root" && cmake --preset tests) >"$root/build/tests.log" ||
-    { cat "$root/build/tests.log"; fail "CMake failed"; }
-  cmake --build "$root/build/tests" ${1:+--target "$1"} -- --quiet
+  (cd "$root" && cmake --preset "$preset") >"$root/build/$preset.log" ||
+    { cat "$root/build/$preset.log"; fail "CMake failed"; }
+  cmake --build "$root/build/$preset" ${2:+--target "$2"} -- --quiet
 }
 
 # install_environment [EXTRA]: all of the above.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every check of the project: C++ tests and mutated inputs under sanitizers, style and types, Python
-# tests. Arguments go to pytest:
+# Every check of the project: C++ tests, a sample of mutated inputs, style and types, Python tests
+# (the C++ tests under sanitizers: `bash tests/fuzz/run.sh --tests`). Arguments go to pytest:
 #   bash tests/run.sh
 #   bash tests/run.sh -m slow
 set -euo pipefail
@@ -9,11 +9,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/../cases/environment.sh"
 install_environment test
 cd "$root"
 
-note "building and running the C++ tests under sanitizers"
-build_sanitized
+note "building and running the C++ tests"
+build_preset tests
 ctest --preset tests -j "$(nproc)"
 note "a sample of mutated inputs"
-.venv/bin/python tests/fuzz/run.py --seconds 15 --seed 1
+.venv/bin/python tests/fuzz/run.py --seconds 15 --seed 1 --program build/tests/tests/fuzz/hydrodae-fuzz
 
 note "style and types"
 .venv/bin/ruff check .
