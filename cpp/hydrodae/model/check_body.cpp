@@ -53,9 +53,9 @@ void check_initial(const Body& body, const std::array<bool, 6>& free) {
     const auto locked_in = [&](std::size_t k) {
       return " along " + std::string(coordinate_names[k]) + ", which is locked";
     };
-    if (!free[i] && body.initial.velocity[c] != 0.0)
+    if (!free[i] && body.initial.velocity.value_or(Vector3::Zero())[c] != 0.0)
       refuse(body, "initial.velocity", "initial velocity" + locked_in(i));
-    if (!free[3 + i] && body.initial.angular_velocity[c] != 0.0)
+    if (!free[3 + i] && body.initial.angular_velocity.value_or(Vector3::Zero())[c] != 0.0)
       refuse(body, "initial.angular_velocity", "initial angular velocity" + locked_in(3 + i));
     if (turns && !free[3 + i] && body.initial.rotation[c] != 0.0)
       refuse(body, "initial.rotation_deg",

@@ -92,16 +92,17 @@ struct HydroOptions {
 struct BodyInitial {
   Vector3 displacement = Vector3::Zero();
   Vector3 rotation = Vector3::Zero();
-  Vector3 velocity = Vector3::Zero();
-  Vector3 angular_velocity = Vector3::Zero();
+  std::optional<Vector3> velocity, angular_velocity;
 
   static Fields<BodyInitial> fields() {
     using B = BodyInitial;
     return {
         {"displacement", &B::displacement, "m", "Of the centre of gravity, world axes."},
         {"rotation_deg", &B::rotation, "deg", "Rotation vector, world axes."},
-        {"velocity", &B::velocity, "m/s", "Of the centre of gravity, world axes."},
-        {"angular_velocity", &B::angular_velocity, "rad/s", "World axes."},
+        {"velocity", &B::velocity, "m/s",
+         "Of the centre of gravity, world axes; what is not given follows from the constraints."},
+        {"angular_velocity", &B::angular_velocity, "rad/s",
+         "World axes; what is not given follows from the constraints."},
     };
   }
 };

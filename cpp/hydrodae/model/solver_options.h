@@ -24,6 +24,7 @@ struct SolverOptions {
   bool branch_guard = true;
   double error_guard = 0.1;
   std::optional<double> step_guard;
+  double tolerance_assembly = 1e-6;
   bool force = false;
   std::optional<double> length_scale;
   std::optional<double> time_scale;
@@ -96,9 +97,15 @@ struct SolverOptions {
          "ten time scales of the bodies, are more than this angle [rad], or this part of a body's "
          "lever; 0: no guard. By default 0.02.",
          false, at_least(0, 1e6)},
+        {"tolerance_assembly", &O::tolerance_assembly, "-",
+         "Joints that are out of line with each other by less than this part of the body's lever "
+         "(its farthest joint or radius of gyration), or of one radian, count as exact: a row that "
+         "follows from the others but for that gives way. By more, they would lock the mechanism "
+         "and are refused.",
+         false, between(1e-12, 0.1)},
         {"force", &O::force, "-",
-         "Run what is known to fail, for comparisons: a pair of method and formulation, a memory "
-         "that is not passive."},
+         "Run what is known to fail, for comparisons: a pair of method and formulation, radiation "
+         "that is not passive, joints that are out of line with each other."},
         {"length_scale", &O::length_scale, "m",
          "Length that the tolerance of positions refers to; default: from the bodies and joints.",
          false, between(1e-12, 1e12)},

@@ -25,8 +25,6 @@ BodyData make_body(const model::Body& body, const Pose& pose) {
   b.reference = body.center_of_gravity;
   b.position = pose.r;
   b.orientation = pose.p;
-  b.velocity = pose.v;
-  b.angular_velocity = rotation_matrix<double>(pose.p).transpose() * pose.w;
   const std::array<bool, 6> free = model::free_coordinates(body);
   for (int c = 0; c < 6; ++c) {
     if (!free[c])
@@ -44,6 +42,18 @@ BodyData make_body(const model::Body& body, const Pose& pose) {
   }
   b.n_position = b.n_translations + (rotations == 3 ? 4 : rotations);
   return b;
+}
+
+/// What the bodies of the case are given at the start.
+std::vector<BodyStart> body_starts(const model::Scene& scene) {
+  std::vector<BodyStart> out;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const model::BodyInitial& start = scene.bodies[i].initial;
+    const bool placed = !start.displacement.isZero(0.0) || !start.rotation.isZero(0.0);
+    if (placed || start.velocity || start.angular_velocity)
+      out.push_back({static_cast<int>(i), placed, start.velocity, start.angular_velocity});
+  }
+  return out;
 }
 
 /// Coordinates of bodies are motions between the ground and the centre of gravity.
@@ -393,9 +403,8 @@ System build(const model::Scene& scene, bool with_excitation) {
   lay_out(s);
   if (s.n_u == 0)
     throw ModelError("body", "nothing can move: every body of the scene is fixed");
-  assemble(s);
-  if (drop_redundant_rows(s))
-    lay_out(s);
+  assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
+           body_starts(scene));
   take_mean_yaw(scene, s);
   if (with_excitation) {
     note_axes(scene, s);

@@ -10,6 +10,7 @@
 #include "hydrodae/math/bspline.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/check_radiation.h"
 
 namespace hydrodae::system {
 
@@ -204,6 +205,20 @@ void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& ke
   c.frequency = kernel_frequency(h);
 }
 
+/// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
+/// read.
+VectorX largest_damping(const model::Scene& scene, const HydroData& h) {
+  VectorX out = VectorX::Zero(h.n_moving);
+  const hydro::Database& db = *scene.database;
+  for (int u = 0; u < h.n_moving; ++u) {
+    const HydroData::Coordinate& k = h.coordinates[u];
+    const int i = label_index(db.coordinates, label(scene, h.bodies[k.hydro_body], k.component));
+    for (const MatrixX& B : db.damping)
+      out[u] = i < 0 ? 0.0 : std::max(out[u], std::abs(B(i, i)));
+  }
+  return out;
+}
+
 /// A(w) or B(w) at the frequency of constant radiation.
 MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
   const hydro::Database& db = *scene.database;
@@ -307,6 +322,7 @@ void add_hydro(const model::Scene& scene, System& s) {
   }
   h.added_mass = moving_rows(h, h.added_mass_all);
   check_mass(s);
+  check_radiation(scene, s, largest_damping(scene, h));
 }
 
 } // namespace hydrodae::system

@@ -45,25 +45,47 @@ bool movable(const model::Scene& scene, const std::vector<int>& bodies) {
                      [&](int b) { return b >= 0 && model::moves(scene.bodies[b]); });
 }
 
-/// Rigid motion of a set of bodies: turn about an axis through `point`, then slide, with rates.
-void move(std::vector<Pose>& poses, const std::vector<int>& bodies, const Vector3& point,
-          const Vector3& rotation, const Vector3& slide, const Vector3& rate,
-          const Vector3& slide_rate) {
+/// Does a rigid motion that takes a body from one pose to the other leave what its motion locks?
+bool may_go(const model::Body& body, const Pose& from, const Pose& to) {
+  const std::array<bool, 6> free = model::free_coordinates(body);
+  const auto rotations = std::count(free.begin() + 3, free.end(), true);
+  const double length = 1e-9 * std::max(1.0, (to.r - from.r).norm());
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto i = static_cast<Eigen::Index>(c);
+    if (!free[c] && std::abs(to.r[i] - from.r[i]) > length)
+      return false;
+    if (rotations == 1 && !free[3 + c] && std::abs(to.p[1 + i]) > 1e-9)
+      return false;
+  }
+  return rotations > 0 || (to.p - from.p).norm() < 1e-9;
+}
+
+/// Rigid motion of a set of bodies: turn about an axis through `point`, then slide. Points, which
+/// have no rotation, only go along. Where a body locks the way, none of them moves: the assembly
+/// finds their poses.
+void move(const model::Scene& scene, std::vector<Pose>& poses, const std::vector<int>& bodies,
+          const Vector3& point, const Vector3& rotation, const Vector3& slide) {
   const Vector4 turn = quaternion_from_rotation_vector(rotation);
   const Matrix3 R = rotation_matrix<double>(turn);
+  std::vector<Pose> moved = poses;
   for (int b : bodies) {
-    Pose& pose = poses[b];
+    const model::Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    const std::array<bool, 6> free = model::free_coordinates(body);
+    const bool is_point = free == std::array<bool, 6>{true, true, true, false, false, false};
+    Pose& pose = moved[static_cast<std::size_t>(b)];
     pose.r = point + R * (pose.r - point) + slide;
-    pose.p = quaternion_product(turn, pose.p);
-    pose.v = R * pose.v + rate.cross(pose.r - point - slide) + slide_rate;
-    pose.w = R * pose.w + rate;
+    if (!is_point)
+      pose.p = quaternion_product(turn, pose.p);
+    if (!may_go(body, poses[static_cast<std::size_t>(b)], pose))
+      return;
   }
+  poses = moved;
 }
 
 void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector<Pose>& poses) {
   const model::Joint& joint = scene.joints[index];
   const model::JointInitial& start = joint.initial;
-  if (!start.angle && !start.angle_rate && !start.displacement && !start.displacement_rate)
+  if (!start.angle && !start.displacement)
     return;
   const int a = body_index(scene, joint.body_a), b = body_index(scene, joint.body_b);
   std::vector<int> side = hanging_bodies(scene, b, index);
@@ -83,41 +105,26 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
   const Vector3 point = base.r + R * (joint.point - reference);
   const Vector3 axis = sign * (R * marker_axes(joint).col(2));
   if (!joint.path.empty()) { // the point of B to its place on the curve, along the curve
-    const auto [place, tangent] = joint::Path(joint.path).at_arc(start.displacement.value_or(0.0));
+    const Vector3 place = joint::Path(joint.path).at_arc(start.displacement.value_or(0.0))[0];
     const Vector3 slide =
         start.displacement ? Vector3(sign * (R * (place - joint.point))) : Vector3::Zero();
-    move(poses, side, point, Vector3::Zero(), slide, Vector3::Zero(),
-         sign * start.displacement_rate.value_or(0.0) * (R * tangent));
+    move(scene, poses, side, point, Vector3::Zero(), slide);
     return;
   }
-  move(poses, side, point, start.angle.value_or(0.0) * axis,
-       start.displacement.value_or(0.0) * axis, start.angle_rate.value_or(0.0) * axis,
-       start.displacement_rate.value_or(0.0) * axis);
+  move(scene, poses, side, point, start.angle.value_or(0.0) * axis,
+       start.displacement.value_or(0.0) * axis);
 }
 
-[[noreturn]] void refuse(const model::Body& body, const std::string& what, std::size_t c) {
-  throw ModelError("body." + body.name + ".motion",
-                   "body '" + body.name + "': the start has " + what + " in " +
-                       std::string(model::coordinate_names[c]) + ", which its motion locks");
-}
-
-/// Velocities along locked coordinates and turns about locked axes are contradictions.
+/// A body that turns about one axis cannot start turned about another.
 void check_locked(const model::Body& body, const Pose& pose) {
   const std::array<bool, 6> free = model::free_coordinates(body);
-  const auto rotations = std::count(free.begin() + 3, free.end(), true);
-  const double speed = 1e-9 * std::max(1.0, pose.v.norm()),
-               rate = 1e-9 * std::max(1.0, pose.w.norm());
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto i = static_cast<Eigen::Index>(c);
-    if (!free[c] && std::abs(pose.v[i]) > speed)
-      refuse(body, "a velocity", c);
-    if (rotations == 3)
-      continue;
-    if (!free[3 + c] && std::abs(pose.w[i]) > rate)
-      refuse(body, "an angular velocity", 3 + c);
-    if (rotations == 1 && !free[3 + c] && std::abs(pose.p[1 + i]) > 1e-9)
-      refuse(body, "a rotation", 3 + c);
-  }
+  if (std::count(free.begin() + 3, free.end(), true) != 1)
+    return;
+  for (std::size_t c = 3; c < 6; ++c)
+    if (!free[c] && std::abs(pose.p[static_cast<Eigen::Index>(c) - 2]) > 1e-9)
+      throw ModelError("body." + body.name + ".motion",
+                       "body '" + body.name + "': the start has a rotation in " +
+                           std::string(model::coordinate_names[c]) + ", which its motion locks");
 }
 
 } // namespace
@@ -150,8 +157,7 @@ std::vector<Pose> initial_poses(const model::Scene& scene) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const model::BodyInitial& start = scene.bodies[i].initial;
     poses[i] = {scene.bodies[i].center_of_gravity + start.displacement,
-                quaternion_from_rotation_vector(start.rotation), start.velocity,
-                start.angular_velocity};
+                quaternion_from_rotation_vector(start.rotation)};
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     apply_joint_start(scene, j, poses);

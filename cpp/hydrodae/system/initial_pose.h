@@ -5,18 +5,17 @@
 
 namespace hydrodae::system {
 
-/// Start of one body: centre of gravity, quaternion, velocity and angular velocity in world axes.
+/// Start of one body: centre of gravity and quaternion in world axes.
 struct Pose {
   Vector3 r = Vector3::Zero();
   Vector4 p{1, 0, 0, 0};
-  Vector3 v = Vector3::Zero();
-  Vector3 w = Vector3::Zero();
 };
 
 /// Start of all bodies: the reference pose, displaced by `body.initial`, then moved joint by joint
 /// by `joint.initial`. A joint moves its body B and all that hangs on it; where the ground or a
-/// fixed body hangs there, it moves the other side the opposite way; joints in closed loops are
-/// left to the assembly. Throws ModelError where the start moves a locked coordinate.
+/// fixed body hangs there, it moves the other side the opposite way; joints in closed loops, and
+/// those that would move a locked coordinate, are left to the assembly. Throws ModelError where a
+/// body starts turned about a locked axis.
 std::vector<Pose> initial_poses(const model::Scene& scene);
 
 /// Index of a body in the scene, -1 for "ground".

@@ -14,7 +14,9 @@ using Iterator = SparseMatrix::InnerIterator;
 
 constexpr double rank_tolerance = 1e-9; ///< of the largest pivot
 constexpr double damping = 1e-12;       ///< of the normal equations, whose diagonal is one
-constexpr double certain = 1e-8;        ///< pivot of those above which a row is independent
+constexpr double certain = 1e-3;        ///< pivot of those above which a row is independent
+constexpr double surely_certain = 1e-8; ///< the same where that leaves too many in doubt
+constexpr std::size_t most_doubtful = 200;
 
 /// The rows and columns of one component. `place` has one entry per row of `matrix`: scratch.
 SparseMatrix block(const SparseMatrix& matrix, const Component& part, std::vector<Index>& place) {
@@ -34,11 +36,16 @@ bool is_small(const SparseMatrix& part, Index dense_limit) {
   return std::max(part.rows(), part.cols()) <= dense_limit;
 }
 
-std::vector<Index> dense_rows(const SparseMatrix& part) {
-  Eigen::ColPivHouseholderQR<MatrixX> qr(MatrixX(part).transpose());
-  qr.setThreshold(rank_tolerance);
+std::vector<RankedRow> dense_rows(const SparseMatrix& part) {
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(MatrixX(part).transpose());
   const auto& order = qr.colsPermutation().indices();
-  return {order.data(), order.data() + qr.rank()};
+  std::vector<RankedRow> rows;
+  for (Index k = 0; k < part.rows(); ++k)
+    rows.push_back({order[k], k < part.cols() ? std::abs(qr.matrixQR()(k, k)) : 0.0});
+  const double largest = rows.empty() ? 0.0 : rows.front().pivot;
+  for (RankedRow& row : rows)
+    row.pivot /= largest > 0.0 ? largest : 1.0;
+  return rows;
 }
 
 /// Scales the rows to length one; returns their lengths.
@@ -48,7 +55,10 @@ VectorX normalise_rows(SparseMatrix& part) {
     for (Iterator it(part, c); it; ++it)
       size[it.row()] += it.value() * it.value();
   size = size.cwiseSqrt();
-  part = size.cwiseInverse().asDiagonal() * part;
+  for (Index c = 0; c < part.cols(); ++c)
+    for (SparseMatrix::InnerIterator it(part, c); it; ++it)
+      if (size[it.row()] > 0.0)
+        it.valueRef() /= size[it.row()];
   return size;
 }
 
@@ -106,33 +116,30 @@ SparseMatrix some_rows(const SparseMatrix& part, const std::vector<Index>& rows)
 /// Rows well away from the span of those before them are certain. Pivots of the normal equations
 /// are squares and say no more than that; of the few doubtful rows, what the certain ones leave of
 /// them is computed itself, and judged by the same tolerance as the dense pivots.
-std::vector<Index> sparse_rows(SparseMatrix part) {
+std::vector<RankedRow> sparse_rows(SparseMatrix part) {
   normalise_rows(part);
   const VectorX pivots = NormalEquations(part).pivots();
-  std::vector<Index> rows, doubtful, left;
-  for (Index i = 0; i < part.rows(); ++i)
-    (pivots[i] > certain ? rows : doubtful).push_back(i);
+  std::vector<RankedRow> rows;
+  std::vector<Index> known, doubtful;
+  double limit = certain;
+  if (static_cast<std::size_t>((pivots.array() <= limit).count()) > most_doubtful)
+    limit = surely_certain;
+  for (Index i = 0; i < part.rows(); ++i) {
+    (pivots[i] > limit ? known : doubtful).push_back(i);
+    if (pivots[i] > limit)
+      rows.push_back({i, std::sqrt(pivots[i])});
+  }
   if (doubtful.empty())
     return rows;
-  const SparseMatrix known = some_rows(part, rows), asked = some_rows(part, doubtful).transpose();
-  const NormalEquations equations(known);
-  std::vector<VectorX> remainders;
-  for (std::size_t k = 0; k < doubtful.size(); ++k) {
-    VectorX v = equations.remainder(VectorX(asked.col(static_cast<Index>(k))));
-    if (v.norm() <= rank_tolerance)
-      continue;
-    left.push_back(doubtful[k]);
-    remainders.push_back(std::move(v));
-  }
-  if (left.empty())
-    return rows;
-  MatrixX all(part.cols(), static_cast<Index>(left.size()));
-  for (std::size_t k = 0; k < left.size(); ++k)
-    all.col(static_cast<Index>(k)) = remainders[k];
-  Eigen::ColPivHouseholderQR<MatrixX> qr(all);
-  qr.setThreshold(std::min(1.0, rank_tolerance / qr.maxPivot()));
-  for (Index k = 0; k < qr.rank(); ++k)
-    rows.push_back(left[qr.colsPermutation().indices()[k]]);
+  const SparseMatrix first = some_rows(part, known), asked = some_rows(part, doubtful).transpose();
+  const NormalEquations equations(first);
+  MatrixX left(part.cols(), asked.cols());
+  for (Index k = 0; k < asked.cols(); ++k)
+    left.col(k) = equations.remainder(VectorX(asked.col(k)));
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(left);
+  for (Index k = 0; k < left.cols(); ++k)
+    rows.push_back({doubtful[static_cast<std::size_t>(qr.colsPermutation().indices()[k])],
+                    k < left.rows() ? std::abs(qr.matrixQR()(k, k)) : 0.0});
   return rows;
 }
 
@@ -186,13 +193,22 @@ std::vector<Component> components(const SparseMatrix& matrix) {
   return out;
 }
 
-std::vector<Index> independent_rows(const SparseMatrix& matrix, Index dense_limit) {
-  std::vector<Index> rows, place(matrix.rows());
+std::vector<RankedRow> ranked_rows(const SparseMatrix& matrix, Index dense_limit) {
+  std::vector<RankedRow> rows;
+  std::vector<Index> place(matrix.rows());
   for (const Component& c : components(matrix)) {
     const SparseMatrix part = block(matrix, c, place);
-    for (Index i : is_small(part, dense_limit) ? dense_rows(part) : sparse_rows(part))
-      rows.push_back(c.rows[i]);
+    for (const RankedRow& row : is_small(part, dense_limit) ? dense_rows(part) : sparse_rows(part))
+      rows.push_back({c.rows[static_cast<std::size_t>(row.row)], row.pivot});
   }
+  return rows;
+}
+
+std::vector<Index> independent_rows(const SparseMatrix& matrix, Index dense_limit) {
+  std::vector<Index> rows;
+  for (const RankedRow& row : ranked_rows(matrix, dense_limit))
+    if (row.pivot > rank_tolerance)
+      rows.push_back(row.row);
   std::sort(rows.begin(), rows.end());
   return rows;
 }
@@ -211,6 +227,20 @@ VectorX smallest_solution(const SparseMatrix& matrix, const VectorX& b, Index de
       x[c.columns[k]] = piece[static_cast<Index>(k)];
   }
   return x;
+}
+
+VectorX damped_solution(const SparseMatrix& matrix, const VectorX& b, double damped) {
+  SparseMatrix G = matrix;
+  VectorX right = b;
+  const VectorX size = normalise_rows(G);
+  for (Index i = 0; i < right.size(); ++i)
+    right[i] = size[i] > 0.0 ? right[i] / size[i] : 0.0;
+  const SparseMatrix transposed = G.transpose();
+  SparseMatrix normal = G * transposed;
+  for (Index i = 0; i < normal.rows(); ++i)
+    normal.coeffRef(i, i) += damped;
+  const Eigen::SimplicialLDLT<SparseMatrix> ldlt(normal);
+  return transposed * VectorX(ldlt.solve(right));
 }
 
 } // namespace hydrodae::system

@@ -26,7 +26,7 @@ model::Body bar(const std::string& name, const Vector3& center) {
 }
 
 model::Joint jointed(const std::string& type, const std::string& name, const std::string& a,
-                   const std::string& b, const Vector3& point) {
+                     const std::string& b, const Vector3& point) {
   model::Joint j;
   j.name = name;
   j.type = type;

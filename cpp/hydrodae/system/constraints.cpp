@@ -1,0 +1,143 @@
+#include "hydrodae/system/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/system/residual.h"
+
+namespace hydrodae::system {
+
+VectorX displacement_scale(const System& s) {
+  VectorX scale(s.n_u);
+  for (const BodyData& b : s.bodies)
+    for (int k = 0; k < b.n_active; ++k)
+      scale[b.u0 - s.u0 + k] = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
+  return scale;
+}
+
+double smaller_lever(const System& s, const JointData& j) {
+  double lever = INFINITY;
+  for (int body : {j.A.body, j.B.body})
+    if (body >= 0 && s.bodies[body].n_active > 0)
+      lever = std::min(lever, s.bodies[body].lever);
+  return std::isfinite(lever) ? lever : 1.0;
+}
+
+Constraints::Constraints(const System& s)
+    : s_(s), ws_(s), scale_(displacement_scale(s)),
+      size_(s.n_lambda + static_cast<Index>(s.starts.size())), lever_(VectorX::Ones(size_.size())),
+      mu_(s.n_lambda, -1), angle_(static_cast<std::size_t>(size_.size()), false) {
+  for (std::size_t k = 0; k < s.starts.size(); ++k) {
+    const MotionData& motion = s.motions[s.starts[k].motion];
+    const JointData& j = s.joints[motion.joint];
+    const BodyData& b = s.bodies[j.B.body >= 0 ? j.B.body : j.A.body];
+    const Index i = s.n_lambda + static_cast<Index>(k);
+    angle_[static_cast<std::size_t>(i)] = motion.motion.is_angle();
+    size_[i] = motion.motion.is_angle() ? b.length_scale / b.lever : b.length_scale;
+    lever_[i] = smaller_lever(s, j);
+  }
+  for (const JointData& j : s.joints)
+    for (const RowData& row : j.rows)
+      if (row.kept()) {
+        angle_[static_cast<std::size_t>(row.lambda - s.lambda0)] =
+            row.kind.kind == joint::BasicRow::Kind::perp;
+        lever_[row.lambda - s.lambda0] = smaller_lever(s, j);
+      }
+  for (const CouplerData& c : s.couplers)
+    if (c.kept()) {
+      const MotionData& motion = s.motions[c.terms.front().motion];
+      angle_[static_cast<std::size_t>(c.lambda - s.lambda0)] = motion.motion.is_angle();
+      lever_[c.lambda - s.lambda0] = smaller_lever(s, s.joints[motion.joint]);
+    }
+  for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
+    if (lambda == redundant)
+      return;
+    const Index i = lambda - s.lambda0;
+    size_[i] = s.row_scale[velocity_level ? lambda : mu];
+    mu_[i] = velocity_level ? -1 : mu;
+  });
+}
+
+void Constraints::evaluate(const VectorX& y, VectorX& gaps, VectorX& rates) {
+  const VectorX rest = VectorX::Zero(s_.n);
+  VectorX r(s_.n);
+  residual<double>(s_, ws_, 0.0, y.data(), rest.data(), r.data());
+  gaps = rates = VectorX::Zero(size_.size());
+  for (Index i = 0; i < s_.n_lambda; ++i) {
+    gaps[i] = mu_[i] < 0 ? 0.0 : r[mu_[i]] / size_[i];
+    rates[i] = r[s_.lambda0 + i] / size_[i];
+  }
+  for (std::size_t k = 0; k < s_.starts.size(); ++k) {
+    const MotionStart& given = s_.starts[k];
+    const auto row = motion_row<double>(s_, ws_, given.motion);
+    const JointData& j = s_.joints[s_.motions[given.motion].joint];
+    const Index i = s_.n_lambda + static_cast<Index>(k);
+    if (given.value)
+      gaps[i] = (row.value - *given.value) / size_[i];
+    if (given.rate)
+      rates[i] = (row.gradient.dot(joint_velocity<double>(j, ws_.bodies)) - *given.rate) / size_[i];
+  }
+}
+
+SparseMatrix Constraints::gradient(const std::function<bool(Index)>& wanted) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](const JointData& j, Index i, const joint::Vector12& row) {
+    if (wanted(i))
+      append(entries, j, i, row);
+  };
+  for (const JointData& j : s_.joints) {
+    const auto g = joint_geometry<double>(j, ws_.bodies);
+    for (const RowData& row : j.rows)
+      if (row.kept())
+        add(j, row.lambda - s_.lambda0,
+            joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient);
+  }
+  for (const CouplerData& c : s_.couplers)
+    for (const CouplerData::Term& term : c.terms)
+      if (c.kept())
+        add(s_.joints[s_.motions[term.motion].joint], c.lambda - s_.lambda0,
+            term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
+  for (std::size_t k = 0; k < s_.starts.size(); ++k)
+    add(s_.joints[s_.motions[s_.starts[k].motion].joint], s_.n_lambda + static_cast<Index>(k),
+        motion_row<double>(s_, ws_, s_.starts[k].motion).gradient);
+  SparseMatrix G(size_.size(), s_.n_u);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
+void Constraints::append(std::vector<Eigen::Triplet<double>>& entries, const JointData& j, Index i,
+                         const joint::Vector12& gradient) const {
+  for (int side = 0; side < 2; ++side) {
+    const int body = side == 0 ? j.A.body : j.B.body;
+    if (body < 0)
+      continue;
+    const BodyData& b = s_.bodies[body];
+    for (int k = 0; k < b.n_active; ++k) {
+      const Index u = b.u0 - s_.u0 + k;
+      entries.emplace_back(i, u, gradient[6 * side + b.active[k]] * scale_[u] / size_[i]);
+    }
+  }
+}
+
+std::string Constraints::name(Index i) const {
+  if (i >= s_.n_lambda) {
+    const MotionData& motion = s_.motions[start(i).motion];
+    return "joints/" + s_.joints[motion.joint].name + " initial " + motion.name;
+  }
+  return s_.row_names[mu_[i] < 0 ? s_.lambda0 + i : mu_[i]];
+}
+
+std::string Constraints::key(Index i) const {
+  if (i >= s_.n_lambda)
+    return "joint." + s_.joints[s_.motions[start(i).motion].joint].name;
+  for (const JointData& j : s_.joints)
+    for (const RowData& row : j.rows)
+      if (row.kept() && row.lambda == s_.lambda0 + i)
+        return "joint." + j.name;
+  for (const CouplerData& c : s_.couplers)
+    if (c.kept() && c.lambda == s_.lambda0 + i)
+      return "constraint." + c.name;
+  return "joint";
+}
+
+} // namespace hydrodae::system
