@@ -64,9 +64,10 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& note : statistics.notes)
       std::cerr << "note: " << note << '\n';
-  std::printf("%s at t = %.6g s: %ld steps in %.3g s, results in %s\n", statistics.status.c_str(),
-              statistics.end_time, statistics.steps, statistics.wall_time,
-              arguments.output.c_str());
+  std::printf("%s at t = %.6g s: %ld steps in %.3g s, estimated error %.1g of the motion, results "
+              "in %s\n",
+              statistics.status.c_str(), statistics.end_time, statistics.steps,
+              statistics.wall_time, statistics.estimated_error, arguments.output.c_str());
   return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
 }
 

@@ -97,16 +97,16 @@ private:
 
 py::dict as_dict(const RunStatistics& s) {
   using namespace py::literals;
-  return py::dict("status"_a = s.status, "steps"_a = s.steps, "residual_calls"_a = s.residual_calls,
-                  "jacobian_calls"_a = s.jacobian_calls,
-                  "newton_iterations"_a = s.newton_iterations,
-                  "error_test_failures"_a = s.error_test_failures,
-                  "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
-                  "end_time"_a = s.end_time, "setup_time"_a = s.setup_time,
-                  "solver_time"_a = s.solver_time, "wall_time"_a = s.wall_time,
-                  "estimated_error"_a = s.estimated_error,
-                  "estimated_error_of"_a = s.estimated_error_of,
-                  "estimated_error_time"_a = s.estimated_error_time, "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
+  return py::dict(
+      "status"_a = s.status, "steps"_a = s.steps, "residual_calls"_a = s.residual_calls,
+      "jacobian_calls"_a = s.jacobian_calls, "newton_iterations"_a = s.newton_iterations,
+      "error_test_failures"_a = s.error_test_failures,
+      "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
+      "end_time"_a = s.end_time, "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time,
+      "wall_time"_a = s.wall_time, "estimated_error"_a = s.estimated_error,
+      "estimated_error_of"_a = s.estimated_error_of,
+      "estimated_error_time"_a = s.estimated_error_time, "unknowns"_a = s.unknowns,
+      "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,

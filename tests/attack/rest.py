@@ -65,8 +65,9 @@ def _carried(
         measured = both(position("cart", 0), position("bob", 0, 2))
         source = "DOP853, angle of the bob, from knot to knot"
     else:
-        block = body("block", "surge", mass, X)
-        link = spring("link", "cart", "block", [0.0] * 3, X, mass * rate**2)
+        away = [1.0 + 10.0 * amplitude, 0.0, 0.0]  # so that the spring never turns round
+        block = body("block", "surge", mass, away)
+        link = spring("link", "cart", "block", [0.0] * 3, away, mass * rate**2)
         tables = case([cart, block], end, constraints=[motor], forces=[link], samples=samples)
         exact = truth.integrated(
             lambda t, y: [y[1], -(rate**2) * (y[0] - f(t)[0])],
@@ -74,7 +75,7 @@ def _carried(
             lambda t, y: [f(t)[0], y[0]],
             breaks=breaks, scale=amplitude, longest=end / 50.0,
         )  # fmt: skip
-        measured = both(position("cart", 0), position("block", 0, origin=X))
+        measured = both(position("cart", 0), position("block", 0, origin=away))
         size, source = amplitude, "DOP853, place of the block, from knot to knot"
     return Scene(
         "", title, tables, size, min(1.0 / rate, quickest), source, exact, measured, **more

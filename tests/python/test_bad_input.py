@@ -93,7 +93,7 @@ def message(case: Path, overrides: dict[str, str] | None = None) -> str:
 
 def test_a_database_from_python_is_read(case):
     summary = _core.load_case(str(case), {}).summary()
-    assert "3 coordinates, 1 move, body axes" in summary
+    assert "3 coordinates, 1 move, mean axes" in summary
     assert "fit 'heave' with 3 states for 1 coordinates, passive" in summary
 
 

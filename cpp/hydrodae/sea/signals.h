@@ -43,7 +43,7 @@ public:
   bool empty() const { return coefficients_.rows() == 0; }
   double step() const { return step_; }           ///< of the table [s]; 0 without table
   const VectorX& omega() const { return omega_; } ///< [rad/s]
-  const Eigen::MatrixXcd& coefficients() const { return coefficients_; } ///< C
+  const Eigen::MatrixXcd& coefficients() const { return coefficients_; }            ///< C
   VectorX largest() const { return coefficients_.cwiseAbs().rowwise().maxCoeff(); } ///< |C_ri|
 
 private:
