@@ -209,21 +209,21 @@ void Observer::observe_morison(double t) {
 Vector6 Observer::row_reaction(const JointData& j, const RowData& row,
                                const joint::Geometry<double>& g, double lambda) const {
   Vector6 reaction = Vector6::Zero();
-  const Matrix3 to_marker = j.A.axes.transpose();
+  const auto to_marker = [&](const Vector3& v) -> Vector3 { return j.A.axes.transpose() * v; };
   switch (row.kind.kind) {
   case joint::BasicRow::Kind::span:
     reaction[row.kind.i] = lambda;
     break;
   case joint::BasicRow::Kind::perp: // moment b_j x a_i
     reaction.tail<3>() =
-        lambda * (to_marker *
-                  Vector3(g.N * j.B.axes.col(row.kind.j)).cross(Vector3(j.A.axes.col(row.kind.i))));
+        lambda *
+        to_marker(Vector3(g.N * j.B.axes.col(row.kind.j)).cross(Vector3(j.A.axes.col(row.kind.i))));
     break;
   case joint::BasicRow::Kind::distance:
-    reaction.head<3>() = lambda / j.parameters.length * (to_marker * (g.e - j.A.point));
+    reaction.head<3>() = lambda / j.parameters.length * to_marker(g.e - j.A.point);
     break;
   case joint::BasicRow::Kind::across: // a force at the point that slides
-    reaction.head<3>() = lambda * (to_marker * j.A.path->across<double>(row.kind.i, g.e).gradient);
+    reaction.head<3>() = lambda * to_marker(j.A.path->across<double>(row.kind.i, g.e).gradient);
     break;
   case joint::BasicRow::Kind::screw:
     reaction[2] = lambda;
