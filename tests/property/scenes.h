@@ -91,6 +91,7 @@ inline model::Scene two_bodies(const joint::JointType& type, const std::vector<s
                                Random& random) {
   model::Scene scene;
   scene.solver.end_time = 1.0;
+  scene.solver.force = true; // the made-up memories are not passive
   for (int i = 0; i < 2; ++i) {
     model::Body body;
     body.name = i == 0 ? "a" : "b";

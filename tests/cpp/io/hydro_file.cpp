@@ -201,7 +201,7 @@ TEST_CASE("a hydro file that cannot be used is told") {
   CHECK(message_with([](Writer& f) { f.number("/", "gravity", 0.0); }) ==
         "hydro.h5: /: gravity must be > 0, is 0");
   CHECK(message_with([](Writer& f) { f.text("/", "rho", "much"); }) ==
-        "hydro.h5: /: attribute 'rho': expected numbers");
+        "hydro.h5: /: attribute 'rho': expected numbers, found another type");
   CHECK(message_with([](Writer& f) { f.remove("/added_mass_inf"); }) ==
         "hydro.h5: /added_mass_inf: missing dataset");
   CHECK(message_with([](Writer& f) { f.numbers("/added_mass_inf", {1, 2, 3}, {3, 1}); }) ==
@@ -236,7 +236,8 @@ TEST_CASE("a memory fit that cannot be right is told") {
           f.labels("/memory/heave/outputs", {"float.heave", "base.sway"});
         }) == "hydro.h5: /memory/heave/outputs: 'base.sway' is not in /coordinates");
   CHECK(message_with([](Writer& f) { f.numbers("/memory/heave/poles", {-1, -2}, {2}); }) ==
-        "hydro.h5: /memory/heave/poles: expected complex numbers (a compound of r and i)");
+        "hydro.h5: /memory/heave/poles: expected complex numbers (a compound of r and i), found "
+        "another type");
   CHECK(message_with([](Writer& f) {
           f.complex("/memory/heave/input_matrix", {{1, 0}, {2, 3}}, {1, 2});
         }) == "hydro.h5: /memory/heave/input_matrix: expected shape (2, 1), found (1, 2)");

@@ -46,7 +46,7 @@ TEST_CASE("a sine is cut into parts of its period, whatever the place of the ste
   for (double t = 0.0; t < 60.0; t += 0.37) {
     const double step = windows.reach(t, hint) - t;
     CHECK(step > 0.02);
-    CHECK(step < 0.25 * 6.2832);
+    CHECK(step < 0.35 * 6.2832);
   }
 }
 

@@ -272,7 +272,7 @@ TEST_CASE("the memory fit with the fewest states that covers what moves") {
 TEST_CASE("a summary shows what is in the scene") {
   const std::string text = model::summary(Wet().scene);
   CHECK(contains(text, "buoy: planar, 2 kg, hydro 'float'"));
-  CHECK(contains(text, "6 coordinates, 3 move, body axes"));
+  CHECK(contains(text, "6 coordinates, 3 move, mean axes"));
   CHECK(contains(text, "fit 'small' with 4 states for 3 coordinates, passive"));
 }
 
