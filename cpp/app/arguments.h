@@ -9,7 +9,7 @@
 namespace hydrodae::app {
 
 inline constexpr const char* usage =
-    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet]
+    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet] [--verify]
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --version | --help
 
@@ -19,6 +19,7 @@ inline constexpr const char* usage =
                    --set joint.hinge1.initial.angle_deg=5
   --method NAME    the same as --set solver.method="NAME": ida, radau, explicit_rk, ...
   --force          run a pair of method and formulation that is known to fail
+  --verify         run a second time with a tenth of the tolerance, or half the step, and compare
   --check          read and check the case, print what is in it, do not run
   --quiet          no progress on stderr
 
@@ -30,7 +31,7 @@ struct Arguments {
   enum class Task { run, check, version, help } task = Task::run;
   std::string case_path, output;
   io::Overrides overrides;
-  bool quiet = false;
+  bool quiet = false, verify = false;
 };
 
 inline std::string next_value(int argc, char** argv, int& i) {
@@ -66,6 +67,8 @@ inline Arguments parse(int argc, char** argv) {
       arguments.task = Arguments::Task::check;
     else if (word == "--quiet")
       arguments.quiet = true;
+    else if (word == "--verify")
+      arguments.verify = true;
     else if (word == "-o" || word == "--output")
       arguments.output = next_value(argc, argv, i);
     else if (word == "--set")

@@ -59,15 +59,17 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell is told as a full disk is
   Reporter reporter(arguments.quiet);
   const hydrodae::RunStatistics statistics =
-      hydrodae::simulate(scene, arguments.output, std::ref(reporter));
+      hydrodae::simulate(scene, arguments.output, std::ref(reporter), arguments.verify);
   reporter.finish();
   if (!arguments.quiet)
     for (const std::string& note : statistics.notes)
       std::cerr << "note: " << note << '\n';
-  std::printf("%s at t = %.6g s: %ld steps in %.3g s, estimated error %.1g of the motion, results "
-              "in %s\n",
+  std::printf("%s at t = %.6g s: %ld steps in %.3g s, estimated error %.1g of the motion, ",
               statistics.status.c_str(), statistics.end_time, statistics.steps,
-              statistics.wall_time, statistics.estimated_error, arguments.output.c_str());
+              statistics.wall_time, statistics.estimated_error);
+  if (statistics.verified_error >= 0.0)
+    std::printf("verified %.1g, ", statistics.verified_error);
+  std::printf("results in %s\n", arguments.output.c_str());
   return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
 }
 

@@ -18,6 +18,7 @@
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/solve/switching.h"
 #include "hydrodae/solve/trust.h"
+#include "hydrodae/solve/verification.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/linear_limits.h"
@@ -51,25 +52,39 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
 }
 
 io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
-  return {{"steps", std::int64_t{s.steps}},
-          {"residual_calls", std::int64_t{s.residual_calls}},
-          {"jacobian_calls", std::int64_t{s.jacobian_calls}},
-          {"newton_iterations", std::int64_t{s.newton_iterations}},
-          {"error_test_failures", std::int64_t{s.error_test_failures}},
-          {"convergence_failures", std::int64_t{s.convergence_failures}},
-          {"events", std::int64_t{s.events}},
-          {"unknowns", std::int64_t{s.unknowns}},
-          {"nonzeros", std::int64_t{s.nonzeros}},
-          {"setup_time", s.setup_time},
-          {"solver_time", s.solver_time},
-          {"wall_time", s.wall_time},
-          {"end_time", s.end_time},
-          {"relative_balance_error", balance_error},
-          {"estimated_error", s.estimated_error},
-          {"estimated_error_of", s.estimated_error_of},
-          {"estimated_error_time", s.estimated_error_time},
-          {"method", scene.solver.method},
-          {"rtol", scene.solver.rtol}};
+  io::Attributes out{{"steps", std::int64_t{s.steps}},
+                     {"residual_calls", std::int64_t{s.residual_calls}},
+                     {"jacobian_calls", std::int64_t{s.jacobian_calls}},
+                     {"newton_iterations", std::int64_t{s.newton_iterations}},
+                     {"error_test_failures", std::int64_t{s.error_test_failures}},
+                     {"convergence_failures", std::int64_t{s.convergence_failures}},
+                     {"events", std::int64_t{s.events}},
+                     {"unknowns", std::int64_t{s.unknowns}},
+                     {"nonzeros", std::int64_t{s.nonzeros}},
+                     {"setup_time", s.setup_time},
+                     {"solver_time", s.solver_time},
+                     {"wall_time", s.wall_time},
+                     {"end_time", s.end_time},
+                     {"relative_balance_error", balance_error},
+                     {"estimated_error", s.estimated_error},
+                     {"estimated_error_of", s.estimated_error_of},
+                     {"estimated_error_time", s.estimated_error_time},
+                     {"method", scene.solver.method},
+                     {"rtol", scene.solver.rtol}};
+  if (s.verified_error >= 0.0) {
+    out["verified_error"] = s.verified_error;
+    out["verified_error_of"] = s.verified_error_of;
+    out["verified_error_time"] = s.verified_error_time;
+  }
+  return out;
+}
+
+/// The scene at a tenth of the tolerance, or at half the step.
+model::Scene more_exact(model::Scene scene) {
+  scene.solver.rtol *= 0.1;
+  if (scene.solver.step > 0.0)
+    scene.solver.step *= 0.5;
+  return scene;
 }
 
 void take(const solve::Statistics& from, RunStatistics& to) {
@@ -90,10 +105,12 @@ const std::vector<Channel> solver_channels = {
 /// rows.
 class Run {
 public:
-  Run(const model::Scene& scene, const std::string& output_path, const Progress& progress)
-      : scene_(scene), progress_(progress), started_(Clock::now()), options_(scene.solver),
-        system_(solve::starting_system(scene)), pattern_(system::find_pattern(system_)),
-        y_(system::initial_state(system_)) {
+  /// @param other  run whose samples this one is compared with
+  Run(const model::Scene& scene, const std::string& output_path, const Progress& progress,
+      solve::Verification* other = nullptr)
+      : scene_(scene), progress_(progress), other_(other), started_(Clock::now()),
+        options_(scene.solver), system_(solve::starting_system(scene)),
+        pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     forcing_ = std::make_unique<system::Forcing>(system_, scene.solver.end_time, scene.output.step);
@@ -124,7 +141,8 @@ public:
     linear_limits_ = system::linear_limits(scene, system_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
-    row_.resize(recorder_->width() + solver_channels.size());
+    add_impact_channels(channels);
+    row_.resize(recorder_->width() + solver_channels.size() + 2 * stops_.size());
     if (!output_path.empty())
       file_ =
           std::make_unique<io::ResultsFile>(output_path, channels, header(scene, system_.notes));
@@ -134,9 +152,14 @@ public:
     statistics_.setup_time = seconds_since(started_);
   }
 
-  RunStatistics operator()() {
+  /// @param verify  compares the motion with that of a more exact run
+  RunStatistics operator()(bool verify) {
     try {
+      if (verify)
+        own_ = std::make_unique<solve::Verification>(system_);
       statistics_.status = march() ? "completed" : "interrupted";
+      if (verify && statistics_.status == "completed" && !this->verify())
+        statistics_.status = "interrupted";
       close(statistics_.status == "completed" ? "" : "stopped on request");
     } catch (const std::exception& error) {
       statistics_.status = "failed";
@@ -147,6 +170,52 @@ public:
   }
 
 private:
+  /// What each stop has taken so far goes behind the solver's own columns.
+  void add_impact_channels(std::vector<Channel>& channels) {
+    for (std::size_t k = 0; k < system_.switches.size(); ++k) {
+      const system::SwitchData& element = system_.switches[k];
+      if (element.kind != system::SwitchData::Kind::stop)
+        continue;
+      stops_.push_back(k);
+      const std::string head =
+          "constraints/" + system_.couplers[static_cast<std::size_t>(element.coupler)].name + "/";
+      const bool angle =
+          system_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
+      channels.push_back({head + "impulse", 1, angle ? "N m s" : "N s", "-",
+                          "Sum of the impulses of all impacts so far; group impacts has each."});
+      channels.push_back({head + "energy_lost", 1, "J", "-",
+                          "Sum of the energies that all impacts so far have taken."});
+    }
+  }
+
+  /// The second run; false when it was asked to stop. Throws SolverError when it does not confirm
+  /// the first.
+  bool verify() {
+    const model::Scene scene = more_exact(scene_);
+    const std::string how = scene.solver.step > 0.0
+                                ? "step = " + number_text(scene.solver.step) + " s"
+                                : "rtol = " + number_text(scene.solver.rtol);
+    try {
+      Run second(scene, "", progress_, own_.get());
+      if (!second.march())
+        return false;
+    } catch (const SolverError& error) {
+      throw SolverError(error.time, "not verified: the second run, with " + how + ", " +
+                                        std::string(error.what()));
+    }
+    const solve::Verification::Difference d = own_->largest();
+    statistics_.verified_error = d.error;
+    statistics_.verified_error_of = d.body;
+    statistics_.verified_error_time = d.time;
+    if (const double allowed = scene_.solver.error_guard; allowed > 0.0 && d.error > allowed)
+      throw SolverError(d.time, "not verified: a second run, with " + how + ", has " +
+                                    in_quotes(d.body) + " off by " + rounded_text(d.error) +
+                                    " of the motion at t = " + number_text(d.time) +
+                                    " s, more than " + number_text(allowed) +
+                                    " (solver.error_guard); a smaller tolerance or step may do");
+    return true;
+  }
+
   /// The start is found on the stabilised equations; then the formulation may change.
   void formulate(const model::SolverOptions& options) {
     using system::Formulation;
@@ -168,7 +237,11 @@ private:
     const Clock::time_point before = Clock::now();
     step_start_ = t_;
     limit_step();
-    t_ = integrator_->step();
+    try {
+      t_ = integrator_->step();
+    } catch (const SolverError& error) {
+      throw SolverError(error.time, with_remedy(error.what()));
+    }
     std::optional<double> event;
     if (switching_)
       event = switching_->locate(step_start_, t_, quadrature_nodes_ + 2, at_);
@@ -254,6 +327,22 @@ private:
     return false;
   }
 
+  /// What to do about a step that cannot be made next to a singular pose, behind the first line.
+  std::string with_remedy(std::string text) {
+    at_(t_, y_, yp_);
+    if (!pose_guard_ || !pose_guard_->near_singular(t_, y_, yp_))
+      return text;
+    const std::string& method = scene_.solver.method;
+    const std::string remedy =
+        method == "radau" || method == "explicit_rk"
+            ? "; it is next to a singular pose (a dead point, or bars in line), where the motion "
+              "may "
+              "have no unique way on: a smaller rtol, or a little friction, may help"
+            : "; it is next to a singular pose (a dead point, or bars in line): solver.method = "
+              "\"radau\" or \"explicit_rk\" passes such poses";
+    return text.insert(std::min(text.find('\n'), text.size()), remedy);
+  }
+
   /// The rule by which the work over the coming step is summed.
   void choose_quadrature() {
     const int nodes = integrator_->quadrature_nodes();
@@ -282,7 +371,7 @@ private:
   void check_trust() {
     at_(t_, y_, yp_);
     motion_scale_->accept(t_, y_);
-    trust_->accept(t_, *integrator_, motion_scale_->reached(), y_);
+    trust_->accept(t_, *integrator_, motion_scale_->reached(), y_, *recorder_);
   }
 
   /// The other witnesses: fixed steps too long, constraints that drift, velocities that jump.
@@ -341,8 +430,17 @@ private:
     recorder_->sample(t, at_, row_);
     system::watch(linear_limits_, t, recorder_->bodies());
     const solve::Statistics s = integrator_->statistics();
-    row_[row_.size() - 2] = s.last_step;
-    row_[row_.size() - 1] = s.last_order;
+    std::size_t column = recorder_->width();
+    row_[column++] = s.last_step;
+    row_[column++] = s.last_order;
+    for (std::size_t k : stops_) {
+      row_[column++] = switching_->struck()[k].impulse;
+      row_[column++] = switching_->struck()[k].energy_lost;
+    }
+    if (own_)
+      own_->keep(t, recorder_->bodies());
+    if (other_)
+      other_->compare(recorder_->bodies());
     if (file_)
       file_->append(t, row_);
     statistics_.end_time = t;
@@ -363,11 +461,35 @@ private:
       return;
     io::Attributes all = attributes(statistics_, scene_, recorder_->relative_balance_error());
     all["beyond_linear_theory"] = lines_of(limits);
+    write_impacts();
     file_->close(statistics_.status, message, all);
+  }
+
+  /// One table a stop that was struck.
+  void write_impacts() {
+    for (std::size_t k : stops_) {
+      const std::vector<solve::Switching::Impact>& impacts = switching_->struck()[k].impacts;
+      if (impacts.empty())
+        continue;
+      const system::SwitchData& element = system_.switches[k];
+      std::vector<double> values;
+      for (const solve::Switching::Impact& i : impacts)
+        values.insert(values.end(), {i.time, i.impulse, i.energy_lost});
+      const bool angle =
+          system_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
+      file_->write_table(
+          "impacts/" + system_.couplers[static_cast<std::size_t>(element.coupler)].name, 3, values,
+          {{"columns", "time, impulse, energy lost"},
+           {"unit", angle ? "s, N m s, J" : "s, N s, J"},
+           {"description", "The impacts on this stop, one a row."}});
+    }
   }
 
   const model::Scene& scene_;
   const Progress& progress_;
+  solve::Verification* other_;               ///< run to compare with
+  std::unique_ptr<solve::Verification> own_; ///< where this run is to be verified
+  std::vector<std::size_t> stops_;           ///< switches that are stops
   Clock::time_point started_;
   model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
   system::System system_;
@@ -401,10 +523,10 @@ private:
 } // namespace
 
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
-                       const Progress& progress) {
+                       const Progress& progress, bool verify) {
   if (!output_path.empty())
     io::check_output(output_path, {scene.path, scene.database ? scene.database->path : ""});
-  return Run(scene, output_path, progress)();
+  return Run(scene, output_path, progress)(verify);
 }
 
 } // namespace hydrodae

@@ -32,6 +32,9 @@ struct RunStatistics {
   double estimated_error = 0.0;      ///< of the motion, relative to its size [-]; see solve::Trust
   std::string estimated_error_of;    ///< the body that is off most
   double estimated_error_time = 0.0; ///< when [s]
+  double verified_error = -1.0;      ///< against a more exact run, likewise; < 0: not verified
+  std::string verified_error_of;
+  double verified_error_time = 0.0;
   long unknowns = 0;
   long nonzeros = 0;
   std::vector<std::string> notes; ///< what the assembly found worth telling
@@ -47,7 +50,10 @@ std::string examine(const model::Scene& scene);
 /// Throws ModelError when the scene cannot start, CaseError when `output_path` cannot be written,
 /// SolverError when the integration fails or the disk is full (the file then has status "failed"
 /// and keeps what was computed).
+/// @param verify  runs the scene a second time, at a tenth of the tolerance or half the step, and
+///   compares the motion at the output samples. SolverError, with status "failed", where the two
+///   are further apart than solver.error_guard, or the second run stops.
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
-                       const Progress& progress = {});
+                       const Progress& progress = {}, bool verify = false);
 
 } // namespace hydrodae

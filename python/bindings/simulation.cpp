@@ -105,21 +105,24 @@ py::dict as_dict(const RunStatistics& s) {
       "end_time"_a = s.end_time, "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time,
       "wall_time"_a = s.wall_time, "estimated_error"_a = s.estimated_error,
       "estimated_error_of"_a = s.estimated_error_of,
-      "estimated_error_time"_a = s.estimated_error_time, "unknowns"_a = s.unknowns,
+      "estimated_error_time"_a = s.estimated_error_time,
+      "verified_error"_a = s.verified_error, "verified_error_of"_a = s.verified_error_of,
+      "verified_error_time"_a = s.verified_error_time, "unknowns"_a = s.unknowns,
       "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
-             const Drives& functions) {
+             const Drives& functions, bool verify) {
   PythonProgress progress(callback);
   PythonDrives drives;
   const model::Scene driven = drives.join(scene, functions);
   RunStatistics statistics;
   try {
     const py::gil_scoped_release release;
-    statistics = simulate(driven, output, [&](double time, double end_time) {
-      return !drives.failed() && progress(time, end_time);
-    });
+    statistics = simulate(
+        driven, output,
+        [&](double time, double end_time) { return !drives.failed() && progress(time, end_time); },
+        verify);
   } catch (const ModelError& error) {
     drives.raise_failure();
     throw CaseError(model::located(scene, error));
@@ -152,10 +155,11 @@ void bind_simulation(py::module_& module) {
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             py::arg("drives"),
+             py::arg("drives"), py::arg("verify") = false,
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
              "`drives` has a function t -> (f, f', f'') for every constraint in "
-             "`scene.python_drives`.\n\n"
+             "`scene.python_drives`;\n"
+             "`verify`: compares the motion with that of a second, more exact run.\n\n"
              "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
              "solver. Raises\nSolverError when the integration fails; the file then holds what was "
              "computed.");

@@ -56,10 +56,12 @@ def simulate(
     output: str,
     progress: Callable[[float, float], bool] | None,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
+    verify: bool = False,
 ) -> dict[str, Any]:
     """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
 
-    `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`.
+    `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`;
+    `verify`: compares the motion with that of a second, more exact run.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.
     """

@@ -113,6 +113,11 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         action="store_true",
         help="run a pair of method and formulation that is known to fail",
     )
+    run.add_argument(
+        "--verify",
+        action="store_true",
+        help="run a second time with a tenth of the tolerance, or half the step, and compare",
+    )
     run.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     run.set_defaults(call=_run)
 
@@ -252,10 +257,10 @@ def _run(arguments: argparse.Namespace) -> int:
     case = Case(path=arguments.case, values=values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
     if arguments.quiet:
-        run(case, output)
+        run(case, output, verify=arguments.verify)
         return DONE
     with ProgressLine(case.title) as progress:
-        results = run(case, output, progress=progress)
+        results = run(case, output, progress=progress, verify=arguments.verify)
     print(results.summary())
     print(f"  results in {output}")
     return DONE

@@ -166,10 +166,9 @@ def summary(results: Results) -> str:
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    lines += _impacts(results)
     lines += [f"  note: {note}" for note in results.notes]
-    balance = _energy_balance(results)
-    if balance:
-        lines.append(f"  {balance}")
+    lines += [f"  {line}" for line in (_energy_balance(results), *_errors(results)) if line]
     return "\n".join(lines)
 
 
@@ -194,6 +193,32 @@ def _cost(results: Results) -> str:
         speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""
         parts.append(f"wall time {wall:.3g} s{speed}")
     return ", ".join(parts)
+
+
+def _errors(results: Results) -> list[str]:
+    """Lines on how far the motion can be trusted."""
+    known, lines = results.statistics, []
+    for key, word in (("estimated_error", "estimated"), ("verified_error", "verified")):
+        if key in known and known.get(f"{key}_of"):
+            lines.append(
+                f"{word} error {float(known[key]):.1g} of the motion "
+                f"({known[f'{key}_of']}, t = {float(known[f'{key}_time']):.4g} s)"
+            )
+    return lines
+
+
+def _impacts(results: Results) -> list[str]:
+    """One line for each stop that was struck."""
+    lines = []
+    for name, table in results.impacts.items():
+        unit = table["impulse"].attrs["unit"]
+        largest = table.isel(impact=int(table["impulse"].argmax()))
+        lines.append(
+            f"  {name}: struck {table.sizes['impact']} times, largest impulse "
+            f"{float(largest['impulse']):.4g} {unit} at t = {float(largest['time']):.4g} s, "
+            f"energy lost in all {float(table['energy_lost'].sum()):.4g} J"
+        )
+    return lines
 
 
 def _extrema(results: Results, name: str) -> str:

@@ -30,6 +30,9 @@ _COMPONENTS = {3: ("component", ["x", "y", "z"]), 4: ("quaternion", ["w", "x", "
 #: Datasets that name the components, no channels.
 _LABELS = tuple(name for name, _ in _COMPONENTS.values())
 
+#: Group of the tables of impacts, one a stop; no channels either.
+_IMPACTS = "impacts/"
+
 
 class ResultsError(HydrodaeError):
     """A results file cannot be used."""
@@ -120,12 +123,16 @@ class Results(Mapping[str, "xarray.DataArray"]):
         solver = file.get("solver")
         self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
         lengths: dict[str, int] = {}
+        impacts: list[str] = []
 
         def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
             if not isinstance(name, str):
                 raise TypeError(f"the name {name!r} is no text")
             if isinstance(node, h5py.Dataset) and name not in _LABELS:
-                lengths[name] = len(node) if node.ndim else 0
+                if name.startswith(_IMPACTS):
+                    impacts.append(name.removeprefix(_IMPACTS))
+                else:
+                    lengths[name] = len(node) if node.ndim else 0
 
         file.visititems(note)
         if "time" not in lengths or file["time"].ndim != 1:
@@ -134,6 +141,7 @@ class Results(Mapping[str, "xarray.DataArray"]):
         samples = min(lengths.values()) if self.status == "running" else lengths["time"]
         self._time: NDArray[np.float64] = _real(file["time"][:samples])
         self._names = tuple(name for name in lengths if name != "time")
+        self._impacts = tuple(impacts)
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         if name not in self._read:
@@ -242,6 +250,29 @@ class Results(Mapping[str, "xarray.DataArray"]):
         """What the assembly found worth telling: redundant rows, bodies moved to close joints."""
         before = str(self._header.get("notes", ""))
         return (before + str(self._statistics.get("beyond_linear_theory", ""))).splitlines()
+
+    @property
+    def impacts(self) -> dict[str, xarray.Dataset]:
+        """Impacts on each stop and one-sided joint that was struck, by its name.
+
+        Each has dimension `impact` and the variables `time` [s], `impulse` (its size, N s or N m s)
+        and `energy_lost` [J]; their sums over time are the channels ``constraints/NAME/impulse``
+        and ``constraints/NAME/energy_lost``. Known when the run has ended.
+        """
+        import xarray
+
+        tables = {}
+        for name in self._impacts:
+            with opened(self.path, ResultsError, f"impacts on {name} are damaged") as file:
+                values = _real(file[_IMPACTS + name][:])
+                units = str(_plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
+            if values.ndim != 2 or values.shape[1] != 3 or len(units) != 3:
+                raise ResultsError(f"{self.path}: impacts on {name} are damaged")
+            columns = zip(("time", "impulse", "energy_lost"), values.T, units, strict=True)
+            tables[name] = xarray.Dataset(
+                {key: ("impact", column, {"unit": unit}) for key, column, unit in columns}
+            )
+        return tables
 
     @property
     def message(self) -> str:

@@ -300,3 +300,37 @@ def test_events_without_end_are_told() -> None:
     text = text.replace('name = "guide"', f'name = "guide"\n{start}')
     with pytest.raises(SolverError, match="events of stops or dry friction brought only"):
         run(text, 1.0)
+
+
+def test_impacts_report_their_impulses_and_the_energy_they_take() -> None:
+    """A ball falls 1 m: v = e^n sqrt(2 g), impulse m (1 + e) v, energy (1 - e^2) m v^2 / 2."""
+    results = hydrodae.run(hydrodae.Case(text=BALL), set={"solver.end_time": 2.5})
+    mass, e, speed = 2.0, 0.8, np.sqrt(2.0 * GRAVITY)
+    table = results.impacts["floor"]
+    fall = np.sqrt(2.0 / GRAVITY)
+    flights = [fall * (1.0 + 2.0 * sum(e**k for k in range(1, n + 1))) for n in range(4)]
+    times = [t for t in flights if t < 2.5]
+    assert table.sizes["impact"] == len(times)
+    before = speed * e ** np.arange(len(times))
+    np.testing.assert_allclose(table["time"], times, rtol=1e-5)
+    np.testing.assert_allclose(table["impulse"], mass * (1 + e) * before, rtol=1e-5)
+    lost = 0.5 * mass * (1 - e**2) * before**2
+    np.testing.assert_allclose(table["energy_lost"], lost, rtol=1e-5)
+    assert table["impulse"].attrs["unit"] == "N s"
+    sums = results["constraints/floor/impulse"]
+    assert float(sums[0]) == 0.0
+    assert float(sums[-1]) == pytest.approx(float(table["impulse"].sum()))
+    assert float(results["constraints/floor/energy_lost"][-1]) == pytest.approx(float(lost.sum()))
+    line = f"floor: struck {len(times)} times, largest impulse {mass * (1 + e) * speed:.4g} N s"
+    assert line in results.summary()
+    assert not [name for name in results if name.startswith("impacts/")]
+
+
+@pytest.mark.parametrize("method", ["gauss", "lobatto_iiic"])
+def test_low_orders_locate_impacts_on_a_parabola(method: str) -> None:
+    """Of order 2 the velocities are a line in each step, and a fall is exact."""
+    values = {"solver.method": method, "solver.order": 2, "solver.step": 0.05, "output.step": 0.01}
+    results = hydrodae.run(hydrodae.Case(text=BALL), set={**values, "solver.end_time": 2.0})
+    fine = hydrodae.run(hydrodae.Case(text=BALL), set={"solver.end_time": 2.0, "output.step": 0.01})
+    off = np.abs(results["bodies/ball/position"] - fine["bodies/ball/position"]).max()
+    assert float(off) < 1e-4

@@ -290,6 +290,26 @@ void ResultsFile::flush_if_due() {
     flush();
 }
 
+void ResultsFile::write_table(const std::string& path, int width, std::span<const double> values,
+                              const Attributes& attributes) {
+  const hdf5::Quiet quiet;
+  Impl& f = *impl_;
+  if (f.closed || !f.disk.failure().empty())
+    return;
+  const auto columns = static_cast<hsize_t>(width);
+  const hsize_t size[2] = {values.size() / columns, columns};
+  const Handle space = checked(H5Screate_simple(2, size, nullptr), H5Sclose, f.what());
+  const Handle links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, f.what());
+  checked(H5Pset_create_intermediate_group(links, 1), f.what());
+  const Handle table = checked(
+      H5Dcreate2(f.file, path.c_str(), H5T_NATIVE_DOUBLE, space, links, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose, f.what());
+  checked(H5Dwrite(table, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+          f.what());
+  for (const auto& [name, value] : attributes)
+    write_attribute(table, name, value, f.what());
+}
+
 void ResultsFile::close(const std::string& status, const std::string& message,
                         const Attributes& statistics) {
   const hdf5::Quiet quiet;

@@ -53,8 +53,7 @@ public:
     // The first step leaves rounding of the multipliers, eps / h, below the tolerance.
     h_ = fixed_ ? options.step : std::min(max_step_, 3.0 * e_.first_step(y, yp));
     reach_ = t0 + h_;
-    driven_ = std::any_of(s_.couplers.begin(), s_.couplers.end(),
-                          [](const auto& c) { return c.kept() && c.drive.moves(); });
+    find_driven();
     e_.accept(t_, y_, yp_);
   }
 
@@ -64,6 +63,7 @@ public:
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
+  const VectorX& inner_error() const override { return inner_error_; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
 
 private:
@@ -73,8 +73,11 @@ private:
   bool simplified(double h);
   bool full(double h);
   double error(double h, bool refine);
+  void find_driven();
   double drive_error(double h);
   void accept(double h);
+  void find_inner_error(double h);
+  void between_ends(double x, VectorX& y) const;
   void choose_order(double error);
   const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
   void evaluate(double x, VectorX& y) const;
@@ -97,15 +100,18 @@ private:
   double reach_ = 0.0; ///< time to which the error control would have stepped [s]
   VectorX y_, yp_, y0_, w_, error_, v_, guess_, guess_rate_;
   MatrixX Z_, start_, rates_; ///< stages of the last step; start values; their rates
-  bool driven_ = false;       ///< by drives that depend on time
-  bool fresh_ = false;        ///< the Jacobian is of this step
-  double factored_ = 0.0;     ///< step of the matrices at hand [s]
-  double contraction_ = 1.0;  ///< of the last step
-  bool was_full_ = false;     ///< the last step took full Newton
+  std::vector<std::pair<Index, int>> driven_; ///< rows that drives move, with their groups
+  bool fresh_ = false;                        ///< the Jacobian is of this step
+  double factored_ = 0.0;                     ///< step of the matrices at hand [s]
+  double contraction_ = 1.0;                  ///< of the last step
+  bool was_full_ = false;                     ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
   std::optional<StageError> stage_error_;
-  VectorX local_error_;              ///< (n_bodies,)
-  int since_change_ = 0, slack_ = 0; ///< steps of this order; those last that Newton limited
+  VectorX local_error_, inner_error_; ///< (n_bodies,)
+  VectorX nodes_;                     ///< of the interpolant, on [0, 1]
+  double largest_product_ = 0.0;      ///< of prod (x - node) on [0, 1]
+  VectorX slope0_, slope_;            ///< rates of the positions at both ends, where it is a line
+  int since_change_ = 0, slack_ = 0;  ///< steps of this order; those last that Newton limited
 };
 
 void Collocation::use(int stages) {
@@ -114,6 +120,14 @@ void Collocation::use(int stages) {
     entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
   newton_ = entry.get();
   stage_error_.emplace(newton_->rk());
+  nodes_ = newton_->rk().c;
+  if (family_ != Family::lobatto_iiic) {
+    nodes_.conservativeResize(stages + 1);
+    nodes_[stages] = 0.0;
+  }
+  largest_product_ = 0.0;
+  for (int i = 0; i <= 100; ++i)
+    largest_product_ = std::max(largest_product_, std::abs((0.01 * i - nodes_.array()).prod()));
   factored_ = 0.0;
   since_change_ = slack_ = 0;
   last_h_ = 0.0; // its error was another method's
@@ -258,6 +272,32 @@ double Collocation::error(double h, bool refine) {
   return std::max(size, 1e-10);
 }
 
+/// The rows that drives move, and those that pass their motion on.
+void Collocation::find_driven() {
+  const auto group_of = [&](const system::JointData& j) {
+    for (int body : {j.B.body, j.A.body})
+      if (const int g = body < 0 ? -1 : s_.bodies[static_cast<std::size_t>(body)].group; g >= 0)
+        return g;
+    return -1;
+  };
+  const bool stabilised = s_.formulation == system::Formulation::stabilised;
+  std::vector<bool> driven(static_cast<std::size_t>(s_.n_groups));
+  for (const system::CouplerData& c : s_.couplers) {
+    const system::JointData& j = s_.joints[static_cast<std::size_t>(
+        s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
+    if (const int g = group_of(j);
+        c.kept() && (c.velocity_level || c.drive.moves() || c.drive.rate != 0.0) && g >= 0) {
+      driven[static_cast<std::size_t>(g)] = true;
+      driven_.emplace_back(stabilised && !c.velocity_level ? c.mu : c.lambda, g);
+    }
+  }
+  for (const system::JointData& j : s_.joints)
+    if (const int g = group_of(j); stabilised && g >= 0 && driven[static_cast<std::size_t>(g)])
+      for (const system::RowData& row : j.rows)
+        if (row.kept() && row.mu >= 0)
+          driven_.emplace_back(row.mu, g);
+}
+
 /// What the polynomial of the step leaves of the driven constraints between its stages, in units of
 /// the tolerance. At the stages they hold, whatever the step: the estimate above does not see them.
 double Collocation::drive_error(double h) {
@@ -269,25 +309,42 @@ double Collocation::drive_error(double h) {
     v_.setZero();
     if (!e_.residual(t_ + x * h, guess_, v_, error_))
       return HUGE_VAL;
-    for (const system::CouplerData& c : s_.couplers) {
-      if (!c.kept() || !c.drive.moves())
-        continue;
-      const system::JointData& j = s_.joints[static_cast<std::size_t>(
-          s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
-      const int body = j.B.body >= 0 && s_.bodies[static_cast<std::size_t>(j.B.body)].group >= 0
-                           ? j.B.body
-                           : j.A.body;
-      const double scale = s_.motion_scale[s_.bodies[static_cast<std::size_t>(body)].group];
-      const Index row =
-          !c.velocity_level && s_.formulation == system::Formulation::stabilised ? c.mu : c.lambda;
-      size = std::max(size, std::abs(error_[row]) / (e_.rtol * scale * s_.row_scale[row]));
-    }
+    for (const auto& [row, group] : driven_)
+      size = std::max(size, std::abs(error_[row]) /
+                                (e_.rtol * s_.motion_scale[group] * s_.row_scale[row]));
   }
   return size;
 }
 
+/// A polynomial through n nodes misses y^(n) / n! prod (x - node). How far that of the last step,
+/// followed to the end of this one, misses it tells y^(n).
+void Collocation::find_inner_error(double h) {
+  if (done_ == 0.0)
+    return;
+  const double x = 1.0 + h / done_;
+  evaluate(x, guess_);
+  const RungeKutta& rk = newton_->rk();
+  guess_.head(s_.n_q) -=
+      y_.head(s_.n_q) + (rk.stiffly_accurate() ? VectorX(start_.col(rk.stages - 1).head(s_.n_q))
+                                               : VectorX((start_ * rk.end).head(s_.n_q)));
+  const double missed = std::abs((x - nodes_.array()).prod()) *
+                        std::pow(done_ / h, static_cast<double>(nodes_.size()));
+  inner_error_ = largest_product_ / missed * body_sizes(s_, guess_.head(s_.n_q));
+}
+
+/// Where the interpolant is a line: velocities on a line between both ends of the step, positions
+/// on the cubic that has their rates there, so that what falls does so on a parabola.
+void Collocation::between_ends(double x, VectorX& y) const {
+  const double v = 1.0 - x;
+  y.head(s_.lambda0) = v * y0_.head(s_.lambda0) + x * y_.head(s_.lambda0);
+  const VectorX change = (y_ - y0_).head(s_.n_q);
+  y.head(s_.n_q) += x * v * (v * (done_ * slope0_ - change) - x * (done_ * slope_ - change));
+}
+
 void Collocation::accept(double h) {
   const RungeKutta& rk = newton_->rk();
+  if (fixed_)
+    find_inner_error(h);
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
   local_error_ = (*stage_error_)(s_, h, yp_.head(s_.n_q), rates_, e_.time_scale());
@@ -311,6 +368,10 @@ void Collocation::accept(double h) {
       fail("the constraints cannot be met at the end of the step");
   }
   e_.accept(t_, y_, yp_);
+  if (nodes_.size() <= 2) {
+    slope0_ = to_positions(s_, y0_, y0_.segment(s_.u0, s_.n_u));
+    slope_ = to_positions(s_, y_, y_.segment(s_.u0, s_.n_u));
+  }
   fresh_ = false;
   ++e_.statistics.steps;
   e_.statistics.last_step = h;
@@ -375,7 +436,7 @@ double Collocation::step() {
       return t_;
     }
     double err = error(h, rejected);
-    if (driven_)
+    if (!driven_.empty())
       err = std::max(err, drive_error(h));
     const double power = 1.0 / (newton_->rk().stages + 1);
     double grow = std::clamp(safety * std::pow(err, -power), most_cut, most_growth);
@@ -421,6 +482,8 @@ void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
   else
     evaluate(x, y);
   evaluate_rates(x, yp);
+  if (t < t_ && nodes_.size() <= 2)
+    between_ends(x, y);
 }
 
 } // namespace

@@ -25,7 +25,43 @@ double guard_at_singular_poses(const model::SolverOptions& options) {
 
 EnergyGuard::EnergyGuard(const system::System& system, const model::SolverOptions& options)
     : s_(system), rtol_(options.rtol), part_(options.energy_guard.value_or(usual)),
-      at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)) {}
+      at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)) {
+  find_guided();
+}
+
+void EnergyGuard::find_guided() {
+  std::vector<Index> left(static_cast<std::size_t>(std::max(s_.n_mechanisms, 1)));
+  for (const system::BodyData& b : s_.bodies)
+    if (b.mechanism >= 0)
+      left[static_cast<std::size_t>(b.mechanism)] += b.n_active;
+  const auto take = [&](const joint::Marker& A, const joint::Marker& B) {
+    for (int body : {A.body, B.body})
+      if (const int m = body < 0 ? -1 : s_.bodies[static_cast<std::size_t>(body)].mechanism; m >= 0)
+        return void(--left[static_cast<std::size_t>(m)]);
+  };
+  for (const system::JointData& j : s_.joints)
+    for (const system::RowData& row : j.rows)
+      if (row.kept())
+        take(j.A, j.B);
+  for (const system::CouplerData& c : s_.couplers)
+    if (c.kept()) {
+      const system::JointData& j = s_.joints[static_cast<std::size_t>(
+          s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
+      take(j.A, j.B);
+    }
+  for (Index free : left)
+    guided_.push_back(free <= 0);
+}
+
+/// Where drives guide all, the energy tells of the reactions, which are a derivative less exact,
+/// and little of the motion.
+double EnergyGuard::allowed(int mechanism) const {
+  constexpr double more = 10.0;
+  const bool guided = mechanism >= 0
+                          ? guided_[static_cast<std::size_t>(mechanism)]
+                          : std::all_of(guided_.begin(), guided_.end(), [](bool g) { return g; });
+  return guided ? more * part_ : part_;
+}
 
 /// Energy of errors within the tolerance, 100 rtol m v^2 with the speed that counts as one; of all
 /// bodies, or of those of one mechanism [J].
@@ -65,13 +101,13 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
   const auto look = [&](int mechanism, double error, double exchanged) {
     if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
       return;
-    const double missing = std::abs(error) - least(mechanism);
-    if (missing <= std::min(part_, at_singular_) * exchanged)
+    const double missing = std::abs(error) - least(mechanism), part = allowed(mechanism);
+    if (missing <= std::min(part, at_singular_) * exchanged)
       return;
-    const bool singular = missing <= part_ * exchanged;
+    const bool singular = missing <= part * exchanged;
     if (singular && !at_singular_pose())
       return;
-    fail(t, error, singular ? at_singular_ : part_, exchanged,
+    fail(t, error, singular ? at_singular_ : part, exchanged,
          mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)),
          std::string(singular ? ", at a singular pose" : "") +
              " (solver.energy_guard): the motion is not to be trusted; a smaller tolerance or "
@@ -87,8 +123,8 @@ void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)
     return;
-  const double part = std::max(part_, usual);
   const auto look = [&](int mechanism, double error, double exchanged) {
+    const double part = std::max(allowed(mechanism), usual);
     if (std::abs(error) - little * least(mechanism) > part * exchanged)
       fail(t, error, part, exchanged,
            mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)),

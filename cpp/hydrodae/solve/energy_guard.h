@@ -31,10 +31,13 @@ private:
   [[noreturn]] void fail(double t, double error, double part, double exchanged,
                          const std::string& of, const std::string& where) const;
   double least(int mechanism) const;
+  double allowed(int mechanism) const;
+  void find_guided();
   std::string members(std::size_t mechanism) const;
 
   const system::System& s_;
   double rtol_, part_, at_singular_;
+  std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
 };
 
 } // namespace hydrodae::solve

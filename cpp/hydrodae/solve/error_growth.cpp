@@ -5,10 +5,18 @@
 
 namespace hydrodae::solve {
 
+namespace {
+constexpr double rough = 0.5; ///< change of the equations from which on growth is not believed
+// Growth per radian of the motion that may come of looks far apart; chaotic motions have 0.2 to 1.
+constexpr double doubtful = 0.05;
+} // namespace
+
 ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern, double t,
                          Error error, int every)
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(VectorX::Zero(s.n)),
-      yp_(VectorX::Zero(s.n)), since_(t), every_(every) {
+      yp_(VectorX::Zero(s.n)), growth_(VectorX::Ones(s.n_groups)),
+      change_(VectorX::Zero(s.n_groups)), largest_change_(change_), row_size_(s.n), since_(t),
+      fewest_(std::max(1, every / 10)), most_(4 * every), every_(every) {
   if (error_.vector.size() > 0)
     return;
   error_.vector = error_.fresh = VectorX::Zero(s.lambda0);
@@ -25,20 +33,27 @@ VectorX ErrorGrowth::sizes(const VectorX& vector, const VectorX& unit) const {
   return out.cwiseSqrt();
 }
 
-bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit,
+bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
                       const Interpolant& at) {
   error_.fresh += step_error;
   if (++steps_ < every_)
     return false;
   steps_ = 0;
+  growth_.setOnes();
   const VectorX before = sizes(error_.vector, unit);
   if (!error_.vector.isZero(0.0) && error_.vector.allFinite()) {
     at(t, y_, yp_);
     if (carry(t, error_.vector)) {
       const VectorX after = sizes(error_.vector, unit);
-      for (Index g = 0; g < s_.n_groups; ++g)
+      for (Index g = 0; g < s_.n_groups; ++g) {
         if (before[g] > 0.0)
-          error_.piled[g] *= after[g] / before[g];
+          growth_[g] = after[g] / before[g];
+        if (change_[g] > rough)
+          growth_[g] = std::min(growth_[g], 1.0);
+        const double seeming =
+            doubtful * std::min(change_[g] / rough, 1.0) * rate[g] * (t - since_);
+        error_.piled[g] *= growth_[g] * std::exp(-seeming);
+      }
     }
   }
   const VectorX added = sizes(error_.fresh, unit);
@@ -50,8 +65,40 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit,
   return true;
 }
 
-/// The implicit midpoint rule on F_y d + F_y' d' = 0, with the derivatives at its end; memory
-/// states by backward Euler, since some fade within the step; the constraints hold at its end.
+/// Of the entries of each row of q and u, relative to the largest of them. Between looks that are
+/// too far apart errors would seem to grow that do not.
+void ErrorGrowth::find_change() {
+  if (by_y_.empty())
+    return;
+  constexpr double much = 0.25, little = 0.05;
+  const system::Pattern& p = e_.pattern;
+  change_.setZero();
+  row_size_.setZero();
+  const auto entries = [&](auto&& visit) {
+    for (Index c = 0; c < s_.n; ++c)
+      for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+        if (p.row[k] < s_.z0)
+          visit(k, p.row[k], s_.group[static_cast<std::size_t>(p.row[k])]);
+  };
+  entries([&](Index k, Index row, int) {
+    row_size_[row] = std::max({row_size_[row], std::abs(e_.parts.by_y[k]), std::abs(by_y_[k])});
+  });
+  entries([&](Index k, Index row, int group) {
+    const double difference = std::abs(e_.parts.by_y[k] - by_y_[k]);
+    if (difference > change_[group] * row_size_[row])
+      change_[group] = difference / row_size_[row];
+  });
+  largest_change_ = largest_change_.cwiseMax(change_);
+  const double most = change_.size() > 0 ? change_.maxCoeff() : 0.0;
+  if (most > much)
+    every_ = std::max(fewest_, every_ / 2);
+  else if (most < little)
+    every_ = std::min(most_, every_ + 1 + every_ / 4);
+}
+
+/// The implicit midpoint rule on F_y d + F_y' d' = 0, with the mean of the derivatives at both
+/// ends, lest what turns or swings between them feeds the error; memory states by backward Euler,
+/// since some fade within the step; the constraints hold at its end.
 bool ErrorGrowth::carry(double t, VectorX& vector) {
   const double h = t - since_;
   if (h <= 0.0)
@@ -66,12 +113,18 @@ bool ErrorGrowth::carry(double t, VectorX& vector) {
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
       const Index row = p.row[k];
-      const bool whole = row >= s_.z0 || c >= s_.lambda0; // else half at either end
-      const double by_y = e_.parts.by_y[k], by_rate = e_.parts.by_yp[k] / h;
-      values[k] = (whole ? by_y : 0.5 * by_y) + by_rate;
+      const bool moves = row < s_.z0, half = moves && c < s_.lambda0;
+      const bool mean = moves && !by_y_.empty();
+      const double by_y = mean ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
+                   by_rate =
+                       (mean ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
+      values[k] = (half ? 0.5 * by_y : by_y) + by_rate;
       if (row < s_.lambda0 && c < s_.lambda0)
-        rhs_[row] += (by_rate - (whole ? 0.0 : 0.5 * by_y)) * vector[c];
+        rhs_[row] += (by_rate - (half ? 0.5 * by_y : 0.0)) * vector[c];
     }
+  find_change();
+  by_y_ = e_.parts.by_y;
+  by_rate_ = e_.parts.by_yp;
   if (!lu_->factorise())
     return false; // a singular pose: the error stays what it was until the next look
   lu_->solve(rhs_.data());

@@ -23,7 +23,9 @@ public:
   };
 
   /// @param error that the run has so far; empty: none
-  /// @param every so many steps the error is carried along; rarer costs less
+  /// @param every so many steps the error is carried along at first; where the equations change
+  /// much
+  ///   between two such looks, down to a tenth of that, where little, up to four times as many
   ErrorGrowth(const system::System& system, const system::Pattern& pattern, double t, Error error,
               int every);
 
@@ -32,21 +34,33 @@ public:
 
   /// Adds the error of an accepted step that ends at t. True when the error was carried along.
   /// @param unit what counts as one of each position and velocity (z0,)
-  bool add(double t, const VectorX& step_error, const VectorX& unit, const Interpolant& at);
+  /// @param rate of the motion of each group [1/s] (n_groups,)
+  bool add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
+           const Interpolant& at);
 
   const Error& error() const { return error_; }
 
+  /// By how much the vector carried along has grown from the last look but one to the last, by
+  /// group (n_groups,); 1 where there was none.
+  const VectorX& growth() const { return growth_; }
+
+  /// Largest change of the linearised equations from one look to the next so far, by group,
+  /// relative to their own size (n_groups,): 0 of linear equations.
+  const VectorX& change() const { return largest_change_; }
+
 private:
   bool carry(double t, VectorX& vector);
+  void find_change();
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
 
   const system::System& s_;
   Equations e_;
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;
-  VectorX rhs_, y_, yp_;
+  std::vector<double> by_y_, by_rate_; ///< derivatives at the last look; empty: none yet
+  VectorX rhs_, y_, yp_, growth_, change_, largest_change_, row_size_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
-  int every_, steps_ = 0;
+  int fewest_, most_, every_, steps_ = 0;
 };
 
 } // namespace hydrodae::solve

@@ -269,8 +269,10 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
   } else {
     extend();
     VectorX sum = VectorX::Zero(n_);
-    for (int i = 6; i >= 0; --i)
-      sum = (sum + dense_.col(i)) * (i % 2 == 0 ? x : 1.0 - x);
+    for (int i = 6; i >= 0; --i) {
+      sum += dense_.col(i);
+      sum *= i % 2 == 0 ? x : 1.0 - x;
+    }
     y.head(n_) += sum;
   }
   if (!saddle_.accelerations(t, y, yp))

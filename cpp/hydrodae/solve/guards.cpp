@@ -19,6 +19,27 @@ constexpr double allowed_jump = 0.3; ///< of the largest kinetic energy so far
 constexpr double singular = 1e-2;    ///< of the best independence of the rows seen
 constexpr double window = 3e-3;      ///< of the shortest time scale of a body
 
+/// The mechanism of each row of the constraints.
+std::vector<int> row_mechanisms(const system::System& s) {
+  std::vector<int> out(static_cast<std::size_t>(s.n_lambda));
+  const auto take = [&](const system::JointData& j, Index lambda) {
+    for (int body : {j.A.body, j.B.body})
+      if (body >= 0 && s.bodies[static_cast<std::size_t>(body)].mechanism >= 0)
+        out[static_cast<std::size_t>(lambda - s.lambda0)] =
+            s.bodies[static_cast<std::size_t>(body)].mechanism;
+  };
+  for (const system::JointData& j : s.joints)
+    for (const system::RowData& row : j.rows)
+      if (row.kept())
+        take(j, row.lambda);
+  for (const system::CouplerData& c : s.couplers)
+    if (c.kept())
+      take(s.joints[static_cast<std::size_t>(
+               s.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)],
+           c.lambda);
+  return out;
+}
+
 system::System stabilised(system::System s) {
   s.formulation = system::Formulation::stabilised;
   return s;
@@ -90,21 +111,26 @@ void DriftGuard::fail(double t, Index row, const std::string& where) const {
 PoseGuard::PoseGuard(const system::System& system, const VectorX& y)
     : stabilised_(stabilised(system)), pattern_(system::find_pattern(stabilised_)),
       equations_(stabilised_, pattern_, 1.0), saddle_(equations_),
+      mechanism_(row_mechanisms(stabilised_)),
       best_(independence(0.0, y, VectorX::Zero(y.size()))) {}
 
-double PoseGuard::independence(double t, const VectorX& y, const VectorX& yp) {
+VectorX PoseGuard::independence(double t, const VectorX& y, const VectorX& yp) {
   VectorX at = y, rate = yp;
-  return saddle_.accelerations(t, at, rate) ? saddle_.independence() : 0.0;
+  const int parts = std::max(stabilised_.n_mechanisms, 1);
+  if (!saddle_.accelerations(t, at, rate))
+    return VectorX::Zero(parts);
+  return saddle_.independence(mechanism_, parts);
 }
 
 bool PoseGuard::near_singular(double t, const VectorX& y, const VectorX& yp) {
-  const double now = independence(t, y, yp);
-  best_ = std::max(best_, now);
-  return now <= singular * best_;
+  const VectorX now = independence(t, y, yp);
+  best_ = best_.cwiseMax(now);
+  return (now.array() <= singular * best_.array()).any();
 }
 
 BranchGuard::BranchGuard(const system::System& system)
-    : s_(system), mass_(system.n_u), active_(has_loop(system)) {
+    : s_(system), mass_(system.n_u), mechanism_(static_cast<std::size_t>(system.n_u)),
+      active_(has_loop(system)) {
   window_ = HUGE_VAL;
   for (const system::BodyData& b : s_.bodies) {
     if (b.n_active > 0)
@@ -112,12 +138,18 @@ BranchGuard::BranchGuard(const system::System& system)
     for (int k = 0; k < b.n_active; ++k) {
       const int c = b.active[k];
       mass_[b.u0 - s_.u0 + k] = c < 3 ? b.mass : b.inertia(c - 3, c - 3);
+      mechanism_[static_cast<std::size_t>(b.u0 - s_.u0 + k)] = std::max(b.mechanism, 0);
     }
   }
-  largest_ = energy(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
+  largest_ = energies(s_.scale.segment(s_.u0, s_.n_u)); // a start from rest is no jump
 }
 
-double BranchGuard::energy(const VectorX& u) const { return 0.5 * mass_.dot(u.cwiseAbs2()); }
+VectorX BranchGuard::energies(const VectorX& u) const {
+  VectorX out = VectorX::Zero(std::max(s_.n_mechanisms, 1));
+  for (Index k = 0; k < u.size(); ++k)
+    out[mechanism_[static_cast<std::size_t>(k)]] += 0.5 * mass_[k] * u[k] * u[k];
+  return out;
+}
 
 void BranchGuard::check(double t, const VectorX& y) {
   if (!active_)
@@ -125,11 +157,12 @@ void BranchGuard::check(double t, const VectorX& y) {
   const VectorX u = y.segment(s_.u0, s_.n_u);
   while (past_.size() > 1 && past_[1].first <= t - window_)
     past_.pop_front();
-  largest_ = std::max(largest_, energy(u));
+  largest_ = largest_.cwiseMax(energies(u));
   // A longer step says nothing about a jump.
   if (!past_.empty() && t - past_.front().first <= 2.0 * window_) {
-    const double jump = energy(u - past_.front().second);
-    if (jump > allowed_jump * largest_) {
+    const double jump =
+        energies(u - past_.front().second).cwiseQuotient(largest_.cwiseMax(1e-300)).maxCoeff();
+    if (jump > allowed_jump) {
       VectorX reactions = VectorX::Zero(s_.n);
       reactions.segment(s_.lambda0, s_.n_lambda) =
           y.segment(s_.lambda0, s_.n_lambda)
@@ -137,7 +170,7 @@ void BranchGuard::check(double t, const VectorX& y) {
       throw SolverError(
           t,
           "stopped at t = " + number_text(t) + " s: the velocities jumped within " +
-              number_text(t - past_.front().first) + " s (" + number_text(jump / largest_) +
+              number_text(t - past_.front().first) + " s (" + rounded_text(jump) +
               " of the largest kinetic energy), though nothing struck: at a singular pose the "
               "motion left its branch; a smaller tolerance, or radau or explicit_rk, may pass "
               "(solver.branch_guard = false lets it go on)\n  largest reactions, relative to the "

@@ -42,23 +42,24 @@ public:
   /// Takes the pose of y for a regular one; the constraints of `system` in any formulation.
   PoseGuard(const system::System& system, const VectorX& y);
 
-  /// Are the rows of the constraints a hundred times nearer to dependence on each other than in the
-  /// best pose seen?
+  /// Are the rows of the constraints of any mechanism a hundred times nearer to dependence on each
+  /// other than in its best pose seen?
   bool near_singular(double t, const VectorX& y, const VectorX& yp);
 
 private:
-  double independence(double t, const VectorX& y, const VectorX& yp);
+  VectorX independence(double t, const VectorX& y, const VectorX& yp);
 
   system::System stabilised_; ///< the same equations with both levels as rows
   system::Pattern pattern_;
   Equations equations_;
   SaddlePoint saddle_;
-  double best_ = 0.0;
+  std::vector<int> mechanism_; ///< of each row (n_lambda,)
+  VectorX best_;               ///< by mechanism
 };
 
 /// In a singular pose of a closed loop the motion may jump to another branch: the velocities change
-/// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy within 0.003
-/// time scales on a wrong branch, below 0.01 otherwise.
+/// at once, though nothing strikes. Measured: 0.6 to 3 of the largest kinetic energy of a mechanism
+/// within 0.003 time scales on a wrong branch, below 0.01 otherwise.
 class BranchGuard {
 public:
   explicit BranchGuard(const system::System& system);
@@ -73,12 +74,14 @@ public:
   bool active() const { return active_; }
 
 private:
-  double energy(const VectorX& u) const;
+  VectorX energies(const VectorX& u) const;
 
   const system::System& s_;
-  VectorX mass_; ///< (n_u,) of each velocity
+  VectorX mass_;               ///< (n_u,) of each velocity
+  std::vector<int> mechanism_; ///< likewise
   bool active_ = false;
-  double window_ = 0.0, largest_ = 0.0;
+  double window_ = 0.0;
+  VectorX largest_; ///< kinetic energy by mechanism
   std::deque<std::pair<double, VectorX>> past_;
 };
 

@@ -286,12 +286,11 @@ bool Ida::restart() {
   return true;
 }
 
-/// The correction of the predictor; of it the error of BDF is 1 / (k + 1) at constant steps.
+/// The correction of the predictor. Of it the error of BDF is 1 / (k + 1) at constant steps; as
+/// they vary, more.
 const VectorX& Ida::step_error() {
-  int order = 0;
-  check(IDAGetLastOrder(memory.get(), &order), "IDAGetLastOrder");
   check(IDAGetEstLocalErrors(memory.get(), scratch.get()), "IDAGetEstLocalErrors");
-  error_ = view(scratch.get(), system.n).head(system.lambda0) / (order + 1.0);
+  error_ = view(scratch.get(), system.n).head(system.lambda0);
   return error_;
 }
 
@@ -326,6 +325,11 @@ double Ida::step() {
 }
 
 void Ida::interpolate(double t, VectorX& y_out, VectorX& yp_out) {
+  if (t == t_good && t_ == t_good) {
+    y_out = good;
+    yp_out = good_rate;
+    return;
+  }
   for (int derivative = 0; derivative < 2; ++derivative) {
     check(IDAGetDky(memory.get(), t, derivative, scratch.get()), "IDAGetDky");
     (derivative == 0 ? y_out : yp_out) = view(scratch.get(), system.n);

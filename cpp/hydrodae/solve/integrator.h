@@ -40,6 +40,10 @@ public:
     return none;
   }
 
+  /// Estimated error of the positions inside the last step, that of its ends apart, body by body as
+  /// `local_error`; empty where the tolerance bounds it.
+  virtual const VectorX& inner_error() const { return local_error(); }
+
   /// Nodes that a quadrature over one step needs to be as exact as the method.
   virtual int quadrature_nodes() const { return 3; }
 };

@@ -144,19 +144,29 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   return x_.allFinite();
 }
 
-double SaddlePoint::independence() {
-  constexpr int iterations = 20; // inverse iteration, x <- (G M^-1 G^T)^-1 D x
+VectorX SaddlePoint::independence(const std::vector<int>& part, int parts) {
+  constexpr int iterations = 20; // inverse iteration, x <- (G M^-1 G^T)^-1 D x, part by part
   VectorX x(s_.n_lambda);
   for (Index i = 0; i < x.size(); ++i) // no symmetry that an eigenvector could hide behind
     x[i] = 1.0 + 0.5 * std::sin(static_cast<double>(1 + i * i));
-  double smallest = 1.0;
-  for (int i = 0; i < iterations && x.size() > 0; ++i) {
-    x /= std::sqrt(x.dot(metric_.cwiseProduct(x)));
+  const auto products = [&](const VectorX& a, const VectorX& b) {
+    VectorX sums = VectorX::Zero(parts);
+    for (Index i = 0; i < a.size(); ++i)
+      sums[part[static_cast<std::size_t>(i)]] += a[i] * metric_[i] * b[i];
+    return sums;
+  };
+  VectorX smallest = VectorX::Ones(parts);
+  for (int k = 0; k < iterations && x.size() > 0; ++k) {
+    const VectorX sizes = products(x, x).cwiseSqrt();
+    for (Index i = 0; i < x.size(); ++i)
+      x[i] /= sizes[part[static_cast<std::size_t>(i)]];
     r_.head(s_.n_u).setZero();
     r_.tail(s_.n_lambda) = metric_.cwiseProduct(x);
     lu_->solve(r_.data());
-    const VectorX next = -r_.tail(s_.n_lambda);
-    smallest = 1.0 / x.dot(metric_.cwiseProduct(next));
+    const VectorX next = -r_.tail(s_.n_lambda), gains = products(x, next);
+    for (Index m = 0; m < parts; ++m)
+      if (sizes[m] > 0.0)
+        smallest[m] = 1.0 / gains[m];
     x = next;
   }
   return smallest;
@@ -165,7 +175,9 @@ double SaddlePoint::independence() {
 double SaddlePoint::mismatch() {
   multiply(x_, r_);
   r_ = rhs_ - r_;
-  const double load = largest(rhs_.head(s_.n_u));
+  double load = largest(rhs_.head(s_.n_u));
+  for (Index k = 0; k < s_.n_u; ++k) // without weight and spin: inertia, which the rows balance
+    load = std::max(load, std::abs(plain_[mass_[k]] * x_[k]));
   const double forces = largest(r_.head(s_.n_u)), rates = largest(r_.tail(s_.n_lambda));
   double motion = std::max(largest(x_.head(s_.n_u)), largest(rhs_.tail(s_.n_lambda)));
   for (Index k = 0; k < s_.n_u; ++k) // where nothing moves: the accelerations without the rows

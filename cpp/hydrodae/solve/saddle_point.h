@@ -26,8 +26,10 @@ public:
   double mismatch();
 
   /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
-  /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose.
-  double independence();
+  /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose. Of each part of
+  /// the rows by itself: rows of different parts have no body in common.
+  /// @param part of each row (n_lambda,), below `parts`
+  VectorX independence(const std::vector<int>& part, int parts);
 
   /// Changes u by the impulses G^T Lambda that give the velocity rows the rates `rates` (n_lambda,)
   /// [m/s or rad/s], with the matrix of the last `accelerations`; returns Lambda [N s or N m s].

@@ -167,8 +167,11 @@ double Switching::margin(std::size_t k, const VectorX& y) const {
   const Size& size = size_[k];
   switch (element.state) {
   case State::open: {
-    const double s = motion(element).value;
-    return std::min(element.upper - s, s - element.lower) + 1e-3 * touching * size.length;
+    const double s = motion(element).value, gap = std::min(element.upper - s, s - element.lower);
+    // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
+    const double scale = motion_scale(element);
+    const bool slow = approach(k) <= rtol_ * scale * size.rate;
+    return gap + (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length;
   }
   case State::upper:
     return -load(element, y) + 2.0 * resting * size.load;
@@ -349,8 +352,13 @@ double Switching::take_impact(double t, const VectorX& impulses, const VectorX& 
     if (!c.kept() || s_.switches[k].kind != Kind::stop)
       continue;
     const Index row = c.lambda - s_.lambda0;
-    struck_[k].impulse += std::abs(impulses[row]);
-    struck_[k].energy_lost -= 0.5 * impulses[row] * (before[row] + after[row]);
+    if (impulses[row] == 0.0)
+      continue;
+    const Impact impact{t, std::abs(impulses[row]),
+                        -0.5 * impulses[row] * (before[row] + after[row])};
+    struck_[k].impulse += impact.impulse;
+    struck_[k].energy_lost += impact.energy_lost;
+    struck_[k].impacts.push_back(impact);
   }
   return work;
 }

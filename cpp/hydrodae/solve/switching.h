@@ -37,10 +37,17 @@ public:
   /// driven rows among it); nothing: the velocities have not jumped
   std::optional<double> settle(double t, VectorX& y, VectorX& yp);
 
+  /// What a stop or one-sided joint takes in one impact: the size of its impulse [N s or N m s],
+  /// and the energy lost [J].
+  struct Impact {
+    double time, impulse, energy_lost;
+  };
+
   /// What a stop or one-sided joint has taken in its impacts so far.
   struct Struck {
     double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
     double energy_lost = 0.0; ///< [J]
+    std::vector<Impact> impacts;
   };
   const std::vector<Struck>& struck() const { return struck_; } ///< one for each switch
 

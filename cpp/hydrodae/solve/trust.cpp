@@ -14,19 +14,37 @@ namespace {
 /// Steps between two looks: the work of a look, a Jacobian and its factors, against that of a step.
 int steps_between_looks(const std::string& method) {
   if (method == "explicit_rk")
-    return 4;
+    return 3;
   if (method == "ida")
-    return 40;
-  return method == "generalized_alpha" ? 20 : 5;
+    return 50;
+  return method == "generalized_alpha" ? 20 : 4;
 }
+
+/// What the tolerance leaves at least, in units of it: Newton's iteration, samples between the ends
+/// of steps; BDF and the interpolant of order 7 keep less close to it than collocation.
+double least_error(const model::SolverOptions& options) {
+  if (options.step > 0.0)
+    return 1e-2 * options.rtol;
+  return (options.method == "radau" ? 3.0 : 10.0) * options.rtol;
+}
+
+// d ln(frequency) / d ln(speed): 0 of a linear oscillator, 0.13 of a pendulum that swings by 1 rad,
+// 1 of what turns round and round.
+constexpr double out_of_step = 0.6;
+constexpr double held = 10.0; ///< 1 / rate of the motion: what fades slower is seen to fade
 
 } // namespace
 
 Trust::Trust(const system::System& s, const system::Pattern& pattern,
              const model::SolverOptions& options)
-    : s_(s), every_(steps_between_looks(options.method)), allowed_(options.error_guard),
-      rtol_(options.step > 0.0 ? 0.0 : options.rtol), unit_(VectorX::Ones(s.z0)),
-      fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_) {
+    : s_(s), every_(steps_between_looks(options.method)), doubt_(options.step > 0.0 ? 10.0 : 2.0),
+      allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
+      fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
+      rates_(fastest_), displaced_(fastest_),
+      energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
+  for (const system::BodyData& b : s.bodies)
+    if (b.mechanism >= 0 && b.group >= 0)
+      energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
   growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, ErrorGrowth::Error(), every_);
 }
 
@@ -39,36 +57,114 @@ double Trust::size(Index group, const VectorX& reached) const {
   return std::max({reached[group], expected, 1e-300});
 }
 
-/// Positions count in levers or rad, velocities over the rate at which the group moves.
+/// Positions count in levers or rad, velocities over the rate at which the group moves; where
+/// bodies turn, or spin, much more than their centres are displaced, displacements count by their
+/// own size.
 void Trust::measure(const VectorX& y, const VectorX& reached) {
+  constexpr double least_part = 1e-3;
+  if (start_.size() == 0)
+    start_ = y.head(s_.n_q);
   for (const system::BodyData& b : s_.bodies) {
     if (b.group < 0)
       continue;
     double& fastest = fastest_[b.group];
     for (int k = 0; k < b.n_active; ++k)
       fastest = std::max(fastest, std::abs(y[b.u0 + k]) / (b.active[k] < 3 ? b.lever : 1.0));
+    const Index n = b.n_translations;
+    displaced_[b.group] = std::max(displaced_[b.group],
+                                   (y.segment(b.q0, n) - start_.segment(b.q0, n)).norm() / b.lever);
   }
   for (const system::BodyData& b : s_.bodies) {
     if (b.group < 0)
       continue;
     const double rate =
         std::max(fastest_[b.group] / std::max(reached[b.group], 1e-300), 1e-3 / b.time_scale);
+    rates_[b.group] = rate;
+    const double part =
+        std::clamp(displaced_[b.group] / std::max(reached[b.group], 1e-300), least_part, 1.0);
+    const double length = b.lever * part;
     for (int k = 0; k < b.n_active; ++k)
-      unit_[b.u0 + k] = (b.active[k] < 3 ? b.lever : 1.0) * rate;
+      unit_[b.u0 + k] = (b.active[k] < 3 ? length : 1.0) * rate;
     for (int k = 0; k < b.n_position; ++k)
-      unit_[b.q0 + k] = k < b.n_translations                             ? b.lever
+      unit_[b.q0 + k] = k < b.n_translations                             ? length
                         : b.rotation == system::BodyData::Rotation::free ? 0.5
                                                                          : 1.0;
   }
 }
 
-void Trust::accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y) {
+void Trust::accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
+                   const system::Recorder& recorder) {
   const auto at = [&](double time, VectorX& out, VectorX& rates) {
     integrator.interpolate(time, out, rates);
   };
   measure(y, reached);
-  if (growth_->add(t, integrator.step_error(), unit_, at))
-    look(t, reached);
+  take_inner(t, integrator.inner_error());
+  if (growth_->add(t, integrator.step_error(), unit_, rates_, at))
+    look(t, reached, recorder);
+}
+
+void Trust::take(Index group, double t, double error) {
+  if (error <= largest_[group])
+    return;
+  largest_[group] = error;
+  when_[group] = t;
+}
+
+void Trust::take_inner(double t, const VectorX& errors) {
+  for (Index i = 0; i < errors.size(); ++i)
+    if (const int group = s_.bodies[static_cast<std::size_t>(i)].group; group >= 0)
+      take(group, t, errors[i]);
+}
+
+/// How much of what is missing a mechanism remembers until the next look. Conservative ones forget
+/// nothing; dampers take errors with the energy 4 K w of a swing that they take, as an error that
+/// is carried along tells, too, if only where it turns little from look to look. What drives guide
+/// altogether carries none.
+double Trust::remembered(Energy& e, double phase, const system::Recorder::Balance& now) {
+  constexpr double guided = 1e-3;
+  const double growth = growth_->growth()[e.group], weight = std::exp(-phase / held);
+  const double level = e.level * std::min(growth, 1e6), envelope = std::max(level, weight);
+  e.level = std::max(level / envelope, 1e-300);
+  e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
+  const double taken = now.given - e.given;
+  e.given = now.given;
+  if (growth < guided)
+    return growth;
+  const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
+  return std::min(1.0, std::max(envelope, damped));
+}
+
+/// Kinetic energy of a body that moves as its tolerance expects: less tells nothing.
+double Trust::least(int mechanism) const {
+  double out = 0.0;
+  for (const system::BodyData& b : s_.bodies) {
+    if (b.group < 0 || b.mechanism != mechanism)
+      continue;
+    const double speed = b.length_scale / b.time_scale * s_.motion_scale[b.group];
+    out = std::max(out, 0.5 * b.mass * speed * speed);
+  }
+  return out;
+}
+
+/// From dE / 2 K of the speed follows the same part of the size of the motion, and of its
+/// frequency.
+void Trust::take_energy(double t, const VectorX& reached, const system::Recorder& recorder) {
+  constexpr double little = 1e-2; // kinetic energy, of all that was exchanged
+  for (std::size_t m = 0; m < energies_.size() && s_.n_groups > 0; ++m) {
+    Energy& e = energies_[m];
+    const system::Recorder::Balance b =
+        recorder.mechanisms().empty() ? recorder.whole() : recorder.mechanisms()[m];
+    const double kinetic = std::max({b.kinetic, little * b.exchanged, least(static_cast<int>(m))}),
+                 whole = size(e.group, reached), phase = fastest_[e.group] / whole * (t - looked_),
+                 kept = remembered(e, phase, b);
+    e.missing = kept * e.missing + b.error - e.seen;
+    e.seen = b.error;
+    if (!(kinetic > 0.0))
+      continue;
+    const double part = std::abs(e.missing) / (2.0 * kinetic);
+    e.late = kept * e.late + out_of_step * std::min(growth_->change()[e.group], 1.0) * phase * part;
+    missing_[e.group] = std::max(missing_[e.group], (part + e.late) * whole);
+  }
 }
 
 /// The body of a group whose positions the carried error moves most.
@@ -84,20 +180,25 @@ const system::BodyData& Trust::worst_of(Index group) const {
   return s_.bodies[worst];
 }
 
-void Trust::look(double t, const VectorX& reached) {
-  constexpr double seen = 1e-2; // of the guard, that the errors must add up to without growth
+void Trust::look(double t, const VectorX& reached, const system::Recorder& recorder) {
+  constexpr double seen = 1e-2;
+  missing_.setZero();
+  take_energy(t, reached, recorder);
+  looked_ = t;
   const ErrorGrowth::Error& e = growth_->error();
   for (Index g = 0; g < s_.n_groups; ++g) {
-    if (e.piled[g] > largest_[g]) {
-      largest_[g] = e.piled[g];
-      when_[g] = t;
-    }
+    const double off = std::max(e.piled[g], missing_[g]);
+    take(g, t, off);
     const double whole = size(g, reached);
-    if (allowed_ > 0.0 && e.piled[g] > allowed_ * whole && e.plain[g] > seen * allowed_ * whole)
+    const double most = allowed_ * whole / doubt_;
+    // Growth alone, of next to nothing, may be that of looks too far apart.
+    const bool grown = e.piled[g] > most && e.plain[g] > seen * most;
+    if (allowed_ > 0.0 && (grown || missing_[g] > most))
       throw SolverError(
           t, "stopped at t = " + number_text(t) + " s: the errors of the steps so far have put " +
-                 in_quotes(worst_of(g).name) + " off by about " + rounded_text(e.piled[g] / whole) +
-                 " of the motion, more than " + number_text(allowed_) +
+                 in_quotes(worst_of(g).name) + " off by about " + rounded_text(off / whole) +
+                 " of the motion, give or take a factor of " + number_text(doubt_) +
+                 ", which may be more than " + number_text(allowed_) +
                  " (solver.error_guard; 0: no guard): from here on the motion is not to be "
                  "trusted; a smaller tolerance or step carries it further");
   }
@@ -109,7 +210,6 @@ void Trust::restart(const system::Pattern& pattern, double t) {
 }
 
 Trust::Estimate Trust::estimate(const VectorX& reached) const {
-  constexpr double inside = 3.0; // tolerances: Newton's iteration, interpolation of samples
   const ErrorGrowth::Error& e = growth_->error();
   Estimate out;
   for (Index g = 0; g < s_.n_groups; ++g) {
@@ -117,8 +217,7 @@ Trust::Estimate Trust::estimate(const VectorX& reached) const {
     for (Index i = 0; i < s_.z0; ++i)
       if (s_.group[static_cast<std::size_t>(i)] == g)
         now += std::abs(e.fresh[i]) / unit_[i];
-    const double error =
-        std::max({largest_[g] / size(g, reached), now / size(g, reached), inside * rtol_});
+    const double error = std::max({largest_[g] / size(g, reached), now / size(g, reached), least_});
     if (error > out.error)
       out = {error, worst_of(g).name, when_[g]};
   }

@@ -1,6 +1,10 @@
 #pragma once
-/// How far the motion of a run is to be trusted: the piled-up error of its steps, body by body,
-/// against the size of the motion.
+/// How far the motion of a run is to be trusted, against the size of the motion, group by group of
+/// bodies. Three witnesses, of which the worst counts:
+///   the errors of the steps, piled up and carried along by the linearised equations (ErrorGrowth);
+///   the energy that is missing: a part e of the kinetic energy is a part e / 2 of the speed, and
+///   as frequencies depend on amplitudes, the motion gets out of step with itself the longer it
+///   lasts; what the interpolant misses inside a step.
 
 #include <memory>
 #include <string>
@@ -9,6 +13,7 @@
 #include "hydrodae/solve/error_growth.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/system/motion_scale.h"
+#include "hydrodae/system/recorder.h"
 
 namespace hydrodae::solve {
 
@@ -20,7 +25,9 @@ public:
   /// Adds the last step of the integrator, which ends at t. Throws SolverError when the error is
   /// above `error_guard` of the motion.
   /// @param reached size of the motion so far, by group (system::MotionScale)
-  void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y);
+  /// @param recorder its energies at t
+  void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
+              const system::Recorder& recorder);
 
   /// Rows of the system came or went at t: the error is carried on by the equations from there.
   void restart(const system::Pattern& pattern, double t);
@@ -35,18 +42,42 @@ public:
   Estimate estimate(const VectorX& reached) const;
 
 private:
+  double least(int mechanism) const;
   double size(Index group, const VectorX& reached) const;
   void measure(const VectorX& y, const VectorX& reached);
-  void look(double t, const VectorX& reached);
+  void look(double t, const VectorX& reached, const system::Recorder& recorder);
+  void take_energy(double t, const VectorX& reached, const system::Recorder& recorder);
+  struct Energy;
+  double remembered(Energy& energy, double phase, const system::Recorder::Balance& now);
+  void take_inner(double t, const VectorX& errors);
+  void take(Index group, double t, double error);
   const system::BodyData& worst_of(Index group) const;
 
   const system::System& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
-  double allowed_, rtol_;
+  double
+      doubt_; ///< factor within which the estimate is meant; steps that their error sets tell more
+  double allowed_;
+  double least_;           ///< what the tolerance leaves [-]
   VectorX unit_;           ///< of each position and velocity (z0,)
   VectorX fastest_;        ///< by group: largest speed so far, in levers per s or rad/s
   VectorX largest_, when_; ///< by group: of the error in levers or rad, time [s]
+  VectorX missing_;        ///< by group: what the missing energy has put off, now
+  VectorX rates_;          ///< by group: of the motion [1/s]
+  VectorX displaced_;      ///< by group: largest displacement so far [levers]
+  VectorX start_;          ///< positions at the first step (n_q,)
+  struct Energy {          ///< of a mechanism
+    int group = 0;
+    double seen = 0.0;    ///< error of its balance at the last look [J]
+    double missing = 0.0; ///< what has not faded of the changes of it [J]
+    double late = 0.0;    ///< phase that this has cost [rad]
+    double level = 1.0;   ///< of an error carried along, over its envelope [-]
+    double kinetic = 0.0; ///< its mean over some swings [J]
+    double given = 0.0;   ///< that dampers had taken at the last look [J]
+  };
+  std::vector<Energy> energies_;
+  double looked_ = 0.0; ///< time of the last look [s]
 };
 
 } // namespace hydrodae::solve

@@ -10,6 +10,7 @@ namespace hydrodae::system {
 namespace {
 
 constexpr double share_of_period = 0.2; ///< of the shortest wave that matters, in one step
+constexpr double most_turn = 12.0;      ///< of a joint in one step [rad]; see turned_angle
 constexpr double kept = 0.999;          ///< of the variance of the waves: longer than that
 
 /// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
@@ -50,6 +51,9 @@ Forcing::Forcing(const System& s, double end, double output_step)
   add_drives(s, end, output_step);
   add_waves(s);
   add_paths(s);
+  for (std::size_t m = 0; m < s.motions.size(); ++m)
+    if (s.motions[m].motion.is_angle())
+      angles_.push_back(m);
 }
 
 void Forcing::expect(const BodyData& body, bool turns, double motion) {
@@ -158,6 +162,9 @@ Forcing::Limit Forcing::limit(const Turns& turns) {
     if (time < out.time)
       out = {time, &name};
   };
+  for (std::size_t m : angles_) // turns are followed by the rates at both ends of a step
+    if (const double rate = std::abs(turns.rate[m]); rate > 0.0)
+      take(t + most_turn / rate, turning_);
   for (Track& track : tracks_)
     take(track.windows.reach(t, track.hint), track.name);
   for (Curve& c : curves_) {

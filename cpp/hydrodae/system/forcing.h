@@ -46,10 +46,11 @@ private:
     Windows forward, backward;
     std::size_t forward_hint = 0, backward_hint = 0;
   };
+  std::vector<std::size_t> angles_; ///< motions that are angles
   std::vector<Track> tracks_;
   std::vector<Curve> curves_;
   double wave_limit_ = INFINITY; ///< [s]
-  std::string waves_ = "the waves", end_ = "the end of the run";
+  std::string waves_ = "the waves", turning_ = "a joint that turns this fast";
   VectorX motion_;
 };
 

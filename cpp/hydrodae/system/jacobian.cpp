@@ -413,20 +413,23 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
     sink.by_y(k, k + 1, b.b);
     sink.by_y(k + 1, k, -b.b);
   }
-  for (const HydroData::Input& in : h.inputs) {
-    const HydroData::Coordinate& u = h.coordinates[in.coordinate];
-    const HydroBody& hb = h.bodies[u.hydro_body];
-    const int body = hb.body, c = u.component;
-    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
-    const Index row = h.z0 + in.state;
-    RowVector6 by_velocity;
-    by_velocity << d.U_v.row(c), d.U_w.row(c);
-    if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
-      rotation_columns(row, body, -in.value * d.U_phi.row(c));
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const HydroBody& hb = h.bodies[i];
+    const int body = hb.body;
     const BodyData& b = s.bodies[body];
-    for (int k = 0; k < b.n_active; ++k)
-      if ((b.active[k] < 3) == (c < 3))
-        sink.by_y(row, b.u0 + k, -in.value * by_velocity[b.active[k]]);
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
+    for (const HydroData::Input& in : h.inputs) {
+      const HydroData::Coordinate& u = h.coordinates[in.coordinate];
+      if (u.hydro_body != static_cast<int>(i))
+        continue;
+      const int c = u.component;
+      const Index row = h.z0 + in.state;
+      if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
+        rotation_columns(row, body, -in.value * d.U_phi.row(c));
+      for (int k = 0; k < b.n_active; ++k)
+        if (const int a = b.active[k]; (a < 3) == (c < 3))
+          sink.by_y(row, b.u0 + k, -in.value * (a < 3 ? d.U_v(c, a) : d.U_w(c, a - 3)));
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace hydrodae::system {
 
@@ -22,6 +23,11 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
   power_ = powers();
   work_.assign(power_.size(), 0.0);
   energy0_ = o.kinetic + o.kinetic_added_mass;
+  static const std::set<std::string> keep = {"weight",     "hydrostatic",   "added_mass_inf",
+                                             "excitation", "froude_krylov", "diffraction",
+                                             "constraints"};
+  for (const std::string& component : o.components)
+    gives_.push_back(!keep.contains(component));
   if (s_.n_mechanisms > 1)
     for (double kinetic : o.mechanism_kinetic)
       mechanisms_.push_back({0.0, 0.0, kinetic});
@@ -197,8 +203,11 @@ void Recorder::balance_mechanisms() {
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     Balance& b = mechanisms_[m];
     b.error = o.mechanism_kinetic[m] - b.start - end_work_[rows + m];
+    b.now = o.mechanism_kinetic[m];
+    b.kinetic = std::max(b.kinetic, b.now);
     b.exchanged = std::max({b.exchanged, o.mechanism_kinetic[m], std::abs(end_work_[rows + m])});
   }
+  std::vector<double> given(mechanisms_.size());
   for (std::size_t k = 0; k < o.loads.size() && !mechanisms_.empty(); ++k) {
     const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism;
     if (m < 0 || o.loads[k].part)
@@ -206,7 +215,11 @@ void Recorder::balance_mechanisms() {
     Balance& b = mechanisms_[static_cast<std::size_t>(m)];
     b.error -= end_work_[loads + k];
     b.exchanged = std::max(b.exchanged, std::abs(end_work_[loads + k]));
+    if (gives_[static_cast<std::size_t>(o.loads[k].component)])
+      given[static_cast<std::size_t>(m)] -= end_work_[loads + k];
   }
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m)
+    mechanisms_[m].given = std::max(mechanisms_[m].given, given[m]);
 }
 
 /// Work until t = t_ + x h, where the observer is: the integral of the polynomial through the
@@ -241,14 +254,19 @@ std::vector<double> Recorder::work_at(double x) const {
 double Recorder::balance(const std::vector<double>& work) {
   const Observation& o = observer_.observation();
   const double moving = o.kinetic + o.kinetic_added_mass;
-  double total_work = 0.0, exchanged = std::abs(moving);
+  double total_work = 0.0, exchanged = std::abs(moving), given = 0.0;
   for (std::size_t k = 0; k < o.powers.size(); ++k) {
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
     if (o.components[k] != "added_mass_inf" && !o.parts[k])
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
+    if (gives_[k])
+      given -= work[k];
   }
+  given_ = std::max(given_, given);
+  kinetic_ = moving;
   const double error = moving - energy0_ - total_work;
+  largest_kinetic_ = std::max(largest_kinetic_, moving);
   largest_energy_ = std::max(largest_energy_, exchanged);
   largest_error_ = std::max(largest_error_, std::abs(error));
   return error;

@@ -60,11 +60,19 @@ public:
   double balance_error() const { return balance_error_; }
   double largest_energy() const { return largest_energy_; }
 
-  /// The same for each mechanism by itself, with all that acts on it from outside.
+  /// Balance error at the end of the last step, and what it is to be compared with.
   struct Balance {
     double error = 0.0, exchanged = 0.0; ///< [J]
     double start = 0.0;                  ///< kinetic energy of its bodies at the start [J]
+    double kinetic = 0.0, now = 0.0;     ///< the largest of it so far, and that of now [J]
+    double given = 0.0; ///< the most that dampers, springs and radiation have taken in all [J]
   };
+  Balance whole() const {
+    return {balance_error_, largest_energy_, energy0_, largest_kinetic_, kinetic_, given_};
+  }
+
+  /// The same for each mechanism by itself, with all that acts on it from outside; none where there
+  /// is but one.
   const std::vector<Balance>& mechanisms() const { return mechanisms_; }
 
 private:
@@ -95,6 +103,8 @@ private:
   std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
   double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
+  double largest_kinetic_ = 0.0, kinetic_ = 0.0, given_ = 0.0; ///< as in Balance
+  std::vector<bool> gives_; ///< by component: may take energy out of the motion for good
   double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
   Quadrature rule_;
   VectorX y_, yp_;

@@ -1,0 +1,52 @@
+#pragma once
+/// The motion of a run against that of a second one, which is made with a smaller tolerance or
+/// step.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::solve {
+
+/// Poses of the bodies that move, sample by sample, and how far another run is from them.
+class Verification {
+public:
+  explicit Verification(const system::System& system);
+
+  /// Of the run that is to be verified: the next sample.
+  void keep(double time, const std::vector<system::BodyState<double>>& bodies);
+
+  /// Of the other run: the next sample. Displacements count over the levers of the bodies, turns as
+  /// angles; both by group of bodies.
+  void compare(const std::vector<system::BodyState<double>>& bodies);
+
+  struct Difference {
+    double error = 0.0; ///< relative to the largest motion of the group [-]
+    std::string body;
+    double time = 0.0; ///< [s]
+  };
+  Difference largest() const;
+
+private:
+  struct Body {
+    std::size_t index;
+    int group;
+    double lever;
+    std::string name;
+  };
+  struct Pose {
+    Vector3 r;
+    Matrix3 R;
+  };
+  static double apart(const Body& body, const Pose& a, const Pose& b);
+
+  std::vector<Body> bodies_;
+  std::vector<double> times_;
+  std::vector<Pose> poses_;             ///< all bodies of a sample after each other
+  std::size_t next_ = 0;                ///< sample to compare
+  std::vector<double> motion_;          ///< by group
+  std::vector<Difference> differences_; ///< by group, not relative yet
+};
+
+} // namespace hydrodae::solve

@@ -1,0 +1,130 @@
+"""How far a run says that it can be trusted: the estimate of every run, and the second run."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.attack import suite
+
+import hydrodae
+from hydrodae.cli import main
+from hydrodae.stability import Method
+from hydrodae.stability.grid import PASS, run_cell
+
+SCENES = suite.all_scenes()
+PENDULUM = """
+title = "a pendulum of 1 m"
+[[body]]
+name = "bob"
+motion = "point"
+mass = 1.0
+center_of_gravity = [{x}, 0.0, {z}]
+[[joint]]
+name = "rod"
+type = "distance"
+body_a = "ground"
+body_b = "bob"
+point = [0.0, 0.0, 0.0]
+point_b = [{x}, 0.0, {z}]
+[output]
+step = 0.05
+"""
+
+
+def pendulum(angle: float, end: float, **solver: Any) -> hydrodae.Case:
+    """Return the case of a pendulum released at an angle [rad]."""
+    text = PENDULUM.format(x=np.sin(angle), z=-np.cos(angle))
+    return hydrodae.Case(
+        text=text, values={f"solver.{k}": v for k, v in {"end_time": end, **solver}.items()}
+    )
+
+
+@pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
+@pytest.mark.parametrize(("scene", "allowed"), [("long_pendulum_1", 10.0), ("oscillator_1", 30.0)])
+def test_slow_errors_of_long_runs_are_foreseen(
+    scene: str, allowed: float, method: str, tmp_path: Path
+) -> None:
+    """Loss of energy puts a pendulum out of step, a linear oscillator not."""
+    cell = run_cell(SCENES[scene], Method(method, {"method": method, "rtol": 1e-6}), tmp_path, 60.0)
+    assert cell.outcome == PASS
+    known = suite.ratio(cell)
+    assert known is not None
+    assert 1.0 / allowed < known < 10.0 or (cell.estimate or 1.0) < 2e-5
+
+
+def test_a_run_stops_where_it_has_lost_step_with_the_truth() -> None:
+    with pytest.raises(hydrodae.SolverError, match="put 'bob' off by about 0"):
+        hydrodae.run(pendulum(2.5, 400.0, rtol=1e-4, energy_guard=0.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [
+        ("braked_wheel_2", "radau"),  # turns in long steps
+        ("gears_3", "radau"),
+        ("driven_crank_2", "radau"),  # drives of a constant rate
+        ("universal_shaft_2", "radau"),
+        ("universal_shaft_3", "ida"),  # starts at rest but for rounding
+        ("universal_shaft_4", "ida"),  # guided altogether: its energy is that of the reactions
+        ("shaken_table_2", "ida"),  # comes off the table more slowly than its error
+    ],
+)
+def test_scenes_that_were_wrong_or_stopped_pass(name: str, method: str, tmp_path: Path) -> None:
+    cell = run_cell(SCENES[name], Method(method, {"method": method, "rtol": 1e-6}), tmp_path, 20.0)
+    assert cell.outcome == PASS, cell.reason
+
+
+def test_the_second_run_tells_the_error_of_the_first() -> None:
+    case = pendulum(1.0, 20.0, rtol=1e-5)
+    results = hydrodae.run(case, verify=True)
+    exact = hydrodae.run(case, set={"solver.rtol": 1e-11})
+    off = np.abs(results["bodies/bob/position"] - exact["bodies/bob/position"]).max()
+    size = np.linalg.norm(
+        exact["bodies/bob/position"].values - exact["bodies/bob/position"].values[0], axis=1
+    ).max()
+    verified = results.statistics["verified_error"]
+    assert verified == pytest.approx(float(off) / size, rel=0.3)
+    assert results.statistics["verified_error_of"] == "bob"
+    assert 0.0 < results.statistics["verified_error_time"] <= 20.0
+    assert results.statistics["estimated_error"] < 30.0 * verified
+    assert f"verified error {verified:.1g} of the motion (bob" in results.summary()
+    assert "verified_error" not in hydrodae.run(case).statistics
+
+
+def test_the_second_run_of_a_fixed_step_has_half_of_it() -> None:
+    case = pendulum(1.0, 10.0, method="generalized_alpha", step=0.01)
+    halved = hydrodae.run(case, set={"solver.step": 0.005})
+    results = hydrodae.run(case, verify=True)
+    off = np.abs(results["bodies/bob/position"] - halved["bodies/bob/position"]).max()
+    assert results.statistics["verified_error"] == pytest.approx(float(off) / 1.7, rel=0.3)
+
+
+def test_a_motion_that_is_not_confirmed_is_no_success() -> None:
+    case = pendulum(2.5, 3.0, rtol=1e-3, error_guard=1e-3)
+    with pytest.raises(
+        hydrodae.SolverError, match=r"not verified: a second run, with rtol"
+    ) as stop:
+        hydrodae.run(case, verify=True)
+    assert stop.value.results is not None
+    assert stop.value.results.status == "failed"
+    assert stop.value.results.end_time == 3.0
+
+
+def test_both_commands_verify(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    case = tmp_path / "pendulum.toml"
+    case.write_text(pendulum(1.0, 5.0).scene.text + "\n[solver]\nend_time = 5.0\n")
+    assert main(["run", str(case), "--verify", "-o", str(tmp_path / "a.h5")]) == 0
+    assert "verified error" in capsys.readouterr().out
+    solve = Path(sys.executable).with_name("hydrodae-solve")
+    if not solve.exists():
+        pytest.skip(f"no {solve}")
+    done = subprocess.run(
+        [solve, case, "--verify", "-o", tmp_path / "b.h5"],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert ", verified " in done.stdout
