@@ -298,10 +298,16 @@ def _print_sea(model: LinearModel, response: Response) -> None:
     deviation, power = model.irregular()
     units = {n: u.removesuffix("/m") for n, u in zip(response.names, response.units, strict=True)}
     print("\nin the sea of the case (linear): standard deviations")
-    for name, value in deviation.items():
-        if "/reaction_" in name:
-            continue
+    shown = {name: value for name, value in deviation.items() if "/reaction_" not in name}
+    largest: dict[str, float] = {}
+    for name, value in shown.items():
+        unit = units.get(name, "m")
+        largest[unit] = max(value, largest.get(unit, 0.0))
+    for name, value in shown.items():
+        held = (
+            value <= rao_output.NOTHING * largest[units.get(name, "m")]
+        )  # by constraints or symmetry
         factor, unit = displayed(units.get(name, "m"))
-        print(f"  {name:40} {factor * value:.5g} {unit}")
+        print(f"  {name:40} {0.0 if held else factor * value:.5g} {unit}")
     for name, value in power.items():
         print(f"  mean power of {name:26} {value:.5g} W")

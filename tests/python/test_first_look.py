@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray
+from scipy.spatial.transform import Rotation
 
 import hydrodae
 from hydrodae import cli
@@ -190,6 +191,39 @@ def test_reactions_along_the_axes_that_are_stated_carry_the_weight(run: Results)
     assert np.allclose(force, 2.0 * run["bodies/arm/acceleration"].to_numpy(), atol=1e-4)
 
 
+def test_reactions_on_a_body_that_moves_turn_with_it() -> None:
+    """The hand of a turned arm in free fall on two hinges: R of body A times the axes stated."""
+    hand = """
+[[body]]
+name = "hand"
+mass = 1.0
+center_of_gravity = [2.0, 0.3, -3.0]
+inertia = [0.1, 0.1, 0.1]
+
+[[joint]]
+name = "wrist"
+type = "revolute"
+body_a = "arm"
+body_b = "hand"
+point = [2.0, 0.0, -2.0]
+axis = [1.0, 0.0, 0.0]
+initial.angle_deg = 20.0
+
+[solver]
+"""
+    kept = [line for line in CASE.splitlines() if not line.startswith("initial.")]
+    text = "\n".join(kept).replace("[solver]", hand)
+    values = {"joint.hinge.initial.angle_deg": 50.0, "solver.end_time": 2.0}
+    results = hydrodae.run(hydrodae.Case.from_text(text).with_values(values))
+    reaction = results["joints/wrist/reaction_force"]
+    axes = np.stack([reaction.attrs[f"axis_{k}"] for k in "xyz"], axis=1)
+    w, *xyz = results["bodies/arm/orientation"].to_numpy().T
+    turn = Rotation.from_quat(np.stack([*xyz, w], axis=1))
+    force = turn.apply(reaction.to_numpy() @ axes.T) + np.array([0, 0, -9.81])
+    assert np.ptp(results["bodies/arm/rotation"].to_numpy()[:, 1]) > 0.5
+    np.testing.assert_allclose(force, results["bodies/hand/acceleration"], atol=1e-4)
+
+
 def test_velocity_of_a_marker_along_the_axes_that_are_stated(run: Results) -> None:
     along = run["markers/tip/velocity"].to_numpy()
     angle = run["bodies/arm/rotation"].to_numpy()[:, 1]
@@ -217,3 +251,17 @@ def test_figure_of_the_conventions(repository: Path, tmp_path: Path) -> None:
     text = (repository / "docs" / "conventions.md").read_text()
     assert "axes.png" in text
     assert (repository / "docs" / "axes.png").is_file()
+
+
+def test_pictures_of_the_quick_start(repository: Path, tmp_path: Path) -> None:
+    """The first shows waves and power; its means stand in cases/f3of/README.md."""
+    import runpy
+
+    results = hydrodae.run(repository / "cases" / "f3of" / "waves.toml")
+    script = runpy.run_path(str(repository / "cases" / "f3of" / "waves_figure.py"))
+    assert script["draw"](results, tmp_path / "waves.png").stat().st_size > 20_000
+    assert "flap 1 33.7 kW, flap 2 24.3 kW" in script["report"](results)
+    told = (repository / "cases" / "f3of" / "README.md").read_text()
+    assert "33.7 kW of flap 1 and 24.3 kW of flap 2" in told
+    commands = (repository / "cases" / "quickstart.sh").read_text()
+    assert commands.index("waves_figure.py") < commands.index("f3of/figure.py")

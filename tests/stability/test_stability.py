@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,16 @@ import pytest
 from tests.verification.truths import make as truths
 
 from hydrodae import cli
-from hydrodae.stability import Cell, Scene, all_methods, all_scenes, run_cell, show, stability_map
+from hydrodae.stability import (
+    Cell,
+    Scene,
+    all_methods,
+    all_scenes,
+    grid,
+    run_cell,
+    show,
+    stability_map,
+)
 from hydrodae.stability.grid import REFUSED, WRONG
 from hydrodae.stability.methods import Method
 from hydrodae.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
@@ -191,3 +201,19 @@ def test_a_wrong_cell_stands_out() -> None:
 def test_a_run_without_time_is_stopped_not_judged(name: str, tmp_path: Path) -> None:
     cell = run_cell(SCENES[name], METHODS["ida:1e-6"], tmp_path, 0.0)
     assert (cell.outcome, cell.reason) == ("stopped", "time limit")
+
+
+def test_the_time_limit_counts_the_work_of_the_run_alone(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Waiting for a busy machine is not counted; work is."""
+    asked: list[Callable[[float, float], bool]] = []
+    monkeypatch.setattr(grid, "run", lambda case, progress, drives: asked.append(progress))
+    scene = SCENES["pendulum"]
+    grid._run(scene, scene.case({}, tmp_path), 0.05)
+    time.sleep(0.1)
+    assert asked[0](0.0, 1.0)
+    until = time.process_time() + 0.06
+    while time.process_time() < until:
+        pass
+    assert not asked[0](0.0, 1.0)

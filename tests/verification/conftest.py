@@ -18,3 +18,12 @@ def rm3(reference: Path, repository: Path, tmp_path_factory: pytest.TempPathFact
         shutil.copy(path, folder)
     prepare(reference, folder / "heave.h5")
     return folder
+
+
+@pytest.fixture(scope="session")
+def rm3_planar(rm3: Path, reference: Path) -> Path:
+    """The same folder with `hydro.h5` as well: surge, heave and pitch. A minute."""
+    from tests.verification.test_rm3 import prepare_planar
+
+    prepare_planar(reference, rm3 / "hydro.h5")
+    return rm3

@@ -110,3 +110,15 @@ def test_the_picture_has_all_that_moves(
     assert main(["rao", path, "--periods", "14", "--picture", str(picture)]) == 0
     assert picture.stat().st_size > 10_000
     assert str(picture) in capsys.readouterr().out
+
+
+def test_the_sea_has_no_rounding_errors(
+    repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A flap on a hinge does not heave at first order: 0, not 1e-15."""
+    text = (repository / "README.md").read_text().split("```toml\n")[1].split("```")[0]
+    case = tmp_path / "flap.toml"
+    case.write_text(text.replace('"cases/', f'"{repository}/cases/'))
+    assert main(["rao", str(case)]) == 0
+    sea = capsys.readouterr().out.partition("in the sea of the case")[2]
+    assert "bodies/flap/heave                        0 m" in sea

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
+from tests.verification import attenuator
 
 import hydrodae
+from hydrodae.hdb.read import import_database
 
 SPHERE = """
 [hydro]
@@ -25,6 +28,31 @@ inertia = [{inertia}, {inertia}, {inertia}]
 
 [solver]
 end_time = 1.0
+"""
+FLAP = """
+[hydro]
+database = "hydro.h5"
+radiation = "none"
+[[body]]
+name = "flap"
+hydro = "flap1"
+motion = {motion}
+mass = {mass}
+center_of_gravity = [-12.5, 0.0, -5.5]
+inertia = {inertia}
+{more}
+[solver]
+end_time = 1.0
+"""
+HINGE = """
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "flap"
+point = {point}
+axis = [0.0, 1.0, 0.0]
+initial.angle_deg = {angle}
 """
 MASS = 261.8e3
 GYRATION = 2.0e6
@@ -50,29 +78,37 @@ def flap(repository: Path, *, mass: float = 179250.0, more: str = "", **keys: st
         "inertia": "[1.0e8, 1.3e6, 1.0e8]",
         "angle": "0.0",
     } | keys
-    text = f"""
-[hydro]
-database = "hydro.h5"
+    hinge = HINGE.format(point=given["point"], angle=given["angle"])
+    text = FLAP.format(
+        motion=given["motion"], mass=mass, inertia=given["inertia"], more=hinge + more
+    )
+    return hydrodae.Case.from_text(text, directory=repository / "cases" / "f3of")
+
+
+def pole(*, depth: float, z: float = -2.0, more: str = "") -> hydrodae.Case:
+    """A slender leg without a database, its centre of gravity at `z` [m]."""
+    return hydrodae.Case.from_text(f"""
+[environment]
+water_density = 1025.0
+water_depth = {depth}
 [[body]]
-name = "flap"
-hydro = "flap1"
-motion = {given["motion"]}
-mass = {mass}
-center_of_gravity = [-12.5, 0.0, -5.5]
-inertia = {given["inertia"]}
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "flap"
-point = {given["point"]}
-axis = [0.0, 1.0, 0.0]
-initial.angle_deg = {given["angle"]}
+name = "pole"
+motion = "surge"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, {z}]
+[[morison]]
+name = "leg"
+body = "pole"
+point_a = [0, 0, -4]
+point_b = [0, 0, 0]
+diameter = 0.2
+drag_coefficient = 1.0
+added_mass_coefficient = 1.0
+segments = 3
 {more}
 [solver]
 end_time = 1.0
-"""
-    return hydrodae.Case.from_text(text, directory=repository / "cases" / "f3of")
+""")
 
 
 def complaints(case: hydrodae.Case) -> list[str]:
@@ -104,6 +140,27 @@ def test_the_cases_of_benchmarks_are_left_alone(repository: Path) -> None:
     folder = repository / "cases" / "benchmarks"
     for path in sorted(folder.glob("*.toml")):
         assert complaints(hydrodae.Case.read(path)) == [], path.name
+
+
+@pytest.mark.parametrize("motion", ["heave", "planar", "rigid"])
+def test_rm3_is_left_alone(reference: Path, tmp_path: Path, repository: Path, motion: str) -> None:
+    points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
+    tables = reference / "hdb" / "rm3_wamit"
+    database, _ = import_database(tables, names=list(points), reference_points=points, rho=1000.0)
+    database.write(tmp_path / "hydro.h5")
+    for name in ("decay.toml", "wave.toml"):
+        shutil.copy(repository / "cases" / "rm3" / name, tmp_path)
+        values = {"hydro.radiation": "none", "solver.end_time": 1.0}
+        values |= {f"body.{body}.motion": motion for body in points}
+        case = hydrodae.Case(path=tmp_path / name, values=values)
+        assert complaints(case) == []
+        assert run_notes(case) == []
+
+
+def test_moored_floats_are_left_alone(repository: Path, tmp_path: Path) -> None:
+    case = attenuator.prepare(repository, tmp_path).with_values({"solver.end_time": 1.0})
+    assert complaints(case) == []
+    assert run_notes(case) == []
 
 
 def test_tonnes_for_kg_of_what_floats_freely(repository: Path) -> None:
@@ -197,22 +254,13 @@ def test_a_body_that_capsizes(repository: Path, tmp_path: Path) -> None:
     assert own is not None
     low = replace(own, center_of_buoyancy=own.center_of_buoyancy * [1, 1, 0] + [0, 0, -8.0])
     db.with_hydrostatics({"flap1": low}).write(tmp_path / "hydro.h5")
-    text = f"""
-[hydro]
-database = "hydro.h5"
-radiation = "none"
-[[body]]
-name = "flap"
-hydro = "flap1"
-motion = "planar"
-mass = {1025 * own.displaced_volume}
-center_of_gravity = [-12.5, 0.0, -5.5]
-inertia = [1.0e8, 1.3e6, 1.0e8]
-[solver]
-end_time = 1.0
-"""
-    (tmp_path / "case.toml").write_text(text)
-    case = hydrodae.Case.read(tmp_path / "case.toml")
+    text = FLAP.format(
+        motion='"planar"',
+        mass=1025 * own.displaced_volume,
+        inertia="[1.0e8, 1.3e6, 1.0e8]",
+        more="",
+    )
+    case = hydrodae.Case.from_text(text, directory=tmp_path)
     assert any("capsizes: its pitch stiffness is -" in line for line in complaints(case))
     assert any("capsizes" in note for note in run_notes(case))
 
@@ -231,29 +279,10 @@ def test_a_point_that_is_not_in_world_axes_is_worth_a_look(repository: Path) -> 
 
 
 def test_below_the_sea_bed() -> None:
-    text = """
-[environment]
-water_density = 1025.0
-water_depth = 10.0
-[[body]]
-name = "anchor"
-motion = "heave"
-mass = 10.0
-center_of_gravity = [0.0, 0.0, -20.0]
-[[morison]]
-name = "leg"
-body = "anchor"
-point_a = [0, 0, -4]
-point_b = [0, 0, 0]
-diameter = 0.2
-drag_coefficient = 1.0
-added_mass_coefficient = 1.0
-segments = 3
-[solver]
-end_time = 1.0
-"""
-    (found,) = complaints(hydrodae.Case.from_text(text))
-    assert "body 'anchor' is at z = -20 m, below the sea bed at -10 m" in found
+    case = pole(depth=10.0, z=-20.0)
+    (found,) = complaints(case)
+    assert "body 'pole' is at z = -20 m, below the sea bed at -10 m" in found
+    assert complaints(pole(depth=30.0, z=-20.0)) == []
 
 
 def test_a_take_off_at_a_dead_point_is_not_locked() -> None:
@@ -378,36 +407,15 @@ def test_waves_that_would_break(repository: Path, wave: str, words: str) -> None
 
 
 def test_a_sea_too_high_for_its_depth() -> None:
-    text = """
-[environment]
-water_density = 1025.0
-water_depth = 5.0
+    sea = """
 [[wave]]
 name = "sea"
 type = "jonswap"
 significant_height = 4.0
 peak_period = 14.0
-[[body]]
-name = "pole"
-motion = "surge"
-mass = 10.0
-center_of_gravity = [0.0, 0.0, -2.0]
-[[morison]]
-name = "leg"
-body = "pole"
-point_a = [0, 0, -4]
-point_b = [0, 0, 0]
-diameter = 0.2
-drag_coefficient = 1.0
-added_mass_coefficient = 1.0
-segments = 3
-[solver]
-end_time = 1.0
 """
-    case = hydrodae.Case.from_text(text)
-    assert any("0.6 of the depth of 5 m" in line for line in complaints(case))
-    deep = hydrodae.Case.from_text(text.replace("water_depth = 5.0", "water_depth = 50.0"))
-    assert complaints(deep) == []
+    assert any("0.6 of the depth of 5 m" in line for line in complaints(pole(depth=5.0, more=sea)))
+    assert complaints(pole(depth=50.0, more=sea)) == []
 
 
 def test_where_the_scene_rests(repository: Path) -> None:
