@@ -15,6 +15,7 @@ from hydrodae.post import mean_absorbed_power
 PERIODS = (6.0, 7.5, 9.0, 10.5, 12.0, 14.0)  # [s]
 HEIGHTS = (1.0, 2.0, 3.0, 4.0, 5.0)  # [m]
 RAMP = 30.0  # [s]
+GAP = 1e-5  #: by which rtol may let a stop be passed, of a body some 10 m in size [m]
 STROKE = 1.5  # [m]
 STOP = """
 [[constraint]]
@@ -70,7 +71,7 @@ def test_power_grows_with_the_square_of_the_height_until_the_stops_are_met(rm3: 
         case = cell(rm3, 9.0, height, "heave")
         results = hydrodae.run(case)
         assert results.status == "completed"
-        assert stroke_of(results) <= STROKE * (1.0 + 1e-6)
+        assert stroke_of(results) <= STROKE + GAP
         power.append(mean_absorbed_power(results, "pto", 2.0 * RAMP))
         assert 0.0 < power[-1] < most_power(case)
         events.append(results.statistics["events"])
@@ -101,7 +102,7 @@ def check_all(
             assert 0.0 < power[i, k] < most_power(case)
             if results.statistics["events"] == 0:
                 assert power[i, k] == pytest.approx(power[i, 0] * height**2, rel=0.03)
-            assert stroke_of(results) <= stroke * (1.0 + 1e-6)
+            assert stroke_of(results) <= stroke + GAP
     if stopped:
         pytest.fail("\n".join(stopped), pytrace=False)
 
@@ -115,19 +116,13 @@ def test_no_cell_stops(rm3: Path, stroke: float, restitution: float) -> None:
     check_all(rm3, "heave", stroke, restitution)
 
 
-RESTS = pytest.mark.xfail(
-    reason="ida stops where bodies that slide in the plane lift off a stop",
-    raises=pytest.fail.Exception,
-)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("stroke", "restitution", "method"),
     [
         (2.5, 0.3, "ida"),
-        pytest.param(1.5, 0.3, "ida", marks=RESTS),
-        pytest.param(0.75, 0.0, "ida", marks=RESTS),
+        (1.5, 0.3, "ida"),
+        (0.75, 0.0, "ida"),
         (0.75, 0.0, "radau"),
     ],
 )
@@ -183,19 +178,7 @@ step = 0.1
 """
 
 
-@pytest.mark.parametrize(
-    "method",
-    [
-        pytest.param(
-            "ida",
-            marks=pytest.mark.xfail(
-                reason="a thousand events at once, as in the plane above", raises=SolverError
-            ),
-        ),
-        "radau",
-        "explicit_rk",
-    ],
-)
+@pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_lifting_off_a_stop_in_the_plane(method: str) -> None:
     text = CONTACT + STOP.format(lower=-0.5, upper=0.5, restitution=0.0)
     results = hydrodae.run(hydrodae.Case.from_text(text), set={"solver.method": method})

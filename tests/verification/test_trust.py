@@ -105,14 +105,40 @@ def test_the_second_run_of_a_fixed_step_has_half_of_it() -> None:
 
 
 def test_a_motion_that_is_not_confirmed_is_no_success() -> None:
-    case = pendulum(2.5, 3.0, rtol=1e-3, error_guard=1e-3)
+    """A drive that is another one in the second run."""
+    text = """
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 1.0
+center_of_gravity = [0.0, 0.0, 0.0]
+[[constraint]]
+type = "coordinate"
+name = "motor"
+body = "cart"
+coordinate = "surge"
+drive = { python = true }
+[solver]
+end_time = 2.0
+"""
+    runs: list[float] = []
+
+    def drive(t: float) -> tuple[float, float, float]:
+        size = 1.0 + 0.5 * len(runs)
+        return size * np.sin(t), size * np.cos(t), -size * np.sin(t)
+
+    def progress(time: float, end: float) -> None:
+        if time == end:
+            runs.append(time)
+
+    case = hydrodae.Case(text=text)
     with pytest.raises(
         hydrodae.SolverError, match=r"not verified: a second run, with rtol"
     ) as stop:
-        hydrodae.run(case, verify=True)
+        hydrodae.run(case, verify=True, drives={"motor": drive}, progress=progress)
     assert stop.value.results is not None
     assert stop.value.results.status == "failed"
-    assert stop.value.results.end_time == 3.0
+    assert stop.value.results.end_time == 2.0
 
 
 def test_both_commands_verify(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,13 +14,14 @@ constexpr double doubtful = 0.05;
 ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern, double t,
                          Error error, int every)
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(VectorX::Zero(s.n)),
-      yp_(VectorX::Zero(s.n)), growth_(VectorX::Ones(s.n_groups)),
+      yp_(VectorX::Zero(s.n)), growth_(VectorX::Ones(s.n_groups)), fade_(growth_),
       change_(VectorX::Zero(s.n_groups)), largest_change_(change_), row_size_(s.n), since_(t),
       fewest_(std::max(1, every / 10)), most_(4 * every), every_(every) {
   if (error_.vector.size() > 0)
     return;
   error_.vector = error_.fresh = VectorX::Zero(s.lambda0);
-  error_.piled = error_.plain = VectorX::Zero(s.n_groups);
+  error_.piled = error_.plain = error_.excess = VectorX::Zero(s.n_groups);
+  error_.level = VectorX::Ones(s.n_groups);
 }
 
 /// Root of the sum of squares over the positions and velocities of each group.
@@ -40,6 +41,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
     return false;
   steps_ = 0;
   growth_.setOnes();
+  fade_.setOnes();
   const VectorX before = sizes(error_.vector, unit);
   if (!error_.vector.isZero(0.0) && error_.vector.allFinite()) {
     at(t, y_, yp_);
@@ -48,11 +50,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
       for (Index g = 0; g < s_.n_groups; ++g) {
         if (before[g] > 0.0)
           growth_[g] = after[g] / before[g];
-        if (change_[g] > rough)
-          growth_[g] = std::min(growth_[g], 1.0);
-        const double seeming =
-            doubtful * std::min(change_[g] / rough, 1.0) * rate[g] * (t - since_);
-        error_.piled[g] *= growth_[g] * std::exp(-seeming);
+        follow(g, rate[g] * (t - since_));
       }
     }
   }
@@ -63,6 +61,20 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   error_.fresh.setZero();
   since_ = t;
   return true;
+}
+
+/// What the growth of the vector means to what has piled up, over `phase` radians of the motion.
+void ErrorGrowth::follow(Index g, double phase) {
+  constexpr double held = 10.0; // 1 / rate of the motion: what fades slower is seen to fade
+  const double growth = change_[g] > rough ? std::min(growth_[g], 1.0) : growth_[g];
+  const double level = error_.level[g] * std::min(growth, 1e6),
+               envelope = std::max(level, std::exp(-phase / held));
+  error_.level[g] = std::max(level / envelope, 1e-300);
+  fade_[g] = std::min(envelope, 1.0);
+  const double before = error_.excess[g],
+               seeming = doubtful * std::min(change_[g] / rough, 1.0) * phase;
+  error_.excess[g] = std::max(0.0, before + std::log(std::max(growth, 1e-300)) - seeming);
+  error_.piled[g] *= fade_[g] * std::exp(error_.excess[g] - before);
 }
 
 /// Of the entries of each row of q and u, relative to the largest of them. Between looks that are

@@ -1,7 +1,9 @@
 #pragma once
 /// The error that a run has piled up. The estimated errors of its steps add up in size, group by
 /// group of bodies, and grow or fade as the equations linearised about the motion carry an error
-/// along: E <- g E + |d|, where g is the growth of a vector carried from look to look. (Skeel,
+/// along: E <- g E + |d|, where g comes of the size of a vector carried from look to look: its
+/// envelope where it fades, and where it grows what exceeds the doubtful (Page's cumulative sums,
+/// Biometrika 41 (1954) 100), since between looks swings are followed roughly. (Skeel,
 /// Math. Comput. 46 (1986) 577, carries the errors themselves; over thousands of periods they would
 /// have to keep their phase.)
 
@@ -20,6 +22,8 @@ public:
     VectorX vector;       ///< carried along, in q, u, z (lambda0,)
     VectorX fresh;        ///< errors since the last look (lambda0,)
     VectorX piled, plain; ///< E and the sum without growth, by group (n_groups,)
+    VectorX level;        ///< of the vector's size, over its envelope (n_groups,)
+    VectorX excess;       ///< ln of the growth that is believed (n_groups,)
   };
 
   /// @param error that the run has so far; empty: none
@@ -44,6 +48,9 @@ public:
   /// group (n_groups,); 1 where there was none.
   const VectorX& growth() const { return growth_; }
 
+  /// By how much its envelope has faded between these looks (n_groups,): 1 where nothing damps.
+  const VectorX& fade() const { return fade_; }
+
   /// Largest change of the linearised equations from one look to the next so far, by group,
   /// relative to their own size (n_groups,): 0 of linear equations.
   const VectorX& change() const { return largest_change_; }
@@ -51,6 +58,7 @@ public:
 private:
   bool carry(double t, VectorX& vector);
   void find_change();
+  void follow(Index group, double phase);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
 
   const system::System& s_;
@@ -58,7 +66,7 @@ private:
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look; empty: none yet
-  VectorX rhs_, y_, yp_, growth_, change_, largest_change_, row_size_;
+  VectorX rhs_, y_, yp_, growth_, fade_, change_, largest_change_, row_size_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   int fewest_, most_, every_, steps_ = 0;
 };

@@ -31,13 +31,12 @@ double least_error(const model::SolverOptions& options) {
 // d ln(frequency) / d ln(speed): 0 of a linear oscillator, 0.13 of a pendulum that swings by 1 rad,
 // 1 of what turns round and round.
 constexpr double out_of_step = 0.6;
-constexpr double held = 10.0; ///< 1 / rate of the motion: what fades slower is seen to fade
 
 } // namespace
 
 Trust::Trust(const system::System& s, const system::Pattern& pattern,
              const model::SolverOptions& options)
-    : s_(s), every_(steps_between_looks(options.method)), doubt_(options.step > 0.0 ? 10.0 : 2.0),
+    : s_(s), every_(steps_between_looks(options.method)), doubt_(options.step > 0.0 ? 3.0 : 2.0),
       allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
       fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
       rates_(fastest_), displaced_(fastest_),
@@ -121,17 +120,15 @@ void Trust::take_inner(double t, const VectorX& errors) {
 /// is carried along tells, too, if only where it turns little from look to look. What drives guide
 /// altogether carries none.
 double Trust::remembered(Energy& e, double phase, const system::Recorder::Balance& now) {
-  constexpr double guided = 1e-3;
-  const double growth = growth_->growth()[e.group], weight = std::exp(-phase / held);
-  const double level = e.level * std::min(growth, 1e6), envelope = std::max(level, weight);
-  e.level = std::max(level / envelope, 1e-300);
+  constexpr double guided = 1e-3, held = 10.0; // the latter in radians of the motion
+  const double weight = std::exp(-phase / held), growth = growth_->growth()[e.group];
   e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
   const double taken = now.given - e.given;
   e.given = now.given;
   if (growth < guided)
     return growth;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
-  return std::min(1.0, std::max(envelope, damped));
+  return std::max(growth_->fade()[e.group], damped);
 }
 
 /// Kinetic energy of a body that moves as its tolerance expects: less tells nothing.

@@ -72,7 +72,6 @@ private:
     double seen = 0.0;    ///< error of its balance at the last look [J]
     double missing = 0.0; ///< what has not faded of the changes of it [J]
     double late = 0.0;    ///< phase that this has cost [rad]
-    double level = 1.0;   ///< of an error carried along, over its envelope [-]
     double kinetic = 0.0; ///< its mean over some swings [J]
     double given = 0.0;   ///< that dampers had taken at the last look [J]
   };
