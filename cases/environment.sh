@@ -83,8 +83,8 @@ PYTHON
   printf '%s\n' "$hash" | tee "$stamp.sha256" >"$stamp${extra:+-$extra}.sha256"
 }
 
-# build_preset PRESET [TARGET]: the C++ tests and the fuzz driver with assertions (preset `tests`), or
-# with address and undefined-behaviour sanitizers as well (`sanitized`).
+# build_preset PRESET [TARGET]: the C++ tests and the fuzz driver, with assertions and sanitizers
+# (preset `tests`).
 build_preset() {
   local preset=$1
   mkdir -p "$root/build"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every check of the project: C++ tests, a sample of mutated inputs, style and types, Python tests
-# (the C++ tests under sanitizers: `bash tests/fuzz/run.sh --tests`). Arguments go to pytest:
+# Every check of the project: C++ tests and a sample of mutated inputs under sanitizers, style and
+# types, Python tests on all cores. Arguments go to pytest:
 #   bash tests/run.sh
 #   bash tests/run.sh -m slow
 set -euo pipefail
@@ -13,7 +13,7 @@ note "building and running the C++ tests"
 build_preset tests
 ctest --preset tests -j "$(nproc)"
 note "a sample of mutated inputs"
-.venv/bin/python tests/fuzz/run.py --seconds 15 --seed 1 --program build/tests/tests/fuzz/hydrodae-fuzz
+.venv/bin/python tests/fuzz/run.py --seconds 15 --seed 1
 
 note "style and types"
 .venv/bin/ruff check .
@@ -23,4 +23,4 @@ find cpp python/bindings tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
 .venv/bin/mypy
 
 note "Python tests"
-.venv/bin/pytest "$@"
+.venv/bin/pytest -n "$(nproc)" "$@"

@@ -212,7 +212,7 @@ def _impacts(results: Results) -> list[str]:
     lines = []
     for name, table in results.impacts.items():
         unit = table["impulse"].attrs["unit"]
-        largest = table.isel(impact=int(table["impulse"].argmax()))
+        largest = table.isel(impact=int(np.argmax(table["impulse"].values)))
         lines.append(
             f"  {name}: struck {table.sizes['impact']} times, largest impulse "
             f"{float(largest['impulse']):.4g} {unit} at t = {float(largest['time']):.4g} s, "

@@ -219,7 +219,7 @@ def main() -> int:
     parser.add_argument("--inputs", type=int, default=10_000)
     parser.add_argument("--first", type=int, default=0, help="number of the first input")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--program", default=str(ROOT / "build/sanitized/tests/fuzz/hydrodae-fuzz"))
+    parser.add_argument("--program", default=str(ROOT / "build/tests/tests/fuzz/hydrodae-fuzz"))
     parser.add_argument("--kinds", default="case,case,command,database,results")
     options = parser.parse_args()
     folder = ROOT / "build" / "fuzz"

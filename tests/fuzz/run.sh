@@ -1,15 +1,10 @@
 #!/usr/bin/env bash
 # Mutated case files, command lines, hydrodynamic databases and results files, under sanitizers:
 #   bash tests/fuzz/run.sh [--seconds 600] [--seed 1] [--inputs 10000]
-#   bash tests/fuzz/run.sh --tests        # the C++ tests instead
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../cases/environment.sh"
 
 install_environment test
 cd "$root"
-if [[ ${1:-} == --tests ]]; then
-  build_preset sanitized
-  exec ctest --preset sanitized -j "$(nproc)"
-fi
-build_preset sanitized hydrodae-fuzz
+build_preset tests hydrodae-fuzz
 .venv/bin/python tests/fuzz/run.py "$@"

@@ -139,8 +139,10 @@ class Kernel:
         output: str,
         progress: Callable[[float, float], bool],
         drives: dict[str, Any],
+        verify: bool,
     ) -> dict[str, Any]:
         assert not drives
+        assert not verify
         self.runs += 1
         times, status, message = [0.0], "completed", ""
         while times[-1] < scene.end_time:

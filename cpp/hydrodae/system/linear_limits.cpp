@@ -40,6 +40,14 @@ std::string sentence(const std::string& body, const std::string& what, const Cro
          rounded(factor * c.largest, unit) + " (limit " + limit + ")";
 }
 
+/// V / A_w of walls that stand upright, with the waterplane A_w = C_33 / (rho g); where that is
+/// small, as of spars and what is under water, the cube root of V [m].
+double draught(const hydro::Database& database, const hydro::Hydrostatics& h) {
+  const double plane = h.stiffness(2, 2) / (database.rho * database.gravity);
+  const double cube = std::cbrt(h.displaced_volume);
+  return plane > 0.0 ? std::min(h.displaced_volume / plane, cube) : cube;
+}
+
 } // namespace
 
 LinearLimits linear_limits(const model::Scene& scene, const System& s) {
@@ -61,7 +69,7 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
     for (const hydro::DatabaseBody& entry : scene.database->bodies)
       if (entry.name == *scene.bodies[static_cast<std::size_t>(hb.body)].hydro &&
           entry.hydrostatics && entry.hydrostatics->displaced_volume > 0.0)
-        watched.half_draught = 0.5 * std::cbrt(entry.hydrostatics->displaced_volume);
+        watched.half_draught = 0.5 * draught(*scene.database, *entry.hydrostatics);
     out.bodies.push_back(watched);
   }
   return out;

@@ -24,7 +24,7 @@ struct LinearLimits {
     Matrix3 mean = Matrix3::Identity(); ///< turn by the mean yaw
     Vector3 place = Vector3::Zero();    ///< x, y of the start, z of the reference pose [m]
     bool free_yaw = false;              ///< the hydrodynamics follow the yaw: tilt alone counts
-    double half_draught = INFINITY;     ///< half the cube root of the displaced volume [m]
+    double half_draught = INFINITY;     ///< [m]
     std::optional<Crossing> turn;       ///< [rad], beyond `largest_turn`
     std::optional<Crossing> rise;       ///< vertical [m], beyond half the draught
     std::optional<Crossing> drift;      ///< horizontal [m], beyond a tenth of the wave length
@@ -35,8 +35,9 @@ struct LinearLimits {
   std::vector<Body> bodies;
 };
 
-/// What to watch in a scene. The draught is not in the database: the cube root of the displaced
-/// volume stands for it. The wave length is the mean over all components, weighted by energy.
+/// What to watch in a scene. The draught is not in the database: displaced volume over waterplane,
+/// or the cube root of the volume where that is less, stands for it. The wave length is the mean
+/// over all components, weighted by energy.
 LinearLimits linear_limits(const model::Scene& scene, const System& system);
 
 /// Takes one sample: the states of all bodies at time t.
