@@ -16,7 +16,7 @@ ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(VectorX::Zero(s.n)),
       yp_(VectorX::Zero(s.n)), growth_(VectorX::Ones(s.n_groups)), fade_(growth_),
       change_(VectorX::Zero(s.n_groups)), largest_change_(change_), row_size_(s.n), since_(t),
-      fewest_(std::max(1, every / 10)), most_(4 * every), every_(every) {
+      fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
   if (error_.vector.size() > 0)
     return;
   error_.vector = error_.fresh = VectorX::Zero(s.lambda0);

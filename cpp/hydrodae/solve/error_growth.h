@@ -28,8 +28,8 @@ public:
 
   /// @param error that the run has so far; empty: none
   /// @param every so many steps the error is carried along at first; where the equations change
-  /// much
-  ///   between two such looks, down to a tenth of that, where little, up to four times as many
+  ///   much between two such looks, down to a quarter of that, where little, up to four times as
+  ///   many
   ErrorGrowth(const system::System& system, const system::Pattern& pattern, double t, Error error,
               int every);
 

@@ -13,11 +13,11 @@ namespace {
 
 /// Steps between two looks: the work of a look, a Jacobian and its factors, against that of a step.
 int steps_between_looks(const std::string& method) {
-  if (method == "explicit_rk")
-    return 3;
   if (method == "ida")
-    return 50;
-  return method == "generalized_alpha" ? 20 : 4;
+    return 100;
+  if (method == "explicit_rk")
+    return 16;
+  return method == "generalized_alpha" ? 40 : 10;
 }
 
 /// What the tolerance leaves at least, in units of it: Newton's iteration, samples between the ends

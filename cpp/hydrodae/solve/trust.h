@@ -1,10 +1,10 @@
 #pragma once
 /// How far the motion of a run is to be trusted, against the size of the motion, group by group of
 /// bodies. Three witnesses, of which the worst counts:
-///   the errors of the steps, piled up and carried along by the linearised equations (ErrorGrowth);
-///   the energy that is missing: a part e of the kinetic energy is a part e / 2 of the speed, and
-///   as frequencies depend on amplitudes, the motion gets out of step with itself the longer it
-///   lasts; what the interpolant misses inside a step.
+/// 1. the errors of the steps, carried along by the linearised equations and added (ErrorGrowth);
+/// 2. the energy that is missing: a part e of the kinetic energy is e / 2 of the speed, and as
+///    frequencies depend on amplitudes, the motion gets out of step the longer it lasts;
+/// 3. what the interpolant of fixed steps misses inside a step.
 
 #include <memory>
 #include <string>
@@ -22,8 +22,8 @@ public:
   Trust(const system::System& system, const system::Pattern& pattern,
         const model::SolverOptions& options);
 
-  /// Adds the last step of the integrator, which ends at t. Throws SolverError when the error is
-  /// above `error_guard` of the motion.
+  /// Adds the last step of the integrator, which ends at t. Throws SolverError when the error may
+  /// be above `error_guard` of the motion.
   /// @param reached size of the motion so far, by group (system::MotionScale)
   /// @param recorder its energies at t
   void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
@@ -56,8 +56,7 @@ private:
   const system::System& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
-  double
-      doubt_; ///< factor within which the estimate is meant; steps that their error sets tell more
+  double doubt_; ///< factor within which the estimate is meant; of fixed steps it is rougher
   double allowed_;
   double least_;           ///< what the tolerance leaves [-]
   VectorX unit_;           ///< of each position and velocity (z0,)
