@@ -50,11 +50,11 @@ def test_slow_errors_of_long_runs_are_foreseen(
     scene: str, allowed: float, method: str, tmp_path: Path
 ) -> None:
     """Loss of energy puts a pendulum out of step, a linear oscillator not."""
-    cell = run_cell(SCENES[scene], Method(method, {"method": method, "rtol": 1e-6}), tmp_path, 60.0)
+    cell = run_cell(SCENES[scene], Method(method, {"method": method, "rtol": 2e-7}), tmp_path, 60.0)
     assert cell.outcome == PASS
     known = suite.ratio(cell)
     assert known is not None
-    assert 1.0 / allowed < known < 10.0 or (cell.estimate or 1.0) < 2e-5
+    assert 1.0 / allowed < known < 10.0 or (cell.estimate or 1.0) < 1e-5
 
 
 def test_a_run_stops_where_it_has_lost_step_with_the_truth() -> None:

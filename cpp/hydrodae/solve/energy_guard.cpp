@@ -5,6 +5,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
 
@@ -25,33 +26,8 @@ double guard_at_singular_poses(const model::SolverOptions& options) {
 
 EnergyGuard::EnergyGuard(const system::System& system, const model::SolverOptions& options)
     : s_(system), rtol_(options.rtol), part_(options.energy_guard.value_or(usual)),
-      at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)) {
-  find_guided();
-}
-
-void EnergyGuard::find_guided() {
-  std::vector<Index> left(static_cast<std::size_t>(std::max(s_.n_mechanisms, 1)));
-  for (const system::BodyData& b : s_.bodies)
-    if (b.mechanism >= 0)
-      left[static_cast<std::size_t>(b.mechanism)] += b.n_active;
-  const auto take = [&](const joint::Marker& A, const joint::Marker& B) {
-    for (int body : {A.body, B.body})
-      if (const int m = body < 0 ? -1 : s_.bodies[static_cast<std::size_t>(body)].mechanism; m >= 0)
-        return void(--left[static_cast<std::size_t>(m)]);
-  };
-  for (const system::JointData& j : s_.joints)
-    for (const system::RowData& row : j.rows)
-      if (row.kept())
-        take(j.A, j.B);
-  for (const system::CouplerData& c : s_.couplers)
-    if (c.kept()) {
-      const system::JointData& j = s_.joints[static_cast<std::size_t>(
-          s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
-      take(j.A, j.B);
-    }
-  for (Index free : left)
-    guided_.push_back(free <= 0);
-}
+      at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)),
+      guided_(system::guided_mechanisms(system)) {}
 
 /// Where drives guide all, the energy tells of the reactions, which are a derivative less exact,
 /// and little of the motion.

@@ -32,7 +32,6 @@ private:
                          const std::string& of, const std::string& where) const;
   double least(int mechanism) const;
   double allowed(int mechanism) const;
-  void find_guided();
   std::string members(std::size_t mechanism) const;
 
   const system::System& s_;

@@ -54,6 +54,12 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
       }
     }
   }
+  // It tells growth only, and is kept from growing without end.
+  constexpr double large = 1.0;
+  const VectorX size = sizes(error_.vector, unit);
+  for (Index i = 0; i < s_.lambda0; ++i)
+    if (const double own = size[s_.group[static_cast<std::size_t>(i)]]; !(own <= large))
+      error_.vector[i] = std::isfinite(own) ? 1e-3 * error_.vector[i] / own : 0.0;
   const VectorX added = sizes(error_.fresh, unit);
   error_.piled += added;
   error_.plain += added;

@@ -6,6 +6,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/step_error.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
 
@@ -30,7 +31,7 @@ double least_error(const model::SolverOptions& options) {
 
 // d ln(frequency) / d ln(speed): 0 of a linear oscillator, 0.13 of a pendulum that swings by 1 rad,
 // 1 of what turns round and round.
-constexpr double out_of_step = 0.6;
+constexpr double out_of_step = 0.5;
 
 } // namespace
 
@@ -44,6 +45,7 @@ Trust::Trust(const system::System& s, const system::Pattern& pattern,
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
+  find_guided();
   growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, ErrorGrowth::Error(), every_);
 }
 
@@ -120,13 +122,13 @@ void Trust::take_inner(double t, const VectorX& errors) {
 /// is carried along tells, too, if only where it turns little from look to look. What drives guide
 /// altogether carries none.
 double Trust::remembered(Energy& e, double phase, const system::Recorder::Balance& now) {
-  constexpr double guided = 1e-3, held = 10.0; // the latter in radians of the motion
-  const double weight = std::exp(-phase / held), growth = growth_->growth()[e.group];
+  constexpr double held = 10.0; // radians of the motion
+  const double weight = std::exp(-phase / held);
   e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
   const double taken = now.given - e.given;
   e.given = now.given;
-  if (growth < guided)
-    return growth;
+  if (e.guided)
+    return 0.0;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
   return std::max(growth_->fade()[e.group], damped);
 }
@@ -201,7 +203,14 @@ void Trust::look(double t, const VectorX& reached, const system::Recorder& recor
   }
 }
 
+void Trust::find_guided() {
+  const std::vector<bool> guided = system::guided_mechanisms(s_);
+  for (std::size_t m = 0; m < energies_.size(); ++m)
+    energies_[m].guided = guided[m];
+}
+
 void Trust::restart(const system::Pattern& pattern, double t) {
+  find_guided();
   ErrorGrowth::Error error = growth_->error();
   growth_ = std::make_unique<ErrorGrowth>(s_, pattern, t, std::move(error), every_);
 }

@@ -49,6 +49,7 @@ private:
   void take_energy(double t, const VectorX& reached, const system::Recorder& recorder);
   struct Energy;
   double remembered(Energy& energy, double phase, const system::Recorder::Balance& now);
+  void find_guided();
   void take_inner(double t, const VectorX& errors);
   void take(Index group, double t, double error);
   const system::BodyData& worst_of(Index group) const;
@@ -68,6 +69,7 @@ private:
   VectorX start_;          ///< positions at the first step (n_q,)
   struct Energy {          ///< of a mechanism
     int group = 0;
+    bool guided = false;  ///< altogether, by drives: what is missing tells nothing of its motion
     double seen = 0.0;    ///< error of its balance at the last look [J]
     double missing = 0.0; ///< what has not faded of the changes of it [J]
     double late = 0.0;    ///< phase that this has cost [rad]

@@ -102,4 +102,29 @@ void set_groups(System& s) {
     ++s.group_size[group];
 }
 
+std::vector<bool> guided_mechanisms(const System& s) {
+  std::vector<Index> left(static_cast<std::size_t>(std::max(s.n_mechanisms, 1)));
+  for (const BodyData& b : s.bodies)
+    if (b.mechanism >= 0)
+      left[static_cast<std::size_t>(b.mechanism)] += b.n_active;
+  const auto take = [&](const joint::Marker& A, const joint::Marker& B) {
+    for (int body : {A.body, B.body})
+      if (const int m = body < 0 ? -1 : s.bodies[static_cast<std::size_t>(body)].mechanism; m >= 0)
+        return void(--left[static_cast<std::size_t>(m)]);
+  };
+  for (const JointData& j : s.joints)
+    for (const RowData& row : j.rows)
+      if (row.kept())
+        take(j.A, j.B);
+  for (const CouplerData& c : s.couplers)
+    if (c.kept()) {
+      const JointData& j = joint_of(s, c.terms.front().motion);
+      take(j.A, j.B);
+    }
+  std::vector<bool> out;
+  for (Index free : left)
+    out.push_back(free <= 0);
+  return out;
+}
+
 } // namespace hydrodae::system

@@ -11,6 +11,10 @@ namespace hydrodae::system {
 /// Bodies that cannot move, and the ground, join nothing.
 void find_mechanisms(System& system);
 
+/// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its
+/// own?
+std::vector<bool> guided_mechanisms(const System& system);
+
 /// The group of each position, velocity and memory state; needs the layout.
 void set_groups(System& system);
 
