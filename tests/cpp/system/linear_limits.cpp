@@ -26,6 +26,8 @@ LinearLimits one_body() {
 
 std::vector<BodyState<double>> state(const Vector3& moved, double yaw, double pitch) {
   BodyState<double> s;
+  s.v = s.w = s.v_dot = s.w_dot = Vector3::Zero();
+  s.p = Vector4(1.0, 0.0, 0.0, 0.0); // not read
   s.r = Vector3(10.0, 0.0, -2.0) + moved;
   s.R = rotation_about_axis<double>(2, yaw) * rotation_about_axis<double>(1, pitch);
   return {s};
