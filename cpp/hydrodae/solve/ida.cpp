@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -316,7 +317,8 @@ double Ida::step() {
       {IDA_REP_RES_ERR, "the equations give values that are not finite"},
       {IDA_TOO_MUCH_ACC, "the tolerance is below what double precision can give"},
   };
-  std::string reason = IDAGetReturnFlagName(flag);
+  const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(flag), &std::free);
+  std::string reason = name.get();
   for (const auto& [code, words] : reasons)
     if (code == flag)
       reason = std::string(words) + " (" + reason + ")";
