@@ -27,9 +27,15 @@ constexpr int amd_ordering = 0; ///< of KLU; SUNDIALS' default COLAMD fills more
 /// one-step methods do at equal rtol (measured on spinning and striking bodies).
 constexpr double share = 0.5;
 
+/// The name of a flag; SUNDIALS hands over its memory.
+std::string flag_name(int flag) {
+  const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(flag), &std::free);
+  return name.get();
+}
+
 void check(int flag, const char* call) {
   if (flag < 0)
-    throw SolverError(0.0, std::string(call) + " failed with " + IDAGetReturnFlagName(flag));
+    throw SolverError(0.0, std::string(call) + " failed with " + flag_name(flag));
 }
 
 template <class T> T* made(T* pointer, const char* call) {
@@ -317,8 +323,7 @@ double Ida::step() {
       {IDA_REP_RES_ERR, "the equations give values that are not finite"},
       {IDA_TOO_MUCH_ACC, "the tolerance is below what double precision can give"},
   };
-  const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(flag), &std::free);
-  std::string reason = name.get();
+  std::string reason = flag_name(flag);
   for (const auto& [code, words] : reasons)
     if (code == flag)
       reason = std::string(words) + " (" + reason + ")";
