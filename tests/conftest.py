@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,15 @@ ROOT = Path(__file__).resolve().parents[1]
 def repository() -> Path:
     """Root of the repository."""
     return ROOT
+
+
+@pytest.fixture(scope="session")
+def executable() -> str:
+    """hydrodae-solve of the installed package."""
+    folder = os.path.dirname(sys.executable)
+    path = shutil.which("hydrodae-solve", path=os.pathsep.join([folder, os.environ["PATH"]]))
+    assert path, "hydrodae-solve is not installed"
+    return path
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
@@ -88,8 +89,7 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
   system::for_each_element(s.motion_forces, [&](const auto& f) {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(f.law)>, force::DryFriction::Law>)
       return; // no damper; said in the notes
-    const system::JointData& j =
-        s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(f.motion)].joint)];
+    const system::JointData& j = system::joint_of(s, f.motion);
     const auto w = system::motion_row<double>(s, ws, f.motion);
     out.dampers.push_back(f.component);
     const auto [by_s, by_rate] = f.law.gradient(w.value, 0.0);

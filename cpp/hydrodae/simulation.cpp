@@ -9,6 +9,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/output_place.h"
 #include "hydrodae/io/results_file.h"
+#include "hydrodae/run_output.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/energy_guard.h"
 #include "hydrodae/solve/equations.h"
@@ -32,51 +33,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string lines_of(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines)
-    text += line + "\n";
-  return text;
-}
-
-io::Attributes header(const model::Scene& scene, const std::vector<std::string>& notes) {
-  return {{"title", scene.title},
-          {"case_text", scene.text},
-          {"case_path", scene.path},
-          {"case_overrides", lines_of(scene.overrides)},
-          {"hydro_sha256", scene.database ? scene.database->sha256 : std::string()},
-          {"version", std::string(version)},
-          {"notes", lines_of(notes)}};
-}
-
-io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
-  io::Attributes out{{"steps", std::int64_t{s.steps}},
-                     {"residual_calls", std::int64_t{s.residual_calls}},
-                     {"jacobian_calls", std::int64_t{s.jacobian_calls}},
-                     {"newton_iterations", std::int64_t{s.newton_iterations}},
-                     {"error_test_failures", std::int64_t{s.error_test_failures}},
-                     {"convergence_failures", std::int64_t{s.convergence_failures}},
-                     {"events", std::int64_t{s.events}},
-                     {"unknowns", std::int64_t{s.unknowns}},
-                     {"nonzeros", std::int64_t{s.nonzeros}},
-                     {"setup_time", s.setup_time},
-                     {"solver_time", s.solver_time},
-                     {"wall_time", s.wall_time},
-                     {"end_time", s.end_time},
-                     {"relative_balance_error", balance_error},
-                     {"estimated_error", s.estimated_error},
-                     {"estimated_error_of", s.estimated_error_of},
-                     {"estimated_error_time", s.estimated_error_time},
-                     {"method", scene.solver.method},
-                     {"rtol", scene.solver.rtol}};
-  if (s.verified_error >= 0.0) {
-    out["verified_error"] = s.verified_error;
-    out["verified_error_of"] = s.verified_error_of;
-    out["verified_error_time"] = s.verified_error_time;
-  }
-  return out;
 }
 
 /// The scene at a tenth of the tolerance, or at half the step.
@@ -136,13 +92,14 @@ public:
         scene.solver.step > 0.0 && allowed > 0.0)
       step_guard_ = std::make_unique<solve::StepGuard>(system_, allowed, scene.solver.end_time);
     integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
-    trust_ = std::make_unique<solve::Trust>(system_, pattern_, scene.solver);
+    trust_ = std::make_unique<solve::Trust>(system_, pattern_, scene.solver, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
     linear_limits_ = system::linear_limits(scene, system_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
-    add_impact_channels(channels);
-    row_.resize(recorder_->width() + solver_channels.size() + 2 * stops_.size());
+    const std::vector<Channel> taken = impacts_.channels();
+    channels.insert(channels.end(), taken.begin(), taken.end());
+    row_.resize(recorder_->width() + solver_channels.size() + impacts_.width());
     if (!output_path.empty())
       file_ =
           std::make_unique<io::ResultsFile>(output_path, channels, header(scene, system_.notes));
@@ -170,24 +127,6 @@ public:
   }
 
 private:
-  /// What each stop has taken so far goes behind the solver's own columns.
-  void add_impact_channels(std::vector<Channel>& channels) {
-    for (std::size_t k = 0; k < system_.switches.size(); ++k) {
-      const system::SwitchData& element = system_.switches[k];
-      if (element.kind != system::SwitchData::Kind::stop)
-        continue;
-      stops_.push_back(k);
-      const std::string head =
-          "constraints/" + system_.couplers[static_cast<std::size_t>(element.coupler)].name + "/";
-      const bool angle =
-          system_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
-      channels.push_back({head + "impulse", 1, angle ? "N m s" : "N s", "-",
-                          "Sum of the impulses of all impacts so far; group impacts has each."});
-      channels.push_back({head + "energy_lost", 1, "J", "-",
-                          "Sum of the energies that all impacts so far have taken."});
-    }
-  }
-
   /// The second run; false when it was asked to stop. Throws SolverError when it does not confirm
   /// the first.
   bool verify() {
@@ -280,8 +219,8 @@ private:
       before_events_ += integrator_->statistics();
       pattern_ = system::find_pattern(system_);
       integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
+      trust_->restart(pattern_, t_, y_, yp_);
     }
-    trust_->restart(pattern_, t_);
     if (drift_guard_)
       drift_guard_ = std::make_unique<solve::DriftGuard>(system_);
     if (pose_guard_)
@@ -368,10 +307,10 @@ private:
   }
 
   /// The tolerances follow the motion; the error that has piled up is judged against it.
-  void check_trust() {
+  void check_trust(bool event) {
     at_(t_, y_, yp_);
     motion_scale_->accept(t_, y_);
-    trust_->accept(t_, *integrator_, motion_scale_->reached(), y_, *recorder_);
+    trust_->accept(t_, *integrator_, motion_scale_->reached(), y_, event, *recorder_);
   }
 
   /// The other witnesses: fixed steps too long, constraints that drift, velocities that jump.
@@ -409,7 +348,7 @@ private:
       recorder_->accept();
       check_energy();
       check_motion();
-      check_trust();
+      check_trust(event);
       remember();
       if (file_)
         file_->flush_if_due();
@@ -433,10 +372,7 @@ private:
     std::size_t column = recorder_->width();
     row_[column++] = s.last_step;
     row_[column++] = s.last_order;
-    for (std::size_t k : stops_) {
-      row_[column++] = switching_->struck()[k].impulse;
-      row_[column++] = switching_->struck()[k].energy_lost;
-    }
+    impacts_.fill(switching_.get(), row_.data() + column);
     if (own_)
       own_->keep(t, recorder_->bodies());
     if (other_)
@@ -461,40 +397,20 @@ private:
       return;
     io::Attributes all = attributes(statistics_, scene_, recorder_->relative_balance_error());
     all["beyond_linear_theory"] = lines_of(limits);
-    write_impacts();
+    impacts_.write(switching_.get(), *file_);
     file_->close(statistics_.status, message, all);
-  }
-
-  /// One table a stop that was struck.
-  void write_impacts() {
-    for (std::size_t k : stops_) {
-      const std::vector<solve::Switching::Impact>& impacts = switching_->struck()[k].impacts;
-      if (impacts.empty())
-        continue;
-      const system::SwitchData& element = system_.switches[k];
-      std::vector<double> values;
-      for (const solve::Switching::Impact& i : impacts)
-        values.insert(values.end(), {i.time, i.impulse, i.energy_lost});
-      const bool angle =
-          system_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
-      file_->write_table(
-          "impacts/" + system_.couplers[static_cast<std::size_t>(element.coupler)].name, 3, values,
-          {{"columns", "time, impulse, energy lost"},
-           {"unit", angle ? "s, N m s, J" : "s, N s, J"},
-           {"description", "The impacts on this stop, one a row."}});
-    }
   }
 
   const model::Scene& scene_;
   const Progress& progress_;
   solve::Verification* other_;               ///< run to compare with
   std::unique_ptr<solve::Verification> own_; ///< where this run is to be verified
-  std::vector<std::size_t> stops_;           ///< switches that are stops
   Clock::time_point started_;
   model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
+  ImpactOutput impacts_{system_};
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
   solve::Statistics before_events_;             ///< of the integrators before the last event
   std::unique_ptr<system::History> history_;    ///< where loads depend on the past

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/io/case_reader.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae::tests {
@@ -63,6 +64,39 @@ inline std::string replaced(std::string text, const std::string& old, const std:
   const std::size_t at = text.find(old);
   REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
   return text.replace(at, old.size(), by);
+}
+
+/// The scene of a case's text.
+inline model::Scene read(const std::string& text, const io::Overrides& overrides = {}) {
+  return io::parse_case(text, ".", overrides, "case.toml");
+}
+
+/// A change of a case, and what must be said about it.
+struct BadInput {
+  std::string old, by, message;
+};
+
+inline model::Body bar(const std::string& name, const Vector3& center,
+                       const std::string& motion = "rigid") {
+  model::Body body;
+  body.name = name;
+  body.motion = {motion};
+  body.mass = 2.0;
+  body.center_of_gravity = center;
+  body.inertia = {0.1, 0.2, 0.15};
+  return body;
+}
+
+inline model::Joint pin(const std::string& name, const std::string& a, const std::string& b,
+                        const Vector3& point, const Vector3& axis = Vector3::UnitY()) {
+  model::Joint joint;
+  joint.name = name;
+  joint.type = "revolute";
+  joint.body_a = a;
+  joint.body_b = b;
+  joint.point = point;
+  joint.axis = axis;
+  return joint;
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

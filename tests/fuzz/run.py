@@ -35,6 +35,7 @@ SANITIZERS = {
     "ASAN_OPTIONS": "abort_on_error=0:handle_abort=1:detect_stack_use_after_return=1:"
     "max_allocation_size_mb=2000:hard_rss_limit_mb=4000",
     "UBSAN_OPTIONS": "print_stacktrace=1",
+    "LSAN_OPTIONS": f"print_suppressions=0:suppressions={ROOT / 'tests/fuzz/leaks.txt'}",
 }
 
 

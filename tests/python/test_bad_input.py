@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -376,15 +374,6 @@ def test_a_wrong_database_is_told(case, change: Callable[[h5py.File], None], exp
     with h5py.File(case.parent / "hydro.h5", "r+") as file:
         change(file)
     assert message(case).startswith(expected)
-
-
-@pytest.fixture(scope="session")
-def executable() -> str:
-    """hydrodae-solve of the installed package."""
-    folder = os.path.dirname(sys.executable)
-    path = shutil.which("hydrodae-solve", path=os.pathsep.join([folder, os.environ["PATH"]]))
-    assert path, "hydrodae-solve is not installed"
-    return path
 
 
 def solve(executable: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:

@@ -13,7 +13,7 @@ LAYERS = [
     {"model"},
     {"io", "system"},
     {"solve"},
-    {"simulation.h", "analysis.h", "examine.h"},
+    {"simulation.h", "analysis.h", "examine.h", "run_output.h"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

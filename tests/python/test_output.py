@@ -55,15 +55,6 @@ def case(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.fixture
-def solve() -> str:
-    """hydrodae-solve of the installed package."""
-    folder = os.path.dirname(sys.executable)
-    path = shutil.which("hydrodae-solve", path=os.pathsep.join([folder, os.environ["PATH"]]))
-    assert path, "hydrodae-solve is not installed"
-    return path
-
-
 def run_child(
     case: Path, output: Path, progress: str = "None", log: Path | None = None
 ) -> subprocess.Popen[str]:
@@ -114,7 +105,7 @@ def wait_for(condition: Callable[[], object]) -> None:
         ("device", "is no results file"),
     ],
 )
-def test_nothing_but_results_is_replaced(case, solve, tmp_path, capsys, way, kind, message):
+def test_nothing_but_results_is_replaced(case, executable, tmp_path, capsys, way, kind, message):
     output = tmp_path / "output.h5"
     if kind == "case":
         output = case
@@ -146,7 +137,7 @@ def test_nothing_but_results_is_replaced(case, solve, tmp_path, capsys, way, kin
         told = capsys.readouterr().err
     else:
         process = subprocess.run(
-            [solve, case, "-o", output], check=False, capture_output=True, text=True
+            [executable, case, "-o", output], check=False, capture_output=True, text=True
         )
         assert process.returncode == 2
         assert process.stdout == ""
@@ -257,7 +248,7 @@ def test_of_two_threads_that_write_one_file_the_second_is_refused(case, tmp_path
 
 @pytest.mark.parametrize("way", ["run", "cli", "solve"])
 def test_of_two_processes_the_second_is_refused_until_the_first_is_gone(
-    case, solve, tmp_path, capsys, way
+    case, executable, tmp_path, capsys, way
 ):
     output = tmp_path / "out.h5"
     first = run_child(case, output, "time.sleep(60)")
@@ -273,7 +264,7 @@ def test_of_two_processes_the_second_is_refused_until_the_first_is_gone(
         told = capsys.readouterr().err
     else:
         process = subprocess.run(
-            [solve, case, "-o", output], check=False, capture_output=True, text=True
+            [executable, case, "-o", output], check=False, capture_output=True, text=True
         )
         assert process.returncode == 2
         told = process.stderr
@@ -388,10 +379,12 @@ def limited(kilobytes: int) -> Callable[[], None]:
 
 @pytest.mark.parametrize("way", ["solve", "cli"])
 @pytest.mark.parametrize("kilobytes", [1, 60, 400, 1500, 5000])
-def test_a_full_disk_is_one_message_and_keeps_what_was_written(solve, tmp_path, way, kilobytes):
+def test_a_full_disk_is_one_message_and_keeps_what_was_written(
+    executable, tmp_path, way, kilobytes
+):
     case, output = tmp_path / "case.toml", tmp_path / "out.h5"
     case.write_text(springs(4, 100.0, 0.01))
-    command = [solve] if way == "solve" else [sys.executable, "-m", "hydrodae", "run"]
+    command = [executable] if way == "solve" else [sys.executable, "-m", "hydrodae", "run"]
     run = subprocess.run(
         [*command, case, "-o", output, "--quiet"],
         check=False,
@@ -422,8 +415,8 @@ def test_a_full_disk_is_one_message_and_keeps_what_was_written(solve, tmp_path, 
 
 
 @pytest.mark.parametrize("way", ["solve", "cli"])
-def test_standard_output_that_is_full_is_told(case, solve, tmp_path, way):
-    command = [solve] if way == "solve" else [sys.executable, "-m", "hydrodae", "run"]
+def test_standard_output_that_is_full_is_told(case, executable, tmp_path, way):
+    command = [executable] if way == "solve" else [sys.executable, "-m", "hydrodae", "run"]
     with open("/dev/full", "w") as full:
         run = subprocess.run(
             [*command, case, "-o", tmp_path / "out.h5"],

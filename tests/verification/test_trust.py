@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -141,16 +140,15 @@ end_time = 2.0
     assert stop.value.results.end_time == 2.0
 
 
-def test_both_commands_verify(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_both_commands_verify(
+    executable: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     case = tmp_path / "pendulum.toml"
     case.write_text(pendulum(1.0, 5.0).scene.text + "\n[solver]\nend_time = 5.0\n")
     assert main(["run", str(case), "--verify", "-o", str(tmp_path / "a.h5")]) == 0
     assert "verified error" in capsys.readouterr().out
-    solve = Path(sys.executable).with_name("hydrodae-solve")
-    if not solve.exists():
-        pytest.skip(f"no {solve}")
     done = subprocess.run(
-        [solve, case, "--verify", "-o", tmp_path / "b.h5"],
+        [executable, case, "--verify", "-o", tmp_path / "b.h5"],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert ", verified " in done.stdout

@@ -43,10 +43,10 @@ std::string number_text(double value) {
   return text;
 }
 
-std::string rounded_text(double value) {
+std::string rounded_text(double value, int digits) {
   if (value == 0.0 || !std::isfinite(value))
     return number_text(value);
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - digits);
   return number_text(std::round(value / unit) * unit);
 }
 

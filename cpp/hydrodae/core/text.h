@@ -23,8 +23,8 @@ template <class Range> std::string joined(const Range& items, std::string_view s
 /// Shortest decimal form of a number that is enough for a message: 9.81, 1e-06.
 std::string number_text(double value);
 
-/// The same to two digits, for what is an estimate.
-std::string rounded_text(double value);
+/// The same to so many digits; two for what is an estimate.
+std::string rounded_text(double value, int digits = 2);
 
 /// The name in `names` nearest to `wanted` by edit distance, or "" if none is near.
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names);

@@ -56,16 +56,16 @@ void write_vector(hid_t object, const std::string& name, const Vector3& value,
   checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, value.data()), what);
 }
 
-/// A dataset that grows by rows.
-struct Column {
-  Handle dataset;
-  std::size_t offset = 0; ///< of its first value in a row of the buffer
-  std::size_t width = 1;
-};
-
 } // namespace
 
 struct ResultsFile::Impl {
+  /// A dataset that grows by rows.
+  struct Column {
+    Handle dataset;
+    std::size_t offset = 0; ///< of its first value in a row of the buffer
+    std::size_t width = 1;
+  };
+
   OutputPlace place;
   OrderedFile disk;
   Handle file;

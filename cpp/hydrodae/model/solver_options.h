@@ -82,7 +82,8 @@ struct SolverOptions {
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
          "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
-         "there.",
+         "there. Mechanisms that drives guide altogether may miss ten times as much, since their "
+         "reactions take and give it.",
          false, at_least(0, 1e6)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "
@@ -90,7 +91,9 @@ struct SolverOptions {
          "strikes: at a singular pose the motion left its branch."},
         {"error_guard", &O::error_guard, "-",
          "A run ends as failed when the errors of its steps, carried along by the linearised "
-         "equations, add up to more than this part of the motion; 0: no guard.",
+         "equations, and the energy that they miss may put the motion off by more than this part "
+         "of "
+         "it: when twice their estimate is more, with fixed steps three times; 0: no guard.",
          false, at_least(0)},
         {"step_guard", &O::step_guard, "-",
          "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "

@@ -10,6 +10,7 @@
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/solve/stage_newton.h"
 #include "hydrodae/solve/step_error.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
 
@@ -275,17 +276,13 @@ double Collocation::error(double h, bool refine) {
 /// The rows that drives move, and those that pass their motion on.
 void Collocation::find_driven() {
   const auto group_of = [&](const system::JointData& j) {
-    for (int body : {j.B.body, j.A.body})
-      if (const int g = body < 0 ? -1 : s_.bodies[static_cast<std::size_t>(body)].group; g >= 0)
-        return g;
-    return -1;
+    const system::BodyData* body = system::moving_body(s_, j);
+    return body ? body->group : -1;
   };
   const bool stabilised = s_.formulation == system::Formulation::stabilised;
   std::vector<bool> driven(static_cast<std::size_t>(s_.n_groups));
   for (const system::CouplerData& c : s_.couplers) {
-    const system::JointData& j = s_.joints[static_cast<std::size_t>(
-        s_.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)];
-    if (const int g = group_of(j);
+    if (const int g = group_of(system::joint_of(s_, c));
         c.kept() && (c.velocity_level || c.drive.moves() || c.drive.rate != 0.0) && g >= 0) {
       driven[static_cast<std::size_t>(g)] = true;
       driven_.emplace_back(stabilised && !c.velocity_level ? c.mu : c.lambda, g);

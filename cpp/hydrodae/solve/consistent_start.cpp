@@ -14,7 +14,7 @@ namespace {
 using system::System;
 
 constexpr double closed = 1e-6; ///< gaps above this part of their scale are refused
-constexpr double balanced = 1e-8;
+constexpr double start_balanced = 1e-8;
 
 /// Is axis `axis` of both markers held parallel? Two rows keep the other axes of A perpendicular to
 /// it, or three rows tie all axes.
@@ -77,7 +77,7 @@ void consistent_start(const System& s, const system::Pattern& pattern, VectorX& 
   check_constraints(s, y, r);
   Equations equations(s, pattern, 1.0);
   SaddlePoint saddle(equations);
-  if (!saddle.accelerations(0.0, y, yp) || saddle.mismatch() > balanced)
+  if (!saddle.accelerations(0.0, y, yp) || saddle.mismatch() > start_balanced)
     throw SolverError(0.0, "no accelerations satisfy the constraints at the start: they contradict "
                            "each other, or a body that moves has no mass");
 }

@@ -12,13 +12,14 @@ constexpr double doubtful = 0.05;
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern, double t,
-                         Error error, int every)
-    : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(VectorX::Zero(s.n)),
-      yp_(VectorX::Zero(s.n)), growth_(VectorX::Ones(s.n_groups)), fade_(growth_),
-      change_(VectorX::Zero(s.n_groups)), largest_change_(change_), row_size_(s.n), since_(t),
-      fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
+                         const VectorX& y, const VectorX& yp, Error error, int every)
+    : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(y), yp_(yp),
+      growth_(VectorX::Ones(s.n_groups)), fade_(growth_), change_(VectorX::Zero(s.n_groups)),
+      row_size_(s.n), since_(t), fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
+  linearise(t);
   if (error_.vector.size() > 0)
     return;
+  error_.change = VectorX::Zero(s.n_groups);
   error_.vector = error_.fresh = VectorX::Zero(s.lambda0);
   error_.piled = error_.plain = error_.excess = VectorX::Zero(s.n_groups);
   error_.level = VectorX::Ones(s.n_groups);
@@ -34,10 +35,18 @@ VectorX ErrorGrowth::sizes(const VectorX& vector, const VectorX& unit) const {
   return out.cwiseSqrt();
 }
 
+/// The derivatives at a look, for the next.
+void ErrorGrowth::linearise(double t) {
+  e_.accept(t, y_, yp_);
+  e_.jacobian(t, y_, yp_);
+  by_y_ = e_.parts.by_y;
+  by_rate_ = e_.parts.by_yp;
+}
+
 bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
-                      const Interpolant& at) {
+                      bool last, const Interpolant& at) {
   error_.fresh += step_error;
-  if (++steps_ < every_)
+  if (++steps_ < every_ && !last)
     return false;
   steps_ = 0;
   growth_.setOnes();
@@ -86,8 +95,6 @@ void ErrorGrowth::follow(Index g, double phase) {
 /// Of the entries of each row of q and u, relative to the largest of them. Between looks that are
 /// too far apart errors would seem to grow that do not.
 void ErrorGrowth::find_change() {
-  if (by_y_.empty())
-    return;
   constexpr double much = 0.25, little = 0.05;
   const system::Pattern& p = e_.pattern;
   change_.setZero();
@@ -106,7 +113,7 @@ void ErrorGrowth::find_change() {
     if (difference > change_[group] * row_size_[row])
       change_[group] = difference / row_size_[row];
   });
-  largest_change_ = largest_change_.cwiseMax(change_);
+  error_.change = error_.change.cwiseMax(change_);
   const double most = change_.size() > 0 ? change_.maxCoeff() : 0.0;
   if (most > much)
     every_ = std::max(fewest_, every_ / 2);
@@ -132,10 +139,9 @@ bool ErrorGrowth::carry(double t, VectorX& vector) {
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
       const Index row = p.row[k];
       const bool moves = row < s_.z0, half = moves && c < s_.lambda0;
-      const bool mean = moves && !by_y_.empty();
-      const double by_y = mean ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
+      const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
                    by_rate =
-                       (mean ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
+                       (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
       values[k] = (half ? 0.5 * by_y : by_y) + by_rate;
       if (row < s_.lambda0 && c < s_.lambda0)
         rhs_[row] += (by_rate - (half ? 0.5 * by_y : 0.0)) * vector[c];

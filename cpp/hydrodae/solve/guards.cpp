@@ -7,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/step_error.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::solve {
@@ -23,10 +24,8 @@ constexpr double window = 3e-3;      ///< of the shortest time scale of a body
 std::vector<int> row_mechanisms(const system::System& s) {
   std::vector<int> out(static_cast<std::size_t>(s.n_lambda));
   const auto take = [&](const system::JointData& j, Index lambda) {
-    for (int body : {j.A.body, j.B.body})
-      if (body >= 0 && s.bodies[static_cast<std::size_t>(body)].mechanism >= 0)
-        out[static_cast<std::size_t>(lambda - s.lambda0)] =
-            s.bodies[static_cast<std::size_t>(body)].mechanism;
+    if (const system::BodyData* body = system::moving_body(s, j))
+      out[static_cast<std::size_t>(lambda - s.lambda0)] = body->mechanism;
   };
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
@@ -34,9 +33,7 @@ std::vector<int> row_mechanisms(const system::System& s) {
         take(j, row.lambda);
   for (const system::CouplerData& c : s.couplers)
     if (c.kept())
-      take(s.joints[static_cast<std::size_t>(
-               s.motions[static_cast<std::size_t>(c.terms.front().motion)].joint)],
-           c.lambda);
+      take(system::joint_of(s, c), c.lambda);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/jacobian.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
 
@@ -147,13 +148,8 @@ Switching::Motion Switching::motion(const Data& element) const {
 
 /// Part of the full scales that the motion of its bodies takes.
 double Switching::motion_scale(const Data& element) const {
-  const system::JointData& j = s_.joints[static_cast<std::size_t>(
-      s_.motions[static_cast<std::size_t>(element.motion)].joint)];
-  double scale = 1.0;
-  for (int body : {j.A.body, j.B.body})
-    if (body >= 0 && s_.bodies[static_cast<std::size_t>(body)].group >= 0)
-      scale = std::min(scale, s_.motion_scale[s_.bodies[static_cast<std::size_t>(body)].group]);
-  return scale;
+  const system::BodyData* body = system::moving_body(s_, system::joint_of(s_, element.motion));
+  return body ? s_.motion_scale[body->group] : 1.0;
 }
 
 /// Load of a row that holds on its coordinate [N or N m].

@@ -36,7 +36,7 @@ constexpr double out_of_step = 0.5;
 } // namespace
 
 Trust::Trust(const system::System& s, const system::Pattern& pattern,
-             const model::SolverOptions& options)
+             const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
     : s_(s), every_(steps_between_looks(options.method)), doubt_(options.step > 0.0 ? 3.0 : 2.0),
       allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
       fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
@@ -46,7 +46,7 @@ Trust::Trust(const system::System& s, const system::Pattern& pattern,
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
   find_guided();
-  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, ErrorGrowth::Error(), every_);
+  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(), every_);
 }
 
 /// Motion of a group, no less than what its tolerance is made for [levers or rad].
@@ -94,13 +94,13 @@ void Trust::measure(const VectorX& y, const VectorX& reached) {
 }
 
 void Trust::accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
-                   const system::Recorder& recorder) {
+                   bool event, const system::Recorder& recorder) {
   const auto at = [&](double time, VectorX& out, VectorX& rates) {
     integrator.interpolate(time, out, rates);
   };
   measure(y, reached);
   take_inner(t, integrator.inner_error());
-  if (growth_->add(t, integrator.step_error(), unit_, rates_, at))
+  if (growth_->add(t, integrator.step_error(), unit_, rates_, event, at))
     look(t, reached, recorder);
 }
 
@@ -209,10 +209,10 @@ void Trust::find_guided() {
     energies_[m].guided = guided[m];
 }
 
-void Trust::restart(const system::Pattern& pattern, double t) {
+void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp) {
   find_guided();
   ErrorGrowth::Error error = growth_->error();
-  growth_ = std::make_unique<ErrorGrowth>(s_, pattern, t, std::move(error), every_);
+  growth_ = std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), every_);
 }
 
 Trust::Estimate Trust::estimate(const VectorX& reached) const {

@@ -19,18 +19,20 @@ namespace hydrodae::solve {
 
 class Trust {
 public:
+  /// @param y, yp state at the start
   Trust(const system::System& system, const system::Pattern& pattern,
-        const model::SolverOptions& options);
+        const model::SolverOptions& options, const VectorX& y, const VectorX& yp);
 
   /// Adds the last step of the integrator, which ends at t. Throws SolverError when the error may
   /// be above `error_guard` of the motion.
   /// @param reached size of the motion so far, by group (system::MotionScale)
+  /// @param event rows of the system come or go at t; `restart` follows
   /// @param recorder its energies at t
   void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
-              const system::Recorder& recorder);
+              bool event, const system::Recorder& recorder);
 
-  /// Rows of the system came or went at t: the error is carried on by the equations from there.
-  void restart(const system::Pattern& pattern, double t);
+  /// From t on other rows hold: the error is carried on by them, from the state (y, yp).
+  void restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
   /// Largest error of a group of bodies over the run, relative to its motion [-], no less than what
   /// the tolerance leaves inside each step; the body that is off most.

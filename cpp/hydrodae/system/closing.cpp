@@ -9,7 +9,8 @@ namespace {
 
 constexpr double closed = 1e-12; ///< gaps, in units of their scale, that count as none
 constexpr double damping = 1e-4; ///< of singular values of rows of length one, squared
-constexpr double longest = 3.0;  ///< largest step: three scales are 0.3 levers, keeps to the branch
+constexpr double longest_way =
+    3.0; ///< largest step: three scales are 0.3 levers, keeps to the branch
 constexpr double parallel = 0.03; ///< part of a gap that motions close, where it cannot be closed
 constexpr double nearby = 0.3;    ///< way, in scales, that closes a gap without leaving the pose
 
@@ -42,9 +43,9 @@ double close_positions(const System& s, Constraints& constraints, VectorX& y, do
     VectorX step = smallest_solution(
         constraints.gradient([&](Index i) { return constraints.holds_position(i); }), -gaps);
     const double largest = step.cwiseAbs().maxCoeff();
-    if (largest > longest)
-      step *= longest / largest;
-    way += std::min(largest, longest);
+    if (largest > longest_way)
+      step *= longest_way / largest;
+    way += std::min(largest, longest_way);
     if (moved && way > *moved)
       break;
     retract(s, step.cwiseProduct(constraints.scale()), y);
@@ -68,9 +69,9 @@ void approach(const System& s, Constraints& constraints, VectorX& y, double* mov
     const double largest = step.cwiseAbs().maxCoeff();
     if (!(largest > 1e-6 * size))
       break; // nothing moves any more
-    if (largest > longest)
-      step *= longest / largest;
-    gone += std::min(largest, longest);
+    if (largest > longest_way)
+      step *= longest_way / largest;
+    gone += std::min(largest, longest_way);
     retract(s, step.cwiseProduct(constraints.scale()), y);
   }
   if (moved)

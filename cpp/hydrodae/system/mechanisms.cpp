@@ -45,11 +45,22 @@ private:
   std::vector<int> root_;
 };
 
+} // namespace
+
 const JointData& joint_of(const System& s, int motion) {
   return s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)];
 }
 
-} // namespace
+const JointData& joint_of(const System& s, const CouplerData& coupler) {
+  return joint_of(s, coupler.terms.front().motion);
+}
+
+const BodyData* moving_body(const System& s, const JointData& j) {
+  for (int body : {j.B.body, j.A.body})
+    if (body >= 0 && s.bodies[static_cast<std::size_t>(body)].n_active > 0)
+      return &s.bodies[static_cast<std::size_t>(body)];
+  return nullptr;
+}
 
 void find_mechanisms(System& s) {
   Sets sets(s);
@@ -107,20 +118,17 @@ std::vector<bool> guided_mechanisms(const System& s) {
   for (const BodyData& b : s.bodies)
     if (b.mechanism >= 0)
       left[static_cast<std::size_t>(b.mechanism)] += b.n_active;
-  const auto take = [&](const joint::Marker& A, const joint::Marker& B) {
-    for (int body : {A.body, B.body})
-      if (const int m = body < 0 ? -1 : s.bodies[static_cast<std::size_t>(body)].mechanism; m >= 0)
-        return void(--left[static_cast<std::size_t>(m)]);
+  const auto take = [&](const JointData& j) {
+    if (const BodyData* body = moving_body(s, j))
+      --left[static_cast<std::size_t>(body->mechanism)];
   };
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
       if (row.kept())
-        take(j.A, j.B);
+        take(j);
   for (const CouplerData& c : s.couplers)
-    if (c.kept()) {
-      const JointData& j = joint_of(s, c.terms.front().motion);
-      take(j.A, j.B);
-    }
+    if (c.kept())
+      take(joint_of(s, c));
   std::vector<bool> out;
   for (Index free : left)
     out.push_back(free <= 0);

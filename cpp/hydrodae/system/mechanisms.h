@@ -11,6 +11,13 @@ namespace hydrodae::system {
 /// Bodies that cannot move, and the ground, join nothing.
 void find_mechanisms(System& system);
 
+/// The joint that a coordinate measures, and that a coupler acts on (its first, if several).
+const JointData& joint_of(const System& system, int motion);
+const JointData& joint_of(const System& system, const CouplerData& coupler);
+
+/// Of the bodies that a joint joins one that moves, the second if both do; null if neither.
+const BodyData* moving_body(const System& system, const JointData& joint);
+
 /// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its
 /// own?
 std::vector<bool> guided_mechanisms(const System& system);

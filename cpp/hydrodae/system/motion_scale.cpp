@@ -11,8 +11,9 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double full = 0.1;     ///< motion [levers] from which on the full scales hold
-constexpr double rounding = 1e3; ///< epsilons of a position that a step's error may not be below
+constexpr double full = 0.1; ///< motion [levers] from which on the full scales hold
+constexpr double rounding_error =
+    1e3;                         ///< epsilons of a position that a step's error may not be below
 constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
 constexpr double slack = 1.5;    ///< of a change that is worth new scales
 
@@ -41,8 +42,8 @@ MotionScale::MotionScale(System& s, const Pattern& pattern, const VectorX& y, co
     if (b.group >= 0) {
       constexpr double epsilon = std::numeric_limits<double>::epsilon();
       const double place = b.position.cwiseAbs().maxCoeff() / b.lever + 1.0;
-      least_[b.group] =
-          std::max(least_[b.group], std::min(1.0, rounding * epsilon * place / (full * rtol)));
+      least_[b.group] = std::max(least_[b.group],
+                                 std::min(1.0, rounding_error * epsilon * place / (full * rtol)));
       hold_[b.group] = std::max(hold_[b.group], settled * b.time_scale);
     }
   expect_start(pattern, y, yp);

@@ -15,16 +15,10 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double rounding = 1e-9;   ///< pivots below are those of rows that follow from others
+constexpr double dependent = 1e-9;  ///< pivots below are those of rows that follow from others
 constexpr double suspicious = 0.03; ///< pivots above are those of independent rows
 constexpr double apart = 0.1;       ///< of the pivot before: below, a suspicious one stands out
 constexpr int drive_samples = 64;
-
-std::string rounded(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", x);
-  return text;
-}
 
 /// Rows and bodies scaled so that no body's size decides: the largest entry of each row, and of the
 /// columns of each body together, is about one. (A factor for each column would hide what a body
@@ -165,8 +159,9 @@ std::string partners(const Constraints& constraints, const SparseMatrix& G,
 
 /// "0.0001 m" or "0.006 deg" for a pivot.
 std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
-  return constraints.is_angle(row.row) ? rounded(row.pivot * 180.0 / pi) + " deg"
-                                       : rounded(row.pivot * constraints.lever(row.row)) + " m";
+  return constraints.is_angle(row.row)
+             ? rounded_text(row.pivot * 180.0 / pi) + " deg"
+             : rounded_text(row.pivot * constraints.lever(row.row)) + " m";
 }
 
 [[noreturn]] void refuse_misaligned(const Constraints& constraints, const SparseMatrix& G,
@@ -176,10 +171,10 @@ std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
       key,
       "joints are inconsistent: " + name + " is out of line with " +
           partners(constraints, G, kept, row.row) + " by about " + misfit_text(constraints, row) +
-          " (" + rounded(row.pivot) + " of the body's lever, in " + constraints.name(row.row) +
+          " (" + rounded_text(row.pivot) + " of the body's lever, in " + constraints.name(row.row) +
           "). This locks a motion that exact joints leave free. Give points and axes with more "
           "digits; or let the row give way, with solver.tolerance_assembly = " +
-          rounded(2.0 * row.pivot) +
+          rounded_text(2.0 * row.pivot) +
           "; or make one of the joints one that holds less, or a "
           "spring_damper; solver.force = true holds all rows as they are");
 }
@@ -272,8 +267,8 @@ void check_drives(const System& s, const Constraints& constraints, const Selecti
       if (others.empty() && own && own->drive.python)
         refuse("");
       if (std::abs(rate) > 1e-6 * size)
-        refuse(": at t = " + rounded(t) + " s their rates differ by " +
-               rounded(std::abs(rate) * constraints.size(row)) +
+        refuse(": at t = " + rounded_text(t) + " s their rates differ by " +
+               rounded_text(std::abs(rate) * constraints.size(row)) +
                (constraints.is_angle(row) ? " rad/s" : " m/s"));
     }
   }
@@ -309,7 +304,7 @@ bool drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
     rest[static_cast<std::size_t>(i)] = true;
   for (std::size_t i = 0; i < all.size(); ++i)
     rest[i] = rest[i] || !resting[i];
-  const Selection moved = resting == all ? held : select(s, rest, poses, rounding);
+  const Selection moved = resting == all ? held : select(s, rest, poses, dependent);
   check_drives(s, constraints, moved, fit);
   if (moved.kept.size() > moved.at_start)
     s.notes.push_back(
@@ -321,7 +316,7 @@ bool drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
   std::vector<std::string> loose;
   for (const RankedRow& row : held.dropped) {
     const std::string key = constraints.key(row.row);
-    if (row.pivot > rounding && told.insert(key).second)
+    if (row.pivot > dependent && told.insert(key).second)
       loose.push_back(
           key.substr(0, key.find('.')) + " " + in_quotes(key.substr(key.find('.') + 1)) +
           " is out of line with " + partners(constraints, held.G, held.kept, row.row) +

@@ -10,6 +10,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
@@ -17,13 +18,6 @@ namespace hydrodae::system {
 namespace {
 
 constexpr double far = 3.0, very_far = 10.0; ///< distance of a joint, in sizes of the body
-
-std::string rounded(double value) {
-  if (value == 0.0)
-    return "0";
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
-  return number_text(std::round(value / unit) * unit);
-}
 
 /// Largest radius of gyration about the axes that a body turns about; about all if it does not [m].
 double gyration(const BodyData& b) {
@@ -78,10 +72,10 @@ void judge_joints(const model::Scene& scene, const System& s, std::vector<Findin
       const double size = size_of(scene, s, body), away = distance(j, *marker);
       if (size > 0.0 && away > far * size)
         out.push_back({scene.bodies[body].hydro && away > very_far * size,
-                       "joint " + in_quotes(j.name) + " is " + rounded(away) +
+                       "joint " + in_quotes(j.name) + " is " + rounded_text(away, 3) +
                            " m from the centre of gravity of body " +
-                           in_quotes(s.bodies[body].name) + ", " + rounded(away / size) +
-                           " times the size of that body (" + rounded(size) +
+                           in_quotes(s.bodies[body].name) + ", " + rounded_text(away / size, 3) +
+                           " times the size of that body (" + rounded_text(size, 3) +
                            " m); points are in world axes, in the reference pose"});
     }
   }
@@ -91,8 +85,8 @@ void judge_depth(const model::Scene& scene, std::vector<Finding>& out) {
   const double depth = model::water(scene).depth;
   const auto judge = [&](const std::string& what, double z) {
     if (z < -depth)
-      out.push_back({true, what + " is at z = " + rounded(z) + " m, below the sea bed at " +
-                               rounded(-depth) + " m"});
+      out.push_back({true, what + " is at z = " + rounded_text(z, 3) + " m, below the sea bed at " +
+                               rounded_text(-depth, 3) + " m"});
   };
   if (!std::isfinite(depth))
     return;
@@ -106,8 +100,7 @@ void judge_depth(const model::Scene& scene, std::vector<Finding>& out) {
 /// Rate of a motion at velocities u (n_u,), and the largest that velocities of that size can give.
 std::pair<double, double> motion_rate(const System& s, const Workspace<double>& ws, int motion,
                                       const VectorX& u) {
-  const JointData& j =
-      s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)];
+  const JointData& j = joint_of(s, motion);
   const joint::Vector12 gradient = motion_row<double>(s, ws, motion).gradient;
   double rate = 0.0, most = 0.0;
   for (int side = 0; side < 2; ++side) {
@@ -207,9 +200,9 @@ void judge_stops(const model::Scene& scene, const System& s, std::vector<Finding
     const double slack = 1e-6 * std::max(1.0, std::abs(value));
     if (value < element.lower - slack || value > element.upper + slack)
       out.push_back({true, "the start is beyond stop " + in_quotes(name) + ": " +
-                               rounded(value * unit) + (unit > 1.0 ? " deg" : " m") +
-                               " is not within " + rounded(element.lower * unit) + " and " +
-                               rounded(element.upper * unit) + "; a run refuses it"});
+                               rounded_text(value * unit, 3) + (unit > 1.0 ? " deg" : " m") +
+                               " is not within " + rounded_text(element.lower * unit, 3) + " and " +
+                               rounded_text(element.upper * unit, 3) + "; a run refuses it"});
   }
 }
 

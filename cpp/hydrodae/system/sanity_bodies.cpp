@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 #include "hydrodae/system/sanity.h"
 
@@ -23,19 +24,12 @@ std::string percent(double part) {
   return (value > 0.0 ? "+" : "") + number_text(std::round(value * 100.0) / 100.0) + " %";
 }
 
-std::string rounded(double value) {
-  if (value == 0.0)
-    return "0";
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
-  return number_text(std::round(value / unit) * unit);
-}
-
 /// "2.568 kN"
 std::string force_text(double newtons) {
   const double size = std::abs(newtons);
-  return size >= 1e6   ? rounded(newtons / 1e6) + " MN"
-         : size >= 1e3 ? rounded(newtons / 1e3) + " kN"
-                       : rounded(newtons) + " N";
+  return size >= 1e6   ? rounded_text(newtons / 1e6, 4) + " MN"
+         : size >= 1e3 ? rounded_text(newtons / 1e3, 4) + " kN"
+                       : rounded_text(newtons, 4) + " N";
 }
 
 /// Does a row of a joint, or a motion, feel a body that moves up alone?
@@ -61,8 +55,7 @@ std::vector<Link> vertical_links(const System& s, const Workspace<double>& ws) {
       add(j, joint::basic_row<double>(row, j.A, j.B, j.parameters, g).gradient);
   }
   const auto add_motion = [&](int motion) {
-    add(s.joints[static_cast<std::size_t>(s.motions[static_cast<std::size_t>(motion)].joint)],
-        motion_row<double>(s, ws, motion).gradient);
+    add(joint_of(s, motion), motion_row<double>(s, ws, motion).gradient);
   };
   for (std::size_t k = 0; k < s.couplers.size(); ++k) {
     const auto stop =
@@ -114,7 +107,7 @@ void judge_balance(const System& s, const FloatingGroup& group, std::vector<Find
            : "";
   if (group.held) {
     if (ratio < lightest || ratio > heaviest)
-      out.push_back({true, describe(s, group) + "; the weight is " + rounded(ratio) +
+      out.push_back({true, describe(s, group) + "; the weight is " + rounded_text(ratio, 4) +
                                " of the buoyancy" + unit});
     return;
   }
@@ -124,8 +117,8 @@ void judge_balance(const System& s, const FloatingGroup& group, std::vector<Find
   std::string text = describe(s, group) + "; the balance is " + percent(part) + ", ";
   const double up = group.buoyancy + group.load - group.weight;
   if (group.stiffness > 0.0)
-    text += "so it rests " + rounded(std::abs(up) / (group.stiffness + group.mooring)) + " m " +
-            (up > 0.0 ? "above" : "below") + " the pose of the database";
+    text += "so it rests " + rounded_text(std::abs(up) / (group.stiffness + group.mooring), 4) +
+            " m " + (up > 0.0 ? "above" : "below") + " the pose of the database";
   else
     text += std::string("and nothing restores its heave: it ") + (up > 0.0 ? "rises" : "sinks");
   out.push_back({std::abs(part) > (group.stiffness > 0.0 ? too_much : 1e-3), text + unit});
@@ -144,20 +137,22 @@ void judge_bodies(const model::Scene& scene, const System& s, const FloatingGrou
       continue;
     const double ratio = b.mass / displaced;
     if (group.bodies.size() > 1 && b.mass > 0.0 && (ratio < 1.0 / unit_slip || ratio > unit_slip))
-      out.push_back({true, "body " + in_quotes(b.name) + ": mass " + rounded(b.mass) + " kg is " +
-                               rounded(ratio) + " of the " + rounded(displaced) +
+      out.push_back({true, "body " + in_quotes(b.name) + ": mass " + rounded_text(b.mass, 4) +
+                               " kg is " + rounded_text(ratio, 4) + " of the " +
+                               rounded_text(displaced, 4) +
                                " kg of water that it displaces; is it in kg?"});
     const double size = std::cbrt(wet->hydrostatics->displaced_volume);
     for (int k = b.n_translations; k < b.n_active && b.mass > 0.0; ++k) {
       const int axis = b.active[static_cast<std::size_t>(k)] - 3;
       const double radius = std::sqrt(b.inertia(axis, axis) / b.mass);
       if (radius < thinnest * size || radius > widest * size)
-        out.push_back(
-            {true, "body " + in_quotes(b.name) + ": inertia " + rounded(b.inertia(axis, axis)) +
-                       " kg m2 about " + "xyz"[axis] + " and mass " + rounded(b.mass) +
-                       " kg give a radius of gyration of " + rounded(radius) +
-                       " m for a body that displaces " +
-                       rounded(wet->hydrostatics->displaced_volume) + " m3; are both in kg?"});
+        out.push_back({true, "body " + in_quotes(b.name) + ": inertia " +
+                                 rounded_text(b.inertia(axis, axis), 4) + " kg m2 about " +
+                                 "xyz"[axis] + " and mass " + rounded_text(b.mass, 4) +
+                                 " kg give a radius of gyration of " + rounded_text(radius, 4) +
+                                 " m for a body that displaces " +
+                                 rounded_text(wet->hydrostatics->displaced_volume, 4) +
+                                 " m3; are both in kg?"});
     }
   }
 }
@@ -181,10 +176,11 @@ void judge_stability(const System& s, const FloatingGroup& group, std::vector<Fi
   for (int k = b.n_translations; k < b.n_active; ++k) {
     const int c = b.active[static_cast<std::size_t>(k)];
     if (c < 5 && K(c, c) < 0.0)
-      out.push_back({true, "body " + in_quotes(b.name) + " capsizes: its " +
-                               (c == 3 ? "roll" : "pitch") + " stiffness is " + rounded(K(c, c)) +
-                               " N m about the centre of gravity at z = " +
-                               rounded(b.reference[2]) + " m; is that too high?"});
+      out.push_back(
+          {true, "body " + in_quotes(b.name) + " capsizes: its " + (c == 3 ? "roll" : "pitch") +
+                     " stiffness is " + rounded_text(K(c, c), 4) +
+                     " N m about the centre of gravity at z = " + rounded_text(b.reference[2], 4) +
+                     " m; is that too high?"});
   }
 }
 

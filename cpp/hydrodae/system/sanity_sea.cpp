@@ -25,23 +25,20 @@ constexpr double breaking = 0.142;
 constexpr double breaking_over_depth = 0.6; ///< of a significant height
 constexpr double linear = 0.05; ///< height over length above which linear theory is stretched
 
-std::string rounded(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  return number_text(std::round(value / unit) * unit);
-}
-
 void judge_regular(const sea::Wave& wave, const model::Water& water, std::vector<Finding>& out) {
   const double H = *wave.height,
                k = sea::wavenumber(2.0 * pi / *wave.period, water.depth, water.gravity);
   const double length = 2.0 * pi / k, limit = breaking * std::tanh(k * water.depth);
   if (!(H > linear * length))
     return;
-  const std::string text = "wave " + in_quotes(wave.name) + ": height " + rounded(H) + " m is " +
-                           rounded(H / length) + " of its length of " + rounded(length) + " m; ";
+  const std::string text = "wave " + in_quotes(wave.name) + ": height " + rounded_text(H, 3) +
+                           " m is " + rounded_text(H / length, 3) + " of its length of " +
+                           rounded_text(length, 3) + " m; ";
   if (H > limit * length)
-    out.push_back({true, text + "waves break at " + rounded(limit)});
+    out.push_back({true, text + "waves break at " + rounded_text(limit, 3)});
   else
-    out.push_back({false, text + "linear theory is meant for less than " + rounded(linear)});
+    out.push_back(
+        {false, text + "linear theory is meant for less than " + rounded_text(linear, 3)});
 }
 
 /// Significant height and peak period of a spectrum [m], [s].
@@ -68,10 +65,10 @@ double judge_irregular(const sea::Wave& wave, const model::Water& water,
   const double steepness = height / (water.gravity * period * period / (2.0 * pi));
   if (steepness > steepest_sea(period))
     out.push_back({true, "wave " + in_quotes(wave.name) + ": significant height " +
-                             rounded(height) + " m at a peak period of " + rounded(period) +
-                             " s is a steepness of " + rounded(steepness) +
-                             "; seas of that period reach " + rounded(steepest_sea(period)) +
-                             " (DNV-RP-C205)"});
+                             rounded_text(height, 3) + " m at a peak period of " +
+                             rounded_text(period, 3) + " s is a steepness of " +
+                             rounded_text(steepness, 3) + "; seas of that period reach " +
+                             rounded_text(steepest_sea(period), 3) + " (DNV-RP-C205)"});
   return height;
 }
 
@@ -100,9 +97,10 @@ std::vector<Finding> look_at_sea(const model::Scene& scene) {
     squares += height * height;
   }
   if (std::sqrt(squares) > breaking_over_depth * water.depth)
-    out.push_back({true, "the significant height of the sea, " + rounded(std::sqrt(squares)) +
-                             " m, is more than " + rounded(breaking_over_depth) +
-                             " of the depth of " + rounded(water.depth) + " m: the waves break"});
+    out.push_back({true, "the significant height of the sea, " +
+                             rounded_text(std::sqrt(squares), 3) + " m, is more than " +
+                             rounded_text(breaking_over_depth, 3) + " of the depth of " +
+                             rounded_text(water.depth, 3) + " m: the waves break"});
   return out;
 }
 

@@ -77,18 +77,10 @@ moment = [0.0, 3.0, 0.0]
 end_time = 10.0
 )";
 
-model::Scene read(const std::string& text, const io::Overrides& overrides = {}) {
-  return io::parse_case(text, ".", overrides, "case.toml");
-}
-
 std::string message(const std::string& old, const std::string& by) {
   return message_of([&] { read(replaced(crank_case, old, by)); });
 }
 
-/// A change of the case, and what must be said about it.
-struct BadInput {
-  std::string old, by, message;
-};
 const std::vector<BadInput> bad_inputs = {
     {"amplitude = 0.1", "amplitud = 0.1",
      "case.toml:38:1: unknown key 'amplitud' in drive of [[constraint]] 'crank'; did you mean "

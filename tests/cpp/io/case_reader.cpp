@@ -9,18 +9,9 @@ using namespace hydrodae::tests;
 
 namespace {
 
-model::Scene read(const std::string& text, const io::Overrides& overrides = {}) {
-  return io::parse_case(text, ".", overrides, "case.toml");
-}
-
 template <class T> const std::vector<T>& forces(const model::Scene& scene) {
   return std::get<std::vector<T>>(scene.forces);
 }
-
-/// The flap case with one change, and what must be said about it.
-struct BadInput {
-  std::string old, by, message;
-};
 
 void check_messages(const std::vector<BadInput>& table) {
   for (const BadInput& bad : table) {

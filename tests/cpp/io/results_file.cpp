@@ -13,7 +13,7 @@ using io::hdf5::Handle;
 
 namespace {
 
-const std::vector<Channel> channels = {
+const std::vector<Channel> some_channels = {
     {"bodies/b/position", 3, "m", "world", "Centre of gravity."},
     {"energy/total", 1, "J", "-", "Energy."},
 };
@@ -43,7 +43,7 @@ TEST_CASE("results come back as they were written") {
   const TemporaryFolder folder;
   const std::string path = folder / "results.h5";
   {
-    io::ResultsFile file(path, channels, {{"title", std::string("Flügel")}, {"rows", 1300L}});
+    io::ResultsFile file(path, some_channels, {{"title", std::string("Flügel")}, {"rows", 1300L}});
     append_rows(file, 0, 1300);
     file.close("completed", "", {{"steps", 42L}, {"wall_time", 0.5}});
   }
@@ -75,7 +75,7 @@ TEST_CASE("an unfinished file keeps what was flushed") {
   const std::string path = folder / "results.h5", partial = folder / "results.partial.h5",
                     copy = folder / "copy.h5";
   {
-    io::ResultsFile file(path, channels, {});
+    io::ResultsFile file(path, some_channels, {});
     append_rows(file, 0, 1100);
     std::filesystem::copy_file(partial, copy); // what a killed process leaves
   }
@@ -94,7 +94,7 @@ TEST_CASE("an unfinished file keeps what was flushed") {
 TEST_CASE("a file that cannot be written is told") {
   const TemporaryFolder folder;
   const std::string path = folder / "none/results.h5";
-  const std::string message = message_of([&] { io::ResultsFile file(path, channels, {}); });
+  const std::string message = message_of([&] { io::ResultsFile file(path, some_channels, {}); });
   CHECK(message.starts_with(path + ": cannot be written: "));
   CHECK(contains(message, "No such file or directory"));
 }

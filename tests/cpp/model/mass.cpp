@@ -10,7 +10,7 @@ using model::Body;
 
 namespace {
 
-Body body(std::vector<std::string> motion) {
+Body buoy(std::vector<std::string> motion) {
   Body b;
   b.name = "buoy";
   b.motion = std::move(motion);
@@ -24,7 +24,7 @@ bool same(const Matrix3& a, const Matrix3& b) { return (a - b).norm() < 1e-14 * 
 } // namespace
 
 TEST_CASE("an inertia tensor from moments and products") {
-  Body b = body({"rigid"});
+  Body b = buoy({"rigid"});
   b.products_of_inertia = Vector3(0.1, 0.2, 0.3);
   Matrix3 expected;
   expected << 2, 0.1, 0.3, 0.1, 3, 0.2, 0.3, 0.2, 4;
@@ -32,7 +32,7 @@ TEST_CASE("an inertia tensor from moments and products") {
 }
 
 TEST_CASE("an inertia tensor from principal moments and axes") {
-  Body b = body({"rigid"});
+  Body b = buoy({"rigid"});
   b.principal_axes = Vector3(0, 0, pi / 2); // the first axis lies along y
   CHECK(same(model::inertia_tensor(b), Vector3(3, 2, 4).asDiagonal().toDenseMatrix()));
   b.principal_axes = Vector3(0, pi / 6, 0); // the first axis is (cos, 0, -sin)
@@ -47,7 +47,7 @@ TEST_CASE("an inertia tensor from principal moments and axes") {
 }
 
 TEST_CASE("principal moments are those of a mass distribution") {
-  Body b = body({"rigid"});
+  Body b = buoy({"rigid"});
   b.principal_axes = Vector3(0.1, -0.2, 0.3);
   CHECK(verdict(b) == "");
   b.products_of_inertia = Vector3(0, 0.1, 0);
@@ -64,7 +64,7 @@ TEST_CASE("principal moments are those of a mass distribution") {
 }
 
 TEST_CASE("a body that pitches needs a moment of inertia about y only") {
-  Body b = body({"planar"});
+  Body b = buoy({"planar"});
   b.inertia = Vector3(5, 0, 0);
   CHECK(contains(verdict(b), "Iyy must be > 0 kg m2, because the body is free in pitch"));
   b.principal_axes = Vector3(0, 0, pi / 2); // turns the first moment to y

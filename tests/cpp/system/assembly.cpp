@@ -1,40 +1,17 @@
 /// Closing loops at the start, redundant rows, mobility.
 
-#include <doctest/doctest.h>
-
 #include <cmath>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/observer.h"
-
-namespace {
+#include "support.h"
 
 using namespace hydrodae;
+using namespace hydrodae::tests;
 
-model::Body bar(const std::string& name, const Vector3& center, const std::string& motion) {
-  model::Body body;
-  body.name = name;
-  body.motion = {motion};
-  body.mass = 2.0;
-  body.center_of_gravity = center;
-  body.inertia = {0.1, 0.2, 0.15};
-  return body;
-}
-
-model::Joint pin(const std::string& name, const std::string& a, const std::string& b,
-                 const Vector3& point, const Vector3& axis = Vector3::UnitY()) {
-  model::Joint joint;
-  joint.name = name;
-  joint.type = "revolute";
-  joint.body_a = a;
-  joint.body_b = b;
-  joint.point = point;
-  joint.axis = axis;
-  return joint;
-}
-
+namespace {
 /// Crank and rocker upright on the ground, 1 m apart, joined by a coupler at height 1 m.
 model::Scene four_bar(const std::string& motion) {
   model::Scene scene;

@@ -28,28 +28,6 @@ model::Scene door(double offset, double tilt, double size = 1.0) {
   return scene;
 }
 
-model::Body bar(const std::string& name, const Vector3& center, const std::string& motion) {
-  model::Body body;
-  body.name = name;
-  body.motion = {motion};
-  body.mass = 1.0;
-  body.center_of_gravity = center;
-  body.inertia = {1.0, 0.1, 1.0};
-  return body;
-}
-
-model::Joint pin(const std::string& name, const std::string& a, const std::string& b,
-                 const Vector3& point) {
-  model::Joint j;
-  j.name = name;
-  j.type = "revolute";
-  j.body_a = a;
-  j.body_b = b;
-  j.point = point;
-  j.axis = Vector3::UnitY();
-  return j;
-}
-
 /// Crank from the origin to (0.5, 0, 0.5), rod to the slider at (2, 0, 0).
 model::Scene slider_crank() {
   model::Scene scene;

@@ -15,16 +15,6 @@ using namespace hydrodae::tests;
 
 namespace {
 
-model::Body bar(const std::string& name, const Vector3& center) {
-  model::Body body;
-  body.name = name;
-  body.motion = {"rigid"};
-  body.mass = 2.0;
-  body.center_of_gravity = center;
-  body.inertia = {0.1, 0.2, 0.15};
-  return body;
-}
-
 model::Joint jointed(const std::string& type, const std::string& name, const std::string& a,
                      const std::string& b, const Vector3& point) {
   model::Joint j;

@@ -12,7 +12,7 @@ using namespace hydrodae::tests;
 
 namespace {
 
-model::Scene read(const std::string& name, const io::Overrides& changes) {
+model::Scene case_of(const std::string& name, const io::Overrides& changes) {
   const auto root = std::filesystem::path(__FILE__).parent_path() / "../../../cases";
   return io::read_case((root / name).string(), changes);
 }
@@ -43,7 +43,7 @@ model::Scene with_radiation_times(const model::Scene& given, double factor) {
 TEST_CASE("radiation with its sign flipped is refused on every rung, unless forced") {
   for (const io::Overrides& rung : rungs) {
     CAPTURE(rung.at("hydro.radiation"));
-    const model::Scene good = read("sphere/decay.toml", rung);
+    const model::Scene good = case_of("sphere/decay.toml", rung);
     CHECK_NOTHROW(system::build(good));
     CHECK_NOTHROW(system::build(with_radiation_times(good, 1e-3)));
     model::Scene bad = with_radiation_times(good, -1.0);
@@ -56,7 +56,7 @@ TEST_CASE("radiation with its sign flipped is refused on every rung, unless forc
 }
 
 TEST_CASE("one coordinate that feeds the motion is found among many that do not") {
-  model::Scene scene = read("f3of/surge_decay.toml", {});
+  model::Scene scene = case_of("f3of/surge_decay.toml", {});
   CHECK_NOTHROW(system::build(scene));
   auto database = std::make_shared<hydro::Database>(*scene.database);
   for (hydro::MemoryFit& fit : database->fits)
@@ -68,7 +68,7 @@ TEST_CASE("one coordinate that feeds the motion is found among many that do not"
 }
 
 TEST_CASE("a memory with a growing pole is refused") {
-  model::Scene scene = read("sphere/decay.toml", {});
+  model::Scene scene = case_of("sphere/decay.toml", {});
   auto database = std::make_shared<hydro::Database>(*scene.database);
   for (hydro::MemoryFit& fit : database->fits)
     fit.poles = -fit.poles.conjugate();

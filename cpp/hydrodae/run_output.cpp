@@ -1,0 +1,93 @@
+#include "hydrodae/run_output.h"
+
+namespace hydrodae {
+
+std::string lines_of(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines)
+    text += line + "\n";
+  return text;
+}
+
+io::Attributes header(const model::Scene& scene, const std::vector<std::string>& notes) {
+  return {{"title", scene.title},
+          {"case_text", scene.text},
+          {"case_path", scene.path},
+          {"case_overrides", lines_of(scene.overrides)},
+          {"hydro_sha256", scene.database ? scene.database->sha256 : std::string()},
+          {"version", std::string(version)},
+          {"notes", lines_of(notes)}};
+}
+
+io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
+  io::Attributes out{{"steps", std::int64_t{s.steps}},
+                     {"residual_calls", std::int64_t{s.residual_calls}},
+                     {"jacobian_calls", std::int64_t{s.jacobian_calls}},
+                     {"newton_iterations", std::int64_t{s.newton_iterations}},
+                     {"error_test_failures", std::int64_t{s.error_test_failures}},
+                     {"convergence_failures", std::int64_t{s.convergence_failures}},
+                     {"events", std::int64_t{s.events}},
+                     {"unknowns", std::int64_t{s.unknowns}},
+                     {"nonzeros", std::int64_t{s.nonzeros}},
+                     {"setup_time", s.setup_time},
+                     {"solver_time", s.solver_time},
+                     {"wall_time", s.wall_time},
+                     {"end_time", s.end_time},
+                     {"relative_balance_error", balance_error},
+                     {"estimated_error", s.estimated_error},
+                     {"estimated_error_of", s.estimated_error_of},
+                     {"estimated_error_time", s.estimated_error_time},
+                     {"method", scene.solver.method},
+                     {"rtol", scene.solver.rtol}};
+  if (s.verified_error >= 0.0) {
+    out["verified_error"] = s.verified_error;
+    out["verified_error_of"] = s.verified_error_of;
+    out["verified_error_time"] = s.verified_error_time;
+  }
+  return out;
+}
+
+ImpactOutput::ImpactOutput(const system::System& s) {
+  for (std::size_t k = 0; k < s.switches.size(); ++k) {
+    const system::SwitchData& element = s.switches[k];
+    if (element.kind == system::SwitchData::Kind::stop)
+      stops_.push_back({k, s.couplers[static_cast<std::size_t>(element.coupler)].name,
+                        s.motions[static_cast<std::size_t>(element.motion)].motion.is_angle()});
+  }
+}
+
+std::vector<Channel> ImpactOutput::channels() const {
+  std::vector<Channel> out;
+  for (const Stop& stop : stops_) {
+    const std::string head = "constraints/" + stop.name + "/";
+    out.push_back({head + "impulse", 1, stop.angle ? "N m s" : "N s", "-",
+                   "Sum of the impulses of all impacts so far; group impacts has each."});
+    out.push_back({head + "energy_lost", 1, "J", "-",
+                   "Sum of the energies that all impacts so far have taken."});
+  }
+  return out;
+}
+
+void ImpactOutput::fill(const solve::Switching* switching, double* at) const {
+  for (const Stop& stop : stops_) {
+    *at++ = switching->struck()[stop.index].impulse;
+    *at++ = switching->struck()[stop.index].energy_lost;
+  }
+}
+
+void ImpactOutput::write(const solve::Switching* switching, io::ResultsFile& file) const {
+  for (const Stop& stop : stops_) {
+    const std::vector<solve::Switching::Impact>& impacts = switching->struck()[stop.index].impacts;
+    if (impacts.empty())
+      continue;
+    std::vector<double> values;
+    for (const solve::Switching::Impact& i : impacts)
+      values.insert(values.end(), {i.time, i.impulse, i.energy_lost});
+    file.write_table("impacts/" + stop.name, 3, values,
+                     {{"columns", "time, impulse, energy lost"},
+                      {"unit", stop.angle ? "s, N m s, J" : "s, N s, J"},
+                      {"description", "The impacts on this stop, one a row."}});
+  }
+}
+
+} // namespace hydrodae
