@@ -8,21 +8,22 @@ namespace hydrodae::solve {
 namespace {
 constexpr double rough = 0.5; ///< change of the equations from which on growth is not believed
 // Growth per radian of the motion that may come of looks far apart; chaotic motions have 0.2 to 1.
-constexpr double doubtful = 0.05;
+constexpr double doubtful = 0.15;
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern, double t,
-                         const VectorX& y, const VectorX& yp, Error error, int every)
+                         const VectorX& y, const VectorX& yp, Error error, bool coherent, int every)
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(y), yp_(yp),
       growth_(VectorX::Ones(s.n_groups)), fade_(growth_), change_(VectorX::Zero(s.n_groups)),
-      row_size_(s.n), since_(t), fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
+      row_size_(s.n), since_(t), window_(t), coherent_(coherent), fewest_(std::max(1, every / 4)),
+      most_(4 * every), every_(every) {
   linearise(t);
+  first_by_y_ = by_y_;
   if (error_.vector.size() > 0)
     return;
   error_.change = VectorX::Zero(s.n_groups);
-  error_.vector = error_.fresh = VectorX::Zero(s.lambda0);
-  error_.piled = error_.plain = error_.excess = VectorX::Zero(s.n_groups);
-  error_.level = VectorX::Ones(s.n_groups);
+  error_.vector = error_.fresh = error_.gathered = VectorX::Zero(s.lambda0);
+  error_.added = error_.piled = error_.plain = error_.level = VectorX::Zero(s.n_groups);
 }
 
 /// Root of the sum of squares over the positions and velocities of each group.
@@ -46,6 +47,12 @@ void ErrorGrowth::linearise(double t) {
 bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
                       bool last, const Interpolant& at) {
   error_.fresh += step_error;
+  const double phase = rate.size() > 0 ? rate.maxCoeff() * (t - window_) : 0.0;
+  if (coherent_ && phase > 1.0) { // rad; what a step adds and the next takes away is none
+    error_.added += sizes(error_.fresh - error_.gathered, unit);
+    error_.gathered = error_.fresh;
+    window_ = t;
+  }
   if (++steps_ < every_ && !last)
     return false;
   steps_ = 0;
@@ -54,7 +61,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   const VectorX before = sizes(error_.vector, unit);
   if (!error_.vector.isZero(0.0) && error_.vector.allFinite()) {
     at(t, y_, yp_);
-    if (carry(t, error_.vector)) {
+    if (carry(t, rate, error_.vector)) {
       const VectorX after = sizes(error_.vector, unit);
       for (Index g = 0; g < s_.n_groups; ++g) {
         if (before[g] > 0.0)
@@ -69,9 +76,12 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   for (Index i = 0; i < s_.lambda0; ++i)
     if (const double own = size[s_.group[static_cast<std::size_t>(i)]]; !(own <= large))
       error_.vector[i] = std::isfinite(own) ? 1e-3 * error_.vector[i] / own : 0.0;
-  const VectorX added = sizes(error_.fresh, unit);
-  error_.piled += added;
-  error_.plain += added;
+  error_.added += sizes(error_.fresh - error_.gathered, unit);
+  error_.gathered.setZero();
+  window_ = t;
+  error_.piled += error_.added;
+  error_.plain += error_.added;
+  error_.added.setZero();
   error_.vector += error_.fresh;
   error_.fresh.setZero();
   since_ = t;
@@ -79,41 +89,58 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
 }
 
 /// What the growth of the vector means to what has piled up, over `phase` radians of the motion.
+/// The level of E follows its logarithm, and leaks to zero as fast as growth may come of looks far
+/// apart; so linear equations are followed exactly, and others as far as they grow or fade faster.
+/// Where the equations change much between looks, growth is not believed, nor a long fading.
 void ErrorGrowth::follow(Index g, double phase) {
-  constexpr double held = 10.0; // 1 / rate of the motion: what fades slower is seen to fade
-  const double growth = change_[g] > rough ? std::min(growth_[g], 1.0) : growth_[g];
-  const double level = error_.level[g] * std::min(growth, 1e6),
-               envelope = std::max(level, std::exp(-phase / held));
-  error_.level[g] = std::max(level / envelope, 1e-300);
-  fade_[g] = std::min(envelope, 1.0);
-  const double before = error_.excess[g],
-               seeming = doubtful * std::min(change_[g] / rough, 1.0) * phase;
-  error_.excess[g] = std::max(0.0, before + std::log(std::max(growth, 1e-300)) - seeming);
-  error_.piled[g] *= fade_[g] * std::exp(error_.excess[g] - before);
+  constexpr double deepest = -4.0; // levels below are not come back from
+  const double before = error_.level[g],
+               doubt = doubtful * std::min(change_[g] / rough, 1.0) * phase,
+               seen = std::log(std::clamp(growth_[g], 1e-12, 1e6)),
+               level = before + (change_[g] > rough ? std::min(seen, 0.0) : seen);
+  double now = level > 0.0 ? std::max(0.0, level - doubt) : std::min(0.0, level + doubt);
+  if (error_.change[g] > rough)
+    now = std::max(now, deepest);
+  error_.piled[g] *= std::exp(now - before);
+  error_.level[g] = std::max(now, deepest);
+  fade_[g] = std::exp(std::min(0.0, now - error_.level[g]));
 }
 
-/// Of the entries of each row of q and u, relative to the largest of them. Between looks that are
+void ErrorGrowth::fade(Index g, double factor) {
+  if (change_[g] > rough)
+    error_.piled[g] *= factor;
+}
+
+/// Of stiffness and damping, in the units of the unknowns, relative to the largest of each row and
+/// to its inertia (the directions of reactions turn in linear motions, too). Between looks that are
 /// too far apart errors would seem to grow that do not.
-void ErrorGrowth::find_change() {
+void ErrorGrowth::find_change(const VectorX& rate) {
   constexpr double much = 0.25, little = 0.05;
   const system::Pattern& p = e_.pattern;
   change_.setZero();
   row_size_.setZero();
   const auto entries = [&](auto&& visit) {
-    for (Index c = 0; c < s_.n; ++c)
+    for (Index c = 0; c < s_.z0; ++c)
       for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-        if (p.row[k] < s_.z0)
-          visit(k, p.row[k], s_.group[static_cast<std::size_t>(p.row[k])]);
+        if (p.row[k] >= s_.u0 && p.row[k] < s_.z0)
+          visit(k, p.row[k], s_.scale[c]);
   };
-  entries([&](Index k, Index row, int) {
-    row_size_[row] = std::max({row_size_[row], std::abs(e_.parts.by_y[k]), std::abs(by_y_[k])});
+  entries([&](Index k, Index row, double scale) {
+    const double inertia =
+        std::abs(e_.parts.by_yp[k]) * rate[s_.group[static_cast<std::size_t>(row)]];
+    row_size_[row] = std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]),
+                               scale * std::abs(by_y_[k]), scale * inertia});
   });
-  entries([&](Index k, Index row, int group) {
-    const double difference = std::abs(e_.parts.by_y[k] - by_y_[k]);
-    if (difference > change_[group] * row_size_[row])
-      change_[group] = difference / row_size_[row];
+  entries([&](Index k, Index row, double scale) {
+    const int group = s_.group[static_cast<std::size_t>(row)];
+    const auto take = [&](double before, double& change) {
+      const double difference = scale * std::abs(e_.parts.by_y[k] - before);
+      if (difference > change * row_size_[row])
+        change = difference / row_size_[row];
+    };
+    take(by_y_[k], change_[group]);
+    take(first_by_y_[k], error_.change[group]);
   });
-  error_.change = error_.change.cwiseMax(change_);
   const double most = change_.size() > 0 ? change_.maxCoeff() : 0.0;
   if (most > much)
     every_ = std::max(fewest_, every_ / 2);
@@ -124,7 +151,7 @@ void ErrorGrowth::find_change() {
 /// The implicit midpoint rule on F_y d + F_y' d' = 0, with the mean of the derivatives at both
 /// ends, lest what turns or swings between them feeds the error; memory states by backward Euler,
 /// since some fade within the step; the constraints hold at its end.
-bool ErrorGrowth::carry(double t, VectorX& vector) {
+bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
   const double h = t - since_;
   if (h <= 0.0)
     return false;
@@ -146,7 +173,7 @@ bool ErrorGrowth::carry(double t, VectorX& vector) {
       if (row < s_.lambda0 && c < s_.lambda0)
         rhs_[row] += (by_rate - (half ? 0.5 * by_y : 0.0)) * vector[c];
     }
-  find_change();
+  find_change(rate);
   by_y_ = e_.parts.by_y;
   by_rate_ = e_.parts.by_yp;
   if (!lu_->factorise())

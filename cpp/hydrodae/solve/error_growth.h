@@ -1,11 +1,12 @@
 #pragma once
 /// The error that a run has piled up. The estimated errors of its steps add up in size, group by
 /// group of bodies, and grow or fade as the equations linearised about the motion carry an error
-/// along: E <- g E + |d|, where g comes of the size of a vector carried from look to look: its
-/// envelope where it fades, and where it grows what exceeds the doubtful (Page's cumulative sums,
-/// Biometrika 41 (1954) 100), since between looks swings are followed roughly. (Skeel,
-/// Math. Comput. 46 (1986) 577, carries the errors themselves; over thousands of periods they would
-/// have to keep their phase.)
+/// along: E <- g E + |d|, where g comes of the size of a vector carried from look to look. Between
+/// looks swings are followed roughly: growth counts as far as it exceeds the doubtful (Page's
+/// cumulative sums, Biometrika 41 (1954) 100), and what was not believed of it is taken off from
+/// the next fading, lest a size that goes up and down seems to fade. (Skeel, Math. Comput. 46
+/// (1986) 577, carries the errors themselves; over thousands of periods they would have to keep
+/// their phase.)
 
 #include <functional>
 #include <memory>
@@ -21,19 +22,22 @@ public:
   struct Error {
     VectorX vector;       ///< carried along, in q, u, z (lambda0,)
     VectorX fresh;        ///< errors since the last look (lambda0,)
+    VectorX gathered;     ///< those of them whose size was added (lambda0,)
+    VectorX added;        ///< sizes of these (n_groups,)
     VectorX piled, plain; ///< E and the sum without growth, by group (n_groups,)
-    VectorX level;        ///< of the vector's size, over its envelope (n_groups,)
-    VectorX excess;       ///< ln of the growth that is believed (n_groups,)
+    VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_groups,)
     VectorX change;       ///< of the equations, the largest so far (n_groups,)
   };
 
   /// @param y, yp state at t, from which on these rows hold
   /// @param error that the run has so far; empty: none
+  /// @param coherent the errors of steps are of one kind, as those of fixed steps of a low order:
+  ///   they add up in size radian by radian of the motion; otherwise look by look
   /// @param every so many steps the error is carried along at first; where the equations change
   ///   much between two such looks, down to a quarter of that, where little, up to four times as
   ///   many
   ErrorGrowth(const system::System& system, const system::Pattern& pattern, double t,
-              const VectorX& y, const VectorX& yp, Error error, int every);
+              const VectorX& y, const VectorX& yp, Error error, bool coherent, int every);
 
   /// y and y' at a time inside the last step.
   using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
@@ -51,17 +55,20 @@ public:
   /// group (n_groups,); 1 where there was none.
   const VectorX& growth() const { return growth_; }
 
-  /// By how much its envelope has faded between these looks (n_groups,): 1 where nothing damps.
+  /// By how much E has faded for good between these looks (n_groups,): 1 where nothing damps.
   const VectorX& fade() const { return fade_; }
 
-  /// Largest change of the linearised equations from one look to the next so far, by group,
-  /// relative to their own size (n_groups,): 0 of linear equations.
+  /// Fades E where the equations changed too much between these looks to tell.
+  void fade(Index group, double factor);
+
+  /// Largest change of the linearised equations against those of the start, by group, relative to
+  /// their own size (n_groups,): 0 of linear equations.
   const VectorX& change() const { return error_.change; }
 
 private:
-  bool carry(double t, VectorX& vector);
+  bool carry(double t, const VectorX& rate, VectorX& vector);
   void linearise(double t);
-  void find_change();
+  void find_change(const VectorX& rate);
   void follow(Index group, double phase);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
 
@@ -70,8 +77,11 @@ private:
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
+  std::vector<double> first_by_y_;     ///< at the first
   VectorX rhs_, y_, yp_, growth_, fade_, change_, row_size_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
+  double window_;      ///< time up to which errors were added in size [s]
+  bool coherent_;
   int fewest_, most_, every_, steps_ = 0;
 };
 

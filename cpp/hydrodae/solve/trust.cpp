@@ -29,24 +29,29 @@ double least_error(const model::SolverOptions& options) {
   return (options.method == "radau" ? 3.0 : 10.0) * options.rtol;
 }
 
-// d ln(frequency) / d ln(speed): 0 of a linear oscillator, 0.13 of a pendulum that swings by 1 rad,
-// 1 of what turns round and round.
-constexpr double out_of_step = 0.5;
+/// d ln(frequency) / d ln(speed) by the change of the equations: 0 of a linear oscillator; of a
+/// pendulum that swings by 0.5, 1 and 2.5 rad 0.03, 0.13 and 3.3, where these change by 0.2, 0.7
+/// and 2; 1 of what turns round and round.
+double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change * change); }
 
 } // namespace
 
 Trust::Trust(const system::System& s, const system::Pattern& pattern,
              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
-    : s_(s), every_(steps_between_looks(options.method)), doubt_(options.step > 0.0 ? 3.0 : 2.0),
-      allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
-      fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
-      rates_(fastest_), displaced_(fastest_),
+    : s_(s), every_(steps_between_looks(options.method)),
+      coherent_(options.method == "generalized_alpha" ||
+                (options.step > 0.0 && options.order == 2)),
+      doubt_(options.step > 0.0 ? 3.0 : 2.0), allowed_(options.error_guard),
+      least_(least_error(options)), unit_(VectorX::Ones(s.z0)), fastest_(VectorX::Zero(s.n_groups)),
+      largest_(fastest_), when_(fastest_), missing_(fastest_), rates_(fastest_),
+      displaced_(fastest_), start_(y.head(s.n_q)),
       energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
   find_guided();
-  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(), every_);
+  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(),
+                                          options.step > 0.0, every_);
 }
 
 /// Motion of a group, no less than what its tolerance is made for [levers or rad].
@@ -62,9 +67,7 @@ double Trust::size(Index group, const VectorX& reached) const {
 /// bodies turn, or spin, much more than their centres are displaced, displacements count by their
 /// own size.
 void Trust::measure(const VectorX& y, const VectorX& reached) {
-  constexpr double least_part = 1e-3;
-  if (start_.size() == 0)
-    start_ = y.head(s_.n_q);
+  constexpr double least_part = 1e-6;
   for (const system::BodyData& b : s_.bodies) {
     if (b.group < 0)
       continue;
@@ -130,6 +133,7 @@ double Trust::remembered(Energy& e, double phase, const system::Recorder::Balanc
   if (e.guided)
     return 0.0;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
+  damped_[e.group] = std::max(damped_[e.group], damped);
   return std::max(growth_->fade()[e.group], damped);
 }
 
@@ -149,6 +153,7 @@ double Trust::least(int mechanism) const {
 /// frequency.
 void Trust::take_energy(double t, const VectorX& reached, const system::Recorder& recorder) {
   constexpr double little = 1e-2; // kinetic energy, of all that was exchanged
+  damped_.setZero(s_.n_groups);
   for (std::size_t m = 0; m < energies_.size() && s_.n_groups > 0; ++m) {
     Energy& e = energies_[m];
     const system::Recorder::Balance b =
@@ -161,9 +166,12 @@ void Trust::take_energy(double t, const VectorX& reached, const system::Recorder
     if (!(kinetic > 0.0))
       continue;
     const double part = std::abs(e.missing) / (2.0 * kinetic);
-    e.late = kept * e.late + out_of_step * std::min(growth_->change()[e.group], 1.0) * phase * part;
+    e.late = kept * e.late + out_of_step(growth_->change()[e.group]) * phase * part;
     missing_[e.group] = std::max(missing_[e.group], (part + e.late) * whole);
   }
+  for (Index g = 0; g < s_.n_groups; ++g) // by the mechanism of the group that is damped least
+    if (damped_[g] > 0.0)
+      growth_->fade(g, damped_[g]);
 }
 
 /// The body of a group whose positions the carried error moves most.
@@ -212,17 +220,18 @@ void Trust::find_guided() {
 void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp) {
   find_guided();
   ErrorGrowth::Error error = growth_->error();
-  growth_ = std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), every_);
+  growth_ =
+      std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), coherent_, every_);
 }
 
 Trust::Estimate Trust::estimate(const VectorX& reached) const {
   const ErrorGrowth::Error& e = growth_->error();
   Estimate out;
   for (Index g = 0; g < s_.n_groups; ++g) {
-    double now = e.piled[g];
+    double now = e.piled[g] + e.added[g];
     for (Index i = 0; i < s_.z0; ++i)
       if (s_.group[static_cast<std::size_t>(i)] == g)
-        now += std::abs(e.fresh[i]) / unit_[i];
+        now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
     const double error = std::max({largest_[g] / size(g, reached), now / size(g, reached), least_});
     if (error > out.error)
       out = {error, worst_of(g).name, when_[g]};

@@ -59,16 +59,18 @@ private:
   const system::System& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
-  double doubt_; ///< factor within which the estimate is meant; of fixed steps it is rougher
+  bool coherent_; ///< errors of steps are of one kind
+  double doubt_;  ///< factor within which the estimate is meant; of fixed steps it is rougher
   double allowed_;
   double least_;           ///< what the tolerance leaves [-]
   VectorX unit_;           ///< of each position and velocity (z0,)
   VectorX fastest_;        ///< by group: largest speed so far, in levers per s or rad/s
   VectorX largest_, when_; ///< by group: of the error in levers or rad, time [s]
   VectorX missing_;        ///< by group: what the missing energy has put off, now
+  VectorX damped_;         ///< by group: what dampers leave of an error since the last look
   VectorX rates_;          ///< by group: of the motion [1/s]
   VectorX displaced_;      ///< by group: largest displacement so far [levers]
-  VectorX start_;          ///< positions at the first step (n_q,)
+  VectorX start_;          ///< positions (n_q,)
   struct Energy {          ///< of a mechanism
     int group = 0;
     bool guided = false;  ///< altogether, by drives: what is missing tells nothing of its motion

@@ -150,6 +150,14 @@ void set_scales(System& s) {
   }
   for (Index i = 0; i < s.lambda0; ++i)
     s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
+  for (const BodyData& b : s.bodies) {
+    if (b.group < 0)
+      continue;
+    const double part = s.translation_scale[b.group];
+    s.scale.segment(b.q0, b.n_translations) *= part;
+    for (int k = 0; k < b.n_active; ++k)
+      s.scale[b.u0 + k] *= b.active[k] < 3 ? part : 1.0;
+  }
 }
 
 } // namespace hydrodae::system

@@ -92,6 +92,7 @@ void find_mechanisms(System& s) {
   }
   s.n_groups = sets.number(s, &BodyData::group);
   s.motion_scale = VectorX::Ones(s.n_groups);
+  s.translation_scale = s.motion_scale;
 }
 
 void set_groups(System& s) {

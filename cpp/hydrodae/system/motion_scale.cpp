@@ -16,6 +16,13 @@ constexpr double rounding_error =
     1e3;                         ///< epsilons of a position that a step's error may not be below
 constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
 constexpr double slack = 1.5;    ///< of a change that is worth new scales
+constexpr double least_translation = 1e-3; ///< part that is followed
+
+/// In levers.
+double translation(const BodyData& b, const VectorX& from, const VectorX& y) {
+  const Index n = b.n_translations;
+  return (y.segment(b.q0, n) - from.segment(b.q0, n)).norm() / b.lever;
+}
 
 } // namespace
 
@@ -24,8 +31,7 @@ VectorX displacements(const System& s, const VectorX& from, const VectorX& y) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const BodyData& b = s.bodies[i];
     const Index turns = b.q0 + b.n_translations, n = b.n_position - b.n_translations;
-    const double moved =
-        (y.segment(b.q0, b.n_translations) - from.segment(b.q0, b.n_translations)).norm() / b.lever;
+    const double moved = translation(b, from, y);
     double angle = (y.segment(turns, n) - from.segment(turns, n)).norm();
     if (b.rotation == BodyData::Rotation::free) // p and -p are the same rotation
       angle = 2.0 * std::min(angle, (y.segment(turns, n) + from.segment(turns, n)).norm());
@@ -37,7 +43,8 @@ VectorX displacements(const System& s, const VectorX& from, const VectorX& y) {
 MotionScale::MotionScale(System& s, const Pattern& pattern, const VectorX& y, const VectorX& yp,
                          const VectorX& forced, double hold, double rtol)
     : s_(s), start_(y.head(s.n_q)), expected_(forced), reached_(VectorX::Zero(s.n_groups)),
-      least_(VectorX::Zero(s.n_groups)), hold_(VectorX::Constant(s.n_groups, hold)) {
+      least_(VectorX::Zero(s.n_groups)), expected_translation_(forced), translated_(reached_),
+      hold_(VectorX::Constant(s.n_groups, hold)) {
   for (const BodyData& b : s.bodies)
     if (b.group >= 0) {
       constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -75,8 +82,9 @@ void MotionScale::expect_start(const Pattern& pattern, const VectorX& y, const V
       const double rate = std::max(1.0 / b.time_scale, mass[u] > 0.0 && std::isfinite(stiffness[u])
                                                            ? std::sqrt(stiffness[u] / mass[u])
                                                            : 0.0);
-      double& most = expected_[b.group];
-      most = std::max({most, std::abs(y[u]) / rate / unit, std::abs(yp[u]) / (rate * rate) / unit});
+      const double most =
+          std::max(std::abs(y[u]) / rate / unit, std::abs(yp[u]) / (rate * rate) / unit);
+      expect(b, b.active[k] < 3, most);
     }
   for (const HydroBody& hb : s_.hydro.bodies) {
     const BodyData& b = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -86,21 +94,34 @@ void MotionScale::expect_start(const Pattern& pattern, const VectorX& y, const V
     for (int k = 0; k < b.n_active; ++k) {
       const int c = b.active[k];
       const double moved = c < 3 ? (b.position - b.reference)[c] / b.lever : turn[c - 3];
-      expected_[b.group] = std::max(expected_[b.group], std::abs(moved));
+      expect(b, c < 3, std::abs(moved));
     }
   }
 }
 
+void MotionScale::expect(const BodyData& body, bool translation, double motion) {
+  expected_[body.group] = std::max(expected_[body.group], motion);
+  if (translation)
+    expected_translation_[body.group] = std::max(expected_translation_[body.group], motion);
+}
+
 bool MotionScale::update(double t) {
   bool changed = false;
-  for (Index g = 0; g < s_.n_groups; ++g) {
-    const double expected = expected_[g] * std::exp(-std::max(0.0, t / hold_[g] - 1.0));
-    const double wanted = std::clamp(std::max(reached_[g], expected) / full, least_[g], 1.0);
-    double& scale = s_.motion_scale[g];
+  const auto set = [&](double& scale, double wanted) {
     if (t > 0.0 && wanted < slack * scale && wanted > scale / slack)
-      continue;
+      return;
     changed = changed || scale != wanted;
     scale = wanted;
+  };
+  for (Index g = 0; g < s_.n_groups; ++g) {
+    const double left = std::exp(-std::max(0.0, t / hold_[g] - 1.0));
+    const auto part = [&](double reached, double expected) {
+      return std::clamp(std::max(reached, left * expected) / full, least_[g], 1.0);
+    };
+    set(s_.motion_scale[g], part(reached_[g], expected_[g]));
+    set(s_.translation_scale[g],
+        std::clamp(part(translated_[g], expected_translation_[g]) / s_.motion_scale[g],
+                   least_translation, 1.0));
   }
   if (changed)
     set_scales(s_);
@@ -115,6 +136,9 @@ void MotionScale::accept(double t, const VectorX& y) {
       reached_[g] = moved[static_cast<Index>(i)];
       grown = true;
     }
+  for (const BodyData& b : s_.bodies)
+    if (b.group >= 0)
+      translated_[b.group] = std::max(translated_[b.group], translation(b, start_, y));
   if (s_.scales_follow && (grown || (s_.motion_scale.array() > least_.array()).any()))
     update(t);
 }

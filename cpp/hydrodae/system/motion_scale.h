@@ -1,6 +1,7 @@
 #pragma once
 /// Tolerances follow the motion: an error of a micrometre is none where a device moves by metres,
-/// and all where it moves by micrometres.
+/// and all where it moves by micrometres. Where bodies turn much more than they are displaced, as a
+/// top that spins upright, those of translations follow the displacement.
 
 #include "hydrodae/system/jacobian.h"
 
@@ -8,7 +9,8 @@ namespace hydrodae::system {
 
 /// Keeps System::motion_scale: by group, the part of the full scales (a tenth of a body's lever)
 /// that the motion takes, between 1 and what rounding of the positions leaves. It is the largest of
-/// the displacement reached so far and, fading, of what the start and the loads let expect.
+/// the displacement reached so far and, fading, of what the start and the loads let expect. And
+/// System::translation_scale: the part of it that the translations take, 1e-3 at least.
 class MotionScale {
 public:
   /// @param pattern of the Jacobian
@@ -31,12 +33,14 @@ public:
 
 private:
   void expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp);
+  void expect(const BodyData& body, bool translation, double motion);
   bool update(double t);
 
   System& s_;
   VectorX start_;                      ///< positions (n_q,)
   VectorX expected_, reached_, least_; ///< by group
-  VectorX hold_;                       ///< by group [s]
+  VectorX expected_translation_, translated_;
+  VectorX hold_; ///< by group [s]
 };
 
 /// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the

@@ -291,6 +291,7 @@ struct System {
   VectorX group_size;                 ///< (n_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
+  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
   VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
