@@ -13,12 +13,13 @@ forces and columns motions. Readers convert at the boundary::
 
 from __future__ import annotations
 
-from hydrodae.hdb.checks import check
+from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.coordinates import expand
-from hydrodae.hdb.database import Body, HydroDatabase
+from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.read import import_database, read
+from hydrodae.hdb.importing import import_database, read
+from hydrodae.hdb.tables import Body
 
 __all__ = [
     "Body",
