@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,6 +94,7 @@ def ladder(
     frequency: float | None = None,
     channel: str | None = None,
     repeat: int = 3,
+    set: Mapping[str, Any] | None = None,
 ) -> Ladder:
     """Run a case with every radiation model and measure cost and error.
 
@@ -108,13 +110,20 @@ def ladder(
         (else position) that moves most.
     repeat : int
         Solver times are the best of so many runs.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
+
+    Returns
+    -------
+    Ladder
+        Printed, it is what the command `hydrodae ladder` says.
 
     Raises
     ------
     CaseError
         No database, no channel, no frequency to be found, or no rung ran.
     """
-    case = read_case(case)
+    case = read_case(case, set)
     path = case.scene.database_path
     if not path:
         raise CaseError("the case has no [hydro]: there is no radiation to model")

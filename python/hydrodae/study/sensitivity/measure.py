@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case
+from hydrodae.case import Case, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.frequency import LinearModel
 from hydrodae.study.sensitivity.variants import variants
@@ -48,6 +49,7 @@ def sensitivity(
     heading: float = 0.0,
     states: Sequence[int] = (),
     band: Array | None = None,
+    set: Mapping[str, Any] | None = None,
 ) -> list[Row]:
     """How a result of a case depends on its database.
 
@@ -67,6 +69,8 @@ def sensitivity(
         Also refit the memory with at most these numbers of states.
     band : (2,) array, optional
         Of these fits [rad/s].
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
 
     Returns
     -------
@@ -78,7 +82,7 @@ def sensitivity(
         No database, an unknown result or channel, a period outside the database, no waves, no
         damper.
     """
-    model = LinearModel(case)
+    model = LinearModel(read_case(case, set))
     if model.database is None:
         raise CaseError("the case has no hydrodynamic database")
     measure = _measure(model, result, periods, channels, heading)
