@@ -10,6 +10,9 @@ A run in three lines::
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from hydrodae.case import Case
 from hydrodae.errors import (
     CaseError,
@@ -20,6 +23,19 @@ from hydrodae.errors import (
 )
 from hydrodae.results import Results, ResultsError
 from hydrodae.simulate import run
+from hydrodae.version import version
+
+if TYPE_CHECKING:
+    from hydrodae import hdb
+    from hydrodae.study.band import working_band
+    from hydrodae.study.chart import chart, recommend
+    from hydrodae.study.check import check
+    from hydrodae.study.equilibrium import equilibrium
+    from hydrodae.study.ladder import ladder
+    from hydrodae.study.rao import rao
+    from hydrodae.study.sensitivity import sensitivity
+
+    __version__: str
 
 __all__ = [
     "Case",
@@ -30,16 +46,41 @@ __all__ = [
     "ResultsError",
     "RunInterrupted",
     "SolverError",
+    "chart",
+    "check",
+    "equilibrium",
+    "hdb",
+    "ladder",
+    "rao",
+    "recommend",
     "run",
+    "sensitivity",
+    "working_band",
 ]
 
+#: What is imported when it is first asked for, and where it is: a run needs none of it.
+_LATER = {
+    "chart": "study.chart",
+    "check": "study.check",
+    "equilibrium": "study.equilibrium",
+    "ladder": "study.ladder",
+    "rao": "study.rao",
+    "recommend": "study.chart",
+    "sensitivity": "study.sensitivity",
+    "working_band": "study.band",
+}
 
-def __getattr__(name: str) -> str:
-    if name == "__version__":
-        from importlib.metadata import PackageNotFoundError, version
+if not TYPE_CHECKING:
 
-        try:
-            return version("hydrodae")
-        except PackageNotFoundError:
-            return "not installed"
-    raise AttributeError(f"module 'hydrodae' has no attribute {name!r}")
+    def __getattr__(name: str) -> Any:
+        if name == "__version__":
+            return version()
+        if name == "hdb":
+            return import_module("hydrodae.hdb")
+        if name in _LATER:
+            return getattr(import_module(f"hydrodae.{_LATER[name]}"), name)
+        raise AttributeError(f"module 'hydrodae' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydrodae.drives import Drive, kernel_drives
 from hydrodae.errors import CaseError
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ class Case:
         """Return the scene as a short tree: bodies, joints, forces, solver."""
         return self._scene.summary()
 
-    def examine(self, drives: Mapping[str, Any] | None = None) -> str:
+    def examine(self, drives: Mapping[str, Drive] | None = None) -> str:
         """Return the summary with what the case costs, its mobility and redundant rows.
 
         Parameters
@@ -157,9 +158,8 @@ class Case:
             The joints cannot be closed near the start.
         """
         from hydrodae import _core
-        from hydrodae.drives import kernel_drives
 
-        return _core.examine(self._scene, kernel_drives(self, drives))
+        return _core.examine(self._scene, kernel_drives(self._scene, drives))
 
     def __repr__(self) -> str:
         changed = "".join(f", {key} = {value}" for key, value in self._overrides.items())
@@ -180,6 +180,19 @@ class Case:
             assert self._text is not None
             return _core.parse_case(self._text, str(self._directory), overrides)
         return _core.load_case(str(self._path), overrides)
+
+
+def read_case(case: Case | str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Case:
+    """Return a case as it is or from its file, with `values` by dotted key replaced.
+
+    Raises
+    ------
+    CaseError
+        The case cannot be used; the message says where and why.
+    """
+    if not isinstance(case, Case):
+        return Case(path=case, values=values)
+    return case.with_values(values) if values else case
 
 
 def to_toml(value: Any, key: str = "value") -> str:

@@ -15,9 +15,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae import chart_command
-from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
+from hydrodae.commands import chart, check, equilibrium, plot, run
+from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
+from hydrodae.version import version
 
 DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
 
@@ -95,53 +96,9 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
-    run = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
-    run.add_argument("case", metavar="CASE", help="case file (TOML)")
-    run.add_argument(
-        "-o", "--output", metavar="FILE", help="results file (default: CASE with the ending .h5)"
-    )
-    run.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
-    )
-    run.add_argument("--method", metavar="NAME", help="integrator: the same as --set solver.method")
-    run.add_argument(
-        "--force",
-        action="store_true",
-        help="run a pair of method and formulation that is known to fail",
-    )
-    run.add_argument(
-        "--verify",
-        action="store_true",
-        help="run a second time with a tenth of the tolerance, or half the step, and compare",
-    )
-    run.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
-    run.set_defaults(call=_run)
-
-    check = commands.add_parser(
-        "check",
-        help="read a case, close its joints and tell what it costs",
-        description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
-        "constraint rows, and how far the bodies were moved to close the joints.",
-    )
-    check.add_argument("case", metavar="CASE", help="case file (TOML)")
-    check.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
-    check.set_defaults(call=_check)
-
-    equilibrium = commands.add_parser(
-        "equilibrium",
-        help="find the static pose of a case in still water",
-        description="Solve for the static pose of the whole constrained scene in still water; "
-        "print the offsets of the bodies and the reactions of the joints.",
-    )
-    equilibrium.add_argument("case", metavar="CASE", help="case file (TOML)")
-    equilibrium.add_argument(
-        "--set", metavar="KEY=VALUE", action="append", default=[], help="as in run"
-    )
-    equilibrium.set_defaults(call=_equilibrium)
+    run.add_parser(commands)
+    check.add_parser(commands)
+    equilibrium.add_parser(commands)
 
     rao = commands.add_parser(
         "rao",
@@ -151,7 +108,10 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "for, runs in regular waves.",
     )
     if command == ["rao"]:
-        _add_rao(rao)
+        from hydrodae.commands import rao as rao_command
+
+        rao_command.add_arguments(rao)
+        rao.set_defaults(call=rao_command.run)
 
     ladder = commands.add_parser(
         "ladder",
@@ -161,39 +121,20 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "higher model.",
     )
     if command == ["ladder"]:
-        _add_ladder(ladder)
+        from hydrodae.commands import ladder as ladder_command
 
-    plot = commands.add_parser(
-        "plot",
-        help="draw results",
-        description="Draw results: joint coordinates, bodies and energy, or the named channels.",
-    )
-    plot.add_argument("results", metavar="RESULTS", help="results file (HDF5)")
-    plot.add_argument(
-        "channels",
-        metavar="CHANNEL",
-        nargs="*",
-        help="such as joints/hinge1/angle, 'joints/*/angle' or bodies/base/position.z",
-    )
-    plot.add_argument(
-        "-o", "--output", metavar="FILE", help="picture (default: RESULTS with the ending .png)"
-    )
-    plot.add_argument(
-        "--compare",
-        metavar="FILE.csv:COLUMN[:LABEL[:SCALE]]",
-        action="append",
-        default=[],
-        help="a curve under the channel, over the first column, the time in s; angles in degrees "
-        "(else give the SCALE to degrees); may be repeated",
-    )
-    plot.add_argument("--list", action="store_true", help="list the channels and draw nothing")
-    plot.set_defaults(call=_plot)
+        ladder_command.add_arguments(ladder)
+        ladder.set_defaults(call=ladder_command.run)
 
-    chart_command.add_arguments(commands)
+    plot.add_parser(commands)
+    chart.add_arguments(commands)
 
     hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
     if command == ["hdb"]:
-        _add_hdb(hdb)
+        from hydrodae.commands import hdb as hdb_command
+
+        hdb_command.add_arguments(hdb)
+        hdb.set_defaults(call=hdb_command.run)
 
     stability = commands.add_parser(
         "stability-map",
@@ -203,103 +144,14 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "if one did.",
     )
     if command == ["stability-map"]:
-        from hydrodae.stability import command as stability_command
+        from hydrodae.commands import stability as stability_command
 
         stability_command.add_arguments(stability)
         stability.set_defaults(call=stability_command.run)
 
-    version = commands.add_parser("version", help="print the versions")
-    version.set_defaults(call=_version)
+    versions = commands.add_parser("version", help="print the versions")
+    versions.set_defaults(call=_version)
     return parser
-
-
-def _add_hdb(parser: argparse.ArgumentParser) -> None:
-    from hydrodae.hdb import command
-
-    command.add_arguments(parser)
-    parser.set_defaults(call=command.run)
-
-
-def _add_rao(parser: argparse.ArgumentParser) -> None:
-    from hydrodae import rao
-
-    rao.add_arguments(parser)
-    parser.set_defaults(call=rao.run)
-
-
-def _add_ladder(parser: argparse.ArgumentParser) -> None:
-    from hydrodae import ladder
-
-    ladder.add_arguments(parser)
-    parser.set_defaults(call=ladder.run_command)
-
-
-def _equilibrium(arguments: argparse.Namespace) -> int:
-    from hydrodae.case import Case, parse_assignment
-    from hydrodae.equilibrium import report
-
-    print(report(Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))))
-    return DONE
-
-
-def _run(arguments: argparse.Namespace) -> int:
-    from pathlib import Path
-
-    from hydrodae.case import Case, parse_assignment
-    from hydrodae.progress import ProgressLine
-    from hydrodae.simulate import run
-
-    values = dict(map(parse_assignment, arguments.set))
-    if arguments.method:
-        values["solver.method"] = arguments.method
-    if arguments.force:
-        values["solver.force"] = True
-    case = Case(path=arguments.case, values=values)
-    output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
-    if arguments.quiet:
-        run(case, output, verify=arguments.verify)
-        return DONE
-    with ProgressLine(case.title) as progress:
-        results = run(case, output, progress=progress, verify=arguments.verify)
-    print(results.summary())
-    print(f"  results in {output}")
-    return DONE
-
-
-def _check(arguments: argparse.Namespace) -> int:
-    from hydrodae.case import Case, parse_assignment
-
-    case = Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
-    print(case.examine(), end="")
-    return DONE
-
-
-def _plot(arguments: argparse.Namespace) -> int:
-    from pathlib import Path
-
-    from hydrodae.results import Results
-
-    results = Results.read(arguments.results)
-    if arguments.list:
-        for name in results:
-            attributes = results[name].attrs
-            print(f"{name:44} {attributes.get('unit', '')}")
-        return DONE
-
-    from hydrodae import plot
-    from hydrodae.curve import parse_curve
-
-    if arguments.compare:
-        if len(arguments.channels) != 1:
-            raise CaseError("--compare needs exactly one CHANNEL")
-        curves = [parse_curve(spec) for spec in arguments.compare]
-        figure = plot.plot_comparison(results, arguments.channels[0], curves)
-    elif arguments.channels:
-        figure = plot.plot_channels(results, arguments.channels)
-    else:
-        figure = plot.plot_overview(results)
-    print(plot.save(figure, arguments.output or Path(arguments.results).with_suffix(".png")))
-    return DONE
 
 
 def _version(_arguments: argparse.Namespace) -> int:
@@ -308,13 +160,9 @@ def _version(_arguments: argparse.Namespace) -> int:
 
 
 def _versions() -> str:
-    import hydrodae
     from hydrodae import _core
 
-    return (
-        f"hydrodae {hydrodae.__version__} (kernel {_core.version}, "
-        f"Python {platform.python_version()})"
-    )
+    return f"hydrodae {version()} (kernel {_core.version}, Python {platform.python_version()})"
 
 
 class _PrintVersion(argparse.Action):

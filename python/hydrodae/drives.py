@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydrodae.case import Case
 from hydrodae.errors import CaseError
+
+if TYPE_CHECKING:
+    from hydrodae._core import Scene
 
 #: A function of time t [s]: its value [m or rad], or (value, rate, rate of the rate).
 Drive = Callable[[float], Any]
@@ -19,12 +21,12 @@ _FEWEST, _MOST = 65, 65 * 2**10  # samples of a function that gives its value on
 _AGREES = 1e-9  # spline against function between the samples, of the function's range
 
 
-def kernel_drives(case: Case, drives: Mapping[str, Drive] | None) -> dict[str, Kernel]:
+def kernel_drives(scene: Scene, drives: Mapping[str, Drive] | None) -> dict[str, Kernel]:
     """Check the names and bring every function to (value, rate, rate of the rate).
 
     Parameters
     ----------
-    case : Case
+    scene : Scene
         Its constraints with ``drive = { python = true }`` need a function each.
     drives : mapping from str to callable, or None
         Functions by the name of the constraint. One that returns a single number is sampled before
@@ -37,7 +39,7 @@ def kernel_drives(case: Case, drives: Mapping[str, Drive] | None) -> dict[str, K
         value only is not smooth enough for a spline.
     """
     given = dict(drives or {})
-    declared = case.scene.python_drives
+    declared = scene.python_drives
     for name in given:
         if name not in declared:
             near = difflib.get_close_matches(name, declared, n=1)
@@ -52,7 +54,7 @@ def kernel_drives(case: Case, drives: Mapping[str, Drive] | None) -> dict[str, K
                 f"constraint {name!r}: its drive is a Python function, which nobody gave; run the "
                 f'case as hydrodae.run(case, drives={{"{name}": function}})'
             )
-    return {name: _kernel(name, drive, case.end_time) for name, drive in given.items()}
+    return {name: _kernel(name, drive, scene.end_time) for name, drive in given.items()}
 
 
 def _kernel(name: str, drive: Drive, end_time: float) -> Kernel:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from hydrodae.results import Results
+from typing import Any
 
 
 class HydrodaeError(Exception):
@@ -30,12 +27,12 @@ class SolverError(HydrodaeError, RuntimeError):
     ----------
     time : float
         Time reached, s (NaN if unknown).
-    results : Results or None
+    results : hydrodae.Results or None
         What was computed until then.
     """
 
     time: float = float("nan")
-    results: Results | None = None
+    results: Any = None
 
 
 class RunInterrupted(HydrodaeError):
@@ -43,8 +40,8 @@ class RunInterrupted(HydrodaeError):
 
     Attributes
     ----------
-    results : Results or None
+    results : hydrodae.Results or None
         What was computed until then.
     """
 
-    results: Results | None = None
+    results: Any = None

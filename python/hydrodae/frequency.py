@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh, null_space
 
-from hydrodae.case import Case
+from hydrodae.case import Case, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
@@ -114,7 +114,7 @@ class LinearModel:
         from hydrodae import _core
 
         self._given_database: HydroDatabase | None = None
-        self.case = case if isinstance(case, Case) else Case.read(case)
+        self.case = read_case(case)
         model: dict[str, Any] = _core.linearize(self.case.scene)
         self.coordinates: list[str] = model["coordinates"]
         self.mass: Array = model["mass"]

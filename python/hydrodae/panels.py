@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.post import displayed
+from hydrodae.units import displayed
 
 if TYPE_CHECKING:
     from hydrodae.results import Results

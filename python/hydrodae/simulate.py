@@ -14,7 +14,7 @@ from threading import Event, current_thread, main_thread
 from types import FrameType
 from typing import Any
 
-from hydrodae.case import Case
+from hydrodae.case import Case, read_case
 from hydrodae.drives import Drive, Kernel, kernel_drives
 from hydrodae.errors import RunInterrupted, SolverError
 from hydrodae.results import Results
@@ -72,11 +72,8 @@ def run(
     RunInterrupted
         Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
     """
-    if not isinstance(case, Case):
-        case = Case(path=case, values=set)
-    elif set:
-        case = case.with_values(set)
-    functions = kernel_drives(case, drives)
+    case = read_case(case, set)
+    functions = kernel_drives(case.scene, drives)
     folder = None
     if output is None:
         folder = _TemporaryFolder()

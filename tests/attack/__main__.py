@@ -15,8 +15,8 @@ from typing import Any
 
 from tests.attack import suite
 
-from hydrodae.stability import Cell, run_cell, show
-from hydrodae.stability.grid import PASS, REFUSED, STOPPED, WRONG
+from hydrodae.study.stability import Cell, run_cell, show
+from hydrodae.study.stability.grid import PASS, REFUSED, STOPPED, WRONG
 
 RANK = {WRONG: 0, STOPPED: 1, REFUSED: 2, PASS: 3}
 

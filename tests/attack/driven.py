@@ -20,7 +20,7 @@ from tests.attack.parts import (
     position,
 )
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 
 def _draw_crank(g: np.random.Generator) -> dict[str, Any]:

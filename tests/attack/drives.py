@@ -24,7 +24,7 @@ from tests.attack.parts import (
     spring,
 )
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 KIND = "drives"
 Motion = Callable[[Any], tuple[Any, Any, Any]]  #: value, rate, rate of the rate

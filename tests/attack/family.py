@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 Draw = Callable[[np.random.Generator], dict[str, Any]]
 Make = Callable[..., Scene]

@@ -9,7 +9,7 @@ import numpy as np
 from tests.attack.family import family, log_uniform, neighbour
 from tests.attack.parts import beside
 
-from hydrodae.stability import Scene, all_scenes
+from hydrodae.study.stability import Scene, all_scenes
 
 KIND = "misaligned hinges"
 #: The message names a hinge, the misfit, and that it is one.

@@ -22,7 +22,7 @@ from tests.attack.parts import (
     position,
 )
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 KIND = "impacts"
 

@@ -9,7 +9,7 @@ from tests.attack import truth
 from tests.attack.family import family, log_uniform, neighbour
 from tests.attack.parts import GRAVITY, beside, body, case, joint, position
 
-from hydrodae.stability import Scene, truths
+from hydrodae.study.stability import Scene, truths
 
 KIND = "long runs"
 

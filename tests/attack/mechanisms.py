@@ -10,7 +10,7 @@ from tests.attack import scales
 from tests.attack.family import family, log_uniform
 from tests.attack.parts import beside, both
 
-from hydrodae.stability import Scene, all_scenes
+from hydrodae.study.stability import Scene, all_scenes
 
 KIND = "unconnected mechanisms"
 NEIGHBOURS = ("ship", "barge", "rotor", "swing")

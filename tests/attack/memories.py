@@ -11,7 +11,7 @@ from tests.attack import sea, truth
 from tests.attack.family import family, log_uniform, neighbour
 from tests.attack.parts import beside, case, position
 
-from hydrodae.stability import Scene, past, truths, water
+from hydrodae.study.stability import Scene, past, truths, water
 
 KIND = "bad memories"
 FEEDS = "the radiated waves would feed the motion"

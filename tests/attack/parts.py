@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.results import Results
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 Array = NDArray[np.float64]
 Table = dict[str, Any]

@@ -22,7 +22,7 @@ from tests.attack.parts import (
     spring,
 )
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 KIND = "loads after rest"
 PULSE = Polynomial([0.0, 4.0, -4.0]) ** 4  #: (4 s (1 - s))^4: three derivatives vanish at 0 and 1

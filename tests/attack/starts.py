@@ -23,7 +23,7 @@ from tests.attack.parts import (
     position,
 )
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 KIND = "start velocities"
 TOLD = r"(?i)veloc|rate|m/s|rad/s"

@@ -14,8 +14,8 @@ from tests.attack import rest, sea, suite, truth
 from tests.attack.family import FAMILIES
 from tests.attack.parts import GRAVITY
 
-from hydrodae.stability import Cell, Scene, run_cell
-from hydrodae.stability.grid import PASS, WRONG
+from hydrodae.study.stability import Cell, Scene, run_cell
+from hydrodae.study.stability.grid import PASS, WRONG
 
 SCENES = suite.all_scenes()
 #: Quick ones of every kind.

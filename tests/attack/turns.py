@@ -9,7 +9,7 @@ from tests.attack import truth
 from tests.attack.family import family, log_uniform, neighbour
 from tests.attack.parts import GRAVITY, X, Y, Z, beside, body, case, channel, joint
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 KIND = "turns"
 TURN = 2.0 * np.pi

@@ -9,7 +9,7 @@ from tests.attack import sea, truth
 from tests.attack.family import family, log_uniform, neighbour
 from tests.attack.parts import beside, case, position
 
-from hydrodae.stability import Scene
+from hydrodae.study.stability import Scene
 
 HEAVE = position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT])
 SOURCE = "linear states of the same tables (DOP853)"

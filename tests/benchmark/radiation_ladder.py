@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 
 import hydrodae
-from hydrodae.hdb.read import import_database
-from hydrodae.ladder import ladder
+from hydrodae.hdb.importing import import_database
 from hydrodae.memory import fit_memory
+from hydrodae.study.ladder import ladder
 
 ROOT = Path(__file__).resolve().parents[2]
 PLANAR = ("surge", "heave", "pitch")

@@ -15,8 +15,9 @@ import pytest
 
 from hydrodae import _core
 from hydrodae.errors import CaseError
-from hydrodae.hdb.database import Body, HydroDatabase
+from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.tables import Body
 from hydrodae.memory import ExponentialMemory
 
 CASE = """title = "buoy"

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from hydrodae import cli
-from hydrodae.chart import Chart, Run, chart, pareto, recommend
-from hydrodae.chart_methods import parse_method, step_ladder
-from hydrodae.chart_output import draw, footing, heading
-from hydrodae.chart_reference import Solution, error
-from hydrodae.chart_runs import classify
+from hydrodae.study.chart import Chart, Run, chart, pareto, recommend
+from hydrodae.study.chart.methods import parse_method, step_ladder
+from hydrodae.study.chart.output import draw, footing, heading
+from hydrodae.study.chart.runs import classify
+from hydrodae.study.reference import Solution, error
 
 TOLERANCES = (1e-3, 1e-5, 1e-7)
 

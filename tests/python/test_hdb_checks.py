@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 from hydrodae import hdb
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.read import read_source
+from hydrodae.hdb.importing import read_source
 
 
 @pytest.fixture(scope="module")

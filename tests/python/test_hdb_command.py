@@ -9,8 +9,9 @@ import pytest
 
 import hydrodae.memory
 from hydrodae import hdb
+from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import command, files
+from hydrodae.hdb import files
 from hydrodae.memory import ExponentialMemory
 
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import command
-from hydrodae.hdb.compare import compare, other_water, sensitivity
+from hydrodae.hdb.checks.compare import compare, grid_sensitivity, other_water
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def test_twins_in_other_water_are_told_apart(sphere, reference):
 
 
 def test_sensitivity_of_the_sphere(sphere):
-    rows = {text: (k, a) for text, k, a in sensitivity(sphere)}
+    rows = {text: (k, a) for text, k, a in grid_sensitivity(sphere)}
     assert rows["every second frequency"][0] < 0.01
     assert rows["every fourth frequency"][0] > rows["every second frequency"][0]
     assert rows["up to 0.5 w_max"][0] > rows["up to 0.75 w_max"][0]

@@ -10,8 +10,10 @@ import pytest
 import xarray as xr
 
 from hydrodae import hdb
+from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import bem, command, shapes
+from hydrodae.hdb.bem import run as bem
+from hydrodae.hdb.bem import shapes
 
 cpt = pytest.importorskip("capytaine", reason="needs the extra bem")
 SETTINGS = bem.Settings(omega=np.array([0.4, 0.8, 1.2, 1.6]), rho=1000.0)

@@ -11,9 +11,9 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import files
+from hydrodae.hdb.convolution import RadiationKernel
 from hydrodae.hdb.coordinates import skew
 from hydrodae.hdb.dispersion import frequency, wavenumber
-from hydrodae.hdb.radiation_kernel import RadiationKernel
 from hydrodae.memory import ExponentialMemory
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import command
-from hydrodae.hdb.doctor import examination
-from hydrodae.hdb.energy import energy_identity, group_velocity
+from hydrodae.hdb.checks.energy import energy_identity, group_velocity
+from hydrodae.hdb.checks.examination import examination
+from hydrodae.hdb.checks.irregular import bands, suspect_rows
+from hydrodae.hdb.checks.repair import repair
 from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.irregular import bands, suspect_rows
-from hydrodae.hdb.repair import repair
 
 
 def call(*words):

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import command, export
+from hydrodae.hdb import writers
 from hydrodae.hdb.kernels import excitation_kernel, memory_length
 
 TABLES = ("omega", "heading", "added_mass", "radiation_damping", "added_mass_inf", "excitation")
@@ -26,7 +27,7 @@ def bemio_file(array, tmp_path_factory):
     """Two bodies of the array."""
     path = tmp_path_factory.mktemp("bemio") / "x.h5"
     two = [c for c in array.coordinates if c.startswith(("S3", "C1"))]
-    export.write_bemio(array.select(two), path)
+    writers.write_bemio(array.select(two), path)
     return path
 
 
@@ -44,7 +45,7 @@ def same(a, b, *, split=True):
 
 
 @pytest.mark.parametrize(
-    ("write", "name"), [(export.write_bemio, "x.h5"), (export.write_capytaine, "x.nc")]
+    ("write", "name"), [(writers.write_bemio, "x.h5"), (writers.write_capytaine, "x.nc")]
 )
 def test_round_trip(array, tmp_path, write, name):
     write(array, tmp_path / name)
@@ -57,7 +58,7 @@ def test_round_trip(array, tmp_path, write, name):
 @pytest.mark.parametrize("suffix", ["h5", "nc"])
 def test_round_trip_of_a_total_excitation_in_finite_depth(reference, tmp_path, suffix):
     db = hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
-    write = export.write_bemio if suffix == "h5" else export.write_capytaine
+    write = writers.write_bemio if suffix == "h5" else writers.write_capytaine
     write(db, tmp_path / f"x.{suffix}")
     again = hdb.read(tmp_path / f"x.{suffix}")
     same(again, db, split=False)
@@ -67,15 +68,15 @@ def test_round_trip_of_a_total_excitation_in_finite_depth(reference, tmp_path, s
 def test_a_bemio_file_wants_six_coordinates(array, tmp_path):
     some = array.select([c for c in array.coordinates if c != "C1.yaw"])
     with pytest.raises(DatabaseError, match=r"missing: C1\.yaw"):
-        export.write_bemio(some, tmp_path / "x.h5")
-    export.write_capytaine(some, tmp_path / "x.nc")
+        writers.write_bemio(some, tmp_path / "x.h5")
+    writers.write_capytaine(some, tmp_path / "x.nc")
     assert hdb.read(tmp_path / "x.nc").coordinates == some.coordinates
     assert not (tmp_path / "x.h5").exists()
 
 
 def test_bemio_kernels_are_what_its_readers_expect(array, tmp_path):
     db = array.select([f"S3.{d}" for d in ("surge", "sway", "heave", "roll", "pitch", "yaw")])
-    export.write_bemio(db, tmp_path / "x.h5")
+    writers.write_bemio(db, tmp_path / "x.h5")
     with h5py.File(tmp_path / "x.h5") as f:
         g = f["body1/hydro_coeffs/radiation_damping/impulse_response_fun"]
         t, k = g["t"][:, 0], g["K"][2, 2]

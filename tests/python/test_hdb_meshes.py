@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import shapes
-from hydrodae.hdb.lids import lid, water_line
-from hydrodae.hdb.meshes import read_mesh
+from hydrodae.hdb.bem import shapes
+from hydrodae.hdb.bem.lids import lid, water_line
+from hydrodae.hdb.bem.meshes import read_mesh
 
 POINT = np.array([1.0, 2.0, -3.0])
 

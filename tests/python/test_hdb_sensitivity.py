@@ -11,7 +11,8 @@ import pytest
 import hydrodae
 from hydrodae import hdb
 from hydrodae.cli import main
-from hydrodae.hdb.sensitivity import cut_memory, every, fitted, sensitivity, up_to
+from hydrodae.study.sensitivity import sensitivity
+from hydrodae.study.sensitivity.variants import cut_memory, every, fitted, up_to
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.read import kind, read_source
+from hydrodae.hdb.importing import kind, read_source
 
 POT = """two floats
 {depth}  HBOT

@@ -14,7 +14,7 @@ import pytest
 from tests.verification.truths import make as truths
 
 from hydrodae import cli
-from hydrodae.stability import (
+from hydrodae.study.stability import (
     Cell,
     Scene,
     all_methods,
@@ -24,9 +24,9 @@ from hydrodae.stability import (
     show,
     stability_map,
 )
-from hydrodae.stability.grid import REFUSED, WRONG
-from hydrodae.stability.methods import Method
-from hydrodae.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
+from hydrodae.study.stability.grid import REFUSED, WRONG
+from hydrodae.study.stability.methods import Method
+from hydrodae.study.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
 
 SCENES, METHODS = all_scenes(), all_methods()
 SHORT = ("ida:1e-6", "ida:1e-3", "radau:1e-6", "radau:1e-3", "explicit_rk:1e-6")

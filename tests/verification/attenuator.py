@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae.hdb import read
-from hydrodae.hdb.database import Body, Complex, HydroDatabase
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.tables import Body, Complex
 from hydrodae.memory import fit_memory
 
 PLACES = {"fore": -20.0, "middle": 0.0, "aft": 20.0}  # x [m]

@@ -10,7 +10,7 @@ import pytest
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
-from hydrodae.stability import switching
+from hydrodae.study.stability import switching
 
 METHODS = {
     "ida": "",

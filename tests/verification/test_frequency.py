@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 import hydrodae
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.rao import time_domain
+from hydrodae.study.rao.regular_waves import time_domain
 
 ANGLES = ("bodies/base/pitch", "joints/hinge1/angle", "joints/hinge2/angle")
 # InWave's base pitch in degrees per metre over the period, off resonance (the reference data of the

@@ -9,7 +9,7 @@ import pytest
 
 import hydrodae
 from hydrodae.cli import main
-from hydrodae.ladder import RUNGS, ladder
+from hydrodae.study.ladder import RUNGS, ladder
 
 
 def test_ladder_of_the_sphere(repository: Path) -> None:

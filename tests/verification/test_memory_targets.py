@@ -15,8 +15,8 @@ from tests.verification.test_rm3 import FLOAT, decay_model
 
 from hydrodae import hdb, states
 from hydrodae.frequency import LinearModel
-from hydrodae.hdb.command import working_band
 from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.study.band import working_band
 
 PLANAR = tuple(f"{b}.{d}" for b in ("float", "spar") for d in ("surge", "heave", "pitch"))
 

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 import xarray
 
-from hydrodae import rao_output
 from hydrodae.cli import main
 from hydrodae.frequency import LinearModel, Response
+from hydrodae.study.rao import output as rao_output
+from hydrodae.study.rao.text import coordinates, short_name
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +103,7 @@ def test_the_picture_has_all_that_moves(
 ) -> None:
     figure = rao_output.draw(response, "F3OF")
     lines = {str(line.get_label()) for axes in figure.axes for line in axes.lines}
-    moving = {rao_output.short_name(name) for name in rao_output.coordinates(response)}
+    moving = {short_name(name) for name in coordinates(response)}
     assert moving <= lines
     assert "pto1 mean power" in lines
     assert all("[" in axes.get_ylabel() for axes in figure.axes)

@@ -11,7 +11,7 @@ import hydrodae
 import hydrodae.memory
 from hydrodae.cli import main
 from hydrodae.frequency import LinearModel
-from hydrodae.hdb.sensitivity import sensitivity
+from hydrodae.study.sensitivity import sensitivity
 
 FLOAT, SLIDE = "bodies/float/heave", "joints/slide/displacement"
 

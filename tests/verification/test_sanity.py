@@ -9,7 +9,7 @@ import pytest
 from tests.verification import attenuator
 
 import hydrodae
-from hydrodae.hdb.read import import_database
+from hydrodae.hdb.importing import import_database
 
 SPHERE = """
 [hydro]

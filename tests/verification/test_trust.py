@@ -12,8 +12,8 @@ from tests.attack import suite
 
 import hydrodae
 from hydrodae.cli import main
-from hydrodae.stability import Method
-from hydrodae.stability.grid import PASS, run_cell
+from hydrodae.study.stability import Method
+from hydrodae.study.stability.grid import PASS, run_cell
 
 SCENES = suite.all_scenes()
 PENDULUM = """

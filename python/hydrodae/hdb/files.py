@@ -13,9 +13,9 @@ import numpy as np
 from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
-from hydrodae.hdb.database import Body, HydroDatabase
+from hydrodae.hdb.convolution import RadiationKernel
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.radiation_kernel import RadiationKernel
+from hydrodae.hdb.tables import Body, Tables
 
 if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
@@ -52,14 +52,12 @@ def is_single(path: str | Path) -> bool:
         return bool(f["added_mass"].dtype == np.float32)
 
 
-def write(
-    database: HydroDatabase, path: str | Path, *, kernel: bool = True, single: bool = False
-) -> None:
+def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
     """Write a database to `hydro.h5`; an existing file is replaced only by a complete one.
 
     Parameters
     ----------
-    database : HydroDatabase
+    database : Tables
         What to write.
     path : path
         Target file.
@@ -88,8 +86,8 @@ def write(
     os.replace(partial, target)
 
 
-def read(path: str | Path) -> HydroDatabase:
-    """Read `hydro.h5`.
+def read(path: str | Path) -> dict[str, Any]:
+    """Read `hydro.h5`: the fields of `hydrodae.hdb.tables.Tables` by name.
 
     Raises
     ------
@@ -125,7 +123,7 @@ def _refuse_oversized(source: Path, f: h5py.File) -> None:
     f.visititems(check)
 
 
-def _write_tables(f: h5py.File, db: HydroDatabase, *, kernel: bool, single: bool) -> None:
+def _write_tables(f: h5py.File, db: Tables, *, kernel: bool, single: bool) -> None:
     f.attrs["format"] = FORMAT
     f.attrs["format_version"] = FORMAT_VERSION
     for name in ("rho", "gravity", "water_depth"):
@@ -169,7 +167,7 @@ def _read_kernel(group: h5py.Group) -> RadiationKernel:
     )
 
 
-def _write_bodies(f: h5py.File, db: HydroDatabase) -> None:
+def _write_bodies(f: h5py.File, db: Tables) -> None:
     for i, body in enumerate(db.bodies.values()):
         group = f.create_group(f"bodies/{body.name}")
         group.attrs["index"] = i
@@ -192,13 +190,13 @@ def _write_fit(group: h5py.Group, fit: ExponentialMemory) -> None:
         group.attrs[key] = value
 
 
-def _read(f: h5py.File) -> HydroDatabase:
+def _read(f: h5py.File) -> dict[str, Any]:
     coordinates = _read_labels(f["coordinates"])
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
     texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
     values: dict[str, Any] = {name: _numbers(f, name) for name in UNITS}
-    return HydroDatabase(
+    return dict(
         coordinates=coordinates,
         froude_krylov=_numbers(f, "excitation/froude_krylov", complex),
         diffraction=_numbers(f, "excitation/diffraction", complex),

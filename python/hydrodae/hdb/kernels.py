@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from hydrodae import irf
 from hydrodae.hdb.coordinates import split_label
-
-if TYPE_CHECKING:
-    from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.scales import scales
+from hydrodae.hdb.tables import Tables
 
 Array = NDArray[np.float64]
 #: Share of int |K| dt that may be left after the memory length.
@@ -42,7 +39,7 @@ def envelope_length(time: Array, kernel: Array, rest: float = REST) -> Array:
     return np.asarray(time[np.maximum(over.sum(axis=0) - 1, 0)], dtype=float)
 
 
-def memory_length(database: HydroDatabase) -> float:
+def memory_length(database: Tables) -> float:
     """Length [s] of the radiation memory of the coordinates that radiate (diagonal of K).
 
     At most what the grid resolves (`resolved_time`), beyond which the table says nothing.
@@ -53,10 +50,8 @@ def memory_length(database: HydroDatabase) -> float:
     return float(envelope_length(time, kernel).max())
 
 
-def diagonal_kernels(database: HydroDatabase) -> tuple[Array, Array]:
+def diagonal_kernels(database: Tables) -> tuple[Array, Array]:
     """Times (nt,) [s] up to what the grid resolves, and K_ii (nt, m) of what radiates."""
-    from hydrodae.hdb.checks import scales  # which needs this module
-
     w = database.omega
     used = np.flatnonzero(scales(database) > 0.0)
     b = database.radiation_damping[:, used, used]
@@ -68,12 +63,12 @@ def diagonal_kernels(database: HydroDatabase) -> tuple[Array, Array]:
     return time, irf.radiation_kernel(w, b, time, extrapolate=True)
 
 
-def resolved_time(database: HydroDatabase) -> float:
+def resolved_time(database: Tables) -> float:
     """Longest memory [s] that the grid resolves: pi over its largest step (first one from 0)."""
     return float(np.pi / np.diff(np.r_[0.0, database.omega]).max())
 
 
-def excitation_kernel(database: HydroDatabase, time: ArrayLike) -> Array:
+def excitation_kernel(database: Tables, time: ArrayLike) -> Array:
     """Excitation kernel K_ex(t) = 1/pi int_0^inf Re(F e^{iwt}) dw, trapezoid on a fine spline.
 
     F(0) is the static limit: the heave stiffness where hydrostatics are known, else the first

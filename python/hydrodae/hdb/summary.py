@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydrodae.hdb.convolution import RadiationKernel
 from hydrodae.hdb.coordinates import split_label
-from hydrodae.hdb.database import Body, HydroDatabase
+from hydrodae.hdb.tables import Body, Tables
 
 if TYPE_CHECKING:
-    from hydrodae.hdb.radiation_kernel import RadiationKernel
     from hydrodae.memory import ExponentialMemory
 
 
-def summary(db: HydroDatabase) -> str:
+def summary(db: Tables) -> str:
     """Return what is in the database, for a newcomer: bodies, ranges, headings, fits."""
     depth = f"{db.water_depth:g} m deep" if np.isfinite(db.water_depth) else "infinitely deep"
     headings = ", ".join(f"{h:.4g}" for h in np.degrees(db.heading)) or "none"
@@ -69,7 +69,7 @@ def kernel_summary(kernel: RadiationKernel) -> str:
     return "; ".join(parts)
 
 
-def _body(db: HydroDatabase, body: Body) -> list[str]:
+def _body(db: Tables, body: Body) -> list[str]:
     dofs = [c.rpartition(".")[2] for c in db.coordinates if split_label(c)[0] == body.name]
     point = "unknown" if body.reference_point is None else _vector(body.reference_point)
     lines = [f"  body       {body.name}: {', '.join(dofs)}; moments about {point}"]

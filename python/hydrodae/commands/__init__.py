@@ -1,0 +1,1 @@
+"""The commands of `hydrodae`: they read arguments, call the package and print."""

@@ -1,0 +1,42 @@
+"""Arguments that several commands read in the same way."""
+
+from __future__ import annotations
+
+import argparse
+
+import numpy as np
+
+from hydrodae.case import Case, parse_assignment
+from hydrodae.errors import CaseError, DatabaseError
+
+
+def given_case(arguments: argparse.Namespace) -> Case:
+    """Read the CASE of a command, with its values of --set."""
+    return Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
+
+
+def parse_numbers(what: str, text: str, count: int) -> list[float]:
+    """Read numbers separated by commas; raise CaseError if they are not `count` finite ones."""
+    try:
+        values = [float(v) for v in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != count or not np.all(np.isfinite(values)):
+        raise CaseError(f"{what} {text!r}: expected {count} numbers separated by commas")
+    return values
+
+
+def parse_point(option: str, text: str) -> tuple[str, list[float]]:
+    """Read NAME=X,Y,Z [m]; raise CaseError if it is something else."""
+    name, equals, values = text.partition("=")
+    if not equals:
+        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
+    return name.strip(), parse_numbers(option, values, 3)
+
+
+def parse_band(text: str) -> tuple[float, float]:
+    """Read LO,HI of --band [rad/s]; raise DatabaseError if it is no range of frequencies."""
+    low, high = parse_numbers("--band", text, 2)
+    if not 0.0 <= low < high:
+        raise DatabaseError(f"--band {text!r}: expected 0 <= LO < HI [rad/s]")
+    return low, high

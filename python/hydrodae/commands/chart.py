@@ -1,0 +1,148 @@
+"""The commands `hydrodae chart` and `hydrodae recommend`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from hydrodae.commands.arguments import given_case
+from hydrodae.errors import CaseError
+
+DONE = 0
+
+
+def run_chart(arguments: argparse.Namespace) -> int:
+    """Make a chart, print its table, write picture and JSON."""
+    from hydrodae.plot import save
+    from hydrodae.progress import ProgressLine
+    from hydrodae.study.chart import chart, output
+
+    case = given_case(arguments)
+    prefix = Path(arguments.output or Path(arguments.case).stem + "_chart")
+    options = _options(arguments)
+    if arguments.steps:
+        options["steps"] = _numbers(arguments.steps, "--steps")
+    with ProgressLine(f"chart of {case.title}, simulated") as progress:
+        made = chart(case, progress=progress, **options)
+    console = Console(highlight=False, soft_wrap=True)
+    console.width = max(console.width, 100)  # no outcome broken over two lines
+    console.print(output.heading(made), markup=False)
+    console.print()
+    console.print(output.table(made))
+    console.print(output.footing(made), markup=False)
+    picture = save(output.draw(made), prefix.with_name(prefix.name + ".png"))
+    values = output.write_json(made, prefix.with_name(prefix.name + ".json"))
+    console.print(f"picture in {picture}, values in {values}", markup=False)
+    return DONE
+
+
+def run_recommend(arguments: argparse.Namespace) -> int:
+    """Print the cheapest setting that meets an error, as lines of a case."""
+    from hydrodae.progress import ProgressLine
+    from hydrodae.study.chart import Run, recommend
+
+    def told(run: Run) -> str:
+        return (
+            f"{run.method} at {run.knob} {run.setting:g}: error {run.error:.1e}, "
+            f"solver time {1e3 * (run.time or 0.0):.1f} ms"
+        )
+
+    case = given_case(arguments)
+    with ProgressLine(f"runs of {case.title}, simulated") as progress:
+        found = recommend(case, arguments.error, progress=progress, **_options(arguments))
+    print(f"# {told(found.run)}\n{found.toml()}")
+    print(f"\n# runner-up: {told(found.runner_up) if found.runner_up else 'none'}")
+    for name in found.chart.methods():
+        runs = [run for run in found.chart.runs if run.method == name]
+        if not any(run.measured and (run.error or 0.0) <= arguments.error for run in runs):
+            bad = sorted({run.outcome for run in runs} - {"ok"})
+            print(f"# {name} does not meet it{': ' + ', '.join(bad) if bad else ''}")
+    return DONE
+
+
+def add_arguments(commands: Any) -> None:
+    """Add both commands to the subparsers of `hydrodae`."""
+    chart = commands.add_parser(
+        "chart",
+        help="chart speed against accuracy of all methods on a case",
+        description="Run a case by every method over a ladder of tolerances or steps; print a "
+        "table, write PREFIX.png and PREFIX.json.",
+    )
+    _common(chart)
+    chart.add_argument(
+        "--steps",
+        metavar="A,B,...",
+        help="steps [s] of the fixed-step methods (default: from the mean step of ida)",
+    )
+    chart.add_argument(
+        "-o", "--output", metavar="PREFIX", help="default: the case's name with _chart, here"
+    )
+    chart.set_defaults(call=run_chart)
+
+    advise = commands.add_parser(
+        "recommend",
+        help="find the cheapest method and tolerance that meet an error",
+        description="Run a case by four methods at four tolerances or steps, and print the "
+        "cheapest setting whose error is at most E as lines to paste into the case.",
+    )
+    advise.add_argument(
+        "--error",
+        metavar="E",
+        type=float,
+        required=True,
+        help="largest difference relative to the largest excursion, such as 1e-4",
+    )
+    _common(advise)
+    advise.set_defaults(call=run_recommend, steps=None)
+
+
+def _common(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument(
+        "--methods", metavar="A,B,...", help="names, or name:order such as radau:13"
+    )
+    parser.add_argument("--tolerances", metavar="A,B,...", help="rtol of ida, radau, explicit_rk")
+    parser.add_argument(
+        "--channels",
+        metavar="A,B,...",
+        help="channels or patterns, CHANNEL=COLUMN to name a column of the reference file "
+        "(default: joint coordinates, else the bodies' positions)",
+    )
+    parser.add_argument(
+        "--reference",
+        metavar="FILE|METHOD",
+        help="results file, .csv or .json table; or a method (default: radau at rtol 1e-12)",
+    )
+    parser.add_argument("--repeat", metavar="N", type=int, help="time is the best of N runs")
+    parser.add_argument(
+        "--time-limit", metavar="S", type=float, help="longest wall time of a run [s] (60)"
+    )
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+
+
+def _options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The arguments that were given, as those of `hydrodae.chart`."""
+    options: dict[str, Any] = {
+        "reference": arguments.reference,
+        "repeat": arguments.repeat,
+        "time_limit": arguments.time_limit,
+        "methods": arguments.methods and _words(arguments.methods),
+        "channels": arguments.channels and _words(arguments.channels),
+    }
+    if arguments.tolerances:
+        options["tolerances"] = _numbers(arguments.tolerances, "--tolerances")
+    return {key: value for key, value in options.items() if value is not None}
+
+
+def _words(text: str) -> list[str]:
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
+def _numbers(text: str, option: str) -> list[float]:
+    try:
+        return [float(word) for word in _words(text)]
+    except ValueError as problem:
+        raise CaseError(f"{option} {text}: {problem}") from None

@@ -1,0 +1,27 @@
+"""The command `hydrodae check`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser(
+        "check",
+        help="read a case, close its joints and tell what it costs",
+        description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
+        "constraint rows, and how far the bodies were moved to close the joints.",
+    )
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.set_defaults(call=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what a case costs and what looks wrong with it; returns 0."""
+    from hydrodae.commands.arguments import given_case
+    from hydrodae.study.check import check
+
+    print(check(given_case(arguments)), end="")
+    return 0

@@ -1,0 +1,27 @@
+"""The command `hydrodae equilibrium`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser(
+        "equilibrium",
+        help="find the static pose of a case in still water",
+        description="Solve for the static pose of the whole constrained scene in still water; "
+        "print the offsets of the bodies and the reactions of the joints.",
+    )
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.set_defaults(call=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the static pose and the reactions there; returns 0."""
+    from hydrodae.commands.arguments import given_case
+    from hydrodae.study.equilibrium import equilibrium
+
+    print(equilibrium(given_case(arguments)))
+    return 0

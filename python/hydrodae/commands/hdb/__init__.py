@@ -1,0 +1,47 @@
+"""The commands on databases: `hydrodae hdb import | fit | kernel | show | export | ...`."""
+
+from __future__ import annotations
+
+import argparse
+
+from hydrodae.commands.hdb import compare, compute, doctor, importing, memory, sensitivity, show
+
+_ACTIONS = {
+    "import": importing.run,
+    "fit": memory.run_fit,
+    "kernel": memory.run_kernel,
+    "show": show.run_show,
+    "export": show.run_export,
+    "doctor": doctor.run,
+    "compute": compute.run,
+    "compare": compare.run,
+    "sensitivity": sensitivity.run,
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the subcommands to the parser of `hydrodae hdb`."""
+    actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
+    for command in (importing, memory, show, doctor, compute, compare, sensitivity):
+        command.add_arguments(actions)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run a subcommand.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        Of a parser prepared by `add_arguments`.
+
+    Returns
+    -------
+    int
+        0 done, 2 the checks found an error and nothing was written.
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments or data.
+    """
+    return _ACTIONS[args.hdb_action](args)

@@ -1,0 +1,194 @@
+"""The command `hydrodae hdb compute`: from shapes or mesh files to `hydro.h5`, with Capytaine."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from time import monotonic
+
+import numpy as np
+
+from hydrodae.commands.arguments import parse_numbers, parse_point
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.bem import run as bem
+from hydrodae.hdb.bem import shapes
+from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.computing import hydrostatics_of
+from hydrodae.hdb.coordinates import body_name, check_body
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.importing import import_database
+
+DONE, BAD_DATA = 0, 2
+#: Wall time between two lines of progress [s].
+INTERVAL = 5.0
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommand compute."""
+    compute = actions.add_parser(
+        "compute",
+        help="compute a database with Capytaine from shapes or mesh files",
+        description="Compute a database by the boundary-element method (Capytaine, extra bem) and "
+        "write hydro.h5. What is done is kept: an interrupted run goes on where it stopped.",
+        epilog="example: hydrodae hdb compute --body buoy=sphere:radius=5 --cog buoy=0,0,-2 "
+        "--omega 0.1,4,40 -o hydro.h5",
+    )
+    compute.add_argument(
+        "--body",
+        metavar="NAME=WHAT",
+        action="append",
+        required=True,
+        help="sphere:radius=R[:x=..:y=..:z=..], cylinder:radius=R:draft=D[:top=..:x=..:y=..], "
+        "box:length=L:width=W:draft=D[:top=..:x=..:y=..] in metres, or a mesh file (STL, GDF, "
+        "Nemoh, GMSH), which may be followed by :x=..:y=..:z=.. to move it; may be repeated",
+    )
+    compute.add_argument(
+        "--cog",
+        metavar="NAME=X,Y,Z",
+        action="append",
+        default=[],
+        help="reference point of every body, its centre of gravity at rest [m]",
+    )
+    compute.add_argument(
+        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
+    )
+    compute.add_argument(
+        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
+    )
+    compute.add_argument("--depth", metavar="H", type=float, default=np.inf, help="default: inf")
+    compute.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
+    compute.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
+    compute.add_argument(
+        "--panel",
+        metavar="SIZE",
+        type=float,
+        help="side of the panels of simple shapes [m] (default: an eighth of the shortest wave or "
+        "of the cube root of the volume, whichever is smaller)",
+    )
+    compute.add_argument(
+        "--no-lid", action="store_true", help="leave irregular frequencies in (faster)"
+    )
+    compute.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
+    compute.add_argument(
+        "--work", metavar="FOLDER", help="where finished frequencies are kept (default: FILE.bem)"
+    )
+    compute.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    compute.add_argument(
+        "--accept", action="store_true", help="write the file although a check found an error"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compute a database.
+
+    Returns
+    -------
+    int
+        0, or 2 if a check found an error and nothing was written.
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments or meshes, or Capytaine is missing.
+    """
+    low, high, count = parse_numbers("--omega", args.omega, 3)
+    if not (0.0 < low < high and count >= 4 and count == int(count)):
+        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
+    degrees = parse_numbers("--heading-deg", args.heading_deg, args.heading_deg.count(",") + 1)
+    settings = bem.Settings(
+        omega=np.linspace(low, high, int(count)),
+        heading=np.radians(degrees),
+        rho=args.rho,
+        gravity=args.gravity,
+        water_depth=args.depth,
+        lid=not args.no_lid,
+    )
+    points = dict(parse_point("--cog", text) for text in args.cog)
+    bodies = [_body(text, points, args.panel, settings) for text in args.body]
+    for name in points:
+        check_body(name, [b.name for b in bodies])
+    statics = hydrostatics_of(bodies)
+    for body in bodies:
+        volume = statics[body.name].displaced_volume
+        print(f"{body.name}: {len(body.panels)} panels, displaces {volume:.5g} m3")
+    warning = bem.panel_warning(bodies, settings)
+    if warning:
+        print(f"warning: {warning}")
+    work = Path(args.work or f"{args.output}.bem")
+    progress = None if args.quiet else _Progress()
+    netcdf = bem.compute(bodies, settings, work, progress=progress)
+    nan = bem.count_nan(netcdf)
+    if nan:
+        print(f"warning: NaN in the results of Capytaine: {nan}")
+    database, report = import_database(netcdf, hydrostatics=statics)
+    print(database.summary())
+    print(report)
+    if not report.ok and not args.accept:
+        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+        return BAD_DATA
+    database.write(args.output)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    return DONE
+
+
+def _body(
+    text: str, points: dict[str, list[float]], size: float | None, settings: bem.Settings
+) -> bem.WettedBody:
+    name, equals, what = text.partition("=")
+    if not equals or body_name(name) != name:
+        raise CaseError(f"--body {text!r}: expected NAME=SHAPE:key=value... or NAME=FILE")
+    if name not in points:
+        raise CaseError(f"--body {name}: needs --cog {name}=X,Y,Z, its reference point [m]")
+    words, lengths = what.split(":"), dict[str, float]()
+    while len(words) > 1 and "=" in words[-1]:
+        key, _, value = words.pop().partition("=")
+        try:
+            lengths[key] = float(value)
+        except ValueError:
+            raise CaseError(f"--body {name}: {key}={value!r}: expected a number [m]") from None
+    first = ":".join(words)
+    if first in shapes.SHAPES or (len(lengths) and not Path(first).is_file()):
+        panels = shapes.build(first, size or _size(first, lengths, settings), lengths)
+    elif Path(first).is_file() or Path(first).suffix:
+        shift = [lengths.pop(axis, 0.0) for axis in ("x", "y", "z")]
+        if lengths:
+            raise CaseError(f"--body {name}: {next(iter(lengths))}: a mesh takes x, y and z only")
+        panels = read_mesh(first) + np.array(shift)
+    else:
+        panels = shapes.build(first, 1.0, lengths)  # says what is missing
+    try:
+        panels = bem.immersed(panels)
+    except DatabaseError as error:
+        raise DatabaseError(f"body {name}: {error}") from error
+    return bem.WettedBody(name, panels, np.array(points[name]))
+
+
+def _size(shape: str, lengths: dict[str, float], settings: bem.Settings) -> float:
+    coarse = shapes.build(shape, max([*map(abs, lengths.values()), 1e-3]) / 4.0, lengths)
+    volume = shapes.hydrostatics(coarse, np.zeros(3)).displaced_volume
+    k = wavenumber(settings.omega[-1:], settings.water_depth, settings.gravity)[0]
+    return min(2.0 * np.pi / float(k), float(np.cbrt(volume))) / 8.0
+
+
+class _Progress:
+    """A line on stderr every few seconds, and at the end."""
+
+    def __init__(self) -> None:
+        self._last = monotonic()
+        self._before: int | None = None
+
+    def __call__(self, done: int, total: int, omega: float, spent: float) -> None:
+        if self._before is None:
+            self._before = done - 1
+        now = monotonic()
+        if now - self._last < INTERVAL and done < total:
+            return
+        self._last = now
+        left = spent / (done - self._before) * (total - done)
+        print(
+            f"{done} of {total} frequencies, w = {omega:.4g} rad/s, {spent:.0f} s, "
+            f"about {left:.0f} s to go",
+            file=sys.stderr,
+            flush=True,
+        )

@@ -1,0 +1,97 @@
+"""The command `hydrodae hdb doctor`: all checks on one page, a picture, and repairs on request."""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+from pathlib import Path
+
+from hydrodae.commands.arguments import parse_point
+from hydrodae.errors import CaseError
+from hydrodae.hdb.checks.check import check
+from hydrodae.hdb.checks.examination import examination
+from hydrodae.hdb.checks.repair import repair
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import CheckReport
+from hydrodae.hdb.importing import import_database
+
+DONE, BAD_DATA = 0, 2
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommand doctor."""
+    doctor = actions.add_parser(
+        "doctor",
+        help="examine a database, draw it, repair it on request",
+        description="Run all checks on a database or on anything that can be imported, and draw "
+        "it. Nothing is changed unless --repair asks for it; what was changed is written into the "
+        "new file. Exit code 2 if a check found an error.",
+    )
+    doctor.add_argument("database", metavar="FILE", help="hydro.h5, or any source for import")
+    doctor.add_argument(
+        "-r",
+        "--report",
+        metavar="PICTURE",
+        help="picture to write, .png or .pdf (default: NAME_doctor.png in this folder)",
+    )
+    doctor.add_argument("--no-report", action="store_true", help="draw nothing")
+    doctor.add_argument(
+        "--repair",
+        metavar="A,B,...",
+        help="symmetrise (mean of both halves of A and B), irregular (leave out frequencies that "
+        "break causality or energy), tail (append frequencies along the power law of B); "
+        "applied in the order given; needs -o",
+    )
+    doctor.add_argument("-o", "--output", metavar="FILE", help="hydro.h5 for the repaired database")
+    doctor.add_argument("--rho", metavar="R", type=float, help="density [kg/m3], if not in FILE")
+    doctor.add_argument(
+        "--origin", metavar="NAME=X,Y,Z", action="append", default=[], help="as in import"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Examine a database.
+
+    Returns
+    -------
+    int
+        0, or 2 if a check found an error (after repairs, if there were any).
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments or data.
+    """
+    if (args.repair is None) != (args.output is None):
+        raise CaseError("--repair and -o belong together: what to repair, and where to write it")
+    if args.report and args.no_report:
+        raise CaseError("--report and --no-report exclude each other")
+    origins = dict(parse_point("--origin", text) for text in args.origin)
+    database, report = import_database(args.database, source_points=origins, rho=args.rho)
+    print(database.summary())
+    print()
+    print(examination(report))
+    if args.repair is not None:
+        database, report = _repair(database, [w.strip() for w in args.repair.split(",")])
+        database.write(args.output)
+        print(f"\nwritten: {args.output}")
+    if not args.no_report:
+        from hydrodae import plot
+        from hydrodae.hdb.checks.report import draw_report
+
+        name = Path(args.database).resolve()
+        target = args.report or f"{name.stem if name.is_file() else name.name}_doctor.png"
+        print(f"picture: {plot.save(draw_report(database, report), target)}")
+    return DONE if report.ok else BAD_DATA
+
+
+def _repair(database: HydroDatabase, what: list[str]) -> tuple[HydroDatabase, CheckReport]:
+    repaired = repair(database, what)
+    done = repaired.repairs[len(database.repairs) :]
+    print("\nrepairs")
+    for text in done or ("nothing to do",):
+        print("\n".join(textwrap.wrap(text, 96, initial_indent="  - ", subsequent_indent="    ")))
+    report = check(repaired)
+    print("\nafter the repairs\n")
+    print(examination(report))
+    return repaired, report

@@ -1,0 +1,106 @@
+"""The command `hydrodae hdb import`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from hydrodae.commands.arguments import parse_point
+from hydrodae.commands.hdb.options import (
+    add_density_option,
+    add_fit_options,
+    add_length_option,
+    with_fits,
+    with_kernel,
+)
+from hydrodae.hdb.coordinates import expand
+from hydrodae.hdb.importing import import_database
+
+DONE, BAD_DATA = 0, 2
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommand import."""
+    add = actions.add_parser(
+        "import",
+        help="read files of Nemoh, Capytaine, WAMIT or BEMIO, check them, write hydro.h5",
+        description="Read a Nemoh folder, a netCDF file of Capytaine, the output of WAMIT or a "
+        "BEMIO file, print what the checks found, and write hydro.h5. Nothing is written if a "
+        "check finds an error.",
+    )
+    add.add_argument(
+        "source",
+        metavar="SOURCE",
+        help="folder with Nemoh.cal, Capytaine .nc, WAMIT .1, BEMIO .h5",
+    )
+    add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
+    add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
+    add.add_argument(
+        "--cog",
+        metavar="NAME=X,Y,Z",
+        action="append",
+        default=[],
+        help="move A, B, F and the stiffness of a body to this point [m]; may be repeated",
+    )
+    add.add_argument(
+        "--origin",
+        metavar="NAME=X,Y,Z",
+        action="append",
+        default=[],
+        help="the point [m] of the moments in the source, where it does not say",
+    )
+    add_density_option(add)
+    add.add_argument(
+        "--keep", metavar="SPEC", help="coordinates to keep, e.g. base.planar,flap1.pitch"
+    )
+    add.add_argument(
+        "--no-coupling",
+        action="store_true",
+        help="set the blocks of A and B between bodies to zero, before any fit",
+    )
+    add_fit_options(add)
+    add.add_argument(
+        "--fit",
+        metavar="NAME=SPEC",
+        action="append",
+        default=[],
+        help="fit the radiation memory of these coordinates, e.g. "
+        "flaps=flap1.pitch,flap2.pitch or all=base.planar,flap1.planar; may be repeated",
+    )
+    add.add_argument(
+        "--kernel",
+        metavar="SPEC",
+        help="also store K(t) for radiation by convolution when these coordinates move",
+    )
+    add_length_option(add)
+    add.add_argument("--single", action="store_true", help="tables in single precision")
+    add.add_argument(
+        "--accept", action="store_true", help="write the file although a check found an error"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Import a source; returns 2 if a check found an error and nothing was written, else 0."""
+    names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
+    database, report = import_database(
+        args.source,
+        names=names,
+        reference_points=dict(parse_point("--cog", text) for text in args.cog),
+        source_points=dict(parse_point("--origin", text) for text in args.origin),
+        rho=args.rho,
+    )
+    if args.keep:
+        database = database.select(expand(args.keep, database.coordinates))
+    if args.no_coupling:
+        database = database.without_coupling()
+    print(database.summary())
+    print(report)
+    if not report.ok and not args.accept:
+        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+        return BAD_DATA
+    if args.kernel is not None:
+        database = with_kernel(database, args.kernel, args)
+    database = with_fits(database, args.fit, args)
+    database.write(args.output, single=args.single)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    return DONE

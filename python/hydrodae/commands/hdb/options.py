@@ -1,0 +1,105 @@
+"""Options that several commands on databases share, and what they ask for."""
+
+from __future__ import annotations
+
+import argparse
+
+from hydrodae.commands.arguments import parse_band
+from hydrodae.errors import CaseError
+from hydrodae.hdb import prepare
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.summary import fit_summary, kernel_summary
+from hydrodae.study.band import working_band
+
+
+def add_density_option(parser: argparse.ArgumentParser) -> None:
+    """Add --rho."""
+    parser.add_argument(
+        "--rho", metavar="R", type=float, help="density [kg/m3], where the source does not say"
+    )
+
+
+def add_length_option(parser: argparse.ArgumentParser) -> None:
+    """Add --length."""
+    parser.add_argument(
+        "--length",
+        metavar="T",
+        type=float,
+        help="memory of the kernel [s]; default: until a thousandth of int |K| is left",
+    )
+
+
+def add_fit_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a fit."""
+    parser.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that a fit must match")
+    parser.add_argument(
+        "--case",
+        metavar="CASE",
+        help="take the band from the natural periods and waves of this case, where it is not given",
+    )
+    parser.add_argument("--states", metavar="N", type=int, help="largest number of states of a fit")
+    parser.add_argument(
+        "--target",
+        metavar="E",
+        type=float,
+        help="relative error of H in the band, weighted by |H|^-1/2 (default 4.5e-4)",
+    )
+    parser.add_argument(
+        "--uniform",
+        metavar="E",
+        type=float,
+        help="target in place of that: largest error of H in the band over its largest value",
+    )
+    parser.add_argument(
+        "--method",
+        choices=("auto", "modes", "hankel"),
+        help="modes for few coordinates, hankel for many (default: by their number)",
+    )
+    parser.add_argument(
+        "--loads", metavar="SPEC", help="coordinates whose loads a fit gives (default: all)"
+    )
+
+
+def with_kernel(database: HydroDatabase, spec: str, args: argparse.Namespace) -> HydroDatabase:
+    """Store K(t) of what `spec` names and print its figures."""
+    result = prepare.kernel(
+        database,
+        spec,
+        loads=args.loads or None,
+        length=args.length,
+        band=None if args.band is None else parse_band(args.band),
+    )
+    assert result.kernel is not None
+    print(f"kernel: {kernel_summary(result.kernel)}")
+    return result
+
+
+def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespace) -> HydroDatabase:
+    """Add the fits NAME=SPEC and print their figures."""
+    if not specs:
+        return database
+    band = None
+    if args.band is not None:
+        band = parse_band(args.band)
+    elif args.case is not None:
+        band = working_band(args.case, database)
+        print(f"band {band[0]:.3g} to {band[1]:.3g} rad/s, from {args.case}")
+    if args.target is not None and not args.target > 0.0:
+        raise CaseError(f"--target {args.target:g}: expected a number > 0")
+    for spec in specs:
+        name, equals, text = spec.partition("=")
+        if not equals or not prepare.is_fit_name(name):
+            raise CaseError(f"fit {spec!r}: expected NAME=SPEC, e.g. flaps=flap1.pitch,flap2.pitch")
+        database = prepare.fit(
+            database,
+            text,
+            name=name,
+            loads=args.loads or None,
+            band=band,
+            states=args.states,
+            target=args.target,
+            uniform=args.uniform,
+            method=args.method,
+        )
+        print(f"fit {name}: {fit_summary(database.memory[name])}")
+    return database

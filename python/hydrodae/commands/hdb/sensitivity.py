@@ -1,0 +1,82 @@
+"""The command `hydrodae hdb sensitivity`."""
+
+from __future__ import annotations
+
+import argparse
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.commands.arguments import given_case
+from hydrodae.errors import CaseError
+from hydrodae.study.sensitivity import sensitivity
+from hydrodae.study.sensitivity.output import table, write
+
+Array = NDArray[np.float64]
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommand sensitivity."""
+    parser = actions.add_parser(
+        "sensitivity",
+        help="what a result of a case owes to its database",
+        description="A result of a case (natural periods, responses, mean power; all linear) with "
+        "a coarser or shorter table, a shorter or fitted memory, and bodies that radiate each for "
+        "itself, against the tables as they stand.",
+    )
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument("--result", choices=("period", "rao", "power"), required=True)
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--periods", metavar="T1,T2,...", help="of --result rao [s]")
+    parser.add_argument(
+        "--channel",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="of --result rao, such as joints/slide/displacement; may be repeated",
+    )
+    parser.add_argument("--heading", metavar="DEG", type=float, default=0.0, help="of --result rao")
+    parser.add_argument(
+        "--states", metavar="N1,N2,...", help="also refit the memory with these numbers of states"
+    )
+    parser.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] of these fits")
+    parser.add_argument("-o", "--output", metavar="NAME", help="write NAME.json and NAME.png")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the table; returns 0.
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments or data.
+    """
+    case = given_case(args)
+    band = None if args.band is None else _numbers("--band", args.band)
+    if band is not None and band.size != 2:
+        raise CaseError(f"--band {args.band!r}: expected LO,HI")
+    states = [] if args.states is None else _numbers("--states", args.states).astype(int).tolist()
+    rows = sensitivity(
+        case,
+        args.result,
+        periods=[] if args.periods is None else _numbers("--periods", args.periods).tolist(),
+        channels=args.channel,
+        heading=float(np.radians(args.heading)),
+        states=states,
+        band=band,
+    )
+    print(table(case.title, rows))
+    if args.output:
+        for path in write(args.output, case.title, rows):
+            print(f"written: {path}")
+    return 0
+
+
+def _numbers(option: str, text: str) -> Array:
+    try:
+        values = np.array([float(v) for v in text.split(",")])
+    except ValueError:
+        values = np.zeros(1)
+    if not np.all(np.isfinite(values)) or not np.all(values > 0.0):
+        raise CaseError(f"{option} {text!r}: expected numbers > 0 with commas")
+    return values

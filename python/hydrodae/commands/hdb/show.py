@@ -1,0 +1,54 @@
+"""The commands `hydrodae hdb show` and `hydrodae hdb export`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from hydrodae.commands.hdb.options import add_density_option
+from hydrodae.errors import CaseError
+from hydrodae.hdb.checks.check import check
+from hydrodae.hdb.findings import CheckReport
+from hydrodae.hdb.importing import import_database, kind, read
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommands show and export."""
+    show = actions.add_parser("show", help="say what is in a database")
+    show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
+    show.add_argument("--check", action="store_true", help="also run the checks")
+    add_density_option(show)
+
+    export = actions.add_parser(
+        "export",
+        help="write a database for other programs: BEMIO .h5 or Capytaine .nc",
+        description="Write a database as a BEMIO file (.h5, for WEC-Sim) or as a netCDF file as "
+        "Capytaine makes them (.nc). Moments are about the reference points of the database.",
+    )
+    export.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
+    export.add_argument("-o", "--output", metavar="FILE", required=True, help="ends in .h5 or .nc")
+    add_density_option(export)
+
+
+def run_show(args: argparse.Namespace) -> int:
+    """Print what is in a database; returns 0."""
+    if args.check and kind(args.database) != "hydro":
+        database, report = import_database(args.database, rho=args.rho)
+    else:
+        database = read(args.database, rho=args.rho)
+        report = check(database) if args.check else CheckReport()
+    print(database.summary())
+    if args.check:
+        print(report)
+    return 0
+
+
+def run_export(args: argparse.Namespace) -> int:
+    """Write a database for other programs; returns 0."""
+    from hydrodae.hdb.writers import WRITERS, export
+
+    if Path(args.output).suffix.lower() not in WRITERS:
+        raise CaseError(f"-o {args.output!r}: expected a name that ends in .h5 (BEMIO) or .nc")
+    export(read(args.database, rho=args.rho), args.output)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    return 0

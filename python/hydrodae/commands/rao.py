@@ -1,0 +1,89 @@
+"""The command `hydrodae rao`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from hydrodae.commands.arguments import given_case
+from hydrodae.errors import CaseError
+from hydrodae.frequency import LinearModel
+from hydrodae.plot import save
+from hydrodae.study.rao import output, rao, text
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `hydrodae rao`."""
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument(
+        "--periods",
+        metavar="T1,T2,...",
+        help="periods whose values are printed [s]; default: a few within the database",
+    )
+    parser.add_argument(
+        "--heading", metavar="DEG", type=float, default=0.0, help="direction of travel, 0 = +x"
+    )
+    parser.add_argument(
+        "--time-domain", action="store_true", help="also run regular waves and compare"
+    )
+    parser.add_argument(
+        "--amplitude", metavar="M", type=float, default=0.01, help="of these waves (default 0.01 m)"
+    )
+    parser.add_argument(
+        "--settle",
+        metavar="S",
+        type=float,
+        default=100.0,
+        help="time between the ramp (10 periods) and the fit (default 100 s)",
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="all responses, reactions too, over all frequencies (or at the --periods): .csv, or "
+        ".nc, .h5 (netCDF, which is HDF5)",
+    )
+    parser.add_argument("--picture", metavar="FILE", help="amplitudes over the period (.png, ...)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print natural periods, responses and, if the case has waves, those in its sea."""
+    model = LinearModel(given_case(arguments))
+    opening = text.opening(model.notes, model.modes())
+    if opening:
+        print(opening)
+    if arguments.output:
+        output.check_ending(Path(arguments.output))
+    found = rao(
+        model, periods=_periods(arguments.periods), heading=float(np.radians(arguments.heading))
+    )
+    print("\n" + found.table())
+    if arguments.output:
+        print(f"written: {found.write(arguments.output)}")
+    if arguments.picture:
+        print(f"picture: {save(found.draw(), arguments.picture)}")
+    if arguments.time_domain:
+        runs = found.regular_waves(
+            amplitude=arguments.amplitude, settle=arguments.settle, jobs=arguments.jobs
+        )
+        names = text.coordinates(found.response)
+        print("\n" + text.comparison(found.chosen, names, runs))
+    if model.case.scene.wave_names:
+        print("\n" + found.sea_table())
+    return 0
+
+
+def _periods(text: str | None) -> list[float] | None:
+    if text is None:
+        return None
+    try:
+        values = [float(word) for word in text.split(",")]
+    except ValueError:
+        raise CaseError(f"--periods {text!r}: expected numbers with commas") from None
+    if not all(value > 0.0 for value in values):
+        raise CaseError(f"--periods {text!r}: expected numbers > 0 [s]")
+    return values

@@ -1,0 +1,61 @@
+"""The command `hydrodae run`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser("run", help="simulate a case file", description="Simulate a case.")
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="results file (default: CASE with the ending .h5)"
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
+    )
+    parser.add_argument(
+        "--method", metavar="NAME", help="integrator: the same as --set solver.method"
+    )
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="run a pair of method and formulation that is known to fail",
+    )
+    parser.add_argument(
+        "--verify",
+        action="store_true",
+        help="run a second time with a tenth of the tolerance, or half the step, and compare",
+    )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
+    parser.set_defaults(call=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulate a case and print the summary; returns 0."""
+    from pathlib import Path
+
+    from hydrodae import simulate
+    from hydrodae.case import Case, parse_assignment
+    from hydrodae.progress import ProgressLine
+
+    values = dict(map(parse_assignment, arguments.set))
+    if arguments.method:
+        values["solver.method"] = arguments.method
+    if arguments.force:
+        values["solver.force"] = True
+    case = Case(path=arguments.case, values=values)
+    output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
+    if arguments.quiet:
+        simulate.run(case, output, verify=arguments.verify)
+        return 0
+    with ProgressLine(case.title) as progress:
+        results = simulate.run(case, output, progress=progress, verify=arguments.verify)
+    print(results.summary())
+    print(f"  results in {output}")
+    return 0

@@ -1,0 +1,1 @@
+"""Boundary-element runs of one's own: panels of shapes and meshes, lids, Capytaine."""

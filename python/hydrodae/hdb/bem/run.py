@@ -1,0 +1,299 @@
+"""Compute a database with Capytaine 3 (extra `bem`): direct method, one factorisation a frequency.
+
+Every frequency is kept in a folder as soon as it is done; an interrupted run goes on where it
+stopped, and other bodies or settings start a new folder.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.extras import install_command
+from hydrodae.hdb.bem.lids import lid
+from hydrodae.hdb.bem.shapes import hydrostatics
+from hydrodae.hdb.dispersion import wavenumber
+
+Array = NDArray[np.float64]
+TABLES = ("added_mass", "radiation_damping", "diffraction_force", "Froude_Krylov_force")
+#: Panels of all bodies and lids: a full matrix of complex numbers, 16 bytes an entry.
+MOST_PANELS = 6000
+
+
+@dataclass(frozen=True)
+class WettedBody:
+    """A body to compute.
+
+    Attributes
+    ----------
+    name : str
+    panels : (n, 4, 3) array
+        Wetted surface (`hydrodae.hdb.shapes`), or more: what is above z = 0 is cut off [m].
+    point : (3,) array
+        Reference point of rotations and moments [m].
+    """
+
+    name: str
+    panels: Array
+    point: Array
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What to compute.
+
+    Attributes
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s], finite and > 0; w = inf is always added.
+    heading : (nh,) array
+        Directions of travel [rad].
+    rho, gravity, water_depth : float
+        [kg/m3], [m/s2], [m] (may be infinite).
+    lid : bool
+        Close the inner water plane, which removes irregular frequencies.
+    """
+
+    omega: Array
+    heading: Array = field(default_factory=lambda: np.zeros(1))
+    rho: float = 1025.0
+    gravity: float = 9.81
+    water_depth: float = np.inf
+    lid: bool = True
+
+    def __post_init__(self) -> None:
+        w = np.asarray(self.omega, dtype=float)
+        object.__setattr__(self, "omega", w)
+        object.__setattr__(self, "heading", np.asarray(self.heading, dtype=float))
+        if w.ndim != 1 or w.size < 4 or w.min() <= 0.0 or not np.all(np.diff(w) > 0.0):
+            raise DatabaseError("needs at least 4 frequencies > 0 in ascending order [rad/s]")
+        if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
+            raise DatabaseError("rho, gravity and water_depth must be > 0")
+
+
+def immersed(panels: Array) -> Array:
+    """Cut a surface off at z = 0 and turn its normals into the water.
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+        Closed, or open at or above z = 0.
+
+    Returns
+    -------
+    (m, 4, 3) array
+
+    Raises
+    ------
+    DatabaseError
+        Nothing of it is in the water, or it has holes.
+    """
+    below: Array = panels
+    if panels[..., 2].max() > 1e-9:
+        mesh = _mesh(_capytaine(), panels).immersed_part()
+        if mesh.nb_faces == 0:
+            raise DatabaseError("the surface is not in the water")
+        below = np.asarray(mesh.as_array_of_faces(), dtype=float)
+    elif panels[..., 2].min() >= 0.0:
+        raise DatabaseError("the surface is not in the water")
+    # a lid drawn at the water plane is no part of the hull
+    below = np.asarray(below[np.abs(below[..., 2]).max(axis=1) > 1e-9], dtype=float)
+    area = np.linalg.norm(np.cross(below[:, 2] - below[:, 0], below[:, 3] - below[:, 1]), axis=1)
+    below = below[area > 1e-9 * area.max(initial=0.0)]
+    try:
+        hydrostatics(below, np.zeros(3))
+    except DatabaseError:
+        below = np.ascontiguousarray(below[:, [1, 0, 3, 2]])
+        hydrostatics(below, np.zeros(3))
+    return below
+
+
+def compute(
+    bodies: Sequence[WettedBody],
+    settings: Settings,
+    folder: Path,
+    *,
+    progress: Callable[[int, int, float, float], None] | None = None,
+) -> Path:
+    """Compute all frequencies that the folder does not hold yet.
+
+    Parameters
+    ----------
+    bodies : sequence of WettedBody
+    settings : Settings
+    folder : Path
+        Results are kept in a folder inside it, whose name is a hash of bodies and settings.
+    progress : callable, optional
+        Called with (done, of, frequency [rad/s], seconds spent) after each frequency.
+
+    Returns
+    -------
+    Path
+        A netCDF file as Capytaine makes them, NaN included where Capytaine failed: read it with
+        `hydrodae.hdb.import_database`, which counts and names them.
+
+    Raises
+    ------
+    DatabaseError
+        Capytaine is missing, a lid covers too little, too many panels, or NaN at w = inf.
+    """
+    cpt = _capytaine()
+    cpt.set_logging("ERROR")
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+    place = folder / _key(cpt.__version__, bodies, settings)
+    place.mkdir(parents=True, exist_ok=True)
+    omega = np.append(settings.omega, np.inf)
+    files = [place / f"omega_{w:.6f}.nc" for w in omega]
+    todo = [(w, f) for w, f in zip(omega, files, strict=True) if not f.is_file()]
+    if todo:
+        device = _device(cpt, bodies, settings)
+        solver = cpt.BEMSolver(method="direct")
+        start = monotonic()
+        for i, (w, file) in enumerate(todo, start=1):
+            data = _solve(cpt, device, float(w), settings, solver)
+            partial = file.with_suffix(".part")
+            cpt.io.xarray.separate_complex_values(data).to_netcdf(partial)
+            partial.rename(file)
+            if progress is not None:
+                progress(len(files) - len(todo) + i, len(files), float(w), monotonic() - start)
+    return _collect(files, bodies, place / "all.nc")
+
+
+def panel_warning(bodies: Sequence[WettedBody], settings: Settings) -> str:
+    """Say so if panels are longer than an eighth of the shortest wave; else an empty text."""
+    longest = max(
+        float(np.linalg.norm(b.panels - np.roll(b.panels, 1, axis=1), axis=2).max()) for b in bodies
+    )
+    k = wavenumber(settings.omega[-1:], settings.water_depth, settings.gravity)[0]
+    wave = 2.0 * np.pi / float(k)
+    if longest <= wave / 8.0:
+        return ""
+    bearable = np.sqrt(2.0 * np.pi * settings.gravity / (8.0 * longest))
+    return (
+        f"the longest panel side, {longest:.3g} m, is more than an eighth of the shortest wave, "
+        f"{wave:.3g} m: trust the results up to about {bearable:.3g} rad/s, or take finer panels"
+    )
+
+
+def _capytaine() -> Any:
+    try:
+        import capytaine
+    except ImportError as error:
+        raise DatabaseError(
+            f"computing a database needs Capytaine: {install_command('bem')}"
+        ) from error
+    if int(capytaine.__version__.split(".")[0]) < 3:
+        raise DatabaseError(f"needs Capytaine 3 or later, found {capytaine.__version__}")
+    return capytaine
+
+
+def _mesh(cpt: Any, panels: Array) -> Any:
+    vertices, index = np.unique(panels.reshape(-1, 3).round(9), axis=0, return_inverse=True)
+    mesh = cpt.Mesh(vertices=vertices, faces=index.reshape(-1, 4))
+    if mesh.nb_faces != len(panels):
+        raise DatabaseError(
+            f"Capytaine keeps {mesh.nb_faces} of {len(panels)} panels: some are double or have no "
+            f"area; clean the mesh"
+        )
+    return mesh
+
+
+def _device(cpt: Any, bodies: Sequence[WettedBody], settings: Settings) -> Any:
+    """All bodies as one mesh with six degrees of freedom `<body>__<Dof>` each."""
+    from capytaine.bodies.dofs import DofOnSubmesh, rigid_body_dofs
+
+    hull = np.concatenate([b.panels for b in bodies])
+    _check_count(len(hull))
+    found = [_lid(b) for b in bodies] if settings.lid else []
+    lids = [panels for panels in found if len(panels)]
+    _check_count(len(hull) + sum(map(len, lids)))
+    starts = np.r_[0, np.cumsum([len(b.panels) for b in bodies])]
+    dofs = {}
+    for body, first, last in zip(bodies, starts[:-1], starts[1:], strict=True):
+        mine = np.arange(first, last)
+        for dof, motion in rigid_body_dofs(rotation_center=np.asarray(body.point)).items():
+            dofs[f"{body.name}__{dof}"] = DofOnSubmesh(motion, mine)
+    return cpt.FloatingBody(
+        mesh=_mesh(cpt, hull),
+        lid_mesh=_mesh(cpt, np.concatenate(lids)) if lids else None,
+        dofs=dofs,
+        name="device",
+    )
+
+
+def _check_count(count: int) -> None:
+    if count > MOST_PANELS:
+        raise DatabaseError(
+            f"{count} panels, {MOST_PANELS} are allowed with the lids: take larger panels"
+        )
+
+
+def _lid(body: WettedBody) -> Array:
+    try:
+        return lid(body.panels)
+    except DatabaseError as error:
+        raise DatabaseError(f"{body.name}: {error}") from error
+
+
+def _solve(cpt: Any, device: Any, omega: float, settings: Settings, solver: Any) -> xr.Dataset:
+    common: dict[str, Any] = {
+        "body": device,
+        "omega": omega,
+        "rho": settings.rho,
+        "g": settings.gravity,
+        "water_depth": settings.water_depth,
+    }
+    problems = [cpt.RadiationProblem(radiating_dof=d, **common) for d in device.dofs]
+    if np.isfinite(omega):
+        problems += [cpt.DiffractionProblem(wave_direction=h, **common) for h in settings.heading]
+    results = [solver.solve(p, keep_details=False, _check_wavelength=False) for p in problems]
+    names = list(device.dofs)
+    data: xr.Dataset = cpt.assemble_dataset(results)
+    data = data.sel(influenced_dof=names, radiating_dof=names)
+    data = data.assign_coords(influenced_dof=names, radiating_dof=names)
+    if not np.isfinite(omega) and np.isnan(data["added_mass"].values).any():
+        raise DatabaseError("Capytaine gave NaN for the added mass at w = inf")
+    return data
+
+
+def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> Path:
+    parts = []
+    for file in files:
+        with xr.open_dataset(file) as opened:
+            parts.append(opened.load())
+    data = xr.concat(
+        parts, "omega", data_vars="all", coords="minimal", compat="override", join="outer"
+    )
+    data = data.sortby("omega").drop_vars("rotation_center", errors="ignore")
+    data = data.assign_coords(body_name=[b.name for b in bodies])
+    points = np.array([b.point for b in bodies], dtype=float)
+    data["rotation_center"] = (("body_name", "space_coordinate"), points)
+    data.to_netcdf(target)
+    return target
+
+
+def count_nan(path: Path) -> dict[str, int]:
+    """NaN by table at finite frequencies, those with none left out."""
+    with xr.open_dataset(path) as data:
+        usual = data.isel(omega=np.flatnonzero(np.isfinite(data["omega"].values)))
+        found = {t: int(np.isnan(usual[t].values).sum()) for t in TABLES if t in usual}
+    return {name: count for name, count in found.items() if count}
+
+
+def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:
+    numbers = (settings.rho, settings.gravity, settings.water_depth, settings.lid)
+    digest = hashlib.sha256(f"{version} {numbers} {settings.heading.round(9).tolist()}".encode())
+    for body in bodies:
+        digest.update(f"{body.name} {np.asarray(body.point).round(9).tolist()}".encode())
+        digest.update(np.ascontiguousarray(body.panels.round(9)).tobytes())
+    return digest.hexdigest()[:12]

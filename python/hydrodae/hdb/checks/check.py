@@ -1,0 +1,228 @@
+"""Automatic checks of a database: what it says must agree with the physics it claims.
+
+Every check is cheap and has caught something in real files. Oracles: long-wave limits of the
+excitation (hydrostatics, displacement, phase), energy (damping and A_inf positive semidefinite,
+damping from excitation), causality (Ogilvie's relation, irregular frequencies), length of memory.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydrodae import irf
+from hydrodae.hdb.checks.energy import energy_findings
+from hydrodae.hdb.checks.fits import fit_findings
+from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
+from hydrodae.hdb.checks.longwave import long_wave_findings
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import CheckReport, Finding
+from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_time
+from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
+
+
+def check(database: HydroDatabase) -> CheckReport:
+    """Run all checks on a database.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    CheckReport
+        In the order grid, memory, symmetry, energy, causality, fits, long waves.
+    """
+    return CheckReport(
+        [
+            *_grid(database),
+            *_memory(database),
+            *_symmetry(database),
+            *_energy(database),
+            *energy_findings(database),
+            *_causality(database),
+            *irregular_findings(database),
+            *fit_findings(database),
+            *long_wave_findings(database),
+        ]
+    )
+
+
+def _grid(db: HydroDatabase) -> list[Finding]:
+    w, b = db.omega, np.einsum("wii->wi", db.radiation_damping)[:, scales(db) > 0.0]
+    steps = np.diff(w)
+    found = [
+        Finding(
+            "info",
+            "frequency grid",
+            f"{w.size} frequencies {w[0]:.4g}..{w[-1]:.4g} rad/s, steps {steps.min():.3g}.."
+            f"{steps.max():.3g}; resolves a memory of about {np.pi / steps.max():.0f} s",
+        )
+    ]
+    if b.shape[1] == 0:
+        return found
+    gap = irf.low_frequency_gap(w, b)
+    if gap > irf.LOW_GAP:
+        found.append(
+            Finding(
+                "warning",
+                "low frequencies",
+                f"the grid begins at {gap:.2g} of the frequency where B peaks (wanted: 0.1): "
+                f"K(t) and slow motions rest on extrapolation",
+                value=gap,
+                omega=float(w[0]),
+            )
+        )
+    rest = np.abs(b[-1]) / b.max(axis=0)
+    cut = rest * ~irf.fit_tail(w, b).used
+    if cut.max() > 0.02:
+        found.append(
+            Finding(
+                "warning",
+                "high frequencies",
+                f"at the last frequency B is still {cut.max():.2g} of its peak and follows no "
+                f"power law: K(0) and added_mass_inf are uncertain",
+                value=float(cut.max()),
+                omega=float(w[-1]),
+            )
+        )
+    around = [(b[:, i] > 0.5 * b[:, i].max()).sum() for i in range(b.shape[1])]
+    if min(around) < 5:
+        i = int(np.argmin(around))
+        found.append(
+            Finding(
+                "warning",
+                "resolution",
+                f"only {min(around)} frequencies where B exceeds half its peak: a narrow peak is "
+                f"under-resolved, or a spike (irregular frequency)",
+                value=float(min(around)),
+                omega=float(w[b[:, i].argmax()]),
+            )
+        )
+    if db.heading.size == 1:
+        found.append(
+            Finding("info", "headings", f"one heading only, {np.degrees(db.heading[0]):.4g} deg")
+        )
+    return found
+
+
+def _memory(db: HydroDatabase) -> list[Finding]:
+    """Length of the radiation memory against the image that the frequency step makes."""
+    used = np.flatnonzero(scales(db) > 0.0)
+    if used.size == 0:
+        return []
+    time, kernel = diagonal_kernels(db)
+    lengths = envelope_length(time, kernel)
+    i, resolved = int(lengths.argmax()), resolved_time(db)
+    # the end of the kernel over its largest value: what is left there is noise or an image
+    rest = np.abs(kernel[int(0.9 * time.size) :]).max(axis=0) / np.abs(kernel).max(axis=0)
+    tail = irf.fit_tail(db.omega, db.radiation_damping[:, used, used])
+    powers = [f"{p:.1f}" if u else "none" for p, u in zip(tail.power, tail.used, strict=True)]
+    names = ", ".join(
+        f"{db.coordinates[c]} {p}" for c, p in list(zip(used, powers, strict=True))[:8]
+    )
+    return [
+        Finding(
+            "warning" if rest.max() > 0.02 else "info",
+            "memory length",
+            f"K(t) lasts {lengths[i]:.3g} s ({db.coordinates[used[i]]}; 99.9 % of int |K| dt) of "
+            f"the {min(resolved, time[-1]):.3g} s that the frequency step resolves; "
+            f"{rest.max():.1g} of its peak is left at the end",
+            value=float(lengths[i]),
+        ),
+        Finding(
+            "info",
+            "tail",
+            f"powers n of B ~ w^-n at the last frequencies: {names}"
+            + (" ..." if len(powers) > 8 else ""),
+            value=float(np.mean(tail.used)),
+            omega=float(db.omega[-1]),
+        ),
+    ]
+
+
+def _symmetry(db: HydroDatabase) -> list[Finding]:
+    """A and B of the database itself (readers symmetrise and report what they found)."""
+    found = []
+    for name in ("added_mass", "radiation_damping"):
+        table = getattr(db, name)
+        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
+        scale = np.outer(size, size)
+        scale[scale <= 1e-6 * scale.max()] = np.inf
+        error = (np.abs(table - table.transpose(0, 2, 1)) / scale).max(axis=(1, 2))
+        at = int(error.argmax())
+        if error[at] > 1e-6:
+            found.append(
+                Finding(
+                    "warning" if error[at] > 0.02 else "info",
+                    f"{name} symmetric",
+                    f"largest asymmetry {error[at]:.2g} of the diagonal",
+                    float(error[at]),
+                    float(db.omega[at]),
+                )
+            )
+    return found
+
+
+def _energy(db: HydroDatabase) -> list[Finding]:
+    lowest = scaled_damping_eigenvalues(db)
+    at = int(lowest.argmin())
+    value = float(lowest[at])
+    bad = np.flatnonzero(lowest < -0.02)
+    text = f"smallest eigenvalue of the scaled B is {value:.2g} (of a peak of 1)"
+    if bad.size:
+        text += (
+            f"; below -0.02 at {bad.size} of {lowest.size} frequencies, "
+            f"from {db.omega[bad[0]]:.4g} to {db.omega[bad[-1]]:.4g} rad/s: "
+            f"the waves would feed energy into the body there"
+        )
+    level = "error" if value < -0.5 else "warning" if bad.size else "info"
+    found = [Finding(level, "B positive semidefinite", text, value, float(db.omega[at]))]
+    diagonal = np.sqrt(np.abs(np.diag(db.added_mass_inf)))
+    s = scales(db)
+    used = (s > 0.0) & (diagonal > 0.0)
+    if used.any():
+        square = np.ix_(used, used)
+        scaled = db.added_mass_inf[square] / np.outer(diagonal[used], diagonal[used])
+        value = float(np.linalg.eigvalsh(scaled)[0])
+        if value < -0.02:
+            found.append(
+                Finding(
+                    "warning",
+                    "added_mass_inf positive semidefinite",
+                    f"smallest eigenvalue of the scaled matrix is {value:.2g}",
+                    value,
+                )
+            )
+    return found
+
+
+def _causality(db: HydroDatabase) -> list[Finding]:
+    """Residual of Ogilvie's relation, A(w) + 1/w int K sin - A_inf, on the diagonal."""
+    used = np.flatnonzero(scales(db) > 0.0)
+    if used.size == 0:
+        return []
+    a = db.added_mass[:, used, used]
+    # the end of the grid depends on what B does beyond it
+    residual = ogilvie_residual(db)[db.omega < 0.95 * db.omega[-1]]
+    worst = residual.max(axis=1)
+    at = int(worst.argmax())
+    level, peak = float(np.quantile(worst, 0.9)), float(worst[at])
+    text = (
+        f"A, B and added_mass_inf agree to {level:.2g} of the added mass at 90 % of the "
+        f"frequencies; worst {peak:.2g} at {db.coordinates[used[int(residual[at].argmax())]]}"
+    )
+    around = worst[[max(at - 5, 0), min(at + 5, worst.size - 1)]]
+    if peak > 0.1 and peak > 3.0 * around.max():
+        text += " (a spike: irregular frequency or gap resonance)"
+    severity = "warning" if level > 0.05 or peak > 0.1 else "info"
+    std = np.diag(db.added_mass_inf_std)[used] / np.abs(a).max(axis=0)
+    return [
+        Finding(severity, "Ogilvie's relation", text, peak, float(db.omega[at])),
+        Finding(
+            "warning" if std.max() > 0.05 else "info",
+            "added_mass_inf",
+            f"uncertain to at most {std.max():.2g} of the added mass "
+            f"({db.coordinates[used[int(std.argmax())]]}); origin: {db.added_mass_inf_origin}",
+            float(std.max()),
+        ),
+    ]

@@ -1,0 +1,255 @@
+r"""Energy identity: the waves that a moving body radiates carry what its damping takes out.
+
+By Haskind's relation the excitation of all headings gives the damping of one coordinate,
+
+    B_ii = k / (8 pi rho g c_g) int_0^{2 pi} |F_i(beta)|^2 d beta,    c_g the group velocity,
+
+(J. N. Newman, The exciting forces on fixed bodies in waves, J. Ship Res. 1962). For a body of
+revolution one heading is enough: |F_3| is constant, |F_1| and |F_5| follow |cos beta|.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.coordinates import split_label
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.scales import scales
+
+Array = NDArray[np.float64]
+#: Largest step between headings that the integral over them bears.
+LARGEST_STEP = np.radians(50.0)
+
+
+@dataclass(frozen=True)
+class EnergyIdentity:
+    """Damping that the excitation implies.
+
+    Attributes
+    ----------
+    columns : (m,) array of int
+        The coordinates that could be checked.
+    damping : (nw, m) array
+        B_ii from the excitation [N s/m, N m s].
+    valid : (nw,) array of bool
+        Where the headings resolve the scattered field.
+    method : str
+        How the integral over the headings was taken.
+    """
+
+    columns: NDArray[np.intp]
+    damping: Array
+    valid: NDArray[np.bool_]
+    method: str
+
+
+def group_velocity(omega: Array, depth: float, gravity: float) -> Array:
+    """Group velocity c_g = w/(2k) (1 + 2kh / sinh 2kh) of waves, (nw,) [m/s].
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        [rad/s].
+    depth, gravity : float
+        [m] (may be infinite), [m/s2].
+    """
+    k = wavenumber(omega, depth, gravity)
+    ratio = np.zeros_like(k)
+    if np.isfinite(depth):
+        kh = np.minimum(2.0 * k * depth, 700.0)
+        ratio = kh / np.sinh(kh)
+    return np.asarray(0.5 * omega / k * (1.0 + ratio))
+
+
+def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
+    """Return the damping that the excitation implies, or None if the headings do not suffice.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+        With headings around the circle; or from 0 to 180 degrees and a plane of symmetry y = 0;
+        or any heading and a body of revolution (or several on one axis).
+    """
+    db = database
+    if db.heading.size == 0:
+        return None
+    k = wavenumber(db.omega, db.water_depth, db.gravity)
+    speed = group_velocity(db.omega, db.water_depth, db.gravity)
+    factor = k / (8.0 * np.pi * db.rho * db.gravity * speed)
+    square = np.abs(db.excitation) ** 2
+    everything = np.arange(len(db.coordinates))
+    weight = _circle(db)
+    if weight is not None:
+        integral = np.einsum("whi,h->wi", square, weight)
+        valid = k * _extent(db) <= np.pi / _largest_step(db) - 3.0
+        damping = factor[:, None] * integral
+        return EnergyIdentity(everything, damping, valid, "sum over the headings")
+    if not _axisymmetric(db):
+        return None
+    columns, terms = [], []
+    for i, label in enumerate(db.coordinates):
+        dof = split_label(label)[1]
+        if dof == 5:
+            continue
+        shape = np.ones(db.heading.size)
+        if dof in (0, 4):
+            shape = np.cos(db.heading) ** 2
+        elif dof in (1, 3):
+            shape = np.sin(db.heading) ** 2
+        h = int(shape.argmax())
+        if shape[h] > 0.5:
+            share = 2.0 if dof == 2 else 1.0
+            columns.append(i)
+            terms.append(factor * share * np.pi * square[:, h, i] / shape[h])
+    if not columns:
+        return None
+    valid = np.ones(k.size, dtype=bool)
+    return EnergyIdentity(np.array(columns), np.stack(terms, axis=1), valid, "body of revolution")
+
+
+def energy_findings(database: HydroDatabase) -> list[Finding]:
+    """Compare the damping with what the excitation implies; the worst coordinate is reported.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    list of Finding
+        One; "error" beyond 50 % (median over the frequencies where B exceeds a tenth of its peak).
+    """
+    found = energy_identity(database)
+    if found is None:
+        if database.heading.size == 0:
+            return []
+        text = (
+            "not checked: needs headings around the circle (or 0..180 deg with symmetry about "
+            "y = 0), or a body of revolution"
+        )
+        return [Finding("info", "damping from excitation", text)]
+    active = scales(database) > 0.0
+    worst: tuple[float, float, str, float, float] | None = None
+    clean = ~suspect_rows(database)
+    usable = found.valid & clean
+    off = 0
+    for column, implied in zip(found.columns, found.damping.T, strict=True):
+        b = database.radiation_damping[:, column, column]
+        matters = usable & (b > 0.1 * b[clean].max(initial=0.0))
+        if not active[column] or not matters.any():
+            continue
+        ratio = implied[matters] / b[matters]
+        middle = float(np.median(ratio))
+        at = int(np.abs(ratio - 1.0).argmax())
+        off += abs(middle - 1.0) > 0.05
+        if worst is None or abs(middle - 1.0) > abs(worst[0] - 1.0):
+            label = database.coordinates[column]
+            omega = float(database.omega[matters][at])
+            worst = (middle, float(ratio[at]), label, omega, abs(middle - 1.0))
+    if worst is None:
+        return []
+    middle, extreme, label, omega, error = worst
+    severity = "error" if error > 0.5 else "warning" if error > 0.05 else "info"
+    text = (
+        f"excitation implies {middle:.3f} of B at {label} (median; {extreme:.3f} at worst), "
+        f"by the {found.method}" + (f"; {off} coordinates beyond 5 %" if off > 1 else "")
+    )
+    return [Finding(severity, "damping from excitation", text, error, omega)]
+
+
+def _circle(db: HydroDatabase) -> Array | None:
+    """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
+    beta = np.mod(db.heading, 2.0 * np.pi)
+    order = np.argsort(beta)
+    steps = np.diff(np.r_[beta[order], beta[order[0]] + 2.0 * np.pi])
+    if db.heading.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
+        weight = np.empty(beta.size)
+        weight[order] = 0.5 * (steps + np.roll(steps, 1))
+        return weight
+    half = np.sort(db.heading)
+    ends = np.isclose(half[[0, -1]], [0.0, np.pi], atol=1e-6)
+    if not ends.all() or np.diff(half).max() > LARGEST_STEP or not _symmetric_about_y(db):
+        return None
+    gaps = np.diff(half)
+    weight = np.empty(beta.size)
+    # both halves of the circle: the mirrored force has the same size
+    weight[np.argsort(db.heading)] = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
+    return weight
+
+
+def _largest_step(db: HydroDatabase) -> float:
+    """Largest step [rad] between the headings, mirrored at y = 0 if they cover half the circle."""
+    beta = np.unique(np.mod(np.r_[db.heading, -db.heading], 2.0 * np.pi).round(9))
+    return float(np.diff(np.r_[beta, beta[0] + 2.0 * np.pi]).max())
+
+
+def _extent(db: HydroDatabase) -> float:
+    """Radius [m] around the middle of the bodies, by their places and radii of gyration of A_inf.
+
+    |F(beta)|^2 has harmonics up to about 2 k R + 4, which the sum over n headings must resolve.
+    """
+    points = np.array(
+        [
+            np.zeros(3) if b.reference_point is None else b.reference_point
+            for b in db.bodies.values()
+        ]
+    )
+    place = np.hypot(*(points - points.mean(axis=0))[:, :2].T).max()
+    mass = np.abs(np.diag(db.added_mass_inf))
+    radius = 0.0
+    for body in db.bodies:
+        mine = [(i, split_label(c)) for i, c in enumerate(db.coordinates)]
+        turning = [mass[i] for i, (name, dof) in mine if name == body and dof >= 3]
+        going = [mass[i] for i, (name, dof) in mine if name == body and dof < 3]
+        if turning and going and max(going) > 0.0:
+            radius = max(radius, float(np.sqrt(max(turning) / max(going))))
+    return float(place + 1.5 * radius)
+
+
+def _symmetric_about_y(db: HydroDatabase) -> bool:
+    points = [b.reference_point for b in db.bodies.values()]
+    if any(p is None or abs(p[1]) > 1e-9 for p in points):
+        return False
+    lateral = np.array([split_label(c)[1] in (1, 3, 5) for c in db.coordinates])
+    return _coupling(db, lateral[:, None] != lateral) < 1e-3
+
+
+def _coupling(db: HydroDatabase, pairs: NDArray[np.bool_]) -> float:
+    """Largest |A_ij| of the given pairs over sqrt(A_ii A_jj)."""
+    size = np.sqrt(np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    return float(np.abs(db.added_mass / scale)[:, pairs].max(initial=0.0))
+
+
+def _axisymmetric(db: HydroDatabase) -> bool:
+    """Bodies of revolution on one vertical axis.
+
+    Surge and sway, roll and pitch are alike and yaw makes no waves (it does for three columns).
+    """
+    if any(scales(db)[[c.endswith(".yaw") for c in db.coordinates]] > 0.0):
+        return False
+    points = [b.reference_point for b in db.bodies.values()]
+    if any(p is None for p in points):
+        return False
+    place = np.array(points)[:, :2]
+    if np.abs(place - place[0]).max() > 1e-6:
+        return False
+    position = {label: i for i, label in enumerate(db.coordinates)}
+    for body in db.bodies:
+        if f"{body}.yaw" not in position:
+            return False
+        for one, other in (("surge", "sway"), ("pitch", "roll")):
+            i, j = position.get(f"{body}.{one}"), position.get(f"{body}.{other}")
+            if i is None or j is None:
+                return False
+            a = db.added_mass[:, [i, j], [i, j]]
+            if np.median(np.abs(a[:, 0] - a[:, 1])) > 0.02 * np.abs(a).max():
+                return False
+    return True

@@ -1,0 +1,193 @@
+r"""Checks of the excitation in long waves, where it follows from statics and the added mass.
+
+For a body small against the wavelength, at its reference point p, with the phase e^{-ik x'} of its
+place removed, elevation cos(wt - k x'), heading beta:
+
+    F_3 -> K33 - w^2 (rho V + sum_j A_3,3j)
+    F_1 -> i k g cos(beta) (rho V D + sum_j A_1,1j),  D = decay of the acceleration at zB
+    FK_5 -> i k cos(beta) K55 - S_x rho g
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.tables import Body
+
+
+@dataclass(frozen=True)
+class _Wave:
+    """The longest wave of the database: number [rad/m], frequency [rad/s], heading."""
+
+    k: float
+    omega: float
+    heading: int
+    cosine: float
+    sine: float
+
+
+def long_wave_findings(db: HydroDatabase) -> list[Finding]:
+    """Compare the excitation at the lowest frequency with its long-wave limits, body by body.
+
+    Parameters
+    ----------
+    db : HydroDatabase
+
+    Returns
+    -------
+    list of Finding
+        Phase convention (error if wrong), heave against stiffness, surge against displacement,
+        pitch against stiffness. Checks whose limit the grid does not reach are left out.
+    """
+    if db.heading.size == 0:
+        return []
+    k = float(wavenumber(db.omega[:1], db.water_depth, db.gravity)[0])
+    found: list[Finding] = []
+    for body in db.bodies.values():
+        # the heading that is most nearly along x or y
+        along = np.maximum(np.abs(np.cos(db.heading)), np.abs(np.sin(db.heading)))
+        h = int(along.argmax())
+        wave = _Wave(k, float(db.omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
+        found += _phase(db, body, wave)
+        if body.hydrostatics is not None and body.reference_point is not None:
+            found += _heave(db, body, wave)
+            found += _displacement(db, body, wave)
+            found += _pitch(db, body, wave)
+    return _merged(found)
+
+
+def _merged(found: list[Finding]) -> list[Finding]:
+    """Keep warnings and errors; of each check that passed, only the body with the largest error."""
+    passed: dict[str, list[Finding]] = {}
+    for f in found:
+        if f.severity == "info":
+            passed.setdefault(f.check, []).append(f)
+    merged = [f for f in found if f.severity != "info"]
+    for group in passed.values():
+        worst = max(group, key=lambda f: f.value)
+        more = f"; {len(group) - 1} more no worse" if len(group) > 1 else ""
+        merged.append(replace(worst, message=worst.message + more))
+    return merged
+
+
+def _local(db: HydroDatabase, body: Body, wave: _Wave, dof: str, *, fk: bool) -> complex | None:
+    label = f"{body.name}.{dof}"
+    if label not in db.coordinates:
+        return None
+    table = db.froude_krylov if fk else db.excitation
+    point = np.zeros(3) if body.reference_point is None else body.reference_point
+    shift = np.exp(1j * wave.k * (point[0] * wave.cosine + point[1] * wave.sine))
+    return complex(table[0, wave.heading, db.coordinates.index(label)] * shift)
+
+
+def _total_mass(db: HydroDatabase, body: Body, dof: str) -> float:
+    """Added mass of this force when all bodies move together (the water around them at rest)."""
+    i = db.coordinates.index(f"{body.name}.{dof}")
+    together = [j for j, c in enumerate(db.coordinates) if c.endswith("." + dof)]
+    return float(db.added_mass[0, i, together].sum())
+
+
+def _phase(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
+    """Surge (or sway) must lead the elevation by a quarter period in the project convention."""
+    dof, factor = ("surge", wave.cosine) if abs(wave.cosine) > 0.5 else ("sway", wave.sine)
+    force = _local(db, body, wave, dof, fk=db.excitation_split)
+    if force is None or force == 0.0:
+        return []
+    angle = float(np.angle(force * np.sign(factor)))
+    off = abs(angle - 0.5 * np.pi)
+    severity = "error" if off > 1.0 else "warning" if off > 0.2 else "info"
+    text = f"{body.name}: {dof} force leads the elevation by {angle:+.3f} rad (+1.571 expected)"
+    if abs(angle + 0.5 * np.pi) < 1.0:
+        text += ": phases of the other time convention, or headings from where the waves come"
+    return [Finding(severity, "phase convention", text, off, wave.omega)]
+
+
+def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
+    hs = body.hydrostatics
+    force = _local(db, body, wave, "heave", fk=False)
+    if hs is None or force is None:
+        return []
+    k33 = db.rho * db.gravity * hs.waterplane_area
+    inertia = wave.omega**2 * (db.rho * hs.displaced_volume + _total_mass(db, body, "heave"))
+    if k33 < 2.0 * inertia or wave.k * np.sqrt(hs.waterplane_area) > 0.5:
+        return []
+    error = abs(force - (k33 - inertia)) / k33
+    return [
+        Finding(
+            "error" if error > 0.15 else "warning" if error > 0.05 else "info",
+            "heave force against stiffness",
+            f"{body.name}: long-wave heave force {abs(force):.4g} N/m, "
+            f"rho g A_w - w^2 (rho V + A) = {k33 - inertia:.4g} N/m",
+            error,
+            wave.omega,
+        )
+    ]
+
+
+def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
+    hs = body.hydrostatics
+    dof, factor = ("surge", wave.cosine) if abs(wave.cosine) > 0.5 else ("sway", wave.sine)
+    split = db.excitation_split
+    force = _local(db, body, wave, dof, fk=split)
+    if hs is None or force is None:
+        return []
+    depth, z = db.water_depth, float(hs.center_of_buoyancy[2])
+    if wave.k * max(abs(z) * 2.0, np.sqrt(hs.waterplane_area)) > 0.3:
+        return []
+    added = 0.0 if split else _total_mass(db, body, dof)
+
+    def volume_in(depth: float) -> float:
+        k = float(wavenumber(wave.omega, depth, db.gravity))
+        decay = np.exp(k * z)
+        if np.isfinite(depth):
+            decay = np.cosh(k * (z + depth)) / np.cosh(k * depth)
+        return float((abs(force) / (k * db.gravity * abs(factor)) - added) / (db.rho * decay))
+
+    volume = volume_in(depth)
+    error = abs(volume / hs.displaced_volume - 1.0)
+    hint = ""
+    deep = volume_in(np.inf)
+    if error > 0.05 and np.isfinite(depth) and abs(deep / hs.displaced_volume - 1.0) < 0.02:
+        hint = f"; {deep:.5g} m3 if it was computed in deep water, not in {depth:g} m"
+    return [
+        Finding(
+            "error" if error > 0.3 else "warning" if error > 0.05 else "info",
+            "displacement",
+            f"{body.name}: {hs.displaced_volume:.5g} m3 by hydrostatics, {volume:.5g} m3 by the "
+            f"long-wave {dof} force{hint}",
+            error,
+            wave.omega,
+        )
+    ]
+
+
+def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
+    hs = body.hydrostatics
+    if hs is None or body.reference_point is None or not db.excitation_split:
+        return []
+    if abs(wave.cosine) < 0.9:
+        return []
+    force = _local(db, body, wave, "pitch", fk=True)
+    lever = hs.center_of_buoyancy[2] - body.reference_point[2]
+    parts = hs.waterplane_moments[2] + abs(hs.displaced_volume * lever)
+    size = max(abs(body.reference_point[2]), 2.0 * abs(hs.center_of_buoyancy[2]))
+    if force is None or parts <= 0.0 or wave.k * max(size, np.sqrt(hs.waterplane_area)) > 0.1:
+        return []
+    k55 = db.hydrostatic_stiffness(body.name)[4, 4]
+    found = force.imag / (wave.k * wave.cosine)
+    error = abs(found - k55) / (db.rho * db.gravity * parts)
+    return [
+        Finding(
+            "warning" if error > 0.1 else "info",
+            "pitch moment against stiffness",
+            f"{body.name}: K55 = {k55:.4g} N m by hydrostatics, {found:.4g} by the long-wave "
+            f"moment (differs if the moments are about another point)",
+            error,
+            wave.omega,
+        )
+    ]

@@ -1,0 +1,196 @@
+"""Repairs that say what they do: nothing else is changed, and the file keeps the list."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae import irf
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.checks.irregular import bands, suspect_rows
+from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.scales import scales
+
+Array = NDArray[np.float64]
+#: Share of the frequencies that may be left out.
+MOST_MASKED = 0.15
+#: The tail reaches this multiple of the last frequency, in steps of this ratio.
+TAIL_REACH, TAIL_RATIO = 2.5, 1.05
+
+
+def repair(database: HydroDatabase, what: Sequence[str]) -> HydroDatabase:
+    """Apply repairs in the given order.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    what : sequence of str
+        Of `symmetrise`, `irregular`, `tail` (see the functions of this module).
+
+    Returns
+    -------
+    HydroDatabase
+        A copy; `repairs` holds one sentence for each repair that changed something. Stored kernels
+        and fits of the memory belong to the old tables and are removed.
+
+    Raises
+    ------
+    DatabaseError
+        Unknown repair, or one that cannot be done honestly.
+    """
+    for word in what:
+        if word not in REPAIRS:
+            raise DatabaseError(f"no repair {word!r}{nearest(word, REPAIRS)}")
+    result = database
+    for word in what:
+        changed, text = REPAIRS[word](result)
+        if text:
+            result = replace(changed, repairs=(*result.repairs, f"{word}: {text}"))
+    if result is not database and (result.memory or result.kernel is not None):
+        text = "removed the stored kernel and memory fits, which belong to the old tables"
+        result = replace(result, memory={}, kernel=None, repairs=(*result.repairs, text))
+    return result
+
+
+def symmetrise(db: HydroDatabase) -> tuple[HydroDatabase, str]:
+    """Replace A, B and added_mass_inf by the mean of both halves.
+
+    Returns
+    -------
+    database : HydroDatabase
+    text : str
+        What was done; empty if they were symmetric.
+    """
+    a, b, inf = (
+        0.5 * (t + np.swapaxes(t, -1, -2))
+        for t in (db.added_mass, db.radiation_damping, db.added_mass_inf)
+    )
+    change = max(
+        float(np.abs(new - old).max() / np.abs(old).max())
+        for new, old in ((a, db.added_mass), (b, db.radiation_damping), (inf, db.added_mass_inf))
+    )
+    if change < 1e-12:
+        return db, ""
+    text = f"A, B and added_mass_inf replaced by the mean of both halves (change {change:.2g})"
+    return replace(db, added_mass=a, radiation_damping=b, added_mass_inf=inf), text
+
+
+def irregular(db: HydroDatabase) -> tuple[HydroDatabase, str]:
+    """Leave out the frequencies that break causality or energy (`suspect_rows`).
+
+    `added_mass_inf` is estimated again unless the source gave it.
+
+    Returns
+    -------
+    database : HydroDatabase
+    text : str
+        What was done; empty if there is none.
+
+    Raises
+    ------
+    DatabaseError
+        More than 15 % of the frequencies are bad.
+    """
+    mask = suspect_rows(db)
+    if not mask.any():
+        return db, ""
+    shown = ", ".join(f"{a:.4g}..{b:.4g}" for a, b in bands(db.omega, mask))
+    if mask.mean() > MOST_MASKED or (~mask).sum() < 4:
+        raise DatabaseError(
+            f"{mask.sum()} of {mask.size} frequencies break causality or energy ({shown} rad/s): "
+            f"too many to leave out; compute again with a lid"
+        )
+    masked = _rows(db, ~mask)
+    text = f"left out {mask.sum()} of {mask.size} frequencies: {shown} rad/s"
+    if db.added_mass_inf_origin != "source":
+        w, a, b = masked.omega, masked.added_mass, masked.radiation_damping
+        value, std = irf.added_mass_inf(w, a, b)
+        masked = replace(
+            masked,
+            added_mass_inf=0.5 * (value + value.T),
+            added_mass_inf_std=0.5 * (std + std.T),
+        )
+        text += "; added_mass_inf estimated again"
+    return masked, text
+
+
+def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
+    """Append frequencies up to 2.5 times the last one along the power laws that B_ii follow there.
+
+    With n_i the power of B_ii and d_i = (w/w_max)^{-n_i/2}: B_ij = d_i d_j B_ij(w_max), which keeps
+    B positive semidefinite; A from Ogilvie's relation, joined continuously; |F_i| falls as
+    w^{-(n_i + 3)/2}, what the energy identity asks for in deep water, with the phase that it has at
+    the reference point at w_max.
+
+    Returns
+    -------
+    database : HydroDatabase
+    text : str
+        What was done.
+
+    Raises
+    ------
+    DatabaseError
+        A coordinate that radiates follows no power law, or a reference point is unknown.
+    """
+    w, n = db.omega, len(db.coordinates)
+    active = scales(db) > 0.0
+    diagonal = np.einsum("wii->wi", db.radiation_damping)
+    fitted = irf.fit_tail(w, diagonal)
+    bad = [db.coordinates[i] for i in range(n) if active[i] and not fitted.used[i]]
+    if bad or not active.any():
+        raise DatabaseError(
+            f"no tail: B of {', '.join(bad) or 'every coordinate'} follows no power law above "
+            f"{irf.TAIL_FROM * w[-1]:.3g} rad/s; compute higher frequencies"
+        )
+    power = np.where(active, fitted.power, irf.TAIL_POWERS[1])
+    count = int(np.ceil(np.log(TAIL_REACH) / np.log(TAIL_RATIO)))
+    more = w[-1] * TAIL_RATIO ** np.arange(1, count + 1)
+    ratio = more[:, None] / w[-1]
+    decay = ratio ** (-0.5 * power)
+    b = db.radiation_damping[-1] * decay[:, :, None] * decay[:, None, :]
+    omega, damping = np.r_[w, more], np.concatenate([db.radiation_damping, b])
+    memory = irf.kramers_kronig(omega, damping)
+    rest = db.added_mass[-1] + memory[w.size - 1] - db.added_mass_inf
+    a = db.added_mass_inf - memory[w.size :] + rest / ratio[:, :, None] ** 2
+    k = wavenumber(omega, db.water_depth, db.gravity)
+    points = np.array([db.reference_point(c.rpartition(".")[0]) for c in db.coordinates])
+    along = np.outer(np.cos(db.heading), points[:, 0]) + np.outer(np.sin(db.heading), points[:, 1])
+    factor = np.exp(-1j * (k[w.size :] - k[w.size - 1])[:, None, None] * along)
+    factor = factor * (ratio ** (-0.5 * (power + 3.0)))[:, None, :]
+    extended = replace(
+        db,
+        omega=omega,
+        added_mass=np.concatenate([db.added_mass, a]),
+        radiation_damping=damping,
+        froude_krylov=np.concatenate([db.froude_krylov, db.froude_krylov[-1] * factor]),
+        diffraction=np.concatenate([db.diffraction, db.diffraction[-1] * factor]),
+    )
+    powers = ", ".join(f"{db.coordinates[i]} {power[i]:.2f}" for i in np.flatnonzero(active))
+    return extended, (
+        f"appended {count} frequencies {more[0]:.4g}..{more[-1]:.4g} rad/s with B ~ w^-n, "
+        f"n = {powers}; A by Ogilvie's relation; |F| ~ w^-(n+3)/2"
+    )
+
+
+def _rows(db: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
+    return replace(
+        db,
+        omega=db.omega[keep],
+        added_mass=db.added_mass[keep],
+        radiation_damping=db.radiation_damping[keep],
+        froude_krylov=db.froude_krylov[keep],
+        diffraction=db.diffraction[keep],
+    )
+
+
+REPAIRS: dict[str, Callable[[HydroDatabase], tuple[HydroDatabase, str]]] = {
+    "symmetrise": symmetrise,
+    "irregular": irregular,
+    "tail": tail,
+}

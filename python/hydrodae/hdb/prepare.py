@@ -1,0 +1,137 @@
+"""Add to a database what a simulation needs: fits of the radiation memory, the kernel K(t)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from hydrodae.errors import CaseError
+from hydrodae.hdb.coordinates import body_name, expand
+from hydrodae.hdb.database import HydroDatabase
+
+
+def fit(
+    database: HydroDatabase,
+    inputs: str | Sequence[str],
+    *,
+    name: str = "default",
+    loads: str | Sequence[str] | None = None,
+    band: tuple[float, float] | None = None,
+    states: int | None = None,
+    target: float | None = None,
+    uniform: float | None = None,
+    method: str | None = None,
+) -> HydroDatabase:
+    """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    inputs : str or sequence of str
+        Coordinates that move: labels, or a text as `hydrodae.hdb.expand` reads it, such as
+        "base.planar,flap1.pitch".
+    name : str
+        Of the fit in the database; one of that name is replaced.
+    loads : str or sequence of str, optional
+        Coordinates whose loads the fit gives, likewise; default: those that move.
+    band : (float, float), optional
+        Frequencies that the fit must match [rad/s], for example those of
+        `hydrodae.working_band`; default: 0.04 to 1 rad/s.
+    states : int, optional
+        Largest number of states.
+    target : float, optional
+        Relative error of H in the band, weighted by |H|^-1/2 [-]; default: 4.5e-4.
+    uniform : float, optional
+        Target in place of that: largest error of H in the band over its largest value [-].
+    method : str, optional
+        "modes", "hankel" or "auto" (default: by the number of coordinates).
+
+    Returns
+    -------
+    HydroDatabase
+        A copy whose `memory` holds the fit; how good it is stands in `memory[name].report`.
+
+    Raises
+    ------
+    CaseError
+        The name or the target is not one.
+    DatabaseError
+        Unknown coordinates, no radiation, or fewer than 4 frequencies in the band.
+
+    Warns
+    -----
+    hydrodae.memory.MemoryFitWarning
+        The fit is not passive or misses its target.
+    """
+    from hydrodae.memory import fit_memory
+
+    if not is_fit_name(name):
+        raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only")
+    if target is not None and not target > 0.0:
+        raise CaseError(f"target {target:g}: expected a number > 0")
+    given = {
+        "band": band,
+        "max_states": states,
+        "target": target,
+        "uniform": uniform,
+        "method": method,
+    }
+    options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    made = fit_memory(
+        database,
+        inputs=_labels(inputs, database),
+        outputs=None if loads is None else _labels(loads, database),
+        name=name,
+        **options,
+    )
+    return replace(database, memory={**database.memory, name: made})
+
+
+def kernel(
+    database: HydroDatabase,
+    inputs: str | Sequence[str],
+    *,
+    loads: str | Sequence[str] | None = None,
+    length: float | None = None,
+    band: tuple[float, float] | None = None,
+) -> HydroDatabase:
+    """Store the radiation kernel K(t) for the convolution; the command `hydrodae hdb kernel`.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    inputs : str or sequence of str
+        Coordinates that move: labels, or a text as `hydrodae.hdb.expand` reads it.
+    loads : str or sequence of str, optional
+        Coordinates whose loads it gives, likewise; default: those that move.
+    length : float, optional
+        Memory [s]; default: until a thousandth of int |K| is left.
+    band : (float, float), optional
+        Frequencies that must match [rad/s].
+
+    Returns
+    -------
+    HydroDatabase
+        A copy whose `kernel` is the new one.
+
+    Raises
+    ------
+    DatabaseError
+        Unknown coordinates, a memory too short for the grid, or too few frequencies in the band.
+    """
+    return database.with_kernel(
+        _labels(inputs, database),
+        None if loads is None else _labels(loads, database),
+        length=length,
+        band=band,
+    )
+
+
+def is_fit_name(name: str) -> bool:
+    """Tell whether a fit can have this name in a file: letters, digits, _ and - only."""
+    return body_name(name) == name
+
+
+def _labels(given: str | Sequence[str], database: HydroDatabase) -> list[str]:
+    return expand(given if isinstance(given, str) else ",".join(given), database.coordinates)

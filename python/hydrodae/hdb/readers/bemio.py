@@ -1,0 +1,216 @@
+"""BEMIO `.h5` files, which WEC-Sim and its peers read.
+
+Phasors are e^{+iwt} as here. With `scaled` = 0 the tables are A/rho, B/(rho w), F/(rho g),
+C/(rho g). Rows are those of the body that owns the group, columns of all bodies. Kernels and
+state-space models in the file are not read: they follow from B.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.damaged import opened
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS, unique_names
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+#: Codes whose A_inf is an estimate of BEMIO: the mean over the lower part of its own grid.
+ESTIMATED_BY_BEMIO = ("NEMOH", "CAPYTAINE")
+
+
+def is_bemio_file(f: h5py.File) -> bool:
+    """Tell whether an open HDF5 file has the layout of BEMIO."""
+    return "simulation_parameters" in f and "body1" in f
+
+
+def read_bemio(path: Path) -> SourceData:
+    """Read a BEMIO file.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    SourceData
+        Moments are about `cg`, as WEC-Sim takes them.
+
+    Raises
+    ------
+    DatabaseError
+        Something is missing or has an unexpected shape; the message names file and dataset.
+    """
+    with opened(path, DatabaseError, "incomplete or damaged") as f:
+        return _read(path, f)
+
+
+def _read(path: Path, f: h5py.File) -> SourceData:
+    rho, gravity = _number(path, f, "rho"), _number(path, f, "g")
+    omega = _array(path, f, "simulation_parameters/w").ravel()
+    heading = np.radians(_array(path, f, "simulation_parameters/wave_dir").ravel())
+    scaled = _number(path, f, "scaled") != 0.0
+    groups = [f[name] for name in _bodies(path, f)]
+    findings: list[Finding] = []
+    counts = [int(_dof(g)) for g in groups]
+    starts = np.r_[0, np.cumsum(counts)]
+    kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
+    if any(n > 6 for n in counts):
+        text = f"left out (not rigid): {sum(counts) - 6 * len(counts)} generalised modes"
+        findings.append(Finding("warning", "coordinates", text))
+    raw = [_text(g["properties/name"][()]) if "properties/name" in g else g.name for g in groups]
+    names = unique_names(raw)
+    a, b, a_inf = [], [], []
+    forces: dict[str, list[Array]] = {"": [], "froude-krylov/": [], "scattering/": []}
+    for g, count in zip(groups, counts, strict=True):
+        full = (count, starts[-1], omega.size)
+        a.append(_table(path, g, "added_mass/all", full)[:6, kept])
+        b.append(_table(path, g, "radiation_damping/all", full)[:6, kept])
+        a_inf.append(_table(path, g, "added_mass/inf_freq", full[:2])[:6, kept])
+        for key, found in forces.items():
+            if f"hydro_coeffs/excitation/{key}re" not in g:
+                continue
+            parts = [
+                _table(path, g, f"excitation/{key}{p}", (count, heading.size, omega.size))[:6]
+                for p in ("re", "im")
+            ]
+            found.append(parts[0] + 1j * parts[1])
+    order = np.argsort(omega)
+    omega = omega[order]
+    factor = 1.0 if scaled else rho
+    code = _text(f["bem_data/code"][()]) if "bem_data/code" in f else "not stated"
+    data = SourceData(
+        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        omega=omega,
+        added_mass=factor * np.concatenate(a).transpose(2, 0, 1)[order],
+        radiation_damping=np.concatenate(b).transpose(2, 0, 1)[order],
+        heading=heading,
+        froude_krylov=None,
+        diffraction=None,
+        excitation=None,
+        reference_points={},
+        rho=rho,
+        gravity=gravity,
+        water_depth=_depth(path, f),
+        name=path.name,
+        title=f"BEMIO file {path.name}, computed by {code}",
+        added_mass_inf=_added_mass_inf(factor * np.concatenate(a_inf), code, findings),
+        files=[path],
+        findings=findings,
+    )
+    if not scaled:
+        data.radiation_damping *= rho * omega[:, None, None]
+    force_scale = 1.0 if scaled else rho * gravity
+    for key, field in (
+        ("", "excitation"),
+        ("froude-krylov/", "froude_krylov"),
+        ("scattering/", "diffraction"),
+    ):
+        if len(forces[key]) == len(groups):
+            value = force_scale * np.concatenate(forces[key]).transpose(2, 1, 0)[order]
+            # BEMIO fills what the code behind it did not give with NaN
+            setattr(data, field, None if np.isnan(value).all() else value)
+    for name, g in zip(names, groups, strict=True):
+        _attach_body(path, data, name, g, 1.0 if scaled else rho * gravity)
+    return data
+
+
+def _bodies(path: Path, f: h5py.File) -> list[str]:
+    found = sorted(
+        (n for n in f if n.startswith("body") and n[4:].isdigit()), key=lambda n: int(n[4:])
+    )
+    if found != [f"body{i + 1}" for i in range(len(found))]:
+        raise DatabaseError(f"{path}: expected groups body1, body2, ..., got {found}")
+    return found
+
+
+def _added_mass_inf(value: Array, code: str, findings: list[Finding]) -> Array | None:
+    """The value in the file, unless it is an estimate of BEMIO or absent (NaN)."""
+    if not np.all(np.isfinite(value)):
+        return None
+    if code.upper().startswith(ESTIMATED_BY_BEMIO):
+        text = f"inf_freq is BEMIO's own estimate for {code} and is not used"
+        findings.append(Finding("info", "added_mass_inf of the source", text))
+        return None
+    return value
+
+
+def _attach_body(path: Path, data: SourceData, name: str, g: h5py.Group, scale: float) -> None:
+    point = _vector(path, g, "properties/cg")
+    data.reference_points[name] = point
+    buoyancy = _vector(path, g, "properties/cb")
+    volume = g["properties/disp_vol"][()].ravel() if "properties/disp_vol" in g else []
+    stiffness = "hydro_coeffs/linear_restoring_stiffness"
+    if point is None or buoyancy is None or len(volume) != 1 or stiffness not in g:
+        text = f"{name}: cg, cb, disp_vol or linear_restoring_stiffness is missing"
+        data.findings.append(Finding("warning", "hydrostatics", text))
+        return
+    k = scale * _array(path, g, stiffness)[:6, :6]
+    if not np.all(np.isfinite(k)) or not np.isfinite(volume[0]):
+        data.findings.append(Finding("warning", "hydrostatics", f"{name}: holds NaN; left out"))
+        return
+    hydrostatics = Hydrostatics.from_stiffness(
+        k, point, float(volume[0]), buoyancy, data.rho, data.gravity
+    )
+    data.hydrostatics[name] = (hydrostatics, point)
+
+
+def _dof(g: h5py.Group) -> float:
+    return float(g["properties/dof"][()].ravel()[0]) if "properties/dof" in g else 6.0
+
+
+def _depth(path: Path, f: h5py.File) -> float:
+    """Water depth; a text ("infinite") stands for deep water."""
+    name = "simulation_parameters/water_depth"
+    value = f[name][()] if name in f else None
+    if isinstance(value, bytes | str):
+        if _text(value).strip().lower().startswith("inf"):
+            return np.inf
+        raise DatabaseError(f"{path}: water_depth {_text(value)!r}: expected metres or 'infinite'")
+    return _number(path, f, "water_depth")
+
+
+def _number(path: Path, f: h5py.File, name: str) -> float:
+    value = _array(path, f, f"simulation_parameters/{name}")
+    if value.size != 1:
+        raise DatabaseError(f"{path}: simulation_parameters/{name}: expected one number")
+    return float(value.ravel()[0])
+
+
+def _array(path: Path, group: h5py.Group, name: str) -> Array:
+    if name not in group:
+        raise DatabaseError(f"{path}: no dataset {group.name.rstrip('/')}/{name}")
+    try:
+        return np.asarray(group[name][()], dtype=float)
+    except (TypeError, ValueError) as error:
+        raise DatabaseError(f"{path}: {group.name}/{name} does not hold numbers") from error
+
+
+def _table(path: Path, group: h5py.Group, name: str, shape: tuple[int, ...]) -> Array:
+    value = _array(path, group, f"hydro_coeffs/{name}")
+    if value.shape != shape:
+        raise DatabaseError(
+            f"{path}: {group.name}/hydro_coeffs/{name} has shape {value.shape}, expected {shape}"
+        )
+    return value
+
+
+def _vector(path: Path, group: h5py.Group, name: str) -> Array | None:
+    if name not in group:
+        return None
+    value = _array(path, group, name).ravel()
+    return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        value = value.ravel()[0]
+    return value.decode() if isinstance(value, bytes) else str(value)

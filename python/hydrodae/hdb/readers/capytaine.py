@@ -1,0 +1,307 @@
+"""netCDF files of Capytaine 1 to 3.
+
+Capytaine's phasors are e^{-iwt}: forces are conjugated here. Everything is taken by the name of the
+dimension and by the label of the degree of freedom, never by position: the order of influenced_dof
+and radiating_dof changed between versions.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS, bodies_of, unique_names
+from hydrodae.hdb.dispersion import frequency
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers import nemoh_hydrostatics as nh
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
+FORCES = {
+    "froude_krylov": "Froude_Krylov_force",
+    "diffraction": "diffraction_force",
+    "excitation": "excitation_force",
+}
+
+
+def read_capytaine(path: Path) -> SourceData:
+    """Read a netCDF file of Capytaine (NETCDF3 or NETCDF4).
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    SourceData
+        The row at w = 0 is left out; the row at w = inf becomes `added_mass_inf`.
+
+    Raises
+    ------
+    DatabaseError
+        Not such a file, something missing, or dimensions that cannot be one database.
+    """
+    with open_dataset(path) as opened:
+        ds = _one_case(path, opened.load())
+    for name in ("added_mass", "radiation_damping"):
+        if name not in ds:
+            raise DatabaseError(f"{path}: no variable {name!r} in it")
+    ds, omega = _frequencies(path, ds)
+    findings: list[Finding] = []
+    raw, coordinates = _coordinates(path, ds, findings)
+    a = _matrix(path, ds, "added_mass", raw)
+    b = _matrix(path, ds, "radiation_damping", raw)
+    usual = np.isfinite(omega) & (omega > 0.0)
+    order = np.flatnonzero(usual)[np.argsort(omega[usual])]
+    forces = {key: _force(path, ds, name, raw, order) for key, name in FORCES.items()}
+    heading = np.zeros(0)
+    if any(v is not None for v in forces.values()):
+        heading = np.atleast_1d(ds["wave_direction"].values).astype(float)
+    if np.any(omega == 0.0):
+        findings.append(Finding("info", "w = 0", "row at zero frequency set aside"))
+    at_infinity = a[np.isinf(omega)]
+    a_inf = at_infinity[0] if len(at_infinity) and np.all(np.isfinite(at_infinity[0])) else None
+    data = SourceData(
+        coordinates=coordinates,
+        omega=omega[order],
+        added_mass=a[order],
+        radiation_damping=b[order],
+        heading=heading,
+        froude_krylov=forces["froude_krylov"],
+        diffraction=forces["diffraction"],
+        excitation=forces["excitation"],
+        reference_points={},
+        rho=_number(path, ds, "rho"),
+        gravity=_number(path, ds, "g"),
+        water_depth=_depth(path, ds),
+        name=path.name,
+        title=f"Capytaine {ds.attrs.get('capytaine_version', '?')}, {path.name}",
+        added_mass_inf=a_inf,
+        files=[path],
+        findings=findings,
+    )
+    _attach_bodies(data, ds, raw, path)
+    return data
+
+
+def open_dataset(path: Path) -> xr.Dataset:
+    """Open a netCDF file with the backend that its first bytes ask for."""
+    with open(path, "rb") as f:
+        magic = f.read(4)
+    engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
+    try:
+        return xr.open_dataset(path, engine=engine)
+    except (OSError, ValueError, TypeError) as error:
+        raise DatabaseError(f"{path}: not a readable netCDF file ({error})") from error
+
+
+def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:
+    """Drop dimensions of length one that parametrise a study; refuse longer ones."""
+    known = {"influenced_dof", "radiating_dof", "complex", "wave_direction", *FREQUENCY_AXES}
+    for name in ds["added_mass"].dims if "added_mass" in ds else ():
+        if name in known:
+            continue
+        if ds.sizes[name] != 1:
+            raise DatabaseError(
+                f"{path}: {ds.sizes[name]} values of {name!r}; select one before exporting "
+                f"(dataset.isel({name}=0))"
+            )
+        ds = ds.isel({name: 0})
+    return ds
+
+
+def _frequencies(path: Path, ds: xr.Dataset) -> tuple[xr.Dataset, Array]:
+    """Rename the frequency dimension to `omega` and return its values [rad/s]."""
+    axes = [d for d in ds["added_mass"].dims if d in FREQUENCY_AXES]
+    if not axes:
+        if "omega" not in ds.coords:
+            raise DatabaseError(f"{path}: no frequency dimension ({', '.join(FREQUENCY_AXES)})")
+        return ds.expand_dims("omega"), np.atleast_1d(ds["omega"].values).astype(float)
+    axis = str(axes[0])
+    if "omega" in ds.coords:
+        values = np.atleast_1d(ds["omega"].values).astype(float)
+    else:
+        given = np.atleast_1d(ds[axis].values).astype(float)
+        with np.errstate(divide="ignore"):
+            values = _to_omega(path, ds, axis, given)
+    if axis != "omega":
+        ds = ds.drop_vars("omega", errors="ignore").rename({axis: "omega"})
+    return ds, values
+
+
+def _to_omega(path: Path, ds: xr.Dataset, axis: str, given: Array) -> Array:
+    if axis == "period":
+        return 2.0 * np.pi / given
+    if axis == "freq":
+        return 2.0 * np.pi * given
+    k = given if axis == "wavenumber" else 2.0 * np.pi / given
+    return frequency(k, _depth(path, ds), _number(path, ds, "g"))
+
+
+def _coordinates(
+    path: Path, ds: xr.Dataset, findings: list[Finding]
+) -> tuple[list[str], tuple[str, ...]]:
+    """Names of the degrees of freedom in the file, and their labels here, in the same order."""
+    influenced = [_text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
+    radiating = [_text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
+    ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
+    both = [d for d in influenced if d in radiating]
+    rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
+    lost = [d for d in dict.fromkeys(influenced + radiating) if d not in rigid]
+    if not rigid:
+        raise DatabaseError(f"{path}: none of {both} is one of {', '.join(DOFS)}")
+    if lost:
+        findings.append(
+            Finding(
+                "warning", "coordinates", f"left out (not rigid, or motion or force only): {lost}"
+            )
+        )
+    prefixes = list(dict.fromkeys(d.rpartition("__")[0] for d in rigid))
+    names = unique_names([p or _single_body(path, ds) for p in prefixes])
+    labels = []
+    for dof in rigid:
+        prefix, _, word = dof.rpartition("__")
+        labels.append(f"{names[prefixes.index(prefix)]}.{word.lower()}")
+    return rigid, tuple(labels)
+
+
+def _single_body(path: Path, ds: xr.Dataset) -> str:
+    for key in ("body", "body_name"):
+        if key in ds.coords and ds[key].size == 1:
+            return _text(ds[key].values.item())
+    return path.stem
+
+
+def _matrix(path: Path, ds: xr.Dataset, name: str, dofs: list[str]) -> Array:
+    """Return a variable as (nw, force, motion)."""
+    variable = ds[name].sel(influenced_dof=dofs, radiating_dof=dofs)
+    try:
+        ordered = variable.transpose("omega", "influenced_dof", "radiating_dof")
+    except ValueError as error:
+        raise DatabaseError(f"{path}: dimensions of {name!r}: {variable.dims}") from error
+    return np.asarray(ordered.values, dtype=float)
+
+
+def _force(
+    path: Path, ds: xr.Dataset, name: str, dofs: list[str], order: NDArray[np.intp]
+) -> NDArray[np.complex128] | None:
+    """Return a force as (nw, nh, n) in the project convention."""
+    if name not in ds:
+        return None
+    variable = ds[name].sel(influenced_dof=dofs)
+    if "complex" in variable.dims:
+        labels = [_text(c) for c in variable["complex"].values]
+        if sorted(labels) != ["im", "re"]:
+            raise DatabaseError(f"{path}: dimension 'complex' of {name!r} is labelled {labels}")
+        variable = variable.assign_coords(complex=labels)
+        variable = variable.sel(complex="re") + 1j * variable.sel(complex="im")
+    if "wave_direction" not in variable.dims:
+        variable = variable.expand_dims("wave_direction")
+    try:
+        ordered = variable.transpose("omega", "wave_direction", "influenced_dof")
+    except ValueError as error:
+        raise DatabaseError(f"{path}: dimensions of {name!r}: {variable.dims}") from error
+    return np.asarray(np.conj(ordered.values[order]), dtype=complex)
+
+
+def _attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) -> None:
+    """Reference points and hydrostatics, from the file or from Nemoh-like files beside it."""
+    names = bodies_of(data.coordinates)
+    beside: list[nh.FileHydrostatics | None] = [None] * len(names)
+    if "center_of_buoyancy" not in ds:
+        beside = nh.read_all(path.parent, len(names), data.rho, data.gravity)
+    for i, name in enumerate(names):
+        first = next(
+            d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
+        )
+        prefix = first.rpartition("__")[0]
+        point = _vector(ds, "rotation_center", prefix, i)
+        data.reference_points[name] = point
+        hs = _hydrostatics(data, ds, raw, prefix, i, point)
+        near = beside[i]
+        if hs is not None and point is not None:
+            data.hydrostatics[name] = (hs, point)
+        elif near is not None:
+            data.hydrostatics[name] = (near.hydrostatics, near.center_of_gravity)
+            data.files += near.files
+            data.findings.append(
+                Finding(
+                    "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
+                )
+            )
+        else:
+            data.findings.append(
+                Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")
+            )
+
+
+def _hydrostatics(
+    data: SourceData, ds: xr.Dataset, raw: list[str], prefix: str, i: int, point: Array | None
+) -> Hydrostatics | None:
+    """Waterplane from hydrostatic_stiffness about the rotation centre.
+
+    Capytaine's rotational terms hold the weight too: - m g (z_G - z_c) in K44 and K55, with
+    m = rho V unless the body was given another mass (then it is inertia_matrix[surge, surge]).
+    """
+    needed = ("hydrostatic_stiffness", "center_of_buoyancy", "disp_mass")
+    buoyancy = _vector(ds, "center_of_buoyancy", prefix, i)
+    if point is None or buoyancy is None or any(name not in ds for name in needed):
+        return None
+    volume = float(_pick(ds["disp_mass"], prefix, i, vector=False)) / data.rho
+    present = [d for d in raw if d.rpartition("__")[0] == prefix]
+    index = [DOFS.index(d.rpartition("__")[2].lower()) for d in present]
+    if not {2, 3, 4} <= set(index):
+        return None
+    k = np.zeros((6, 6))
+    block = ds["hydrostatic_stiffness"].sel(influenced_dof=present, radiating_dof=present)
+    k[np.ix_(index, index)] = block.transpose("influenced_dof", "radiating_dof").values
+    center = _vector(ds, "center_of_mass", prefix, i)
+    if center is not None and not np.allclose(center, point):
+        mass = data.rho * volume
+        if "inertia_matrix" in ds and 0 in index:
+            surge = present[index.index(0)]
+            mass = float(ds["inertia_matrix"].sel(influenced_dof=surge, radiating_dof=surge))
+        k[[3, 4], [3, 4]] += mass * data.gravity * (center[2] - point[2])
+    if not np.all(np.isfinite(k)):
+        return None
+    return Hydrostatics.from_stiffness(k, point, volume, buoyancy, data.rho, data.gravity)
+
+
+def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:
+    """Entry of a body in a variable; all dimensions but the last one of vectors are over bodies."""
+    for dim in variable.dims[:-1] if vector else variable.dims:
+        labels = [_text(v) for v in variable[dim].values] if dim in variable.coords else []
+        variable = variable.isel({dim: labels.index(prefix) if prefix in labels else i})
+    return variable.values
+
+
+def _vector(ds: xr.Dataset, name: str, prefix: str, i: int) -> Array | None:
+    if name not in ds:
+        return None
+    value = np.asarray(_pick(ds[name], prefix, i, vector=True), dtype=float)
+    return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
+
+
+def _number(path: Path, ds: xr.Dataset, name: str) -> float:
+    if name not in ds or ds[name].size != 1:
+        raise DatabaseError(f"{path}: needs one value of {name!r}")
+    return float(ds[name].values.item())
+
+
+def _depth(path: Path, ds: xr.Dataset) -> float:
+    """Water depth; versions before 1.5 state the height of the sea bottom instead."""
+    if "water_depth" not in ds and "sea_bottom" in ds:
+        return -_number(path, ds, "sea_bottom")
+    return _number(path, ds, "water_depth")
+
+
+def _text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)

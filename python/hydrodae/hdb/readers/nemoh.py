@@ -1,0 +1,266 @@
+"""Folders of Nemoh 2, Nemoh 3, and of programs that write the same files (Capytaine, SeaFEM).
+
+Nemoh's phasors are e^{-iwt}, elevation Re e^{i(k x' - wt)}: forces are conjugated here. Zones of
+RadiationCoefficients.tec are the radiating motions, columns the forces. IRF.tec, Fe.dat, CA.dat and
+CM.dat are not read: what they hold is redundant, rounded, or (often) of another run.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS, unique_names
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.readers import nemoh_hydrostatics as nh
+from hydrodae.hdb.readers import tecplot
+from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Mode = tuple[int, int]  # body, degree of freedom
+
+_MOTION = re.compile(r"body\s+(\d+)\s+in\s+DoF\s+(\d+)", re.IGNORECASE)
+_BETA = re.compile(r"beta\s*=\s*([-+.\dE]+)", re.IGNORECASE)
+_ANGLE = re.compile(r"angle\s*=\s*([-+.\de]+)", re.IGNORECASE)
+FORCE_FILES = {
+    "excitation": "ExcitationForce.tec",
+    "diffraction": "DiffractionForce.tec",
+    "froude_krylov": "FKForce.tec",
+}
+
+
+def read_nemoh(path: Path) -> SourceData:
+    """Read a Nemoh folder.
+
+    Parameters
+    ----------
+    path : Path
+        The folder that holds `Nemoh.cal`, or that file.
+
+    Returns
+    -------
+    SourceData
+
+    Raises
+    ------
+    DatabaseError
+        A file is missing or wrong; the message names file and line.
+    """
+    root = path.parent if path.is_file() else path
+    cal_file = path if path.is_file() else nh.find(root, "Nemoh.cal")
+    if cal_file is None:
+        raise DatabaseError(f"{root}: no Nemoh.cal in it")
+    cal = read_cal(cal_file)
+    names = unique_names([body.mesh for body in cal.bodies])
+    radiation = nh.find(root, "RadiationCoefficients.tec")
+    if radiation is None:
+        raise DatabaseError(f"{root}: no RadiationCoefficients.tec in it or in its results folder")
+    data = _read_tables(root, cal, names, [cal_file, radiation])
+    _compare_grid(data, cal)
+    _attach_hydrostatics(data, root, names)
+    return data
+
+
+def _read_tables(root: Path, cal: NemohCal, names: list[str], files: list[Path]) -> SourceData:
+    """Read A, B and the forces; `files` holds Nemoh.cal and RadiationCoefficients.tec."""
+    motions = [(b, m.dof) for b, body in enumerate(cal.bodies) for m in body.motions]
+    forces = [(b, m.dof) for b, body in enumerate(cal.bodies) for m in body.forces]
+    findings: list[Finding] = []
+    omega, a, b, order = _read_radiation(files[1], motions, forces)
+    kept = [mode for mode in motions if mode in forces]
+    rows = [forces.index(mode) for mode in kept]
+    columns = [motions.index(mode) for mode in kept]
+    if len(kept) < max(len(motions), len(forces)):
+        lost = ", ".join(f"{names[i]}.{DOFS[d]}" for i, d in sorted(set(motions) ^ set(forces)))
+        text = f"motion or force only, left out: {lost}"
+        findings.append(Finding("warning", "coordinates", text))
+    up = np.argsort(omega)
+    tables: dict[str, Complex | None] = {}
+    heading_deg = np.zeros(0)
+    for key, name in FORCE_FILES.items():
+        force_file = nh.find(root, name)
+        tables[key] = None
+        if force_file is not None:
+            values, heading_deg = _read_forces(force_file, omega, len(forces), cal, heading_deg)
+            values = values if order is None else values[:, :, order]
+            tables[key] = values[up][:, :, rows]
+            files.append(force_file)
+    return SourceData(
+        coordinates=tuple(f"{names[i]}.{DOFS[d]}" for i, d in kept),
+        omega=omega[up],
+        added_mass=a[up][:, rows][:, :, columns],
+        radiation_damping=b[up][:, rows][:, :, columns],
+        heading=np.radians(heading_deg),
+        froude_krylov=tables["froude_krylov"],
+        diffraction=tables["diffraction"],
+        excitation=tables["excitation"],
+        reference_points={n: _point(n, body) for n, body in zip(names, cal.bodies, strict=True)},
+        rho=cal.rho,
+        gravity=cal.gravity,
+        water_depth=cal.depth,
+        name=root.name,
+        title=f"Nemoh folder {root.name}",
+        files=files,
+        findings=findings,
+    )
+
+
+def _read_radiation(
+    path: Path, motions: list[Mode], forces: list[Mode]
+) -> tuple[Array, Array, Array, list[int] | None]:
+    """Return omega, A, B as (nw, force, motion), and how columns were reordered, if at all."""
+    header, blocks = tecplot.read_blocks(path)
+    if len(blocks) != len(motions):
+        raise DatabaseError(
+            f"{path}: {len(blocks)} zones, but Nemoh.cal has {len(motions)} degrees of freedom"
+        )
+    columns = 1 + 2 * len(forces)
+    meaning = f"frequency and (A, B) of the {len(forces)} forces of Nemoh.cal"
+    tables = [tecplot.table(path, block, columns, meaning) for block in blocks]
+    omega = tecplot.to_omega(path, header, tables[0][:, 0])
+    for block, values in zip(blocks, tables, strict=True):
+        _same_grid(path, block, tecplot.to_omega(path, header, values[:, 0]), omega)
+    a = np.stack([t[:, 1::2] for t in tables], axis=2)
+    b = np.stack([t[:, 2::2] for t in tables], axis=2)
+    order = _zone_order(path, blocks, motions)
+    if order is None:
+        return omega, a, b, None
+    if motions != forces:
+        raise DatabaseError(f"{path}: zones are not in the order of Nemoh.cal")
+    return omega, a[:, order][:, :, order], b[:, order][:, :, order], order
+
+
+def _zone_order(path: Path, blocks: list[tecplot.Block], motions: list[Mode]) -> list[int] | None:
+    """Position of each motion among the zones by their titles; None if they are in order."""
+    named = [b.title.rpartition("__") for b in blocks]
+    if all(dof.lower() in DOFS for _, _, dof in named):
+        bodies = list(dict.fromkeys(body for body, _, _ in named))
+        zones = [(bodies.index(body), DOFS.index(dof.lower())) for body, _, dof in named]
+        if sorted(zones) != sorted(motions):
+            raise DatabaseError(f"{path}: the zones are not the degrees of freedom of Nemoh.cal")
+        return None if zones == motions else [zones.index(m) for m in motions]
+    count: dict[int, int] = {}
+    for (body, _), block in zip(motions, blocks, strict=True):
+        count[body] = count.get(body, 0) + 1
+        found = _MOTION.search(block.title)
+        if found and (int(found[1]), int(found[2])) != (body + 1, count[body]):
+            raise DatabaseError(
+                f"{path}:{block.line - 1}: zone of body {found[1]}, DoF {found[2]}, where "
+                f"Nemoh.cal has body {body + 1}, DoF {count[body]}"
+            )
+    return None
+
+
+def _read_forces(
+    path: Path, omega: Array, count: int, cal: NemohCal, known_deg: Array
+) -> tuple[Complex, Array]:
+    """Return forces (nw, nh, n) in the project convention and the headings [deg]."""
+    header, blocks = tecplot.read_blocks(path)
+    meaning = f"frequency and (amplitude, phase) of the {count} forces of Nemoh.cal"
+    values = np.empty((omega.size, len(blocks), count), dtype=complex)
+    for h, block in enumerate(blocks):
+        t = tecplot.table(path, block, 1 + 2 * count, meaning)
+        _same_grid(path, block, tecplot.to_omega(path, header, t[:, 0]), omega)
+        values[:, h] = t[:, 1::2] * np.exp(-1j * t[:, 2::2])
+    heading_deg = _headings(path, blocks, cal)
+    if known_deg.size and not np.allclose(known_deg, heading_deg, atol=2e-3):
+        raise DatabaseError(f"{path}: headings differ from those of the other force files")
+    # the file has its phase zero at (XEFF, YEFF), the project at the origin
+    k = wavenumber(omega, cal.depth, cal.gravity)
+    beta = np.radians(heading_deg)
+    path_length = cal.origin[0] * np.cos(beta) + cal.origin[1] * np.sin(beta)
+    return values * np.exp(-1j * k[:, None] * path_length)[:, :, None], heading_deg
+
+
+def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
+    titles = []
+    for block in blocks:
+        degrees, radians = _BETA.search(block.title), _ANGLE.search(block.title)
+        if degrees:
+            titles.append(float(degrees[1]))
+        elif radians:
+            titles.append(float(np.degrees(float(radians[1]))))
+        else:
+            raise DatabaseError(f"{path}:{block.line - 1}: no heading in {block.title!r}")
+    stated = np.array(titles)
+    # titles carry three decimals, Nemoh.cal all of them
+    if cal.heading_deg.size == stated.size and np.allclose(cal.heading_deg, stated, atol=2e-3):
+        return cal.heading_deg
+    return stated
+
+
+def _same_grid(path: Path, block: tecplot.Block, found: Array, omega: Array) -> None:
+    if found.shape != omega.shape or not np.allclose(found, omega, rtol=1e-5):
+        raise DatabaseError(
+            f"{path}:{block.line}: the frequencies of this zone are not those of the first one of "
+            f"RadiationCoefficients.tec ({found.size} and {omega.size}): files of different runs?"
+        )
+
+
+def _point(name: str, body: CalBody) -> Array | None:
+    """Point of the rotations, which all lines of a body must share."""
+    lines = [m for m in (*body.motions, *body.forces) if m.dof >= 3]
+    points = {m.point for m in lines or (*body.motions, *body.forces)}
+    if lines and len(points) > 1:
+        raise DatabaseError(f"body {name!r}: moments about several points: {sorted(points)}")
+    return np.array(points.pop()) if len(points) == 1 else None
+
+
+def _compare_grid(data: SourceData, cal: NemohCal) -> None:
+    asked, found = np.sort(cal.omega), data.omega
+    if asked.size != found.size or not np.allclose(asked, found, rtol=2e-3):
+        data.findings.append(
+            Finding(
+                "warning",
+                "frequency grid",
+                f"Nemoh.cal asks for {asked.size} equal steps in {asked[0]:.4g}..{asked[-1]:.4g} "
+                f"rad/s (or in period), the results hold {found.size} frequencies "
+                f"{found[0]:.4g}..{found[-1]:.4g}, which are used: another run?",
+            )
+        )
+    headings = np.degrees(data.heading)
+    if headings.size and (
+        headings.size != cal.heading_deg.size or not np.allclose(headings, cal.heading_deg)
+    ):
+        data.findings.append(
+            Finding(
+                "warning",
+                "headings",
+                f"Nemoh.cal asks for {cal.heading_deg.tolist()} deg, the results hold "
+                f"{headings.tolist()}",
+            )
+        )
+
+
+def _attach_hydrostatics(data: SourceData, root: Path, names: list[str]) -> None:
+    found = nh.read_all(root, len(names), data.rho, data.gravity)
+    data.files += [file for f in found if f is not None for file in f.files]
+    missing = [name for name, f in zip(names, found, strict=True) if f is None]
+    if missing:
+        data.findings.append(
+            Finding("warning", "hydrostatics", f"no Hydrostatics and KH files of {missing}")
+        )
+    force = data.excitation if data.excitation is not None else data.froude_krylov
+    heave = None
+    if force is not None:
+        heave = np.full(len(names), np.nan)
+        for i, name in enumerate(names):
+            if f"{name}.heave" in data.coordinates:
+                heave[i] = abs(force[0, 0, data.coordinates.index(f"{name}.heave")])
+    refused = nh.total_of_all_bodies(found, heave, data.rho, data.gravity)
+    if refused is not None:
+        data.findings.append(refused)
+        return
+    for name, f in zip(names, found, strict=True):
+        if f is None:
+            continue
+        if data.reference_points[name] is None:
+            data.reference_points[name] = f.center_of_gravity
+        data.hydrostatics[name] = (f.hydrostatics, f.center_of_gravity)

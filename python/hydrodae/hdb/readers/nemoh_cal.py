@@ -1,0 +1,184 @@
+"""`Nemoh.cal`: a positional file, values first, comment after `!`.
+
+The meaning of a line follows from its position alone; comments and titles differ between Nemoh 2,
+Nemoh 3 and the programs that write the same format, and are often stale.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path, PureWindowsPath
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS
+from hydrodae.hdb.readers.tecplot import number
+
+FREQUENCY_TYPES = {1: "rad/s", 2: "Hz", 3: "s"}
+
+
+@dataclass(frozen=True)
+class CalMode:
+    """A line of motion or of force: degree of freedom 0..5 and the point [m] it refers to."""
+
+    dof: int
+    point: tuple[float, float, float]
+
+
+@dataclass
+class CalBody:
+    """A body of `Nemoh.cal`: name of the mesh file, motions and forces in file order."""
+
+    mesh: str
+    motions: list[CalMode] = field(default_factory=list)
+    forces: list[CalMode] = field(default_factory=list)
+
+
+@dataclass
+class NemohCal:
+    """Content of `Nemoh.cal` that matters here.
+
+    Attributes
+    ----------
+    rho, gravity, depth : float
+        [kg/m3], [m/s2], [m] (infinite where the file says 0).
+    origin : (2,) tuple
+        XEFF, YEFF [m]: the point where the incident wave has its phase zero.
+    bodies : list of CalBody
+        In file order.
+    omega : (nw,) array
+        Frequencies asked for [rad/s], in file order.
+    heading_deg : (nh,) array
+        Directions of travel asked for [deg].
+    """
+
+    rho: float
+    gravity: float
+    depth: float
+    origin: tuple[float, float]
+    bodies: list[CalBody]
+    omega: NDArray[np.float64]
+    heading_deg: NDArray[np.float64]
+
+
+class _Lines:
+    """The lines of the file, read in order; errors name file and line."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.lines = path.read_text(errors="replace").splitlines()
+        self.at = 0
+
+    def next(self, meaning: str) -> str:
+        if self.at >= len(self.lines):
+            raise DatabaseError(f"{self.path}:{self.at}: the file ends before {meaning}")
+        self.at += 1
+        return self.lines[self.at - 1]
+
+    def fail(self, message: str) -> DatabaseError:
+        return DatabaseError(f"{self.path}:{self.at}: {message}")
+
+    def numbers(self, meaning: str, least: int) -> list[float]:
+        """Leading numbers of the next line, before any `!`."""
+        text = self.next(meaning).split("!")[0].replace(",", " ")
+        values: list[float] = []
+        for token in text.split():
+            try:
+                values.append(number(token))
+            except ValueError:
+                break
+        if len(values) < least:
+            raise self.fail(f"expected {least} number(s), {meaning}, got {text.strip()!r}")
+        return values
+
+    def count(self, meaning: str) -> int:
+        value = self.numbers(meaning, 1)[0]
+        if value != int(value) or value < 0:
+            raise self.fail(f"expected a whole number, {meaning}, got {value:g}")
+        return int(value)
+
+
+def read_cal(path: Path) -> NemohCal:
+    """Read `Nemoh.cal` of Nemoh 2, Nemoh 3 or a program that writes the same format.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    DatabaseError
+        The message names file and line.
+    """
+    lines = _Lines(path)
+    lines.next("the title")
+    rho = lines.numbers("the water density", 1)[0]
+    gravity = lines.numbers("gravity", 1)[0]
+    depth = lines.numbers("the water depth", 1)[0]
+    x, y = lines.numbers("XEFF YEFF", 2)[:2]
+    if rho <= 0.0 or gravity <= 0.0 or depth < 0.0:
+        raise DatabaseError(f"{path}: density {rho:g}, gravity {gravity:g}, depth {depth:g}")
+    lines.next("the title of the bodies")
+    count = lines.count("the number of bodies")
+    if count == 0:
+        raise lines.fail("no bodies")
+    bodies = [_read_body(lines) for _ in range(count)]
+    lines.next("the title of the load cases")
+    omega = _read_frequencies(lines)
+    n, low, high = lines.numbers("number of headings, min, max", 3)[:3]
+    return NemohCal(
+        rho=rho,
+        gravity=gravity,
+        depth=depth if depth > 0.0 else np.inf,
+        origin=(x, y),
+        bodies=bodies,
+        omega=omega,
+        heading_deg=np.linspace(low, high, int(n)),
+    )
+
+
+def _read_body(lines: _Lines) -> CalBody:
+    lines.next("the title of a body")
+    mesh = lines.next("the name of a mesh file").split("!")[0].strip().strip("\"'")
+    body = CalBody(PureWindowsPath(mesh).stem)
+    lines.numbers("numbers of points and panels", 1)
+    for modes, what in ((body.motions, "degrees of freedom"), (body.forces, "forces")):
+        for _ in range(lines.count(f"the number of {what}")):
+            modes.append(_read_mode(lines))
+        if len({m.dof for m in modes}) != len(modes):
+            raise lines.fail(f"a body has two equal {what}")
+    for _ in range(lines.count("the number of lines of additional information")):
+        lines.next("a line of additional information")
+    return body
+
+
+def _read_mode(lines: _Lines) -> CalMode:
+    values = lines.numbers("type, direction and point of a degree of freedom", 7)
+    kind, direction, point = values[0], np.array(values[1:4]), values[4:7]
+    axis = np.flatnonzero(np.isclose(direction, 1.0))
+    if kind not in (1, 2) or axis.size != 1 or np.count_nonzero(direction) != 1:
+        raise lines.fail(
+            f"only the six rigid motions along the axes ({', '.join(DOFS)}) are supported, "
+            f"got type {kind:g}, direction {direction.tolist()}"
+        )
+    return CalMode(int(axis[0]) + (3 if kind == 2 else 0), (point[0], point[1], point[2]))
+
+
+def _read_frequencies(lines: _Lines) -> NDArray[np.float64]:
+    """Read `N min max` [rad/s] (Nemoh 2) or `type N min max` (Nemoh 3): the count decides."""
+    values = lines.numbers("number of frequencies, min, max", 3)
+    kind = 1
+    if len(values) >= 4:
+        kind = int(values[0])
+        values = values[1:]
+    if kind not in FREQUENCY_TYPES:
+        raise lines.fail(f"frequency type {kind}; known are 1 = rad/s, 2 = Hz, 3 = s")
+    grid = np.linspace(values[1], values[2], int(values[0]))
+    if grid.size == 0 or np.any(grid <= 0.0):
+        raise lines.fail("frequencies must be > 0")
+    if kind == 1:
+        return grid
+    return 2.0 * np.pi * grid if kind == 2 else 2.0 * np.pi / grid

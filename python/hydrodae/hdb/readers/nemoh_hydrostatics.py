@@ -1,0 +1,161 @@
+"""`Hydrostatics[_i].dat` and `KH[_i].dat` of Nemoh (and of programs that imitate them)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.tecplot import number
+
+Array = NDArray[np.float64]
+
+_PAIR = re.compile(r"=\s*(\S+)\s*-\s*[XYZ]G\s*=\s*(\S+)")
+_VALUE = re.compile(r"^\s*(Displacement|Waterplane area)[^=]*=\s*(\S+)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class FileHydrostatics:
+    """Hydrostatics of one body about the centre of gravity that its file states."""
+
+    hydrostatics: Hydrostatics
+    center_of_gravity: Array
+    files: tuple[Path, Path]
+
+
+def find(root: Path, *names: str) -> Path | None:
+    """Find a file by name, whatever its case, in a folder or one folder below.
+
+    Raises
+    ------
+    DatabaseError
+        Two different files of that name at the same depth.
+    """
+    for name in names:
+        here = [p for p in root.iterdir() if p.is_file() and p.name.lower() == name.lower()]
+        below = [
+            p
+            for folder in sorted(root.iterdir())
+            if folder.is_dir()
+            for p in folder.iterdir()
+            if p.is_file() and p.name.lower() == name.lower()
+        ]
+        # mechanics/ repeats what the mesh folder holds
+        below = [p for p in below if p.parent.name.lower() != "mechanics"] or below
+        for found in (here, below):
+            if len(found) > 1:
+                raise DatabaseError(f"two files could be meant: {found[0]} and {found[1]}")
+            if found:
+                return found[0]
+    return None
+
+
+def read_all(root: Path, count: int, rho: float, gravity: float) -> list[FileHydrostatics | None]:
+    """Read the hydrostatics of every body of a folder; None where a file is missing."""
+    return [_read_one(root, i, count, rho, gravity) for i in range(count)]
+
+
+def total_of_all_bodies(
+    found: list[FileHydrostatics | None], heave_force: Array | None, rho: float, gravity: float
+) -> Finding | None:
+    """Detect the multi-body files of Nemoh 3 that hold the sum of all bodies in every file.
+
+    Equal displacements are legitimate for equal bodies; then the heave excitation at the lowest
+    frequency tends to rho g A_w of the single body.
+
+    Parameters
+    ----------
+    found : list
+        Result of `read_all`.
+    heave_force : (bodies,) array or None
+        |F_3| at the lowest frequency [N/m], NaN where a body has no heave.
+    rho, gravity : float
+        [kg/m3], [m/s2].
+
+    Returns
+    -------
+    Finding or None
+        None if the files can be trusted.
+    """
+    present = [f.hydrostatics for f in found if f is not None]
+    if len(present) < 2:
+        return None
+    volume = np.array([h.displaced_volume for h in present])
+    area = np.array([h.waterplane_area for h in present])
+    if np.ptp(volume) > 1e-3 * volume.max() or np.ptp(area) > 1e-3 * area.max():
+        return None
+    text = f"every body has the displacement {volume[0]:.5g} m3 and the waterplane {area[0]:.5g} m2"
+    if heave_force is None or not np.all(np.isfinite(heave_force)):
+        reason = "which cannot be told from the sum of all bodies (a defect of Nemoh 3)"
+    else:
+        ratio = heave_force / (rho * gravity * area[0])
+        if np.all(np.abs(ratio - 1.0) < 0.05):
+            return None
+        shown = ", ".join(f"{r:.2f}" for r in ratio)
+        reason = (
+            f"but the heave force at low frequency is only {shown} of rho g A_w: these files hold "
+            f"the sum of all bodies (a defect of Nemoh 3)"
+        )
+    return Finding(
+        "warning",
+        "hydrostatics",
+        f"{text}, {reason}; hydrostatics are left out, give them body by body",
+        value=float(volume[0]),
+    )
+
+
+def _read_one(
+    root: Path, i: int, count: int, rho: float, gravity: float
+) -> FileHydrostatics | None:
+    suffixes = ("", "_0") if count == 1 else (f"_{i}",)
+    text = find(root, *(f"Hydrostatics{s}.dat" for s in suffixes))
+    matrix = find(root, *(f"KH{s}.dat" for s in suffixes))
+    if text is None or matrix is None:
+        return None
+    buoyancy, gravity_center, values = _read_text(text)
+    k = _read_matrix(matrix)
+    hs = Hydrostatics.from_stiffness(
+        k, gravity_center, values["displacement"], buoyancy, rho, gravity
+    )
+    area = values.get("waterplane area")
+    if area is not None and abs(area - hs.waterplane_area) > 0.01 * abs(area):
+        raise DatabaseError(
+            f"{matrix}: K33 belongs to a waterplane of {hs.waterplane_area:.5g} m2, but "
+            f"{text.name} says {area:.5g} m2; the files are of different runs"
+        )
+    return FileHydrostatics(hs, gravity_center, (text, matrix))
+
+
+def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
+    pairs: list[tuple[float, float]] = []
+    values: dict[str, float] = {}
+    for i, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+        pair, value = _PAIR.search(line), _VALUE.match(line)
+        try:
+            if pair:
+                pairs.append((number(pair[1]), number(pair[2])))
+            elif value:
+                values[value[1].lower()] = number(value[2])
+        except ValueError as error:
+            raise DatabaseError(f"{path}:{i}: {error}") from None
+    if len(pairs) != 3 or "displacement" not in values:
+        raise DatabaseError(f"{path}: expected three lines 'XF = . - XG = .' and a displacement")
+    table = np.array(pairs)
+    return table[:, 0], table[:, 1], values
+
+
+def _read_matrix(path: Path) -> Array:
+    rows = [line.split() for line in path.read_text(errors="replace").splitlines() if line.strip()]
+    try:
+        matrix = np.array([[number(t) for t in row] for row in rows[:6]])
+    except ValueError as error:
+        raise DatabaseError(f"{path}: not a 6 x 6 matrix of numbers ({error})") from None
+    if matrix.shape != (6, 6):
+        raise DatabaseError(f"{path}: not a 6 x 6 matrix but {matrix.shape}")
+    return matrix

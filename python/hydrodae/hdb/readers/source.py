@@ -1,0 +1,258 @@
+"""What a reader hands over, and the common way from there to a `HydroDatabase`."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae import irf
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import bodies_of
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.tables import Body
+from hydrodae.version import version
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass
+class SourceData:
+    """Tables as a reader understood them: project convention, but neither complete nor symmetric.
+
+    Attributes
+    ----------
+    coordinates, omega, added_mass, radiation_damping, heading
+        As in `HydroDatabase`; omega ascending.
+    froude_krylov, diffraction, excitation : (nw, nh, n) complex arrays or None
+        What the source holds of the three.
+    reference_points : dict
+        Point of each body [m], or None.
+    hydrostatics : dict
+        By body, each with the point [m] that its waterplane moments refer to; bodies without are
+        absent.
+    added_mass_inf : (n, n) array or None
+        Given by the source itself.
+    files : list of Path
+        What was read; hashed for `source_sha256`.
+    findings : list of Finding
+        What the reader noticed.
+    """
+
+    coordinates: tuple[str, ...]
+    omega: Array
+    added_mass: Array
+    radiation_damping: Array
+    heading: Array
+    froude_krylov: Complex | None
+    diffraction: Complex | None
+    excitation: Complex | None
+    reference_points: dict[str, Array | None]
+    rho: float
+    gravity: float
+    water_depth: float
+    name: str
+    title: str
+    hydrostatics: dict[str, tuple[Hydrostatics, Array]] = field(default_factory=dict)
+    added_mass_inf: Array | None = None
+    files: list[Path] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
+
+
+def sha256(files: Iterable[Path]) -> str:
+    """Hash of one file's bytes, or of the names and hashes of several in alphabetical order."""
+    paths = sorted(files, key=lambda p: p.name.lower())
+    digests = [hashlib.sha256(p.read_bytes()).hexdigest() for p in paths]
+    if len(digests) == 1:
+        return digests[0]
+    lines = "".join(f"{d}  {p.name.lower()}\n" for d, p in zip(digests, paths, strict=True))
+    return hashlib.sha256(lines.encode()).hexdigest()
+
+
+def finish(data: SourceData) -> HydroDatabase:
+    """Symmetrise, split the excitation, estimate added_mass_inf; findings go to `data.findings`."""
+    _drop_rows_with_nan(data)
+    asymmetry_finding(data)
+    a = 0.5 * (data.added_mass + data.added_mass.transpose(0, 2, 1))
+    b = 0.5 * (data.radiation_damping + data.radiation_damping.transpose(0, 2, 1))
+    fk, diffraction, split = _split_excitation(data)
+    a_inf, std, origin = _added_mass_inf(data, a, b)
+    return HydroDatabase(
+        coordinates=data.coordinates,
+        omega=data.omega,
+        added_mass=a,
+        radiation_damping=b,
+        added_mass_inf=a_inf,
+        added_mass_inf_std=std,
+        added_mass_inf_origin=origin,
+        heading=data.heading,
+        froude_krylov=fk,
+        diffraction=diffraction,
+        excitation_split=split,
+        bodies={name: _body(data, name) for name in bodies_of(data.coordinates)},
+        rho=data.rho,
+        gravity=data.gravity,
+        water_depth=data.water_depth,
+        source=data.name,
+        source_sha256=sha256(data.files),
+        generator=f"hydrodae {version()}",
+        title=data.title,
+    )
+
+
+def _body(data: SourceData, name: str) -> Body:
+    point, found = data.reference_points.get(name), data.hydrostatics.get(name)
+    if point is None:
+        data.findings.append(
+            Finding(
+                "warning",
+                "reference point",
+                f"{name}: the source does not say about which point its moments are; state it "
+                f"(source_points, --origin {name}=x,y,z)",
+            )
+        )
+    if found is None or point is None:
+        return Body(name, point)
+    return Body(name, point, found[0].moved(found[1], point))
+
+
+def _drop_rows_with_nan(data: SourceData) -> None:
+    tables = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")
+    bad = np.zeros(data.omega.size, dtype=bool)
+    for name in tables:
+        value = getattr(data, name)
+        if value is not None:
+            bad |= ~np.isfinite(value).reshape(data.omega.size, -1).all(axis=1)
+    if not bad.any():
+        return
+    where = ", ".join(f"{w:.4g}" for w in data.omega[bad][:6]) + (" ..." if bad.sum() > 6 else "")
+    share = bad.mean()
+    if share > 0.2 or (~bad).sum() < 4:
+        raise DatabaseError(
+            f"{data.name}: {bad.sum()} of {bad.size} frequencies hold NaN (w = {where} rad/s): the "
+            f"computation behind it failed; repeat it"
+        )
+    data.findings.append(
+        Finding(
+            "warning",
+            "NaN",
+            f"{bad.sum()} of {bad.size} frequencies hold NaN and were dropped (w = {where} rad/s)",
+            value=float(share),
+            omega=float(data.omega[bad][0]),
+        )
+    )
+    data.omega = data.omega[~bad]
+    for name in tables:
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, value[~bad])
+
+
+def asymmetry_finding(data: SourceData) -> None:
+    """Report max |A - A^T| and |B - B^T| over the largest entry, with lengths scaled out."""
+    n = len(data.coordinates)
+    for name in ("added_mass", "radiation_damping"):
+        table = getattr(data, name)
+        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
+        scale = np.outer(size, size)
+        scale[scale <= 1e-6 * scale.max()] = np.inf
+        relative = np.abs(table - table.transpose(0, 2, 1)) / scale
+        w, i, j = np.unravel_index(relative.argmax(), (data.omega.size, n, n))
+        value = float(relative[w, i, j])
+        level = "warning" if value > 0.02 else "info"
+        pair = f"{data.coordinates[i]} and {data.coordinates[j]}" if value > 0.02 else ""
+        data.findings.append(
+            Finding(
+                level,
+                f"symmetry of {name}",
+                f"largest asymmetry {value:.2g} of the diagonal"
+                + (f", between {pair}" if pair else "")
+                + "; the mean of both halves is used",
+                value=value,
+                omega=float(data.omega[w]),
+            )
+        )
+
+
+def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:
+    fk, d, total = data.froude_krylov, data.diffraction, data.excitation
+    if fk is not None and d is not None:
+        if total is not None:
+            data.findings.append(_sum_finding(data, fk, d, total))
+        return fk, d, True
+    if total is not None and d is not None:
+        data.findings.append(
+            Finding("info", "excitation", "Froude-Krylov taken as excitation - diffraction")
+        )
+        return total - d, d, True
+    if total is not None and fk is not None:
+        data.findings.append(
+            Finding("info", "excitation", "diffraction taken as excitation - Froude-Krylov")
+        )
+        return fk, total - fk, True
+    shape = (data.omega.size, data.heading.size, len(data.coordinates))
+    if total is not None:
+        data.findings.append(
+            Finding(
+                "info",
+                "excitation",
+                "the source holds the total only; Froude-Krylov and diffraction are not separated",
+            )
+        )
+        return np.zeros(shape, dtype=complex), total, False
+    if d is not None or fk is not None:
+        half = "diffraction" if d is not None else "Froude-Krylov"
+        raise DatabaseError(
+            f"{data.name}: only the {half} force is there; the excitation needs the other half too"
+        )
+    data.findings.append(
+        Finding("warning", "excitation", "the source holds no excitation: no waves can be used")
+    )
+    data.heading = np.zeros(0)
+    empty = np.zeros((data.omega.size, 0, len(data.coordinates)), dtype=complex)
+    return empty, empty.copy(), True
+
+
+def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> Finding:
+    scale = np.abs(total).max(axis=(0, 1))
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    error = np.abs(fk + d - total) / scale
+    w, h, i = np.unravel_index(error.argmax(), error.shape)
+    value = float(error[w, h, i])
+    return Finding(
+        "error" if value > 0.01 else "info",
+        "excitation = FK + diffraction",
+        f"largest difference {value:.2g} of the largest force, at {data.coordinates[i]}",
+        value=value,
+        omega=float(data.omega[w]),
+    )
+
+
+def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
+    value, std = irf.added_mass_inf(data.omega, a, b)
+    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    if data.added_mass_inf is None:
+        return value, std, "least squares on Ogilvie's relation, weight w^2, w > 0.3 w_max"
+    given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)
+    size = np.sqrt(np.abs(np.diag(given)))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    error = np.abs(given - value) / scale
+    i, j = np.unravel_index(error.argmax(), error.shape)
+    data.findings.append(
+        Finding(
+            "warning" if error.max() > 0.05 else "info",
+            "added_mass_inf of the source",
+            f"differs from Ogilvie's relation by up to {error.max():.2g} "
+            f"({data.coordinates[i]}, {data.coordinates[j]}); the source's value is used",
+            value=float(error.max()),
+        )
+    )
+    return given, np.abs(given - value), "source"

@@ -1,0 +1,257 @@
+"""Output of WAMIT: the numeric files `.1`, `.3` (or `.2`), `.3fk`, `.3sc`, `.hst` of one run.
+
+WAMIT's phasors are e^{+iwt} with the phase zero at the origin of the world, as here. Tables are
+dimensionless: A/(rho L^k), B/(rho w L^k), F/(rho g L^m), C/(rho g L^j).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS, unique_names
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers import wamit_tables as tables
+from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
+
+
+def wamit_stem(path: Path) -> Path | None:
+    """Return the common part of the names of a run, `rm3` of `rm3.1`; None if it is none.
+
+    Parameters
+    ----------
+    path : Path
+        Any file of the run, or a folder that holds one run.
+    """
+    if path.is_dir():
+        found = [p for p in sorted(path.iterdir()) if p.suffix == ".1"]
+        return found[0].with_suffix("") if len(found) == 1 else None
+    if path.suffix.lower() not in SUFFIXES:
+        return None
+    stem = path.with_suffix("")
+    return stem if beside(stem, ".1") is not None else None
+
+
+def read_wamit(path: Path, rho: float | None = None) -> SourceData:
+    """Read one run of WAMIT.
+
+    Parameters
+    ----------
+    path : Path
+        Any file of the run (`rm3.1`), or its folder.
+    rho : float, optional
+        Density [kg/m3]; needed unless there is an `.out` file that states it.
+
+    Returns
+    -------
+    SourceData
+        The row at w = 0 is left out; the row at w = inf becomes `added_mass_inf`.
+
+    Raises
+    ------
+    DatabaseError
+        A file is missing or wrong; the message names file and line.
+    """
+    stem = wamit_stem(path)
+    radiation = None if stem is None else beside(stem, ".1")
+    if stem is None or radiation is None:
+        raise DatabaseError(f"{path}: no WAMIT output file .1 beside it")
+    control = read_control(stem)
+    depth, gravity, length = _constants(stem, control)
+    rho = _density(stem, control, rho)
+    findings: list[Finding] = []
+    option = control.first_column
+    if option is None:
+        option = 1
+        findings.append(
+            Finding("info", "first column", f"no {stem.name}.cfg: taken as the period (IPEROUT 1)")
+        )
+    rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
+    modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
+    rows, lines = _of_modes(rows, lines, (1, 2), modes)
+    omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)
+    rows[:, 0] = omega_of
+    at = np.unique(omega_of)
+    finite = np.isfinite(at) & (at > 0.0)
+    usual = np.isfinite(omega_of) & (omega_of > 0.0)
+    if np.isnan(rows[usual, 4]).any():
+        line = lines[int(np.flatnonzero(usual & np.isnan(rows[:, 4]))[0])]
+        raise DatabaseError(f"{radiation}:{line}: no damping: expected period, I, J, A, B")
+    axes = (at, modes, modes)
+    a = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, rows[:, 3]))
+    damping = np.nan_to_num(rows[:, 4])
+    b = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, damping))
+    omega = at[finite]
+    rotation = (modes.astype(int) - 1) % 6 >= 3
+    scale = rho * length ** (3.0 + rotation[:, None] + rotation)
+    forces: dict[str, Complex | None] = {}
+    heading = np.zeros(0)
+    files = [radiation, *control.files]
+    for key, suffixes in (
+        ("excitation", (".3", ".2")),
+        ("froude_krylov", (".3fk",)),
+        ("diffraction", (".3sc",)),
+    ):
+        file = next((f for s in suffixes if (f := beside(stem, s)) is not None), None)
+        forces[key] = None
+        if file is not None:
+            if file.suffix == ".2":
+                text = f"taken from {file.name}, by Haskind's relation: there is no .3 file"
+                findings.append(Finding("info", "excitation", text))
+            read = _read_forces(file, modes, option, (length, depth, gravity), omega)
+            forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
+            if heading.size and not np.array_equal(heading, read[1]):
+                raise DatabaseError(f"{file}: headings differ from those of the other force files")
+            heading = read[1]
+            files.append(file)
+    at_infinity = a[np.isinf(at)]
+    if control.frequencies is not None and control.frequencies != at.size:
+        text = f"{stem.name}.pot asks for {control.frequencies}, {radiation.name} holds {at.size}"
+        findings.append(Finding("warning", "frequency grid", text))
+    data = SourceData(
+        coordinates=coordinates,
+        omega=omega,
+        added_mass=scale * a[finite],
+        radiation_damping=scale * omega[:, None, None] * b[finite],
+        heading=np.radians(heading),
+        froude_krylov=forces["froude_krylov"],
+        diffraction=forces["diffraction"],
+        excitation=forces["excitation"],
+        reference_points=dict.fromkeys(names),
+        rho=rho,
+        gravity=gravity,
+        water_depth=depth,
+        name=radiation.name,
+        title=f"WAMIT {stem.name}",
+        added_mass_inf=scale * at_infinity[0] if len(at_infinity) else None,
+        files=files,
+        findings=findings,
+    )
+    data.reference_points.update(zip(names, control.points, strict=False))
+    _attach_hydrostatics(data, stem, control, names, length)
+    return data
+
+
+def _constants(stem: Path, control: Control) -> tuple[float, float, float]:
+    if control.depth is None:
+        raise DatabaseError(f"{stem}: the water depth is in {stem.name}.pot or .out: there is none")
+    if control.gravity is None or control.length is None:
+        raise DatabaseError(
+            f"{stem}: gravity and the length scale are in {stem.name}.mmx, .out or the .gdf file: "
+            f"there is none of them"
+        )
+    return control.depth, control.gravity, control.length
+
+
+def _density(stem: Path, control: Control, given: float | None) -> float:
+    stated = control.rho
+    if given is None and stated is None:
+        raise DatabaseError(
+            f"{stem}.1: WAMIT's tables do not hold the density of the water; "
+            f"state it (rho=, --rho 1025)"
+        )
+    if given is not None and stated is not None and not np.isclose(given, stated, rtol=1e-3):
+        raise DatabaseError(f"{stem}.out says the density is {stated:g} kg/m3, not {given:g}")
+    return float(given if stated is None else stated)  # type: ignore[arg-type]
+
+
+def _modes(
+    path: Path, rows: Array, control: Control, stem: Path, findings: list[Finding]
+) -> tuple[Array, list[str], tuple[str, ...]]:
+    """Modes that are kept (from 1), names of the bodies, and coordinates."""
+    modes = np.unique(rows[:, 1:3])
+    if np.any(modes < 1) or np.any(modes != np.round(modes)):
+        raise DatabaseError(f"{path}: columns 2 and 3 must be modes 1, 2, ...")
+    bodies = len(control.points) or int((modes.max() + 5) // 6)
+    extra = modes[modes > 6 * bodies]
+    if extra.size:
+        text = f"left out (not rigid): modes {', '.join(f'{m:g}' for m in extra)}"
+        findings.append(Finding("warning", "coordinates", text))
+    modes = modes[modes <= 6 * bodies]
+    raw = control.names or [stem.name if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
+    names = unique_names(raw)
+    labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in modes.astype(int)]
+    return modes, names, tuple(labels)
+
+
+def _of_modes(
+    rows: Array, lines: list[int], columns: tuple[int, ...], modes: Array
+) -> tuple[Array, list[int]]:
+    kept = np.all([np.isin(rows[:, c], modes) for c in columns], axis=0)
+    return rows[kept].copy(), [n for n, k in zip(lines, kept, strict=True) if k]
+
+
+def _read_forces(
+    path: Path, modes: Array, option: int, constants: tuple[float, float, float], omega: Array
+) -> tuple[Complex, Array]:
+    """Return dimensionless forces (nw, nh, n) and headings [deg]."""
+    meaning = "period, heading, mode, modulus, phase, real and imaginary part"
+    rows, lines = tables.read_rows(path, 7, 7, meaning)
+    rows, lines = _of_modes(rows, lines, (2,), modes)
+    length, depth, gravity = constants
+    rows[:, 0] = tables.to_omega(path, rows[:, 0], option, length, depth, gravity)
+    usual = np.isfinite(rows[:, 0]) & (rows[:, 0] > 0.0)
+    rows, lines = rows[usual], [n for n, k in zip(lines, usual, strict=True) if k]
+    found, heading = np.unique(rows[:, 0]), np.unique(rows[:, 1])
+    if found.size != omega.size or not np.allclose(found, omega, rtol=1e-5):
+        raise DatabaseError(
+            f"{path}: {found.size} frequencies, not the {omega.size} of the .1 file: "
+            f"files of different runs?"
+        )
+    values = rows[:, 5] + 1j * rows[:, 6]
+    axes = (found, heading, modes)
+    return np.asarray(tables.scatter(path, rows, lines, (0, 1, 2), axes, values)), heading
+
+
+def _attach_hydrostatics(
+    data: SourceData, stem: Path, control: Control, names: list[str], length: float
+) -> None:
+    """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
+    path = beside(stem, ".hst")
+    missing = []
+    if path is None:
+        missing = names
+    else:
+        rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
+        data.files.append(path)
+        size = 6 * len(names)
+        rows, lines = _of_modes(rows, lines, (0, 1), np.arange(1.0, size + 1.0))
+        modes = np.arange(1.0, size + 1.0)
+        flat = np.column_stack([np.zeros(len(rows)), rows])
+        axes = (np.zeros(1), modes, modes)
+        stiffness = np.real(tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2]))[0]
+        for i, name in enumerate(names):
+            point = data.reference_points[name]
+            statics = control.statics[i] if i < len(control.statics) else None
+            if (
+                point is None
+                or statics is None
+                or statics.volume is None
+                or statics.center_of_buoyancy is None
+                or statics.center_of_gravity is None
+            ):
+                missing.append(name)
+                continue
+            rotation = np.arange(6) >= 3
+            block = stiffness[6 * i : 6 * i + 6, 6 * i : 6 * i + 6].copy()
+            block *= length ** (2.0 + rotation[:, None] + rotation)
+            mass = statics.volume if statics.mass_over_rho is None else statics.mass_over_rho
+            block[[3, 4], [3, 4]] += mass * statics.center_of_gravity[2]
+            center = point + statics.center_of_buoyancy
+            rho_g = data.rho * data.gravity
+            hydrostatics = Hydrostatics.from_stiffness(
+                rho_g * block, point, statics.volume, center, data.rho, data.gravity
+            )
+            data.hydrostatics[name] = (hydrostatics, point)
+    if missing:
+        text = f"no complete .hst and .mmx files of {missing}"
+        data.findings.append(Finding("warning", "hydrostatics", text))

@@ -1,0 +1,315 @@
+"""The results file of a run: its header, and its channels as labelled time series."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import warnings
+from collections.abc import Iterator, Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.damaged import opened
+from hydrodae.errors import HydrodaeError
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = "hydrodae-results"
+FORMAT_VERSION = 1
+
+#: Name and labels of the second dimension of a channel, by its width.
+_COMPONENTS = {3: ("component", ["x", "y", "z"]), 4: ("quaternion", ["w", "x", "y", "z"])}
+
+
+#: Datasets that name the components, no channels.
+_LABELS = tuple(name for name, _ in _COMPONENTS.values())
+
+#: Group of the tables of impacts, one a stop; no channels either.
+_IMPACTS = "impacts/"
+
+
+class ResultsError(HydrodaeError):
+    """A results file cannot be used."""
+
+
+class ChannelError(ResultsError, KeyError):
+    """There is no channel of that name; the message has the nearest one."""
+
+    __str__ = Exception.__str__  # KeyError would show the message in quotes
+
+
+class ResultsWarning(UserWarning):
+    """The results that are read are not those of the last run, or not all of them."""
+
+
+def partial_path(path: str | os.PathLike[str]) -> Path:
+    """Return where a run writes until it ends: ``X.partial.h5`` beside ``X.h5``.
+
+    Parameters
+    ----------
+    path : path
+        Results file; links are followed.
+    """
+    target = Path(os.path.realpath(path))
+    return target.with_name(f"{target.stem}.partial{target.suffix}")
+
+
+class Recording(Mapping[str, "xarray.DataArray"]):
+    """Header and channels of a results file, each read when it is first asked for."""
+
+    def __init__(self, path: str | os.PathLike[str], owner: object = None) -> None:
+        self.path = _find(Path(path))
+        self._owner = owner
+        self._read: dict[str, xarray.DataArray] = {}
+        if not self.path.is_file():
+            raise ResultsError(f"{self.path}: no such results file")
+        with opened(self.path, ResultsError, "not a readable results file", search=True) as file:
+            self._read_header(file)
+        self._identity = _identity(self.path)
+
+    def _read_header(self, file: h5py.File) -> None:
+        found = file.attrs.get("format")
+        if found != FORMAT:
+            raise ResultsError(
+                f"{self.path}: not a results file (attribute format is {found!r}, not {FORMAT!r})"
+            )
+        version = int(file.attrs["format_version"])
+        if version != FORMAT_VERSION:
+            raise ResultsError(
+                f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
+            )
+        self._header = {name: _plain(value) for name, value in file.attrs.items()}
+        if not isinstance(self._header.get("status"), str):
+            raise ResultsError(f"{self.path}: damaged: it has no status")
+        solver = file.get("solver")
+        self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
+        lengths: dict[str, int] = {}
+        impacts: list[str] = []
+
+        def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
+            if not isinstance(name, str):
+                raise TypeError(f"the name {name!r} is no text")
+            if isinstance(node, h5py.Dataset) and name not in _LABELS:
+                if name.startswith(_IMPACTS):
+                    impacts.append(name.removeprefix(_IMPACTS))
+                else:
+                    lengths[name] = len(node) if node.ndim else 0
+
+        file.visititems(note)
+        if "time" not in lengths or file["time"].ndim != 1:
+            raise ResultsError(f"{self.path}: damaged: it has no list of times")
+        # A run that was killed may have died between two channels: keep the samples that all have.
+        samples = min(lengths.values()) if self.status == "running" else lengths["time"]
+        self._time: NDArray[np.float64] = _real(file["time"][:samples])
+        self._names = tuple(name for name in lengths if name != "time")
+        self._impacts = tuple(impacts)
+
+    def __getitem__(self, name: str) -> xarray.DataArray:
+        if name not in self._read:
+            if name not in self._names:
+                raise self.missing(name)
+            self._read[name] = self._load(name)
+        return self._read[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    # Comparing two mappings would read both files; results are equal only to themselves.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    def channels(self, pattern: str = "*") -> list[str]:
+        """Names of the channels that match a shell pattern, such as "joints/*/angle"."""
+        return [name for name in self._names if fnmatchcase(name, pattern)]
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """(n_time,) output times, s."""
+        return self._time
+
+    @property
+    def end_time(self) -> float:
+        """Last time that was written, s; nan if there is none."""
+        return float(self._time[-1]) if len(self._time) else float("nan")
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return str(self._header.get("title", ""))
+
+    @property
+    def status(self) -> str:
+        """How the run ended: completed, interrupted or failed; "running" if not yet, or killed."""
+        return str(self._header["status"])
+
+    @property
+    def notes(self) -> list[str]:
+        """What the assembly found worth telling: redundant rows, bodies moved to close joints."""
+        before = str(self._header.get("notes", ""))
+        return (before + str(self._statistics.get("beyond_linear_theory", ""))).splitlines()
+
+    @property
+    def impacts(self) -> dict[str, xarray.Dataset]:
+        """Impacts on each stop and one-sided joint that was struck, by its name.
+
+        Each has dimension `impact` and the variables `time` [s], `impulse` (its size, N s or N m s)
+        and `energy_lost` [J]; their sums over time are the channels ``constraints/NAME/impulse``
+        and ``constraints/NAME/energy_lost``. Known when the run has ended.
+        """
+        import xarray
+
+        tables = {}
+        for name in self._impacts:
+            with opened(self.path, ResultsError, f"impacts on {name} are damaged") as file:
+                values = _real(file[_IMPACTS + name][:])
+                units = str(_plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
+            if values.ndim != 2 or values.shape[1] != 3 or len(units) != 3:
+                raise ResultsError(f"{self.path}: impacts on {name} are damaged")
+            columns = zip(("time", "impulse", "energy_lost"), values.T, units, strict=True)
+            tables[name] = xarray.Dataset(
+                {key: ("impact", column, {"unit": unit}) for key, column, unit in columns}
+            )
+        return tables
+
+    @property
+    def message(self) -> str:
+        """Why the run ended before its end time; empty for a completed run."""
+        return str(self._header.get("message", ""))
+
+    @property
+    def case_text(self) -> str:
+        """The case file that was run."""
+        return str(self._header.get("case_text", ""))
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """All attributes of the file: versions, paths, hash of the hydrodynamic database."""
+        return dict(self._header)
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """Counts of the solver, tolerances and wall times [s]."""
+        return dict(self._statistics)
+
+    def __repr__(self) -> str:
+        return (
+            f"<hydrodae.Results {self.title!r}: {len(self)} channels, {len(self._time)} samples "
+            f"to t = {self.end_time:g} s, {self.status}>"
+        )
+
+    def _time_coordinate(self) -> xarray.Variable:
+        import xarray
+
+        return xarray.Variable("time", self._time, {"unit": "s"})
+
+    def _load(self, name: str) -> xarray.DataArray:
+        import xarray
+
+        if _identity(self.path) != self._identity:
+            raise ResultsError(
+                f"{self.path}: the file has changed since it was opened; read it again"
+            )
+        damaged = f"channel {name} is damaged"
+        with opened(self.path, ResultsError, damaged) as file:
+            values = _real(file[name][: len(self._time)])
+            attributes = {
+                key: _plain(value)
+                for key, value in file[name].attrs.items()
+                if key != "DIMENSION_LIST"
+            }
+        dims: list[str] = ["time"]
+        coords: dict[str, Any] = {"time": self._time_coordinate()}
+        if values.ndim == 2 and values.shape[1] in _COMPONENTS:
+            dimension, labels = _COMPONENTS[values.shape[1]]
+            dims.append(dimension)
+            coords[dimension] = labels
+        if len(dims) != values.ndim or len(values) != len(self._time):
+            raise ResultsError(
+                f"{self.path}: channel {name} has shape {values.shape}, expected "
+                f"({len(self._time)},), ({len(self._time)}, 3) or ({len(self._time)}, 4)"
+            )
+        return xarray.DataArray(values, coords, dims, name=name, attrs=attributes)
+
+    def missing(self, name: str) -> ChannelError:
+        """Return the error for a channel that is not there; it names what is near."""
+        return ChannelError(self._missing(name))
+
+    def _missing(self, name: str) -> str:
+        message = f"{self.path} has no channel {name!r}"
+        if any(c in name for c in "*?["):
+            matches = self.channels(name)
+            if matches:
+                return (
+                    f"{message}: it is a pattern of {len(matches)} channels; get them with "
+                    f"results.to_dataset({name!r}), or names with results.channels({name!r})"
+                )
+            return f"{self.path}: no channel matches the pattern {name!r}{self._groups()}"
+        inside = self.channels(f"{name}/*")
+        if inside:
+            return f"{message}: it is a group of {', '.join(inside)}"
+        near = difflib.get_close_matches(name, self._names, n=1)
+        if near:
+            return f"{message}; the nearest name is {near[0]!r}"
+        return message + self._groups()
+
+    def _groups(self) -> str:
+        groups = sorted({channel.split("/")[0] for channel in self._names})
+        return f"; there are channels in {', '.join(groups) or 'no group'}"
+
+
+def _find(path: Path) -> Path:
+    """The file to read: `path`, or what its run has written so far."""
+    partial = partial_path(path)
+    if path.is_file():
+        if partial.is_file():
+            _warn(
+                f"{path} holds an earlier run: a later one is being written to {partial}, or was "
+                "cut off there"
+            )
+        return path
+    if not partial.is_file():
+        raise ResultsError(f"{path}: no such results file")
+    if not h5py.is_hdf5(partial):
+        raise ResultsError(
+            f"{path}: no such results file; {partial} is what a run left that was cut off before "
+            "its first sample"
+        )
+    _warn(f"{path}: its run has not ended, or was cut off; what it wrote is read from {partial}")
+    return partial
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, ResultsWarning, stacklevel=4)
+
+
+def _plain(value: Any) -> Any:
+    """Attribute as plain Python: str, int, float, bool or list."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _real(values: Any) -> NDArray[np.float64]:
+    """Values as they are written: real numbers."""
+    found = np.asarray(values)
+    if found.dtype.kind not in "fiu":
+        raise TypeError(f"expected numbers, found {found.dtype}")
+    return found.astype(float)
+
+
+def _identity(path: Path) -> tuple[int, int, int]:
+    """What changes when a file is written again."""
+    stat = path.stat()
+    return stat.st_ino, stat.st_size, stat.st_mtime_ns

@@ -1,0 +1,109 @@
+"""A run in a few lines for people."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydrodae.results.recording import Recording
+from hydrodae.units import displayed
+
+
+def summary(results: Recording) -> str:
+    """Few lines about a run: status, cost, extrema of the joint coordinates, energy balance.
+
+    Parameters
+    ----------
+    results : Results
+
+    Returns
+    -------
+    str
+        Several lines without a trailing newline; angles in degrees, marked so.
+    """
+    lines = [f"{results.title or results.path.name}: {_ending(results)}"]
+    cost = _cost(results)
+    if cost:
+        lines.append(f"  {cost}")
+    names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
+    width = max(map(len, names), default=0)
+    lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    lines += _impacts(results)
+    lines += [f"  note: {note}" for note in results.notes]
+    lines += [f"  {line}" for line in (_energy_balance(results), *_errors(results)) if line]
+    return "\n".join(lines)
+
+
+def _ending(results: Recording) -> str:
+    reached = f"{results.end_time:g} s simulated"
+    if results.status == "completed":
+        return reached
+    return f"{results.status}, {reached}" + (f" ({results.message})" if results.message else "")
+
+
+def _cost(results: Recording) -> str:
+    names = {
+        "steps": "steps",
+        "residual_calls": "residuals",
+        "jacobian_calls": "Jacobians",
+        "events": "events",
+    }
+    known = {k: v for k, v in results.statistics.items() if isinstance(v, int | float)}
+    parts = [f"{int(known[key])} {word}" for key, word in names.items() if known.get(key)]
+    if "wall_time" in known:
+        wall = float(known["wall_time"])
+        speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""
+        parts.append(f"wall time {wall:.3g} s{speed}")
+    return ", ".join(parts)
+
+
+def _errors(results: Recording) -> list[str]:
+    """Lines on how far the motion can be trusted."""
+    known, lines = results.statistics, []
+    for key, word in (("estimated_error", "estimated"), ("verified_error", "verified")):
+        if key in known and known.get(f"{key}_of"):
+            lines.append(
+                f"{word} error {float(known[key]):.1g} of the motion "
+                f"({known[f'{key}_of']}, t = {float(known[f'{key}_time']):.4g} s)"
+            )
+    return lines
+
+
+def _impacts(results: Recording) -> list[str]:
+    """One line for each stop that was struck."""
+    lines = []
+    for name, table in results.impacts.items():
+        unit = table["impulse"].attrs["unit"]
+        largest = table.isel(impact=int(np.argmax(table["impulse"].values)))
+        lines.append(
+            f"  {name}: struck {table.sizes['impact']} times, largest impulse "
+            f"{float(largest['impulse']):.4g} {unit} at t = {float(largest['time']):.4g} s, "
+            f"energy lost in all {float(table['energy_lost'].sum()):.4g} J"
+        )
+    return lines
+
+
+def _extrema(results: Recording, name: str) -> str:
+    channel = results[name]
+    values = channel.to_numpy()
+    if not len(values):
+        return "no samples"
+    factor, unit = displayed(str(channel.attrs.get("unit", "")))
+    low, high = (
+        f"{factor * values[i]:8.3f} {unit} at {results.time[i]:.2f} s"
+        for i in (int(np.argmin(values)), int(np.argmax(values)))
+    )
+    return f"{low}  to {high}"
+
+
+def _energy_balance(results: Recording) -> str:
+    """Largest error of the energy balance against the largest kinetic energy, fluid included."""
+    if "energy/balance_error" not in results or "energy/kinetic" not in results:
+        return ""
+    error = np.abs(results["energy/balance_error"].to_numpy())
+    scale = np.abs(results["energy/kinetic"].to_numpy())
+    if "energy/kinetic_added_mass" in results:
+        scale = scale + results["energy/kinetic_added_mass"].to_numpy()
+    if not len(error) or not scale.max() > 0:
+        return ""
+    share = error.max() / scale.max()
+    return f"energy balance: error at most {share:.1e} of the largest kinetic energy"

@@ -1,0 +1,1 @@
+"""Studies of a case: responses in the frequency domain, charts of methods, ladders of models."""

@@ -1,0 +1,41 @@
+"""What a case costs, what is redundant in it, and what looks wrong with its numbers."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+from hydrodae.case import Case, read_case
+from hydrodae.drives import Drive
+
+
+def check(
+    case: Case | str | os.PathLike[str],
+    *,
+    set: Mapping[str, Any] | None = None,
+    drives: Mapping[str, Drive] | None = None,
+) -> str:
+    """Read a case, close its joints and examine it; the command `hydrodae check`.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or the path of its file.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
+    drives : mapping from str to callable, optional
+        As in `hydrodae.run`.
+
+    Returns
+    -------
+    str
+        Lines for people: the scene as a tree, unknowns and multipliers, mobility, redundant rows,
+        how far each body was moved to close the joints, and what looks wrong with the numbers.
+
+    Raises
+    ------
+    CaseError
+        The case or a drive cannot be used, or its joints cannot be closed near the start.
+    """
+    return read_case(case, set).examine(drives)

@@ -1,0 +1,95 @@
+"""The static equilibrium of a case in still water."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.case import Case, read_case
+from hydrodae.frequency import LinearModel
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static pose of a constrained scene in still water, and what holds it.
+
+    Printed, it is what the command `hydrodae equilibrium` says.
+
+    Attributes
+    ----------
+    title : str
+        Of the case.
+    offsets : dict of (3,) arrays
+        Of each body from its reference pose, world axes [m].
+    rotations : dict of (3,) arrays
+        Rotation vector of each body from its reference pose, world axes [rad].
+    reactions : dict of float
+        By channel, such as "joints/hinge/reaction_force.x": on body B, in the axes of marker A
+        [N, N m].
+    notes : list of str
+        What a linear model of the case there has to leave out.
+    """
+
+    title: str
+    offsets: dict[str, Array]
+    rotations: dict[str, Array]
+    reactions: dict[str, float]
+    notes: list[str]
+
+    def __str__(self) -> str:
+        lines = [self.title]
+        lines.append("  offsets from the reference pose: x, y, z [m]; rotation vector [deg]")
+        for name, offset in self.offsets.items():
+            rotation = np.degrees(self.rotations[name])
+            lines.append(f"    {name:16} {_numbers(offset, 5)};  {_numbers(rotation, 5)}")
+        joints = sorted({name.split("/")[1] for name in self.reactions}, key=str)
+        if joints:
+            lines.append(
+                "  reactions on body B, axes of marker A: force x, y, z [N]; moment x, y, z [N m]"
+            )
+        for joint in joints:
+            values = [
+                [self.reactions[f"joints/{joint}/reaction_{kind}.{axis}"] for axis in "xyz"]
+                for kind in ("force", "moment")
+            ]
+            lines.append(f"    {joint:16} {_numbers(values[0], 1)};  {_numbers(values[1], 1)}")
+        lines += [f"  note: {note}" for note in self.notes]
+        return "\n".join(lines)
+
+
+def equilibrium(
+    case: Case | str | os.PathLike[str], *, set: Mapping[str, Any] | None = None
+) -> Equilibrium:
+    """Solve for the static pose of a case in still water.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or the path of its file.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
+
+    Returns
+    -------
+    Equilibrium
+
+    Raises
+    ------
+    CaseError
+        The case cannot be used, or there is no equilibrium near its start.
+    """
+    model = LinearModel(read_case(case, set))
+    return Equilibrium(
+        model.case.title, model.offsets, model.rotations, model.reactions, model.notes
+    )
+
+
+def _numbers(values: object, digits: int) -> str:
+    return ", ".join(f"{v + 0.0:.{digits}f}" for v in np.round(np.asarray(values), digits))

@@ -1,0 +1,152 @@
+"""Files of all responses, and their picture."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from hydrodae.errors import CaseError
+from hydrodae.frequency import Response
+from hydrodae.plot import STYLE, outside_legend
+from hydrodae.study.rao.text import NOTHING, coordinates, short_name
+from hydrodae.units import displayed
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+
+#: Endings of the files that `write` knows.
+CSV, NETCDF = (".csv",), (".nc", ".h5", ".hdf5")
+#: What the picture shows, s: longer waves carry little.
+LONGEST_PERIOD = 25.0
+
+
+def write(path: str | os.PathLike[str], response: Response) -> Path:
+    """Write all responses; the ending says how: .csv, or .nc and .h5 (netCDF, which is HDF5).
+
+    Raises
+    ------
+    CaseError
+        Another ending.
+    """
+    path = Path(path)
+    check_ending(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.suffix.lower() in CSV:
+        _write_csv(path, response)
+    else:
+        dataset(response).to_netcdf(path, engine="netcdf4", invalid_netcdf=False)
+    return path
+
+
+def check_ending(path: Path) -> None:
+    """Refuse a file name whose ending says no kind of file."""
+    if path.suffix.lower() not in (*CSV, *NETCDF):
+        raise CaseError(
+            f"{path}: the ending says the kind of file, {', '.join((*CSV, *NETCDF))}, "
+            f"not {path.suffix!r}"
+        )
+
+
+def dataset(response: Response) -> xarray.Dataset:
+    """All responses over the frequency: amplitude, phase, and the mean powers.
+
+    Returns
+    -------
+    xarray.Dataset
+        `amplitude` (per metre of wave amplitude) and `phase` [rad] over `omega` [rad/s] and
+        `response` (the channel names), the coordinate `unit` beside it; `mean_power` [W/m2] over
+        `omega` and `force`; `period` [s].
+    """
+    import xarray
+
+    forces = list(response.power)
+    power = np.stack([response.power[name] for name in forces], axis=1) if forces else None
+    variables = {
+        "amplitude": (("omega", "response"), np.abs(response.values)),
+        "phase": (("omega", "response"), np.angle(response.values), {"unit": "rad"}),
+        "excitation_power": ("omega", response.excitation_power, {"unit": "W/m2"}),
+        "radiated_power": ("omega", response.radiated_power, {"unit": "W/m2"}),
+    }
+    coords = {
+        "omega": ("omega", response.omega, {"unit": "rad/s"}),
+        "period": ("omega", 2 * np.pi / response.omega, {"unit": "s"}),
+        "response": list(response.names),
+        "unit": ("response", list(response.units)),
+    }
+    if power is not None:
+        variables["mean_power"] = (("omega", "force"), power, {"unit": "W/m2"})
+        coords["force"] = forces
+    return xarray.Dataset(
+        variables,
+        coords,
+        {
+            "heading_deg": float(np.degrees(response.heading)),
+            "convention": "x(t) = Re(X e^{+i omega t}) per metre of wave amplitude; the phase of "
+            "the wave is zero at the origin",
+        },
+    )
+
+
+def _write_csv(path: Path, response: Response) -> None:
+    with path.open("w", newline="") as file:
+        rows = csv.writer(file)
+        head = ["omega [rad/s]", "period [s]"]
+        for name, unit in zip(response.names, response.units, strict=True):
+            head += [f"{name} amplitude [{unit}]", f"{name} phase [rad]"]
+        rows.writerow(head + [f"{name} mean power [W/m2]" for name in response.power])
+        for k, w in enumerate(response.omega):
+            row = [w, 2.0 * np.pi / w]
+            for value in response.values[k]:
+                row += [abs(value), float(np.angle(value))]
+            rows.writerow([f"{x:.9g}" for x in row + [p[k] for p in response.power.values()]])
+
+
+def draw(response: Response, title: str, names: Sequence[str] | None = None) -> Figure:
+    """Draw amplitudes over the period, one panel for each unit, and the power of the dampers.
+
+    Parameters
+    ----------
+    response : Response
+    title : str
+    names : sequence of str, optional
+        Responses to show; by default all bodies and joints that move.
+    """
+    panels: dict[str, list[tuple[str, Array]]] = {}
+    units = dict(zip(response.names, response.units, strict=True))
+    for name in names if names is not None else coordinates(response):
+        factor, unit = displayed(units[name])
+        panels.setdefault(unit, []).append((short_name(name), factor * np.abs(response[name])))
+    for name, power in response.power.items():
+        panels.setdefault("kW/m2", []).append((f"{name} mean power", 1e-3 * power))
+    for unit, lines in panels.items():
+        least = NOTHING * max(float(np.abs(values).max()) for _, values in lines)
+        panels[unit] = [line for line in lines if np.abs(line[1]).max() > least]
+    panels = {unit: lines for unit, lines in panels.items() if lines}
+    if not panels:
+        raise CaseError("nothing moves: there is nothing to draw")
+    period = 2 * np.pi / response.omega
+    shown = period <= max(LONGEST_PERIOD, 1.2 * period.min())
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(8.0, 2.5 * len(panels) + 0.6), layout="constrained")
+        all_axes = list(figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0])
+        for axes, (unit, lines) in zip(all_axes, panels.items(), strict=True):
+            for label, values in lines:
+                axes.plot(period[shown], values[shown], label=label)
+            kind = "mean power" if unit == "kW/m2" else "amplitude"
+            axes.set_ylabel(f"{kind} [{unit}]")
+            axes.set_ylim(bottom=0.0)
+            outside_legend(axes)
+        all_axes[0].set_title(f"{title}: response per metre of wave amplitude")
+        all_axes[-1].set_xlabel("wave period [s]")
+        all_axes[-1].set_xlim(period[shown].min(), period[shown].max())
+    return figure

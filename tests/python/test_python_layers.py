@@ -1,0 +1,145 @@
+"""The layers of the Python package: a module imports its own layer and lower ones, in no circle.
+
+All imports count, those inside functions and those for type checkers as well.
+"""
+
+from __future__ import annotations
+
+import ast
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+#: Rooms from the lowest to the highest. A room is a module or a folder with all that is in it,
+#: unless a part of it is listed by itself; those of one layer do not import each other.
+LAYERS = [
+    {"errors", "extras", "progress", "units", "version"},
+    {"_core"},  # the compiled kernel, which raises what stands in errors
+    {"curve", "damaged", "irf"},
+    {"memory", "results"},
+    {"panels", "post"},
+    {"plot"},
+    # one database
+    {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
+    {"hdb.hydrostatics", "hdb.convolution"},
+    {"hdb.tables"},
+    {"hdb.scales", "hdb.files", "hdb.summary"},
+    {"hdb.kernels"},
+    {"hdb.radiation_kernel"},
+    {"hdb.database"},
+    {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.prepare", "hdb.writers"},
+    {"hdb.importing"},
+    {"hdb.computing"},
+    {"hdb"},
+    # one case
+    {"drives"},
+    {"case"},
+    {"simulate", "frequency"},
+    {"states"},
+    # many runs of a case, and what people ask about it
+    {"study.reference"},
+    {"study"},
+    {"commands"},
+    {"cli"},
+    {"", "__main__"},
+]
+#: Folders whose parts are rooms of their own, all of them listed above.
+OPEN = {"hdb"}
+LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
+
+Imports = dict[str, set[str]]
+
+
+def room_of(module: str) -> str:
+    """The longest listed name that a module is or is in; its root is ""."""
+    parts = module.split(".")
+    names = [".".join(parts[:count]) for count in range(len(parts), 0, -1)]
+    found = next((name for name in names if name in LEVEL), None)
+    assert found is not None, f"{module} is in no layer"
+    assert found not in OPEN or module in OPEN, f"{module} is in no layer"
+    return found
+
+
+def read_imports(package: Path) -> Imports:
+    """Modules of the package that each of its modules imports, names without that of the package.
+
+    The folder of a module is no import of it: `from hydrodae.hdb import files` is of `hdb.files`.
+    """
+    files = {}
+    for file in sorted(package.rglob("*.py")):
+        parts = file.relative_to(package).with_suffix("").parts
+        files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    known = {*files, "_core"}
+    found: Imports = {"_core": set()}
+    for module, file in files.items():
+        found[module] = set()
+        for node in ast.walk(ast.parse(file.read_text())):
+            for name in imported(node):
+                if name == package.name or name.startswith(f"{package.name}."):
+                    inside = name.removeprefix(package.name).removeprefix(".")
+                    if inside not in known:
+                        inside = inside.rpartition(".")[0]  # a name in a module
+                    assert inside in known, f"{file}: there is no module {name}"
+                    found[module].add(inside)
+        found[module].discard(module)
+    return found
+
+
+def imported(node: ast.AST) -> list[str]:
+    """Full names that an import statement asks for."""
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    if isinstance(node, ast.ImportFrom):
+        assert node.level == 0, "imports are absolute in this package"
+        return [f"{node.module}.{alias.name}" for alias in node.names]
+    return []
+
+
+def wrong_layers(imports: Imports) -> list[str]:
+    wrong = []
+    for module, targets in imports.items():
+        for target in sorted(targets):
+            room, other = room_of(module), room_of(target)
+            if other != room and LEVEL[other] >= LEVEL[room]:
+                wrong.append(f"{module or 'the package'} imports {target or 'the package'}")
+    return wrong
+
+
+def circle(imports: Imports) -> list[str]:
+    try:
+        TopologicalSorter(imports).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+@pytest.fixture(scope="module")
+def imports(repository: Path) -> Imports:
+    return read_imports(repository / "python" / "hydrodae")
+
+
+def test_lower_layers_do_not_import_higher_ones(imports: Imports) -> None:
+    assert wrong_layers(imports) == []
+
+
+def test_no_modules_import_each_other_in_a_circle(imports: Imports) -> None:
+    assert circle(imports) == []
+
+
+def test_every_room_of_the_list_is_there(imports: Imports) -> None:
+    assert {room_of(module) for module in imports} == set(LEVEL)
+
+
+def test_a_wrong_import_is_seen_wherever_it_stands(tmp_path: Path) -> None:
+    package = tmp_path / "hydrodae"
+    package.mkdir()
+    (package / "__init__.py").write_text("from hydrodae.case import Case\n")
+    (package / "errors.py").write_text(
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from hydrodae.case import Case\n"
+    )
+    (package / "case.py").write_text("def f():\n    from hydrodae import drives, errors\n")
+    (package / "drives.py").write_text("import hydrodae.case\nfrom hydrodae import _core\n")
+    found = read_imports(package)
+    assert wrong_layers(found) == ["drives imports case", "errors imports case"]
+    assert {"case", "drives"} <= set(circle(found)) or {"case", "errors"} <= set(circle(found))
