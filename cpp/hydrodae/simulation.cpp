@@ -23,6 +23,7 @@
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/linear_limits.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
@@ -57,6 +58,9 @@ const std::vector<Channel> solver_channels = {
     {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
     {"solver/order", 1, "-", "-", "Order of that step."}};
 
+/// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
+constexpr double step_edge = 0.02;
+
 /// One run from the start to the end: the integrator makes steps, the recorder turns them into
 /// rows.
 class Run {
@@ -65,8 +69,10 @@ public:
   Run(const model::Scene& scene, const std::string& output_path, const Progress& progress,
       solve::Verification* other = nullptr)
       : scene_(scene), progress_(progress), other_(other), started_(Clock::now()),
-        options_(scene.solver), system_(solve::starting_system(scene)),
-        pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)) {
+        options_(scene.solver),
+        approaches_events_(scene.solver.method == "radau" && scene.solver.step == 0.0),
+        system_(solve::starting_system(scene)), pattern_(system::find_pattern(system_)),
+        y_(system::initial_state(system_)) {
     solve::consistent_start(system_, pattern_, y_, yp_);
     system::take_time_scales(system_, y_, yp_);
     forcing_ = std::make_unique<system::Forcing>(system_, scene.solver.end_time, scene.output.step);
@@ -174,7 +180,10 @@ private:
   /// @returns whether it ends in such an event
   bool advance() {
     const Clock::time_point before = Clock::now();
+    last_start_ = step_start_;
     step_start_ = t_;
+    if (switching_ && approaches_events_)
+      at_(t_, y_start_, yp_start_);
     limit_step();
     try {
       t_ = integrator_->step();
@@ -184,6 +193,11 @@ private:
     std::optional<double> event;
     if (switching_)
       event = switching_->locate(step_start_, t_, quadrature_nodes_ + 2, at_);
+    if (event && inside_of_step(*event)) {
+      approach(*event);
+      statistics_.solver_time += seconds_since(before);
+      return advance();
+    }
     t_ = event.value_or(t_);
     statistics_.solver_time += seconds_since(before);
     solve::Statistics all = before_events_;
@@ -192,10 +206,28 @@ private:
     return event.has_value();
   }
 
-  /// No step may pass over what is known ahead of time.
+  /// Is a time in the middle of the last step, where the polynomial through the stages of radau is
+  /// of a lower order than the end, so that each event would leave its error?
+  bool inside_of_step(double t) const {
+    const double least = step_edge * (t_ - step_start_);
+    return approaches_events_ && t - step_start_ > least && t_ - t > least;
+  }
+
+  /// Takes the last step back, and lets the next ones end at the event.
+  void approach(double event) {
+    before_events_ += integrator_->statistics();
+    t_ = step_start_;
+    event_near_ = event;
+    switching_->follow(recorder_->turns());
+    integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_start_, yp_start_);
+  }
+
+  /// No step may pass over what is known ahead of time, nor over an event that was found.
   void limit_step() {
     const system::Forcing::Limit limit = forcing_->limit(recorder_->turns());
-    integrator_->bound(limit.time);
+    if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
+      event_near_ = INFINITY;
+    integrator_->bound(std::min(limit.time, event_near_));
     const double step = scene_.solver.step;
     constexpr double too_long = 4.0;
     if (step > too_long * (limit.time - t_))
@@ -212,6 +244,11 @@ private:
     switching_->follow(recorder_->turns());
     const std::optional<double> struck = switching_->settle(t_, y_, yp_);
     recorder_->restart(y_, yp_, struck);
+    for (std::size_t k = 0; struck && k < system_.switches.size(); ++k)
+      if (!switching_->struck()[k].impacts.empty())
+        trust_->strike(
+            system::moving_body(system_, system::joint_of(system_, system_.switches[k].motion))
+                ->mechanism);
     if (history_)
       history_->append(t_, y_, yp_);
     statistics_.events = switching_->events() - 1; // without the start
@@ -407,6 +444,7 @@ private:
   std::unique_ptr<solve::Verification> own_; ///< where this run is to be verified
   Clock::time_point started_;
   model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
+  bool approaches_events_;       ///< with steps that end there
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_;
@@ -428,8 +466,10 @@ private:
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
-  double t_ = 0.0, step_start_ = 0.0;
-  long asked_ = 0; ///< times that a singular pose would have mattered
+  double t_ = 0.0, step_start_ = 0.0, last_start_ = 0.0;
+  double event_near_ = INFINITY; ///< where the next steps end [s]
+  VectorX y_start_, yp_start_;   ///< at the start of the step
+  long asked_ = 0;               ///< times that a singular pose would have mattered
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);

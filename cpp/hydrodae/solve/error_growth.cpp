@@ -66,7 +66,8 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
       for (Index g = 0; g < s_.n_groups; ++g) {
         if (before[g] > 0.0)
           growth_[g] = after[g] / before[g];
-        follow(g, rate[g] * (t - since_));
+        if (!last) // what an impact does to an error is not carried: no growth is told there
+          follow(g, rate[g] * (t - since_));
       }
     }
   }

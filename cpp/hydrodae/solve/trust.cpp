@@ -166,7 +166,9 @@ void Trust::take_energy(double t, const VectorX& reached, const system::Recorder
     if (!(kinetic > 0.0))
       continue;
     const double part = std::abs(e.missing) / (2.0 * kinetic);
-    e.late = kept * e.late + out_of_step(growth_->change()[e.group]) * phase * part;
+    const double change = growth_->change()[e.group];
+    e.late = kept * e.late +
+             (e.struck ? std::max(1.0, out_of_step(change)) : out_of_step(change)) * phase * part;
     missing_[e.group] = std::max(missing_[e.group], (part + e.late) * whole);
   }
   for (Index g = 0; g < s_.n_groups; ++g) // by the mechanism of the group that is damped least
@@ -216,6 +218,8 @@ void Trust::find_guided() {
   for (std::size_t m = 0; m < energies_.size(); ++m)
     energies_[m].guided = guided[m];
 }
+
+void Trust::strike(int mechanism) { energies_[static_cast<std::size_t>(mechanism)].struck = true; }
 
 void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp) {
   find_guided();

@@ -31,6 +31,9 @@ public:
   void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
               bool event, const system::Recorder& recorder);
 
+  /// A stop of a mechanism was struck.
+  void strike(int mechanism);
+
   /// From t on other rows hold: the error is carried on by them, from the state (y, yp).
   void restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
@@ -73,6 +76,7 @@ private:
   VectorX start_;          ///< positions (n_q,)
   struct Energy {          ///< of a mechanism
     int group = 0;
+    bool struck = false;  ///< between impacts the time goes as 1 / speed
     bool guided = false;  ///< altogether, by drives: what is missing tells nothing of its motion
     double seen = 0.0;    ///< error of its balance at the last look [J]
     double missing = 0.0; ///< what has not faded of the changes of it [J]
