@@ -24,7 +24,9 @@ def _objects(file: h5py.File) -> list[str]:
 
 
 def _datasets(file: h5py.File) -> list[str]:
-    return [name for name in _objects(file) if isinstance(file.get(name), h5py.Dataset)]
+    """Those that can be read whole: `_oversize` makes others."""
+    found = ((name, file.get(name)) for name in _objects(file))
+    return [name for name, node in found if isinstance(node, h5py.Dataset) and node.size < 10**7]
 
 
 def _replace(file: h5py.File, name: str, data: Any, **how: Any) -> None:
