@@ -53,6 +53,21 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// "mean absorbed power: pto1 1.2 W, pto2 3.4 W, in all 4.6 W"
+void print_power(const hydrodae::RunStatistics& statistics) {
+  double total = 0.0;
+  const char* between = "mean absorbed power:";
+  for (const auto& [name, power] : statistics.mean_power) {
+    std::printf("%s %s %.4g W", between, name.c_str(), power);
+    between = ",";
+    total += power;
+  }
+  if (statistics.mean_power.size() > 1)
+    std::printf(", in all %.4g W", total);
+  if (!statistics.mean_power.empty())
+    std::printf("\n");
+}
+
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
@@ -70,6 +85,7 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   if (statistics.verified_error >= 0.0)
     std::printf("verified %.1g, ", statistics.verified_error);
   std::printf("results in %s\n", arguments.output.c_str());
+  print_power(statistics);
   return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
 }
 

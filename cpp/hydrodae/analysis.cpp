@@ -86,17 +86,19 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
     add_row(out.motion_map,
             joint_row(s, j, system::motion_row<double>(s, ws, static_cast<int>(m)).gradient));
   }
-  system::for_each_element(s.motion_forces, [&](const auto& f) {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(f.law)>, force::DryFriction::Law>)
-      return; // no damper; said in the notes
-    const system::JointData& j = system::joint_of(s, f.motion);
-    const auto w = system::motion_row<double>(s, ws, f.motion);
-    out.dampers.push_back(f.component);
-    const auto [by_s, by_rate] = f.law.gradient(w.value, 0.0);
-    out.damper_damping.push_back(-by_rate);
-    out.damper_stiffness.push_back(-by_s);
-    out.damper_delay.push_back(f.delay < 0 ? 0.0
-                                           : s.delays[static_cast<std::size_t>(f.delay)].time);
+  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
+                              const system::PortData& port) {
+    if (port.motion < 0 || list.laws->lost_at_rest(law))
+      return; // dry friction is no damper; said in the notes
+    const system::JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+    const auto w = system::motion_row<double>(s, ws, port.motion);
+    const element::AtRest rest =
+        element::at_rest(*list.laws, law, VectorX::Constant(1, w.value));
+    out.dampers.push_back(port.component);
+    out.damper_damping.push_back(rest.damping(0));
+    out.damper_stiffness.push_back(rest.stiffness(0));
+    out.damper_delay.push_back(
+        port.delay < 0 ? 0.0 : s.delays[static_cast<std::size_t>(port.delay)].time);
     add_row(out.damper_map, joint_row(s, j, w.gradient));
   });
 }
@@ -177,20 +179,22 @@ void add_water(const System& s, system::Workspace<double>& ws, LinearModel& out)
 
 /// What limits or damps large motions has no part in a linear model.
 void note_nonlinear(const System& s, LinearModel& out) {
-  std::vector<std::string> stops, damped;
+  std::vector<std::string> stops, lost;
   for (const system::SwitchData& element : s.switches)
     if (element.kind == system::SwitchData::Kind::stop && !element.holds())
       stops.push_back(s.couplers[static_cast<std::size_t>(element.coupler)].name);
   if (!stops.empty())
     out.notes.push_back("stops and one-sided joints are open in the linear model: " +
                         joined(stops));
-  for (const auto& f : std::get<1>(s.body_forces))
-    if (!f.law.quadratic.isZero(0.0))
-      damped.push_back(f.component);
-  if (!damped.empty())
+  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
+                              const system::PortData& port) {
+    if (list.laws->lost_at_rest(law) && list.laws->shape.port == element::Port::on_body)
+      lost.push_back(port.component);
+  });
+  if (!lost.empty())
     out.notes.push_back("quadratic viscous_damping is zero in the linear model (it has no slope at "
                         "rest): " +
-                        joined(damped));
+                        joined(lost));
 }
 
 } // namespace
@@ -214,6 +218,10 @@ LinearModel linearize(const model::Scene& scene) {
   out.damping = m.damping;
   out.stiffness = m.stiffness;
   out.constraints = m.constraints;
+  out.load_by_state = m.load_by_state;
+  out.state_by_state = m.state_by_state;
+  out.state_by_xi = m.state_by_xi;
+  out.state_by_rate = m.state_by_rate;
   out.notes = s.notes;
   out.water_depth = model::water(scene).depth;
   out.gravity = model::water(scene).gravity;

@@ -11,7 +11,8 @@ namespace hydrodae {
 
 /// A scene at rest in its static equilibrium in still water, and its equations linearised there.
 ///
-///   M xi'' + C xi' + K xi + T^T (hydrodynamic loads) = G^T dlambda + T^T f,   G xi = 0
+///   M xi'' + C xi' + K xi + T^T (hydrodynamic loads) = G^T dlambda + T^T f + F_z z,   G xi = 0
+///   z' = A z + B xi + D xi'                        states of forces, from their starts
 ///
 /// xi: virtual displacements, translations in world axes [m], rotations in body axes [rad]. Added
 /// mass and radiation are left to the caller: their velocities are U = T xi'.
@@ -19,6 +20,8 @@ struct LinearModel {
   std::vector<std::string> coordinates;  ///< (n_u,) "bodies/flap1/pitch"
   MatrixX mass, damping, stiffness;      ///< M, C, K (n_u, n_u), without hydrodynamics but C_hs
   MatrixX constraints;                   ///< G (n_lambda, n_u)
+  MatrixX load_by_state;                 ///< F_z (n_u, n_z)
+  MatrixX state_by_state, state_by_xi, state_by_rate; ///< A, B, D (n_z, n_z), (n_z, n_u) twice
   std::vector<std::string> hydro_labels; ///< (m,) labels of the database that move
   MatrixX hydro_map;                     ///< T (m, n_u)
   std::vector<double> hydro_yaws;        ///< (m,) mean yaw of the body of each [rad]

@@ -72,10 +72,19 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
     if (b.sigma >= 0)
       take(b.sigma, &ElementCost::unknowns);
   }
-  if (s.n_z > 0) {
+  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
+                              const system::PortData&) {
+    const Index n = list.laws->shape.n_states;
+    if (n == 0)
+      return;
+    elements.push_back({"force " + list.laws->names[law]});
+    for (Index k = 0; k < n; ++k)
+      take(list.z0 + n * static_cast<Index>(law) + k, &ElementCost::unknowns);
+  });
+  if (s.hydro.n_states > 0) {
     elements.push_back({"radiation memory"});
-    for (Index k = 0; k < s.n_z; ++k)
-      take(s.z0 + k, &ElementCost::unknowns);
+    for (Index k = 0; k < s.hydro.n_states; ++k)
+      take(s.hydro.z0 + k, &ElementCost::unknowns);
   }
   return owner;
 }
@@ -247,8 +256,8 @@ std::vector<ElementCost> element_costs(const System& s, const system::Pattern& p
       const int a = owner[static_cast<std::size_t>(column)],
                 b = owner[static_cast<std::size_t>(pattern.row[k])];
       const bool of_joint = std::min(a, b) < static_cast<int>(joints);
-      const bool of_memory =
-          elements[static_cast<std::size_t>(std::max(a, b))].name == "radiation memory";
+      const std::string& later = elements[static_cast<std::size_t>(std::max(a, b))].name;
+      const bool of_memory = later == "radiation memory" || later.starts_with("force ");
       if (of_joint || a == b)
         ++elements[static_cast<std::size_t>(std::min(a, b))].nonzeros;
       else if (of_memory)
@@ -294,7 +303,7 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
       system::retract(s, step, y);
       for (Index k = 0; k < s.n_z; ++k)
         if (stirred[static_cast<std::size_t>(k)])
-          y[s.z0 + k] = draw() * s.scale[s.z0 + k];
+          y[s.z0 + k] += draw() * s.scale[s.z0 + k];
     }
     const bool closed = system::close(s, y);
     try {
@@ -333,7 +342,7 @@ std::string examine(const model::Scene& scene) {
   const system::Pattern pattern = system::find_pattern(s);
   std::ostringstream out;
   out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
-      << s.n_u << " velocities + " << s.n_z << " memory states + " << s.n_lambda << " + " << s.n_mu
+      << s.n_u << " velocities + " << s.n_z << " states + " << s.n_lambda << " + " << s.n_mu
       << " multipliers";
   if (s.n > s.sigma0)
     out << " + " << s.n - s.sigma0 << " of quaternion norms";

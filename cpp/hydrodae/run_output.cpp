@@ -44,6 +44,15 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
     out["verified_error_of"] = s.verified_error_of;
     out["verified_error_time"] = s.verified_error_time;
   }
+  double total = 0.0;
+  for (const auto& [name, power] : s.mean_power) {
+    out["mean_power_absorbed." + name] = power;
+    total += power;
+  }
+  if (!s.mean_power.empty()) {
+    out["mean_power_absorbed"] = total;
+    out["mean_power_from"] = s.mean_power_from;
+  }
   return out;
 }
 

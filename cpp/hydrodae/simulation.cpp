@@ -100,6 +100,8 @@ public:
     integrator_ = solve::make_integrator(system_, pattern_, options_, 0.0, y_, yp_);
     trust_ = std::make_unique<solve::Trust>(system_, pattern_, scene.solver, y_, yp_);
     recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
+    statistics_.mean_power_from = system_.has_waves() ? scene.sea.ramp : 0.0;
+    recorder_->average_from(statistics_.mean_power_from);
     linear_limits_ = system::linear_limits(scene, system_);
     std::vector<Channel> channels = recorder_->channels();
     channels.insert(channels.end(), solver_channels.begin(), solver_channels.end());
@@ -430,6 +432,8 @@ private:
       statistics_.notes.push_back(note);
     const std::vector<std::string> limits = system::notes(linear_limits_);
     statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
+    for (const system::Recorder::Absorbed& pto : recorder_->absorbed())
+      statistics_.mean_power.emplace_back(pto.name, pto.mean_power);
     if (!file_)
       return;
     io::Attributes all = attributes(statistics_, scene_, recorder_->relative_balance_error());

@@ -40,6 +40,19 @@ void bind_model(py::module_& module) {
           },
           "Constraints whose drive is a Python function.")
       .def_property_readonly(
+          "python_forces",
+          [](const Scene& s) {
+            std::vector<std::string> out;
+            const auto add = [&](const auto& list) {
+              for (const auto& force : list)
+                if constexpr (requires { force.function; })
+                  out.push_back(force.name);
+            };
+            std::apply([&](const auto&... list) { (add(list), ...); }, s.forces);
+            return out;
+          },
+          "Forces whose law is a Python function.")
+      .def_property_readonly(
           "database_path",
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")

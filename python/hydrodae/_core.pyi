@@ -29,6 +29,9 @@ class Scene:
     def python_drives(self) -> list[str]:
         """Constraints whose drive is a Python function."""
     @property
+    def python_forces(self) -> list[str]:
+        """Forces whose law is a Python function."""
+    @property
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
     def summary(self) -> str: ...
@@ -39,7 +42,11 @@ def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
 def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene:
     """Read a case from a string; paths in it are relative to `directory`. Raises CaseError."""
 
-def examine(scene: Scene, drives: Mapping[str, Callable[[float], Sequence[float]]]) -> str:
+def examine(
+    scene: Scene,
+    drives: Mapping[str, Callable[[float], Sequence[float]]],
+    forces: Mapping[str, Callable[[float, Any, Any], Any]],
+) -> str:
     """The scene as a tree, what it costs, mobility and redundant rows. Raises CaseError."""
 
 def linearize(scene: Scene) -> dict[str, Any]:
@@ -56,11 +63,13 @@ def simulate(
     output: str,
     progress: Callable[[float, float], bool] | None,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
+    forces: Mapping[str, Callable[[float, Any, Any], Any]],
     verify: bool = False,
 ) -> dict[str, Any]:
     """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
 
     `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`;
+    `forces` a law t, x, v -> load for every force in `scene.python_forces`;
     `verify`: compares the motion with that of a second, more exact run.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydrodae.drives import Drive, kernel_drives
+from hydrodae.laws import Force, kernel_forces
 from hydrodae.errors import CaseError
 
 if TYPE_CHECKING:
@@ -144,12 +145,16 @@ class Case:
         """Return the scene as a short tree: bodies, joints, forces, solver."""
         return self._scene.summary()
 
-    def examine(self, drives: Mapping[str, Drive] | None = None) -> str:
+    def examine(
+        self,
+        drives: Mapping[str, Drive] | None = None,
+        forces: Mapping[str, Force] | None = None,
+    ) -> str:
         """Return the summary with what the case costs, its mobility and redundant rows.
 
         Parameters
         ----------
-        drives : mapping from str to callable, optional
+        drives, forces : mapping from str to callable, optional
             As in `hydrodae.run`.
 
         Raises
@@ -159,7 +164,11 @@ class Case:
         """
         from hydrodae import _core
 
-        return _core.examine(self._scene, kernel_drives(self._scene, drives))
+        return _core.examine(
+            self._scene,
+            kernel_drives(self._scene, drives),
+            kernel_forces(self._scene, forces),
+        )
 
     def __repr__(self) -> str:
         changed = "".join(f", {key} = {value}" for key, value in self._overrides.items())

@@ -220,13 +220,19 @@ class LinearModel:
         return np.asarray(t.T @ added @ t, complex), np.asarray(t.T @ damping @ t, complex)
 
     def _late(self, omega: Array) -> Complex:
-        """W^T [(k + iw c) e^{-iw tau} - k] W of the delayed forces; (nw, n_u, n_u).
+        """What delays and states of forces add to the dynamic stiffness; (nw, n_u, n_u).
 
-        The stiffness holds k already, as the static pose needs it.
+        Delays: W^T [(k + iw c) e^{-iw tau} - k] W; the stiffness holds k already, as the static
+        pose needs it. States, z' = A z + B xi + D xi': -F_z (iw - A)^-1 (B + iw D).
         """
         m = self._model
         n = len(self.coordinates)
         out = np.zeros((omega.size, n, n), dtype=complex)
+        if len(m["state_by_state"]):
+            s = 1j * omega[:, None, None]
+            resolved = s * np.eye(len(m["state_by_state"])) - m["state_by_state"]
+            driven = m["state_by_xi"] + s * m["state_by_rate"]
+            out -= m["load_by_state"] @ np.linalg.solve(resolved, driven)
         for k, c, tau, row in zip(
             m["damper_stiffness"],
             m["damper_damping"],

@@ -16,6 +16,7 @@ from typing import Any
 
 from hydrodae.case import Case, read_case
 from hydrodae.drives import Drive, Kernel, kernel_drives
+from hydrodae.laws import Force, kernel_forces
 from hydrodae.errors import RunInterrupted, SolverError
 from hydrodae.results import Results
 
@@ -30,6 +31,7 @@ def run(
     set: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
     drives: Mapping[str, Drive] | None = None,
+    forces: Mapping[str, Force] | None = None,
     verify: bool = False,
 ) -> Results:
     """Simulate a case from its initial state to its end time.
@@ -51,6 +53,11 @@ def run(
         It returns value, rate and rate of the rate [m or rad, per s, per s2]; or its value only,
         then it is sampled before the run and a spline gives the rates. Exceptions in it end the run
         and come back here.
+    forces : mapping from str to callable, optional
+        Law of every force of type ``python_load``, ``f(t, s, rate)`` [N or N m], and
+        ``python_wrench``, ``f(t, displacement, twist)`` (six numbers each, earth axes) to force and
+        moment [N, N m], by its name. It is called inside the solver: it must depend on its
+        arguments alone, and smoothly. Exceptions in it end the run and come back here.
     verify : bool
         Run a second time, at a tenth of the tolerance or half the step, and compare the motion at
         the output samples: `results.statistics` then has ``verified_error``, relative to the size
@@ -63,7 +70,7 @@ def run(
     Raises
     ------
     CaseError
-        The case or a drive cannot be used, `output` exists and is no results file (it is not
+        The case, a drive or a force cannot be used, `output` exists and is no results file (it is not
         replaced), or another run is writing it.
     SolverError
         The integration failed, the disk is full, or `verify` found the motion off by more than
@@ -73,7 +80,7 @@ def run(
         Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
     """
     case = read_case(case, set)
-    functions = kernel_drives(case.scene, drives)
+    functions = (kernel_drives(case.scene, drives), kernel_forces(case.scene, forces))
     folder = None
     if output is None:
         folder = _TemporaryFolder()
@@ -96,7 +103,11 @@ def run(
 
 
 def _integrate(
-    case: Case, path: Path, progress: Progress | None, drives: dict[str, Kernel], verify: bool
+    case: Case,
+    path: Path,
+    progress: Progress | None,
+    functions: tuple[dict[str, Kernel], dict[str, Force]],
+    verify: bool,
 ) -> str:
     """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
 
@@ -115,7 +126,7 @@ def _integrate(
         return go_on and not interrupt.is_set()
 
     with _interrupt_event() as interrupt:
-        status: str = _core.simulate(case.scene, str(path), report, drives, verify)["status"]
+        status: str = _core.simulate(case.scene, str(path), report, *functions, verify)["status"]
     if failure:
         raise failure[0]
     return status

@@ -162,6 +162,14 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
   return law;
 }
 
+/// What a program might give as a law: load_i = -x_i^3 - sin(t) v_i + x_0 v_0.
+template <int w> element::Function smooth_function() {
+  return [](double t, const double* x, const double* v, double* load) {
+    for (int i = 0; i < w; ++i)
+      load[i] = -x[i] * x[i] * x[i] - std::sin(t) * v[i] + x[0] * v[0];
+  };
+}
+
 /// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
 /// it can have one.
 inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
@@ -173,6 +181,9 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
           constexpr bool on_joint = requires(Law law) { law.joint; };
           if (!on_joint || one_motion)
             list.push_back(random_force<Law>(random, std::string(Law::type)));
+          if constexpr (requires(Law law) { law.function; })
+            for (Law& law : list)
+              law.function = smooth_function<element::width(Law::port)>();
           if constexpr (requires(Law law) { law.delay; })
             for (Law& law : list)
               law.delay = late ? 0.4 : 0.0;
@@ -200,14 +211,14 @@ inline void add_morison(model::Scene& scene) {
     scene.waves.push_back(swell());
   }
   scene.sea.current = {0.3, -0.2, 0.1};
-  force::Morison point;
+  element::Morison point;
   point.name = "ball";
   point.body = "a";
   point.point = Vector3(0.2, -0.1, -0.3);
   point.diameter = 1.5;
   point.drag_coefficient = 0.7;
   point.added_mass_coefficient = 0.5;
-  force::Morison member;
+  element::Morison member;
   member.name = "leg";
   member.body = "b";
   member.point_a = Vector3(1.6, 0.2, -2.0);
@@ -303,8 +314,10 @@ inline void turn_mean_axes(system::System& s) {
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.
 inline VectorX random_state(const system::System& s, Random& random) {
   VectorX y = system::initial_state(s);
-  for (Index i = 0; i < s.n; ++i)
-    y[i] += (i < s.n_q ? 0.3 : 1.0) * random();
+  for (Index i = 0; i < s.n; ++i) {
+    const bool of_law = i >= s.z0 && i < s.hydro.z0; // a pressure stays positive
+    y[i] += (of_law ? s.scale[i] : i < s.n_q ? 0.3 : 1.0) * random();
+  }
   return y;
 }
 

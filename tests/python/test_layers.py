@@ -9,7 +9,7 @@ LAYERS = [
     {"core"},
     {"math"},
     {"sea", "hydro"},
-    {"joint", "force"},
+    {"joint", "element"},
     {"model"},
     {"io", "system"},
     {"solve"},

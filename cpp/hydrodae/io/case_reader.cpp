@@ -122,7 +122,7 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   for_each_entry(root, "force", positions,
                  [&](const Table& entry) { read_force(entry, positions, scene.forces); });
   for_each_entry(root, "morison", positions, [&](const Table& entry) {
-    scene.morison.push_back(read_table<force::Morison>(entry, positions));
+    scene.morison.push_back(read_table<element::Morison>(entry, positions));
   });
   read_single(root, "sea", positions, scene.sea);
   for_each_entry(root, "wave", positions, [&](const Table& entry) {

@@ -43,6 +43,7 @@ inline Dual exp(const Dual& x) {
   const double e = std::exp(x.a);
   return {e, e * x.b};
 }
+inline Dual log(const Dual& x) { return {std::log(x.a), x.b / x.a}; }
 inline Dual atan2(const Dual& y, const Dual& x) {
   return {std::atan2(y.a, x.a), (x.a * y.b - y.a * x.b) / (x.a * x.a + y.a * y.a)};
 }

@@ -79,6 +79,27 @@ template <class S> Vec3<S> rotation_vector(const Vec4<S>& p) {
   return (S(2) * atan2(norm, w) / norm) * v;
 }
 
+/// Quaternion (w, x, y, z) of a rotation matrix, not of unit norm: the row of q q^T, scaled, whose
+/// diagonal is the largest (Shepperd, J. Guidance and Control 1 (1978) 223).
+template <class S> Vec4<S> quaternion_of(const Mat3<S>& R) {
+  const S trace = R(0, 0) + R(1, 1) + R(2, 2);
+  int largest = 3; // 3: w
+  for (int k = 0; k < 3; ++k)
+    if (R(k, k) > (largest == 3 ? trace : R(largest, largest)))
+      largest = k;
+  Vec4<S> p;
+  if (largest == 3) {
+    p << S(1) + trace, R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1);
+    return p;
+  }
+  const int i = largest, j = (i + 1) % 3, k = (i + 2) % 3;
+  p[0] = R(k, j) - R(j, k);
+  p[1 + i] = S(1) + R(i, i) - R(j, j) - R(k, k);
+  p[1 + j] = R(j, i) + R(i, j);
+  p[1 + k] = R(k, i) + R(i, k);
+  return p;
+}
+
 /// Unit quaternion of a rotation vector.
 inline Vector4 quaternion_from_rotation_vector(const Vector3& theta) {
   const double half = 0.5 * theta.norm();

@@ -41,7 +41,7 @@ void check_reaction_names(const Scene& scene) {
   for (const Joint& joint : scene.joints)
     if (joint.one_sided)
       check_free("joint", joint.name);
-  for (const force::DryFriction& f : std::get<std::vector<force::DryFriction>>(scene.forces)) {
+  for (const element::DryFriction& f : std::get<std::vector<element::DryFriction>>(scene.forces)) {
     check_free("force", f.name);
     const Joint* joint = find_named(scene.joints, f.name);
     if (joint && joint->one_sided)

@@ -23,15 +23,27 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
     check_reference(entry, "body", force.body, names_of(scene.bodies), "body");
   if constexpr (requires { force.joint; })
     check_single_motion(scene, entry, force.joint);
+  if constexpr (requires { force.pressure_high; }) {
+    if (force.pressure_low > force.pressure_high)
+      refuse(entry, "pressure_low", "the low accumulator has more pressure than the high one");
+  }
   if constexpr (requires { force.kinetic_load; }) {
     if (force.kinetic_load && *force.kinetic_load > force.static_load)
       refuse(entry, "kinetic", "the kinetic friction must not be above the static one");
   }
   if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
-    if (coincide(force.point_a, force.point_b))
-      refuse(entry, "point_b",
-             "point_a and point_b coincide in the reference pose: the force has no direction");
+    if constexpr (requires { force.point_a; })
+      if (coincide(force.point_a, force.point_b))
+        refuse(entry, "point_b",
+               "point_a and point_b coincide in the reference pose: the force has no direction");
+  }
+  if constexpr (requires { force.axis_x; }) {
+    const Vector3 z = force.axis.value_or(Vector3::UnitZ());
+    if (z.isZero(0.0))
+      refuse(entry, "axis", "the axis has no length");
+    if (force.axis_x && force.axis_x->normalized().cross(z.normalized()).norm() < 1e-6)
+      refuse(entry, "axis_x", "axis_x must have a length and a direction other than the axis");
   }
 }
 

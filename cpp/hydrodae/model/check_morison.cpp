@@ -4,7 +4,7 @@
 namespace hydrodae::model {
 namespace {
 
-using force::Morison;
+using element::Morison;
 
 /// Keys that belong to the other shape of element.
 void refuse_keys(const Scene& scene, const Entry& entry, const std::string& shape,

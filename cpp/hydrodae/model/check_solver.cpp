@@ -39,7 +39,7 @@ void check_counts(const Scene& scene) {
     check_count(scene, "solver.max_step", o.max_step, most_steps, "steps");
   if (o.baumgarte_time > 0.0)
     check_count(scene, "solver.baumgarte_time", o.baumgarte_time, most_steps, "times");
-  for (const force::PtoLinear& pto : std::get<std::vector<force::PtoLinear>>(scene.forces))
+  for (const element::PtoLinear& pto : std::get<std::vector<element::PtoLinear>>(scene.forces))
     if (pto.delay > 0.0) // no step is longer than it
       check_count(scene, "force." + pto.name + ".delay", pto.delay, most_steps, "steps");
 }

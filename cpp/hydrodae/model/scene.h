@@ -12,13 +12,17 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
-#include "hydrodae/force/constant_load.h"
-#include "hydrodae/force/dry_friction.h"
-#include "hydrodae/force/mooring_matrix.h"
-#include "hydrodae/force/morison.h"
-#include "hydrodae/force/pto_linear.h"
-#include "hydrodae/force/spring_damper.h"
-#include "hydrodae/force/viscous_damping.h"
+#include "hydrodae/element/bushing.h"
+#include "hydrodae/element/constant_load.h"
+#include "hydrodae/element/dry_friction.h"
+#include "hydrodae/element/friction_lugre.h"
+#include "hydrodae/element/mooring_matrix.h"
+#include "hydrodae/element/morison.h"
+#include "hydrodae/element/pto_hydraulic.h"
+#include "hydrodae/element/pto_linear.h"
+#include "hydrodae/element/python_law.h"
+#include "hydrodae/element/spring_damper.h"
+#include "hydrodae/element/viscous_damping.h"
 #include "hydrodae/hydro/database.h"
 #include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
@@ -281,9 +285,12 @@ struct OutputOptions {
 
 /// Every kind of force, in the order in which the case reader and the system visit them. A new kind
 /// is one header in force/ and one entry here.
-using Forces = std::tuple<std::vector<force::MooringMatrix>, std::vector<force::PtoLinear>,
-                          std::vector<force::SpringDamper>, std::vector<force::ConstantLoad>,
-                          std::vector<force::ViscousDamping>, std::vector<force::DryFriction>>;
+using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<element::PtoLinear>,
+                          std::vector<element::SpringDamper>, std::vector<element::ConstantLoad>,
+                          std::vector<element::ViscousDamping>, std::vector<element::DryFriction>,
+                          std::vector<element::PtoHydraulic>, std::vector<element::FrictionLugre>,
+                          std::vector<element::Bushing>, std::vector<element::PythonLoad>,
+                          std::vector<element::PythonWrench>>;
 
 struct Scene {
   std::string title;
@@ -294,7 +301,7 @@ struct Scene {
   std::vector<Constraint> constraints;
   std::vector<Marker> markers;
   Forces forces;
-  std::vector<force::Morison> morison;
+  std::vector<element::Morison> morison;
   sea::Sea sea;
   std::vector<sea::Wave> waves;
   SolverOptions solver;

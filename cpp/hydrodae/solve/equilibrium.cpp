@@ -248,8 +248,9 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
   system::JacobianWorkspace ws(s);
   system::JacobianParts parts(pattern);
   system::jacobian(s, pattern, ws, 0.0, y.data(), rest.data(), parts);
-  MatrixX by_y = MatrixX::Zero(s.n, s.z0), by_yp = MatrixX::Zero(s.n, s.z0);
-  for (Index c = 0; c < s.z0; ++c)
+  const Index z0 = s.z0, n_z = s.hydro.z0 - z0;
+  MatrixX by_y = MatrixX::Zero(s.n, z0 + n_z), by_yp = by_y;
+  for (Index c = 0; c < z0 + n_z; ++c)
     for (Index k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
       by_y(pattern.row[k], c) += parts.by_y[k];
       by_yp(pattern.row[k], c) += parts.by_yp[k];
@@ -260,6 +261,10 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
   out.damping = by_y.block(s.u0, s.u0, s.n_u, s.n_u);
   out.stiffness = by_y.block(s.u0, 0, s.n_u, s.n_q) * E;
   out.constraints = by_y.block(s.lambda0, s.u0, s.n_lambda, s.n_u);
+  out.load_by_state = -by_y.block(s.u0, z0, s.n_u, n_z);
+  out.state_by_state = -by_y.block(z0, z0, n_z, n_z);
+  out.state_by_xi = -by_y.block(z0, 0, n_z, s.n_q) * E;
+  out.state_by_rate = -by_y.block(z0, s.u0, n_z, s.n_u);
   system::Workspace<double> state(s);
   VectorX r(s.n);
   system::residual<double>(s, state, 0.0, y.data(), rest.data(), r.data());

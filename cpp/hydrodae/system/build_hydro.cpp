@@ -265,19 +265,6 @@ void check_mass(const System& s) {
                                        "bodies towards the hand");
 }
 
-force::LinearWrench hydrostatic_law(const model::Scene& scene, int body) {
-  const hydro::Database& db = *scene.database;
-  const hydro::DatabaseBody& entry =
-      *hydro::find_body(db, *scene.bodies[static_cast<std::size_t>(body)].hydro);
-  const hydro::Hydrostatics& h = *entry.hydrostatics;
-  // Force (0, 0, rho g V), moment (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
-  const Vector3 lift(0.0, 0.0, db.rho * db.gravity * h.displaced_volume);
-  force::LinearWrench law;
-  law.constant << lift, (h.center_of_buoyancy - entry.reference_point).cross(lift);
-  law.stiffness = h.stiffness;
-  return law;
-}
-
 void add_hydro(const model::Scene& scene, System& s) {
   if (!scene.hydro || !scene.database)
     return;
@@ -287,12 +274,7 @@ void add_hydro(const model::Scene& scene, System& s) {
            : scene.hydro->axes == "mean" ? HydroAxes::mean
                                          : HydroAxes::yaw;
   number_coordinates(scene, s);
-  for (const HydroBody& hb : h.bodies) {
-    const hydro::DatabaseBody* body = hydro::find_body(db, *scene.bodies[hb.body].hydro);
-    if (body->hydrostatics)
-      std::get<0>(s.body_forces)
-          .push_back({"hydrostatic", hb.body, hydrostatic_law(scene, hb.body)});
-  }
+  set_hydrostatics(scene, s);
   if (h.n_moving == 0)
     return;
   if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {

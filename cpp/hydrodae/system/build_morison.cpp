@@ -10,11 +10,11 @@ namespace hydrodae::system {
 namespace {
 
 /// A sphere: of the diameter, or as large as the volume (without one, as the area).
-force::MorisonSegment point_law(const force::Morison& m, double rho) {
+element::MorisonSegment point_law(const element::Morison& m, double rho) {
   const double D = m.diameter.value_or(0.0);
   const double area = m.area.value_or(0.25 * pi * D * D);
   const double volume = m.volume.value_or(pi / 6.0 * D * D * D);
-  force::MorisonSegment law;
+  element::MorisonSegment law;
   law.radius = volume > 0.0 ? std::cbrt(0.75 * volume / pi) : std::sqrt(area / pi);
   law.drag = 0.5 * rho * m.drag_coefficient * area;
   if (m.added_mass_coefficient) {
@@ -25,9 +25,9 @@ force::MorisonSegment point_law(const force::Morison& m, double rho) {
 }
 
 /// A piece of a cylinder of this length.
-force::MorisonSegment member_law(const force::Morison& m, double length, double rho) {
+element::MorisonSegment member_law(const element::Morison& m, double length, double rho) {
   const double D = *m.diameter, volume = 0.25 * pi * D * D * length;
-  force::MorisonSegment law;
+  element::MorisonSegment law;
   law.half_length = 0.5 * length;
   law.radius = 0.5 * D;
   law.drag = 0.5 * rho * m.drag_coefficient * D * length;
@@ -49,7 +49,7 @@ void add_morison(const model::Scene& scene, System& s) {
   const std::vector<sea::Component> all = model::wave_components(scene);
   s.water = sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current);
   Index pieces = 0;
-  for (const force::Morison& m : scene.morison) {
+  for (const element::Morison& m : scene.morison) {
     MorisonData out;
     out.name = m.name;
     out.body = body_index(scene, m.body);

@@ -29,8 +29,41 @@ bool take_mean_yaw(const model::Scene& scene, System& system);
 /// Notes what the hydrodynamic axes and the places of the bodies leave out (mean_yaw.cpp).
 void note_axes(const model::Scene& scene, System& system);
 
-/// Buoyancy and linear hydrostatics in the axes of the database (build_hydro.cpp).
-force::LinearWrench hydrostatic_law(const model::Scene& scene, int body);
+/// A marker at a point of a body, both in the reference pose, world axes.
+joint::Marker make_marker(const model::Scene& scene, const std::string& body, const Vector3& point,
+                          const Matrix3& axes);
+
+/// Adds a joint and its motions (build_joints.cpp).
+JointData& add_joint(System& system, JointData joint);
+void add_joint(const model::Scene& scene, const model::Joint& joint, System& system);
+
+/// Adds the motion that stands for one coordinate of a body (build_joints.cpp).
+int body_motion(const model::Scene& scene, const std::string& body, const std::string& coordinate,
+                System& system);
+
+/// The motion of a joint by name, its first one without; -1: there is none (build_joints.cpp).
+int joint_motion(const System& system, const std::string& joint,
+                 const std::optional<std::string>& coordinate);
+
+/// Keeps the rows that restrict a free coordinate; those left over must hold as they are
+/// (build_joints.cpp). Throws ModelError.
+void select_rows(System& system);
+
+/// Couplers, drives, stops and one-sided distances (build_constraints.cpp). Throws ModelError.
+void add_constraints(const model::Scene& scene, System& system);
+
+/// Adds the coupler of a switch, open at first (build_constraints.cpp).
+void add_switch(const std::string& name, SwitchData element, System& system);
+
+/// Couplers hold what they find at the start (build_constraints.cpp).
+void set_coupler_offsets(const model::Scene& scene, System& system);
+
+/// The forces of the case with their ports (build_elements.cpp).
+void add_elements(const model::Scene& scene, System& system);
+
+/// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws
+/// (build_elements.cpp); made anew by each call.
+void set_hydrostatics(const model::Scene& scene, System& system);
 
 /// Excitation of the sea where the bodies start (build_sea.cpp); needs `add_hydro`. Throws
 /// ModelError.

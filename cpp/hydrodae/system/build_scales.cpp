@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
 
@@ -61,6 +62,17 @@ void set_row(System& s, const JointScale& scale, Index lambda, Index mu, bool an
     return;
   s.scale[mu] = size / scale.time;
   s.row_scale[mu] = size;
+}
+
+/// States of laws by their declaration; their rates over the time of the bodies.
+void set_states(System& s, const ElementList& list) {
+  const auto n = static_cast<std::size_t>(list.laws->shape.n_states);
+  for (std::size_t k = 0; k < list.laws->unknowns.size(); ++k) {
+    const BodyData* body = moving_body(s, list.ports[k / n]);
+    const Index z = list.z0 + static_cast<Index>(k);
+    s.scale[z] = list.laws->unknowns[k].scale;
+    s.row_scale[z] = s.scale[z] / (body ? body->time_scale : 1.0);
+  }
 }
 
 } // namespace
@@ -148,6 +160,8 @@ void set_scales(System& s) {
       s.row_scale[h.z0 + b.state + k] = both;
     }
   }
+  for (const ElementList& list : s.elements)
+    set_states(s, list);
   for (Index i = 0; i < s.lambda0; ++i)
     s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
   for (const BodyData& b : s.bodies) {

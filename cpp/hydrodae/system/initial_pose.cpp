@@ -103,7 +103,7 @@ void apply_joint_start(const model::Scene& scene, std::size_t index, std::vector
   const Vector3 reference = a >= 0 ? scene.bodies[a].center_of_gravity : Vector3::Zero();
   const Matrix3 R = rotation_matrix<double>(base.p);
   const Vector3 point = base.r + R * (joint.point - reference);
-  const Vector3 axis = sign * (R * marker_axes(joint).col(2));
+  const Vector3 axis = sign * (R * marker_axes(joint.axis, joint.axis_x).col(2));
   if (!joint.path.empty()) { // the point of B to its place on the curve, along the curve
     const Vector3 place = joint::Path(joint.path).at_arc(start.displacement.value_or(0.0))[0];
     const Vector3 slide =
@@ -136,16 +136,12 @@ int body_index(const model::Scene& scene, const std::string& name) {
   return -1;
 }
 
-Matrix3 marker_axes(const model::Joint& joint) {
-  const Vector3 z = joint.axis ? joint.axis->normalized() : Vector3::UnitZ();
-  Vector3 x = joint.axis_x.value_or(Vector3::UnitX());
+Matrix3 marker_axes(const std::optional<Vector3>& axis, const std::optional<Vector3>& axis_x) {
+  const Vector3 z = axis ? axis->normalized() : Vector3::UnitZ();
+  Vector3 x = axis_x.value_or(Vector3::UnitX());
   x -= x.dot(z) * z;
-  if (x.norm() < 1e-6) { // the default x lies along the axis: take world y
-    if (joint.axis_x)
-      throw ModelError("joint." + joint.name + ".axis_x",
-                       "joint '" + joint.name + "': axis_x is parallel to axis");
+  if (!axis_x && x.norm() < 1e-6) // the default x lies along the axis: take world y
     x = Vector3::UnitY() - z[1] * z;
-  }
   x.normalize();
   Matrix3 axes;
   axes << x, z.cross(x), z;

@@ -46,6 +46,7 @@ struct JacobianWorkspace {
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
   std::vector<sea::FluidGradient> fluid;             ///< at the segments of one Morison element
+  std::vector<double> element_jacobian;              ///< of the laws of one list
 };
 
 /// dF/dy and dF/dy' at (t, y, y'), the part that the pattern is of; accelerations take the rows as

@@ -25,6 +25,20 @@ struct Turns {
   std::vector<double> value, rate;
 };
 
+/// What the laws of one list see and answer; rows: gradients of what they see (widths other than
+/// those on a body).
+template <class S> struct ElementScratch {
+  std::vector<S> in, out;
+  std::vector<joint::Vec12<S>> rows;
+
+  explicit ElementScratch(const ElementList& list)
+      : in(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_in())),
+        out(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_out())),
+        rows(list.laws->shape.port == element::Port::on_body
+                 ? 0
+                 : list.laws->size() * static_cast<std::size_t>(list.laws->shape.width)) {}
+};
+
 /// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which
 /// belongs to the last accepted step and changes only there.
 template <class S> struct Workspace {
@@ -36,6 +50,7 @@ template <class S> struct Workspace {
   const Past* past = nullptr;            ///< at the time of this evaluation (history.h)
   VectorX excitation;                    ///< on the coordinates of U
   std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
+  std::vector<ElementScratch<S>> elements;
   double time = 0.0;                     ///< of this evaluation [s]
   Turns turns;
 
@@ -43,7 +58,8 @@ template <class S> struct Workspace {
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
-        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)) {
+        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
+        elements(s.elements.begin(), s.elements.end()) {
     std::size_t segments = 0;
     for (const MorisonData& m : s.morison)
       segments = std::max(segments, static_cast<std::size_t>(m.segments));
@@ -105,20 +121,20 @@ Vec6<S> displacement(const BodyData& body, const BodyState<S>& state, const S* y
   return xi;
 }
 
-/// The same from the reference pose that a law on the body has for itself.
-template <class S, class Law>
-Vec6<S> displacement(const BodyForce<Law>& f, const BodyData& body, const BodyState<S>& state,
+/// The same from a reference pose turned by the quaternion `turn`.
+template <class S>
+Vec6<S> displacement(const Vector4& turn, const BodyData& body, const BodyState<S>& state,
                      const S* y) {
   Vec6<S> xi = displacement<S>(body, state, y);
-  if (f.turn[0] == 1.0)
+  if (turn[0] == 1.0)
     return xi;
   if (body.rotation == BodyData::Rotation::about_axis) {
-    xi[3 + body.axis] -= S(2.0 * std::atan2(f.turn[1 + body.axis], f.turn[0]));
+    xi[3 + body.axis] -= S(2.0 * std::atan2(turn[1 + body.axis], turn[0]));
     return xi;
   }
   const Vec4<S>& p = state.p; // p o conj(turn)
-  const Vec3<S> a = p.template tail<3>(), b = -f.turn.template tail<3>().template cast<S>();
-  const S w = S(f.turn[0]);
+  const Vec3<S> a = p.template tail<3>(), b = -turn.template tail<3>().template cast<S>();
+  const S w = S(turn[0]);
   Vec4<S> relative;
   relative << p[0] * w - a.cwiseProduct(b).sum(), p[0] * b + w * a + cross<S>(a, b);
   xi.template tail<3>() = rotation_vector<S>(relative);

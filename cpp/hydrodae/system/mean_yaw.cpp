@@ -27,16 +27,6 @@ double start_yaw(HydroAxes axes, const BodyData& body) {
   return 2.0 * std::atan2(sign * body.orientation[3], sign * body.orientation[0]);
 }
 
-/// W = T (W0 - C_hs T^T xi) with T the turn by the mean yaw, and xi from the reference pose turned
-/// by it.
-void turn(BodyForce<force::LinearWrench>& f, const HydroBody& hb) {
-  Matrix6 T = Matrix6::Zero();
-  T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = rotation_about_axis<double>(2, hb.yaw);
-  f.law.constant = T * f.law.constant;
-  f.law.stiffness = T * f.law.stiffness * T.transpose();
-  f.turn << std::cos(0.5 * hb.yaw), 0.0, 0.0, std::sin(0.5 * hb.yaw);
-}
-
 } // namespace
 
 bool take_mean_yaw(const model::Scene& scene, System& s) {
@@ -57,12 +47,9 @@ bool take_mean_yaw(const model::Scene& scene, System& s) {
                            " deg of yaw, and moves along surge or sway alone: these are the axes "
                            "of the world, those of its hydrodynamics are turned; free both, or "
                            "hold one by a joint");
-    for (BodyForce<force::LinearWrench>& f : std::get<0>(s.body_forces))
-      if (f.body == hb.body && f.component == "hydrostatic") {
-        f.law = hydrostatic_law(scene, hb.body);
-        turn(f, hb);
-      }
   }
+  if (changed)
+    set_hydrostatics(scene, s);
   return changed;
 }
 

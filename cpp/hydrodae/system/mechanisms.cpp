@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
 
@@ -62,6 +61,13 @@ const BodyData* moving_body(const System& s, const JointData& j) {
   return nullptr;
 }
 
+const BodyData* moving_body(const System& s, const PortData& port) {
+  if (port.joint >= 0)
+    return moving_body(s, s.joints[static_cast<std::size_t>(port.joint)]);
+  const BodyData& body = s.bodies[static_cast<std::size_t>(port.body)];
+  return body.n_active > 0 ? &body : nullptr;
+}
+
 void find_mechanisms(System& s) {
   Sets sets(s);
   for (const JointData& j : s.joints)
@@ -81,8 +87,10 @@ void find_mechanisms(System& s) {
     }
   }
   s.n_mechanisms = sets.number(s, &BodyData::mechanism);
-  for_each_element(s.motion_forces,
-                   [&](const auto& force) { sets.join(joint_of(s, force.motion)); });
+  for_each_law(s, [&](const ElementList&, std::size_t, const PortData& port) {
+    if (port.joint >= 0)
+      sets.join(s.joints[static_cast<std::size_t>(port.joint)]);
+  });
   int wet = -1;
   for (const HydroBody& hb : s.hydro.bodies) {
     if (sets.moves(hb.body) && wet >= 0)
@@ -107,7 +115,13 @@ void set_groups(System& s) {
     for (Index k = 0; k < b.n_active; ++k)
       s.group[static_cast<std::size_t>(b.u0 + k)] = b.group;
   }
-  for (Index z = s.z0; z < s.lambda0; ++z)
+  for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
+    const BodyData* body = moving_body(s, port);
+    const Index n = list.laws->shape.n_states, first = list.z0 + n * static_cast<Index>(law);
+    for (Index k = 0; k < n; ++k)
+      s.group[static_cast<std::size_t>(first + k)] = body ? body->group : 0;
+  });
+  for (Index z = s.hydro.z0; z < s.lambda0; ++z)
     s.group[static_cast<std::size_t>(z)] = wet;
   s.group_size = VectorX::Zero(s.n_groups);
   for (const int group : s.group)

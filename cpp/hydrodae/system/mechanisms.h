@@ -18,6 +18,9 @@ const JointData& joint_of(const System& system, const CouplerData& coupler);
 /// Of the bodies that a joint joins one that moves, the second if both do; null if neither.
 const BodyData* moving_body(const System& system, const JointData& joint);
 
+/// The same of a port.
+const BodyData* moving_body(const System& system, const PortData& port);
+
 /// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its
 /// own?
 std::vector<bool> guided_mechanisms(const System& system);

@@ -1,7 +1,7 @@
 #pragma once
 /// Loads of the Morison elements: the sum over their segments, each by the water at its centre.
 
-#include "hydrodae/force/morison.h"
+#include "hydrodae/element/morison.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::system {
@@ -34,8 +34,8 @@ Vec6<S> morison_load(const sea::WaveField& water, const MorisonData& m, const Bo
     if (m.instantaneous)
       height -= f.elevation;
     const Vec3<S> u = f.velocity - velocity;
-    const Vec3<S> force = force::wet_part<S>(m.law, height, axis[2]) *
-                          force::morison_force<S>(m.law, axis, u, f.acceleration, acceleration);
+    const Vec3<S> force = element::wet_part<S>(m.law, height, axis[2]) *
+                          element::morison_force<S>(m.law, axis, u, f.acceleration, acceleration);
     load.template head<3>() += force;
     load.template tail<3>() += cross<S>(arm, Vec3<S>(body.R.transpose() * force));
   }

@@ -16,7 +16,7 @@ struct LoadGradient {
 /// One segment by the water: force F (3,) and dF by its velocity, acceleration and elevation.
 struct SegmentGradient {
   Vector3 arm, force;
-  force::MorisonGradient dry; ///< without the wet part
+  element::MorisonGradient dry; ///< without the wet part
   double wet = 0.0;
   Vector3 by_height, by_axis_z; ///< of F through the wet part
 };
@@ -30,9 +30,9 @@ inline SegmentGradient segment_gradient(const MorisonData& m, const BodyState<do
   const Vector3 acceleration = b.v_dot + b.R * (b.w_dot.cross(d.arm) + b.w.cross(spin));
   const double height = (b.r + b.R * d.arm)[2] - (m.instantaneous ? f.elevation : 0.0);
   double by_height = 0.0, by_axis_z = 0.0;
-  d.wet = force::wet_part<double>(m.law, height, axis[2], &by_height, &by_axis_z);
-  const Vector3 dry = force::morison_force<double>(m.law, axis, u, f.acceleration, acceleration);
-  d.dry = force::morison_gradient(m.law, axis, u, f.acceleration, acceleration);
+  d.wet = element::wet_part<double>(m.law, height, axis[2], &by_height, &by_axis_z);
+  const Vector3 dry = element::morison_force<double>(m.law, axis, u, f.acceleration, acceleration);
+  d.dry = element::morison_gradient(m.law, axis, u, f.acceleration, acceleration);
   d.force = d.wet * dry;
   d.by_height = by_height * dry;
   d.by_axis_z = by_axis_z * dry;

@@ -9,13 +9,6 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Force and moment in world axes of a load given as world force and body-axes moment.
-Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
-  Vector6 load;
-  load << tangent.head<3>(), state.R * tangent.tail<3>();
-  return load;
-}
-
 int component_index(Observation& out, const std::string& name) {
   const auto found = std::find(out.components.begin(), out.components.end(), name);
   if (found != out.components.end())
@@ -33,10 +26,11 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   };
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
     plan("weight", i);
-  for_each_element(s_.body_forces, [&](const auto& f) { plan(f.component, f.body); });
-  for_each_element(s_.motion_forces, [&](const auto& f) {
-    plan(f.component, s_.joints[s_.motions[f.motion].joint].A.body);
-    plan(f.component, s_.joints[s_.motions[f.motion].joint].B.body);
+  for_each_law(s_, [&](const ElementList&, std::size_t, const PortData& port) {
+    if (port.joint < 0)
+      return plan(port.component, port.body);
+    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].A.body);
+    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].B.body);
   });
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {
@@ -72,6 +66,10 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   out_.motions.resize(s_.motions.size());
   out_.constraints.resize(s_.couplers.size());
   totals_.resize(s_.bodies.size());
+  out_.elements.resize(element_channels(s_).size());
+  for (const ElementList& list : s_.elements)
+    element_values_.resize(std::max(
+        element_values_.size(), list.laws->size() * (1 + list.laws->channels.size())));
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
   excitation_ = VectorX::Zero(s_.hydro.excitation.size() + s_.hydro.drifting.size());
@@ -88,31 +86,13 @@ void Observer::add_load(const Vector6& world_load) {
     totals_[entry.body] -= to_tangent<double>(state, world_load);
 }
 
-void Observer::observe_forces(const double* y) {
+void Observer::observe_weight() {
   for (const BodyData& b : s_.bodies) {
     Vector6 weight = Vector6::Zero();
     weight[2] = -b.mass * s_.gravity;
     add_load(weight);
     out_.potential += b.mass * s_.gravity * (ws_.bodies[&b - s_.bodies.data()].r - b.reference)[2];
   }
-  for_each_element(s_.body_forces, [&](const auto& f) {
-    const BodyState<double>& state = ws_.bodies[f.body];
-    const Vector6 xi = displacement<double>(f, s_.bodies[f.body], state, y);
-    add_load(f.law.template apply<double>(xi, twist<double>(state)));
-    out_.potential += f.law.potential(xi);
-  });
-  for_each_element(s_.motion_forces, [&](const auto& f) {
-    const JointData& j = s_.joints[s_.motions[f.motion].joint];
-    const joint::Row<double> w = motion_row<double>(s_, ws_, f.motion);
-    const double rate = w.gradient.dot(joint_velocity<double>(j, ws_.bodies));
-    const joint::Vector12 load = motion_force<double>(f, ws_.past, w.value, rate) * w.gradient;
-    if (f.delay < 0) // a delayed spring gives back another energy than it took
-      out_.potential += f.law.potential(w.value);
-    if (j.A.body >= 0)
-      add_load(to_world(ws_.bodies[j.A.body], load.head<6>()));
-    if (j.B.body >= 0)
-      add_load(to_world(ws_.bodies[j.B.body], load.tail<6>()));
-  });
 }
 
 /// What the radiation takes on all coordinates, locked ones too; needs U and U'.
@@ -262,7 +242,8 @@ void Observer::observe_joints(const double* y) {
   for (const SwitchData& element : s_.switches) // slipping friction acts as a force
     if (element.kind == SwitchData::Kind::friction && !element.holds())
       out_.constraints[static_cast<std::size_t>(element.coupler)] =
-          std::get<2>(s_.motion_forces)[static_cast<std::size_t>(element.force)].law.load;
+          s_.elements[static_cast<std::size_t>(element.list)]
+              .signals[static_cast<std::size_t>(element.law)];
   for (int m = 0; m < static_cast<int>(s_.motions.size()); ++m) {
     const joint::Row<double> w = motion_row<double>(s_, ws_, m);
     const JointData& j = s_.joints[s_.motions[m].joint];
@@ -343,7 +324,8 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   out_.mechanism_constraints.assign(static_cast<std::size_t>(s_.n_mechanisms), 0.0);
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
   next_load_ = 0;
-  observe_forces(y.data());
+  observe_weight();
+  observe_elements(y.data());
   observe_hydrodynamics(y.data());
   observe_excitation(t);
   observe_morison(t);

@@ -31,9 +31,14 @@ struct Observation {
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
   std::vector<double> mechanism_kinetic;      ///< per mechanism: of its bodies [J]
   std::vector<double> mechanism_constraints;  ///< per mechanism: power of its rows [W]
+  std::vector<double> elements;               ///< own channels of all laws, see element_channels
   double elevation = 0.0;                     ///< of the waves at the origin [m]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
 };
+
+/// What laws report beside their loads on the bodies, in the order of Observation::elements: force
+/// or torque along a coordinate, power absorbed by power take-offs, states, and what they declare.
+std::vector<Channel> element_channels(const System& system);
 
 /// Evaluates observations; owns its scratch.
 class Observer {
@@ -50,7 +55,10 @@ public:
 
 private:
   void add_load(const Vector6& world_load);
-  void observe_forces(const double* y);
+  void observe_weight();
+  void observe_elements(const double* y);
+  void observe_law(const ElementList& list, const PortData& port, const double* load,
+                   const joint::Vec12<double>* rows);
   void observe_memory(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_excitation(double t);
@@ -67,6 +75,7 @@ private:
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
   VectorX rate_, momentum_, memory_, excitation_;
+  std::vector<double> element_values_; ///< energies, then declared channels, of one list
   std::size_t next_load_ = 0;
   std::vector<int> redundant_joints_; ///< joints with rows that follow from others
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant

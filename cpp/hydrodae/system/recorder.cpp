@@ -8,8 +8,6 @@ namespace hydrodae::system {
 
 namespace {
 
-bool has_locked(const BodyData& body) { return body.n_active < 6; }
-
 void put(double*& out, const Vector3& v) {
   for (int k = 0; k < 3; ++k)
     *out++ = v[k];
@@ -36,118 +34,6 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
   make_channels();
 }
 
-void Recorder::add_channel(std::string path, int width, std::string unit, std::string frame,
-                           std::string description) {
-  width_ += static_cast<std::size_t>(width);
-  channels_.push_back(
-      {std::move(path), width, std::move(unit), std::move(frame), std::move(description)});
-}
-
-/// The axes and the origin of a marker in the reference pose go with the last channel.
-void Recorder::describe_marker(const joint::Marker& marker) {
-  const Vector3 origin =
-      marker.point + (marker.body < 0 ? Vector3(0, 0, 0) : s_.bodies[marker.body].reference);
-  channels_.back().vectors = {{"axis_x", marker.axes.col(0)},
-                              {"axis_y", marker.axes.col(1)},
-                              {"axis_z", marker.axes.col(2)},
-                              {"origin", origin}};
-}
-
-void Recorder::make_channels() {
-  for (const BodyData& b : s_.bodies) {
-    const std::string head = "bodies/" + b.name + "/";
-    add_channel(head + "position", 3, "m", "world", "Centre of gravity.");
-    add_channel(head + "orientation", 4, "-", "world",
-                "Unit quaternion (w, x, y, z) of the rotation from the reference pose.");
-    add_channel(head + "rotation", 3, "rad", "world", "Rotation vector from the reference pose.");
-    if (b.n_active > 0) {
-      add_channel(head + "velocity", 3, "m/s", "world", "Of the centre of gravity.");
-      add_channel(head + "angular_velocity", 3, "rad/s", "world", "Angular velocity.");
-      add_channel(head + "acceleration", 3, "m/s2", "world", "Of the centre of gravity.");
-      add_channel(head + "angular_acceleration", 3, "rad/s2", "world",
-                  "Rate of the angular velocity.");
-    }
-    if (has_locked(b)) {
-      std::string note;
-      for (const HydroBody& hb : s_.hydro.bodies)
-        if (s_.bodies[hb.body].name == b.name && !s_.hydro.uncovered.empty())
-          for (const std::string& label : s_.hydro.uncovered)
-            note += (note.empty() ? " Without the hydrodynamic loads that the fit does not give: "
-                                  : ", ") +
-                    label;
-      add_channel(head + "support_force", 3, "N", "world",
-                  "What holds the locked coordinates, on the body." + note);
-      add_channel(head + "support_moment", 3, "N m", "world",
-                  "Moment about the centre of gravity that holds the locked coordinates." + note);
-    }
-  }
-  for (const JointData& j : s_.joints) {
-    if (j.hidden)
-      continue;
-    const std::string head = "joints/" + j.name + "/", frame = "marker A of " + j.name;
-    for (std::size_t m = 0; m < j.type->motions.size(); ++m) {
-      const MotionData& motion = s_.motions[static_cast<std::size_t>(j.first_motion) + m];
-      const std::string unit = motion.motion.is_angle() ? "rad" : "m";
-      add_channel(head + motion.name, 1, unit, frame,
-                  "Joint coordinate of B against A, followed over turns.");
-      add_channel(head + motion.name + "_rate", 1, unit + "/s", frame,
-                  "Rate of the joint coordinate.");
-    }
-    const std::string owner = j.A.body < 0 ? "the ground" : "body " + s_.bodies[j.A.body].name;
-    add_channel(head + "reaction_force", 3, "N", frame,
-                "Force of the joint on body B, along the axes of marker A, which " + owner +
-                    " carries; axis_x, axis_y, axis_z and origin: where they are in the reference "
-                    "pose, world axes.");
-    describe_marker(j.A);
-    add_channel(head + "reaction_moment", 3, "N m", frame,
-                "Moment of the joint on body B about the origin of its marker, along the axes of "
-                "marker A (see the reaction force).");
-    describe_marker(j.A);
-  }
-  for (const CouplerData& c : s_.couplers) {
-    const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
-    add_channel("constraints/" + c.name + "/reaction", 1, angle ? "N m" : "N", "-",
-                "Load that the constraint puts on its (first) coordinate.");
-  }
-  for (const MarkerData& m : s_.markers) {
-    const std::string head = "markers/" + m.name + "/", body = s_.bodies[m.body].name;
-    const std::string frame = m.body_axes ? "body " + body : "world";
-    const std::string axes =
-        m.body_axes ? " Along axes that " + body +
-                          " carries: in the reference pose those of the world, axis_x, axis_y, "
-                          "axis_z; origin: the point there."
-                    : " Along the axes of the world; origin: the point in the reference pose.";
-    const joint::Marker marker{m.body, m.point, Matrix3::Identity(), nullptr};
-    add_channel(head + "position", 3, "m", "world", "Of a point of " + body + ".");
-    add_channel(head + "velocity", 3, "m/s", frame,
-                "Of a point of " + body + ", over the world." + axes);
-    describe_marker(marker);
-    add_channel(head + "acceleration", 3, "m/s2", frame,
-                "Of a point of " + body + ", over the world; without gravity." + axes);
-    describe_marker(marker);
-  }
-  const Observation& o = observer_.observation();
-  for (const ComponentLoad& load : o.loads) {
-    const std::string head =
-        "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
-    add_channel(head + "force", 3, "N", "world", "Force on the body.");
-    add_channel(head + "moment", 3, "N m", "world",
-                "Moment on the body about its centre of gravity.");
-  }
-  if (s_.has_waves())
-    add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
-  add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
-  add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
-  add_channel("energy/potential", 1, "J", "-",
-              "Weight, hydrostatics and springs; zero in the reference pose.");
-  add_channel("energy/total", 1, "J", "-", "Kinetic energies and potential.");
-  for (const std::string& component : o.components)
-    add_channel("energy/work/" + component, 1, "J", "-", "Work on the bodies since the start.");
-  add_channel("energy/balance_error", 1, "J", "-",
-              "Change of the kinetic energies minus the work of all forces: zero but for the "
-              "solver's error.");
-}
-
 /// Powers at the nodes of the step from t_ to t, on the solver's interpolant, and the work over it.
 /// Leaves the observer at t.
 void Recorder::begin(double t, const Interpolant& at) {
@@ -166,10 +52,34 @@ void Recorder::begin(double t, const Interpolant& at) {
   for (std::size_t node = 0; node <= last; ++node)
     for (std::size_t k = 0; k < work_.size(); ++k)
       end_work_[k] += h * rule_.weights[node] * powers_[node][k];
+  if (mean_from_ > t_ && mean_from_ <= t) {
+    at(mean_from_, y_, yp_);
+    observer_.observe(mean_from_, y_, yp_);
+    mean_work_ = work_at((mean_from_ - t_) / h);
+    at(t, y_, yp_);
+    observer_.observe(t, y_, yp_);
+  }
   balance_error_ = balance(end_work_);
   balance_mechanisms();
   end_kinetic_ = observer_.observation().mechanism_kinetic;
   take_turns();
+}
+
+// The power of a force on its bodies is what it does not absorb.
+std::vector<Recorder::Absorbed> Recorder::absorbed() const {
+  std::vector<Absorbed> out;
+  if (end_ <= mean_from_)
+    return out;
+  const std::vector<std::string>& components = observer_.observation().components;
+  for_each_law(s_, [&](const ElementList& list, std::size_t, const PortData& port) {
+    if (!list.laws->absorbs)
+      return;
+    const auto k = static_cast<std::size_t>(
+        std::find(components.begin(), components.end(), port.component) - components.begin());
+    const double before = mean_work_.empty() ? 0.0 : mean_work_[k];
+    out.push_back({port.component, (before - end_work_[k]) / (end_ - mean_from_)});
+  });
+  return out;
 }
 
 /// All motions where the observer is.
@@ -309,7 +219,7 @@ void Recorder::fill_bodies(double*& out) {
       put(out, state.v_dot);
       put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
     }
-    if (has_locked(b)) {
+    if (b.n_active < 6) {
       put(out, observer_.observation().supports[i].head<3>());
       put(out, observer_.observation().supports[i].tail<3>());
     }
@@ -371,6 +281,8 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }
+  out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
+                  out);
   if (s_.has_waves())
     *out++ = observer_.observation().elevation;
   fill_energy(out, work);

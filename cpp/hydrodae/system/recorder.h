@@ -75,8 +75,19 @@ public:
   /// is but one.
   const std::vector<Balance>& mechanisms() const { return mechanisms_; }
 
+  /// From `time` [s] on means are taken, see `absorbed`; by default from the start.
+  void average_from(double time) { mean_from_ = time; }
+
+  /// What each power take-off has absorbed on average [W], none before that time.
+  struct Absorbed {
+    std::string name;
+    double mean_power = 0.0;
+  };
+  std::vector<Absorbed> absorbed() const;
+
 private:
   void make_channels();
+  void check_paths() const;
   void add_channel(std::string path, int width, std::string unit, std::string frame,
                    std::string description);
   void describe_marker(const joint::Marker& marker);
@@ -99,6 +110,8 @@ private:
   std::vector<double> power_, work_;
   std::vector<std::vector<double>> powers_; ///< at the nodes of the step
   std::vector<double> end_work_;            ///< at the end of the step
+  double mean_from_ = 0.0;                  ///< [s]
+  std::vector<double> mean_work_;           ///< work at that time; empty: zero
   Turns turns_;                             ///< there
   std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only

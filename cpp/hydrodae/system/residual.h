@@ -3,6 +3,7 @@
 /// const, the Workspace is scratch. Templated on the scalar so that dual numbers can check the
 /// Jacobian.
 
+#include "hydrodae/system/elements.h"
 #include "hydrodae/system/hydrodynamics.h"
 #include "hydrodae/system/morison.h"
 
@@ -107,56 +108,6 @@ void add_couplers(const System& s, Workspace<S>& ws, double t, const S* y, S* re
   }
 }
 
-/// World force and body-axes moment of a wrench given in earth axes.
-template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
-  Vec6<S> load;
-  load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
-  return load;
-}
-
-template <class S, class Law>
-void add_force(const System& s, const BodyForce<Law>& force, Workspace<S>& ws, const S* y) {
-  const BodyState<S>& state = ws.bodies[force.body];
-  const Vec6<S> xi = displacement<S>(force, s.bodies[force.body], state, y);
-  ws.loads[force.body] += to_tangent<S>(state, force.law.template apply<S>(xi, twist<S>(state)));
-}
-
-/// f(s, s') of a law along a motion; of a delayed one at s, s' of the past, or where it stands,
-/// at rest, when there is no history.
-template <class S, class Law>
-S motion_force(const MotionForce<Law>& force, const Past* past, const S& value, const S& rate) {
-  if (force.delay < 0)
-    return force.law.template apply<S>(value, rate);
-  if (!past)
-    return force.law.template apply<S>(value, S(0));
-  const std::array<double, 2>& then = past->delayed[force.delay];
-  return S(force.law.template apply<double>(then[0], then[1]));
-}
-
-/// Its derivatives by s and s' of the present.
-template <class Law>
-std::pair<double, double> motion_force_gradient(const MotionForce<Law>& force, const Past* past,
-                                                double value, double rate) {
-  if (force.delay < 0)
-    return force.law.gradient(value, rate);
-  return {past ? 0.0 : force.law.gradient(value, 0.0).first, 0.0};
-}
-
-/// f along a joint coordinate s acts on the bodies as W^T f with W = ds/dxi.
-template <class S, class Law>
-void add_force(const System& s, const MotionForce<Law>& force, Workspace<S>& ws, const S*) {
-  const JointData& j = s.joints[s.motions[force.motion].joint];
-  const joint::Row<S> w = motion_row<S>(s, ws, force.motion);
-  const S rate = w.gradient.cwiseProduct(joint_velocity<S>(j, ws.bodies)).sum();
-  add_to_bodies<S>(j, motion_force<S>(force, ws.past, w.value, rate) * w.gradient, ws.loads);
-}
-
-/// Visits every list of a tuple of lists, element by element.
-template <class Tuple, class Visitor> void for_each_element(const Tuple& lists, Visitor&& visit) {
-  std::apply([&](const auto&... list) { ((std::for_each(list.begin(), list.end(), visit)), ...); },
-             lists);
-}
-
 /// Momentum rows M u' - f - G^T lambda, position rows q' - E(q)(u + G^T mu) - sigma p, norm rows.
 template <class S>
 void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp, S* residual) {
@@ -201,8 +152,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   }
   add_joints<S>(s, ws, y, residual);
   add_couplers<S>(s, ws, t, y, residual);
-  for_each_element(s.body_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
-  for_each_element(s.motion_forces, [&](const auto& f) { add_force<S>(s, f, ws, y); });
+  add_elements<S>(s, ws, y, yp, residual);
   add_hydrodynamics<S>(s, ws, t, y, yp, residual);
   add_morison<S>(s, ws, t);
   body_rows<S>(s, ws, y, yp, residual);

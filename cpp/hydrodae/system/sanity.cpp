@@ -152,38 +152,38 @@ VectorX pose_beside(const System& s, std::mt19937& random) {
 
 /// Forces along motions that cannot change, neither at the start nor beside it.
 void judge_forces(const System& s, std::vector<Finding>& out) {
-  std::vector<std::string> names;
-  for_each_element(s.motion_forces, [&](const auto& f) { names.push_back(f.component); });
-  if (names.empty())
+  std::vector<const PortData*> ports;
+  for_each_law(s, [&](const ElementList&, std::size_t, const PortData& port) {
+    if (port.motion >= 0)
+      ports.push_back(&port);
+  });
+  if (ports.empty())
     return;
   std::mt19937 random(5);
   const VectorX scale = displacement_scale(s), rest = VectorX::Zero(s.n);
-  std::vector<bool> moves(names.size(), false);
+  std::vector<bool> moves(ports.size(), false);
   for (const VectorX& y : {VectorX(initial_state(s)), pose_beside(s, random)}) {
     const VectorX u = allowed_velocities(s, y, random);
     Workspace<double> ws(s);
     unpack<double>(s, y.data(), rest.data(), ws.bodies);
     // What one unit of the scales gives tells which rates count.
-    std::size_t k = 0;
-    for_each_element(s.motion_forces, [&](const auto& f) {
-      const double rate = motion_rate(s, ws, f.motion, u.cwiseProduct(scale)).first;
-      const double most = motion_rate(s, ws, f.motion, scale).second;
+    for (std::size_t k = 0; k < ports.size(); ++k) {
+      const double rate = motion_rate(s, ws, ports[k]->motion, u.cwiseProduct(scale)).first;
+      const double most = motion_rate(s, ws, ports[k]->motion, scale).second;
       moves[k] = moves[k] || std::abs(rate) > 1e-7 * most;
-      ++k;
-    });
+    }
   }
-  std::size_t k = 0;
-  for_each_element(s.motion_forces, [&](const auto& f) {
-    if (moves[k++])
-      return;
-    const MotionData& motion = s.motions[static_cast<std::size_t>(f.motion)];
+  for (std::size_t k = 0; k < ports.size(); ++k) {
+    if (moves[k])
+      continue;
+    const MotionData& motion = s.motions[static_cast<std::size_t>(ports[k]->motion)];
     const JointData& j = s.joints[static_cast<std::size_t>(motion.joint)];
     out.push_back(
-        {true, "force " + in_quotes(f.component) + " acts along " +
+        {true, "force " + in_quotes(ports[k]->component) + " acts along " +
                    (j.hidden ? "a distance" : motion.name + " of joint " + in_quotes(j.name)) +
                    ", which cannot change: the bodies' motion or other joints lock it, "
                    "and the force does no work"});
-  });
+  }
 }
 
 void judge_stops(const model::Scene& scene, const System& s, std::vector<Finding>& out) {

@@ -70,10 +70,17 @@ std::vector<Link> vertical_links(const System& s, const Workspace<double>& ws) {
       for (const CouplerData::Term& term : s.couplers[k].terms)
         add_motion(term.motion);
   }
-  for_each_element(s.motion_forces, [&](const auto& f) {
-    if constexpr (requires { f.law.stiffness; })
-      if (f.law.stiffness > 0.0)
-        add_motion(f.motion);
+  for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
+    const double stiffness = port.joint < 0 ? 0.0 : element::at_rest(*list.laws, law).stiffness(0);
+    if (port.motion >= 0 && stiffness > 0.0)
+      add_motion(port.motion);
+    const JointData* j = port.motion < 0 && port.joint >= 0
+                             ? &s.joints[static_cast<std::size_t>(port.joint)]
+                             : nullptr;
+    if (j && element::at_rest(*list.laws, law).stiffness.isZero(0.0) == false) // a bushing
+      for (int i = 0; i < 3; ++i)
+        add(*j, joint::span_row<double>(j->A, j->B, i, joint_geometry<double>(*j, ws.bodies))
+                    .gradient);
   });
   return links;
 }
@@ -170,9 +177,10 @@ void judge_stability(const System& s, const FloatingGroup& group, std::vector<Fi
   if (std::any_of(s.joints.begin(), s.joints.end(), at))
     return;
   Matrix6 K = Matrix6::Zero();
-  for (const auto& f : std::get<0>(s.body_forces))
-    if (f.body == body)
-      K += f.law.stiffness;
+  for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
+    if (port.body == body)
+      K += element::at_rest(*list.laws, law).stiffness;
+  });
   for (int k = b.n_translations; k < b.n_active; ++k) {
     const int c = b.active[static_cast<std::size_t>(k)];
     if (c < 5 && K(c, c) < 0.0)
@@ -219,17 +227,16 @@ std::vector<FloatingGroup> floating_groups(const System& s) {
     return groups[static_cast<std::size_t>(
         index[static_cast<std::size_t>(of[static_cast<std::size_t>(body)])])];
   };
-  for (const auto& f : std::get<0>(s.body_forces)) {
-    FloatingGroup& group = group_of(f.body);
-    if (f.component == "hydrostatic") {
-      group.wet = true;
-      group.buoyancy += f.law.constant[2];
-      group.stiffness += f.law.stiffness(2, 2);
-    } else {
-      group.load += f.law.constant[2];
-      group.mooring += f.law.stiffness(2, 2);
-    }
-  }
+  for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
+    if (port.body < 0)
+      return;
+    FloatingGroup& group = group_of(port.body);
+    const element::AtRest rest = element::at_rest(*list.laws, law);
+    const bool water = list.laws->type == "hydrostatic";
+    group.wet = group.wet || water;
+    (water ? group.buoyancy : group.load) += rest.load[2];
+    (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
+  });
   for (const Link& link : links) { // does the row let the whole group heave?
     const double rate = (link.a >= 0 ? link.by_a : 0.0) + (link.b >= 0 ? link.by_b : 0.0);
     if (std::abs(rate) > 1e-6)

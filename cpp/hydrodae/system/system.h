@@ -13,11 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
+#include "hydrodae/element/elements.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/sea/drifting.h"
@@ -102,21 +103,23 @@ struct CouplerData {
   bool kept() const { return lambda != redundant; }
 };
 
-/// Weight, buoyancy and linear hydrostatics are wrenches on a body; `component` is the name under
-/// which the results list them.
-template <class Law> struct BodyForce {
-  std::string component;
-  int body = 0;
-  Law law;
+/// Where a law is joined to the bodies: along a motion, on a body, or between the markers of a
+/// (hidden) joint.
+struct PortData {
+  std::string component;    ///< under which the results list its loads
+  int motion = -1;          ///< in System::motions
+  int delay = -1;           ///< in System::delays, -1: none
+  int body = -1;            ///< in System::bodies
+  int joint = -1;           ///< in System::joints; of a motion: its own
   Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
 };
 
-/// A law along the free motion of a joint.
-template <class Law> struct MotionForce {
-  std::string component;
-  int motion = 0; ///< in System::motions
-  Law law;
-  int delay = -1; ///< in System::delays, -1: none
+/// Laws of one type with their ports.
+struct ElementList {
+  std::shared_ptr<const element::Elements> laws;
+  std::vector<PortData> ports; ///< one a law
+  std::vector<double> signals; ///< held from event to event
+  Index z0 = 0;                ///< states of the first law, in y
 };
 
 /// A motion that a force feels some time later.
@@ -136,8 +139,8 @@ struct MarkerData {
 /// A coupler that holds at times only. While it is open its multipliers are `redundant`, and it
 /// costs nothing.
 ///   stop      lower <= s <= upper; its load pushes back only
-///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (a
-///   MotionForce)
+///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (the signal of
+///   its law)
 struct SwitchData {
   enum class Kind { stop, friction };
   enum class State { open, lower, upper, stick, forward, backward };
@@ -147,7 +150,7 @@ struct SwitchData {
   int motion = 0;  ///< in System::motions
   double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
   double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m]
-  int force = -1;                               ///< of friction: in the list of its laws
+  int list = -1, law = -1;                      ///< of friction: in System::elements, and in there
   bool holds() const {
     return state == State::lower || state == State::upper || state == State::stick;
   }
@@ -157,19 +160,13 @@ struct SwitchData {
 struct MorisonData {
   std::string name;
   int body = 0;
-  force::MorisonSegment law;
+  element::MorisonSegment law;
   int segments = 1;
   Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
   Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
   Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
   bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
 };
-
-using BodyForces = std::tuple<std::vector<BodyForce<force::LinearWrench>>,
-                              std::vector<BodyForce<force::ViscousDamping::Law>>>;
-using MotionForces = std::tuple<std::vector<MotionForce<force::PtoLinear>>,
-                                std::vector<MotionForce<force::SpringDamper::Law>>,
-                                std::vector<MotionForce<force::DryFriction::Law>>>;
 
 /// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes
 /// turned by the mean yaw of each, or those that turn with the body's yaw alone.
@@ -271,8 +268,7 @@ struct System {
   std::vector<SwitchData> switches;
   std::vector<MarkerData> markers;
   std::vector<MotionStart> starts;
-  BodyForces body_forces;
-  MotionForces motion_forces;
+  std::vector<ElementList> elements;
   std::vector<DelayData> delays;
   HydroData hydro;
   std::vector<MorisonData> morison;
@@ -311,6 +307,13 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
       visit(row.lambda, row.mu, false);
   for (auto& coupler : s.couplers)
     visit(coupler.lambda, coupler.mu, coupler.velocity_level);
+}
+
+/// Visits all laws: visit(list, its index, port).
+template <class Visitor> void for_each_law(const System& s, Visitor&& visit) {
+  for (const ElementList& list : s.elements)
+    for (std::size_t k = 0; k < list.ports.size(); ++k)
+      visit(list, k, list.ports[k]);
 }
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,

@@ -27,6 +27,7 @@ def summary(results: Recording) -> str:
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    lines += _power(results)
     lines += _impacts(results)
     lines += [f"  note: {note}" for note in results.notes]
     lines += [f"  {line}" for line in (_energy_balance(results), *_errors(results)) if line]
@@ -66,6 +67,20 @@ def _errors(results: Recording) -> list[str]:
                 f"({known[f'{key}_of']}, t = {float(known[f'{key}_time']):.4g} s)"
             )
     return lines
+
+
+def _power(results: Recording) -> list[str]:
+    """What power take-offs absorbed on average, each and in all."""
+    head = "mean_power_absorbed."
+    known = results.statistics
+    each = {key.removeprefix(head): float(known[key]) for key in known if key.startswith(head)}
+    if not each:
+        return []
+    parts = [f"{name} {power:,.4g} W" for name, power in each.items()]
+    if len(each) > 1:
+        parts.append(f"in all {float(known['mean_power_absorbed']):,.4g} W")
+    since = float(known["mean_power_from"])
+    return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
 
 
 def _impacts(results: Recording) -> list[str]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from hydrodae.case import Case, read_case
 from hydrodae.drives import Drive
+from hydrodae.laws import Force
 
 
 def check(
@@ -15,6 +16,7 @@ def check(
     *,
     set: Mapping[str, Any] | None = None,
     drives: Mapping[str, Drive] | None = None,
+    forces: Mapping[str, Force] | None = None,
 ) -> str:
     """Read a case, close its joints and examine it; the command `hydrodae check`.
 
@@ -24,7 +26,7 @@ def check(
         The case, or the path of its file.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
-    drives : mapping from str to callable, optional
+    drives, forces : mapping from str to callable, optional
         As in `hydrodae.run`.
 
     Returns
@@ -36,6 +38,6 @@ def check(
     Raises
     ------
     CaseError
-        The case or a drive cannot be used, or its joints cannot be closed near the start.
+        The case, a drive or a force cannot be used, or its joints cannot be closed near the start.
     """
-    return read_case(case, set).examine(drives)
+    return read_case(case, set).examine(drives, forces)

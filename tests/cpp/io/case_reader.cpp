@@ -33,9 +33,9 @@ TEST_CASE("a case becomes a scene") {
   CHECK(*scene.joints[0].axis == Vector3(0, 1, 0));
   CHECK(*scene.joints[0].initial.angle == doctest::Approx(pi / 2).epsilon(1e-15));
   CHECK_FALSE(scene.joints[0].initial.displacement.has_value());
-  CHECK(forces<force::PtoLinear>(scene)[0].damping == 5.0);
-  CHECK(forces<force::PtoLinear>(scene)[0].stiffness == 0.0);
-  CHECK(forces<force::MooringMatrix>(scene).empty());
+  CHECK(forces<element::PtoLinear>(scene)[0].damping == 5.0);
+  CHECK(forces<element::PtoLinear>(scene)[0].stiffness == 0.0);
+  CHECK(forces<element::MooringMatrix>(scene).empty());
   CHECK(scene.solver.end_time == 10.0);
   CHECK(scene.output.step == 0.5);
 }
@@ -52,7 +52,7 @@ damping = [[1, 2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0],
   const model::Scene scene =
       read(replaced(flap_case, "motion = \"planar\"", "motion = [\"heave\", \"pitch\"]") + mooring);
   CHECK(scene.bodies[1].motion == std::vector<std::string>{"heave", "pitch"});
-  const force::MooringMatrix& force = forces<force::MooringMatrix>(scene)[0];
+  const element::MooringMatrix& force = forces<element::MooringMatrix>(scene)[0];
   CHECK(force.stiffness.diagonal() == (Vector6() << 1, 2, 3, 4, 5, 6).finished());
   CHECK(force.stiffness.sum() == 21.0);
   CHECK(force.damping(0, 1) == 2.0);
@@ -155,7 +155,7 @@ TEST_CASE("overrides replace and add values") {
   CHECK(scene.solver.end_time == 20.0);
   CHECK(*scene.joints[0].initial.angle == doctest::Approx(pi));
   CHECK(scene.bodies[0].initial.displacement == Vector3(1, 2, 3));
-  CHECK(forces<force::PtoLinear>(scene)[0].stiffness == 7.0);
+  CHECK(forces<element::PtoLinear>(scene)[0].stiffness == 7.0);
   CHECK(scene.bodies[1].motion == std::vector<std::string>{"pitch"});
   CHECK(scene.title == "bare_word");
   CHECK(scene.overrides.front() == "body.base.initial.displacement = [1, 2, 3]");

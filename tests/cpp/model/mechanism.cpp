@@ -309,9 +309,9 @@ TEST_CASE("names of constraints are unique") {
 
 TEST_CASE("forces between bodies have two ends and a direction") {
   Scene scene = machine();
-  auto& springs = std::get<std::vector<force::SpringDamper>>(scene.forces);
+  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces);
   springs.resize(1);
-  force::SpringDamper& spring = springs[0];
+  element::SpringDamper& spring = springs[0];
   spring.name = "spring";
   spring.body_a = "ground";
   spring.body_b = "a";
@@ -327,7 +327,7 @@ TEST_CASE("forces between bodies have two ends and a direction") {
   CHECK(verdict(scene) == "force.spring.point_b: force 'spring': point_a and point_b coincide in "
                           "the reference pose: the force has no direction");
   springs.clear();
-  auto& loads = std::get<std::vector<force::ConstantLoad>>(scene.forces);
+  auto& loads = std::get<std::vector<element::ConstantLoad>>(scene.forces);
   loads.resize(1);
   loads[0].name = "load";
   loads[0].body = "sle";
@@ -337,7 +337,7 @@ TEST_CASE("forces between bodies have two ends and a direction") {
 
 TEST_CASE("a power take-off needs a joint with one motion") {
   Scene scene = machine();
-  auto& ptos = std::get<std::vector<force::PtoLinear>>(scene.forces);
+  auto& ptos = std::get<std::vector<element::PtoLinear>>(scene.forces);
   ptos.resize(1);
   ptos[0].name = "pto";
   ptos[0].joint = "hinge";
@@ -373,7 +373,7 @@ TEST_CASE("a summary tells what joints keep and what constraints follow") {
   gear.name = "gear";
   gear.ratio = -2.0;
   scene.constraints = {crank, motor, lock, lift, gear};
-  auto& springs = std::get<std::vector<force::SpringDamper>>(scene.forces);
+  auto& springs = std::get<std::vector<element::SpringDamper>>(scene.forces);
   springs.resize(1);
   springs[0].name = "spring";
   springs[0].body_a = "ground";

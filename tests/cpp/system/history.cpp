@@ -182,13 +182,13 @@ TEST_CASE("the residual feels a delayed coordinate as it was") {
   slide.body_b = "cart";
   slide.axis = Vector3(1, 0, 0);
   scene.joints.push_back(slide);
-  force::PtoLinear pto;
+  element::PtoLinear pto;
   pto.name = "pto";
   pto.joint = "slide";
   pto.stiffness = 3.0;
   pto.damping = 2.0;
   pto.delay = 0.5;
-  std::get<std::vector<force::PtoLinear>>(scene.forces).push_back(pto);
+  std::get<std::vector<element::PtoLinear>>(scene.forces).push_back(pto);
   system::System s = system::build(scene);
   system::History history(s);
   auto x = [](double t) { return 0.3 + 0.2 * t * t * t; }; // what the polynomials hold exactly

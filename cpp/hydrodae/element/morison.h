@@ -6,7 +6,7 @@
 #include "hydrodae/core/field.h"
 #include "hydrodae/math/rotation.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Table [[morison]]: drag and inertia of the water on a point or on a slender member of a body
 /// (Morison et al., Petroleum Trans. AIME 189 (1950) 149), by the motion of the undisturbed water.
@@ -102,4 +102,4 @@ inline MorisonGradient morison_gradient(const MorisonSegment& m, const Vector3& 
   return d;
 }
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

@@ -1,6 +1,6 @@
-#include "hydrodae/force/morison.h"
+#include "hydrodae/element/morison.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 Fields<Morison> Morison::fields() {
   using M = Morison;
@@ -41,4 +41,4 @@ Fields<Morison> Morison::fields() {
   };
 }
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

@@ -2,11 +2,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Spring and damper between a point of one body and a point of another (or of the ground).
 ///
@@ -16,6 +16,7 @@ namespace hydrodae::force {
 /// The points are given in the reference pose. The law is not defined where they coincide.
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
+  static constexpr Port port = Port::along_distance;
   std::string name;
   std::string body_a;
   std::string body_b;
@@ -30,12 +31,13 @@ struct SpringDamper {
   struct Law {
     double stiffness, damping, force, length;
 
-    template <class S> S apply(const S& s, const S& s_dot) const {
-      return S(force) - S(stiffness) * (s - S(length)) - S(damping) * s_dot;
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      *out.load = S(force) - S(stiffness) * (*in.x - S(length)) - S(damping) * *in.v;
     }
-    std::pair<double, double> gradient(double, double) const { return {-stiffness, -damping}; }
-    double potential(double s) const {
-      return 0.5 * stiffness * (s - length) * (s - length) - force * (s - length);
+    template <class J> void jacobian(const In<double>&, J& j) const { j << -stiffness, -damping; }
+    double energy(const In<double>& in) const {
+      const double stretched = *in.x - length;
+      return 0.5 * stiffness * stretched * stretched - force * stretched;
     }
   };
   Law law() const {
@@ -63,4 +65,4 @@ struct SpringDamper {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

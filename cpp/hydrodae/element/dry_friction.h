@@ -2,11 +2,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Dry friction along the free motion of a joint (Coulomb), with located sticking and slipping.
 ///
@@ -16,18 +16,22 @@ namespace hydrodae::force {
 /// Its power is never positive.
 struct DryFriction {
   static constexpr std::string_view type = "dry_friction";
+  static constexpr Port port = Port::along_joint;
+  static constexpr int n_signals = 1;
   std::string name;
   std::string joint;
   double static_load = 0.0;
   std::optional<double> kinetic_load;
 
-  /// While it slips; the direction changes at events only. Zero while it sticks.
+  /// While it slips its load is the signal, which changes at events only; zero while it sticks.
   struct Law {
-    double load = 0.0; ///< on the coordinate [N or N m]
-    template <class S> S apply(const S&, const S&) const { return S(load); }
-    std::pair<double, double> gradient(double, double) const { return {0.0, 0.0}; }
-    double potential(double) const { return 0.0; }
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      *out.load = S(*in.signals);
+    }
+    template <class J> void jacobian(const In<double>&, J& j) const { j.setZero(); }
+    bool lost_at_rest() const { return true; }
   };
+  Law law() const { return {}; }
 
   static Fields<DryFriction> fields() {
     using D = DryFriction;
@@ -42,4 +46,4 @@ struct DryFriction {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

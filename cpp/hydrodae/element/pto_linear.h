@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Linear power take-off along the free motion of a joint.
 ///
@@ -16,6 +16,7 @@ namespace hydrodae::force {
 /// -f(t) s'(t) and may have either sign.
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
+  static constexpr Port port = Port::along_joint;
   std::string name;
   std::string joint;
   double damping = 0.0;
@@ -26,16 +27,15 @@ struct PtoLinear {
   /// The law that the system evaluates: this struct itself.
   const PtoLinear& law() const { return *this; }
 
-  /// f(s, s') [N or N m].
-  template <class S> S apply(const S& s, const S& s_dot) const {
-    return S(-stiffness) * (s - S(neutral)) - S(damping) * s_dot;
+  template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+    *out.load = S(-stiffness) * (*in.x - S(neutral)) - S(damping) * *in.v;
   }
-
-  /// df/ds and df/ds'.
-  std::pair<double, double> gradient(double, double) const { return {-stiffness, -damping}; }
+  template <class J> void jacobian(const In<double>&, J& j) const { j << -stiffness, -damping; }
 
   /// Energy stored in the spring [J].
-  double potential(double s) const { return 0.5 * stiffness * (s - neutral) * (s - neutral); }
+  double energy(const In<double>& in) const {
+    return 0.5 * stiffness * (*in.x - neutral) * (*in.x - neutral);
+  }
 
   static Fields<PtoLinear> fields() {
     using P = PtoLinear;
@@ -52,4 +52,4 @@ struct PtoLinear {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

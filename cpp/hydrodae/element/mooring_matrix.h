@@ -3,9 +3,9 @@
 #include <string_view>
 
 #include "hydrodae/core/field.h"
-#include "hydrodae/force/linear_wrench.h"
+#include "hydrodae/element/linear_wrench.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Mooring as a linear matrix about the reference pose of one body.
 ///
@@ -14,6 +14,7 @@ namespace hydrodae::force {
 /// F holds the force [N] and the moment about the centre of gravity [N m].
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
+  static constexpr Port port = Port::on_body;
   std::string name;
   std::string body;
   Matrix6 stiffness = Matrix6::Zero();
@@ -36,4 +37,4 @@ struct MooringMatrix {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

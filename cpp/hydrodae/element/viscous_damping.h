@@ -4,8 +4,9 @@
 #include <string_view>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Viscous damping of one body, linear and quadratic, about its centre of gravity.
 ///
@@ -15,6 +16,7 @@ namespace hydrodae::force {
 /// continuous, the second one jumps where a component changes sign.
 struct ViscousDamping {
   static constexpr std::string_view type = "viscous_damping";
+  static constexpr Port port = Port::on_body;
   std::string name;
   std::string body;
   Matrix6 linear = Matrix6::Zero();
@@ -24,21 +26,23 @@ struct ViscousDamping {
   struct Law {
     Matrix6 linear, quadratic;
 
-    template <class S> Vec6<S> apply(const Vec6<S>&, const Vec6<S>& twist) const {
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       using std::abs;
+      const Eigen::Map<const Vec6<S>> twist(in.v);
       Vec6<S> square;
       for (int k = 0; k < 6; ++k)
         square[k] = twist[k] * abs(twist[k]);
-      return -(linear.cast<S>() * twist) - quadratic.cast<S>() * square;
+      Eigen::Map<Vec6<S>> load(out.load);
+      load = -(linear.cast<S>() * twist) - quadratic.cast<S>() * square;
     }
 
-    /// dW/dxi and dW/dtwist.
-    void gradient(const Vector6&, const Vector6& twist, Matrix6& by_xi, Matrix6& by_twist) const {
-      by_xi.setZero();
-      by_twist = -linear - quadratic * (2.0 * twist.cwiseAbs()).asDiagonal();
+    template <class J> void jacobian(const In<double>& in, J& j) const {
+      const Eigen::Map<const Vector6> twist(in.v);
+      j.template leftCols<6>().setZero();
+      j.template rightCols<6>() = -linear - quadratic * (2.0 * twist.cwiseAbs()).asDiagonal();
     }
 
-    double potential(const Vector6&) const { return 0.0; }
+    bool lost_at_rest() const { return !quadratic.isZero(0.0); }
   };
   Law law() const { return {linear, quadratic}; }
 
@@ -55,4 +59,4 @@ struct ViscousDamping {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

@@ -3,13 +3,14 @@
 #include <string_view>
 
 #include "hydrodae/core/field.h"
-#include "hydrodae/force/linear_wrench.h"
+#include "hydrodae/element/linear_wrench.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// Constant force at the centre of gravity and constant moment, both in world axes.
 struct ConstantLoad {
   static constexpr std::string_view type = "constant_load";
+  static constexpr Port port = Port::on_body;
   std::string name;
   std::string body;
   Vector3 force = Vector3::Zero();
@@ -33,4 +34,4 @@ struct ConstantLoad {
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

@@ -1,7 +1,7 @@
 #pragma once
-#include "hydrodae/core/types.h"
+#include "hydrodae/element/elements.h"
 
-namespace hydrodae::force {
+namespace hydrodae::element {
 
 /// A force and moment that are linear in the displacement of a body from its reference pose.
 ///
@@ -14,21 +14,20 @@ struct LinearWrench {
   Matrix6 stiffness = Matrix6::Zero();
   Matrix6 damping = Matrix6::Zero();
 
-  template <class S> Vec6<S> apply(const Vec6<S>& xi, const Vec6<S>& twist) const {
-    return constant.cast<S>() - stiffness.cast<S>() * xi - damping.cast<S>() * twist;
+  template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+    const Eigen::Map<const Vec6<S>> xi(in.x), twist(in.v);
+    Eigen::Map<Vec6<S>> load(out.load);
+    load = constant.cast<S>() - stiffness.cast<S>() * xi - damping.cast<S>() * twist;
   }
 
-  /// dW/dxi and dW/dtwist.
-  void gradient(const Vector6&, const Vector6&, Matrix6& by_xi, Matrix6& by_twist) const {
-    by_xi = -stiffness;
-    by_twist = -damping;
-  }
+  template <class J> void jacobian(const In<double>&, J& j) const { j << -stiffness, -damping; }
 
   /// Potential energy [J], zero in the reference pose; exact for symmetric K and rotation about one
   /// axis (the rotation vector is not an exact coordinate of a moment in earth axes otherwise).
-  double potential(const Vector6& xi) const {
+  double energy(const In<double>& in) const {
+    const Eigen::Map<const Vector6> xi(in.x);
     return -constant.dot(xi) + 0.5 * xi.dot(stiffness * xi);
   }
 };
 
-} // namespace hydrodae::force
+} // namespace hydrodae::element

@@ -1,0 +1,24 @@
+#include "hydrodae/element/elements.h"
+
+namespace hydrodae::element {
+
+AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
+  const auto n = list.size(), states = static_cast<std::size_t>(list.shape.n_states);
+  const Index in_size = list.shape.n_in(), out_size = list.shape.n_out(), w = list.shape.width;
+  VectorX in = VectorX::Zero(in_size * static_cast<Index>(n)),
+          out = VectorX::Zero(out_size * static_cast<Index>(n));
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t z = 0; z < states; ++z)
+      in[static_cast<Index>(k) * in_size + 2 * w + static_cast<Index>(z)] =
+          list.unknowns[k * states + z].start;
+  in.segment(static_cast<Index>(law) * in_size, x.size()) = x;
+  const std::vector<double> signals(n * static_cast<std::size_t>(list.shape.n_signals), 0.0);
+  std::vector<double> all(n * static_cast<std::size_t>(in_size * out_size), 0.0);
+  list.evaluate(0.0, in.data(), signals.data(), out.data());
+  list.jacobian(0.0, in.data(), signals.data(), all.data());
+  const auto k = static_cast<Index>(law);
+  const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
+  return {out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};
+}
+
+} // namespace hydrodae::element

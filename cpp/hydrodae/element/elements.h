@@ -1,0 +1,109 @@
+#pragma once
+/// What loads the bodies, weight apart: lists of equal laws. A law knows no bodies. Its port says
+/// what it sees of their motion and what its loads act on; the system gathers that motion into
+/// numbers, and the list answers with loads and with the rates of the states that its laws have.
+///
+///   port             x, v: what is seen                                   load
+///   along_joint      coordinate s of a joint with one motion, s'          f on s [N, N m]
+///   along_distance   distance of two points, its rate                     f, pushes apart [N]
+///   on_body          displacement from the reference pose, twist          force and moment about the
+///                    (6 each, earth axes)                                 centre of gravity
+///   between          displacement and rotation vector of marker B seen    force and moment on B about
+///                    from marker A, relative velocities (6 each)          its marker
+///
+/// The power of a load is load . v in all of them.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hydrodae/core/types.h"
+#include "hydrodae/math/dual.h"
+
+namespace hydrodae::element {
+
+enum class Port { along_joint, along_distance, on_body, between };
+
+constexpr bool is_along(Port p) { return p == Port::along_joint || p == Port::along_distance; }
+constexpr int width(Port p) { return is_along(p) ? 1 : 6; }
+
+/// A state z of a law, z' = what the law answers.
+struct Unknown {
+  std::string name, unit;
+  double scale = 1.0; ///< what one unit of tolerance means, beside the relative one
+  double start = 0.0;
+};
+
+/// What a law reports beside its load.
+struct Quantity {
+  std::string_view name, unit, doc;
+};
+
+/// What one law sees.
+template <class S> struct In {
+  double t;              ///< [s]
+  const S *x, *v;        ///< (width,)
+  const S* z;            ///< (n_states,)
+  const double* signals; ///< (n_signals,) held from event to event
+};
+
+/// What it answers.
+template <class S> struct Out {
+  S* load;  ///< (width,)
+  S* z_dot; ///< (n_states,)
+};
+
+/// Numbers of one law of a list.
+struct Shape {
+  Port port = Port::on_body;
+  int width = 6, n_states = 0, n_signals = 0;
+  int n_in() const { return 2 * width + n_states; } ///< x, v, z
+  int n_out() const { return width + n_states; }    ///< load, z'
+};
+
+/// A list of laws of one type: one virtual call for all of them. Arrays hold one law after the
+/// other.
+class Elements {
+public:
+  virtual ~Elements() = default;
+
+  std::string_view type; ///< as in case files; "hydrostatic" and such for those of the water
+  Shape shape;
+  bool absorbs = false;           ///< a power take-off: what it takes is a device's output
+  std::vector<std::string> names; ///< (n,)
+  std::vector<Unknown> unknowns;  ///< (n n_states,)
+  std::vector<Quantity> channels; ///< of each law
+
+  std::size_t size() const { return names.size(); }
+
+  /// @param in       (n n_in,)
+  /// @param signals  (n n_signals,)
+  /// @param out      (n n_out,)
+  virtual void evaluate(double t, const double* in, const double* signals, double* out) const = 0;
+
+  /// The same on dual numbers: the oracle of tests.
+  virtual void evaluate(double t, const Dual* in, const double* signals, Dual* out) const = 0;
+
+  /// @param jacobian  (n n_out n_in,) d out / d in of each law, column by column
+  virtual void jacobian(double t, const double* in, const double* signals, double* jacobian) const = 0;
+
+  /// Stored energy of each law [J] (n,), that a potential gives back.
+  virtual void energy(const double* in, double* joules) const = 0;
+
+  /// Values of `channels` (n n_channels,); `out`: of `evaluate`.
+  virtual void observe(double t, const double* in, const double* signals, const double* out,
+                       double* values) const = 0;
+
+  /// Does this law have a load that has no slope at rest (so that no linear model has it)?
+  virtual bool lost_at_rest(std::size_t law) const = 0;
+};
+
+/// A law about rest at x (zero where it is empty), z at its start, without signals.
+struct AtRest {
+  VectorX load;               ///< (width,)
+  MatrixX stiffness, damping; ///< (width, width) -d load / dx, -d load / dv
+};
+AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x = {});
+
+} // namespace hydrodae::element

@@ -1,0 +1,144 @@
+#pragma once
+/// A list of laws made of a struct that is filled from a case file. The struct, F, has
+///
+///   type, name, fields(), port         as every force
+///   law()                              what is evaluated: itself, or a struct of derived numbers
+///
+/// and its law has
+///
+///   operator()(In<S>, Out<S>)          load and rates of states, for S double and Dual
+///   jacobian(In<double>, J)            optional, by hand; else by dual numbers, column by column
+///   energy(In<double>)                 optional [J]
+///   observe(In, Out, double* values)   with F::channels()
+///   lost_at_rest()                     optional
+///
+/// A force with states says n_states and unknowns(). One header and one line in the list of forces
+/// (model/scene.h) are all that a new kind takes.
+
+#include <type_traits>
+#include <utility>
+
+#include "hydrodae/element/elements.h"
+
+namespace hydrodae::element {
+
+template <class F> constexpr int states_of() {
+  if constexpr (requires { F::n_states; })
+    return F::n_states;
+  return 0;
+}
+template <class F> constexpr int signals_of() {
+  if constexpr (requires { F::n_signals; })
+    return F::n_signals;
+  return 0;
+}
+
+template <class F> class Laws final : public Elements {
+public:
+  using Law = std::remove_cvref_t<decltype(std::declval<const F&>().law())>;
+  static constexpr int w = width(F::port), nz = states_of<F>(), n_in = 2 * w + nz, n_out = w + nz,
+                       n_signals = signals_of<F>();
+
+  Laws() {
+    type = F::type;
+    shape = {F::port, w, nz, n_signals};
+    absorbs = type.starts_with("pto_");
+    if constexpr (requires { F::channels(); })
+      channels = F::channels();
+  }
+  explicit Laws(const std::vector<F>& forces) : Laws() {
+    for (const F& force : forces)
+      add(force);
+  }
+
+  void add(const F& force) {
+    laws_.push_back(force.law());
+    names.push_back(force.name);
+    if constexpr (nz > 0)
+      for (const Unknown& u : force.unknowns())
+        unknowns.push_back(u);
+  }
+
+  void evaluate(double t, const double* in, const double* signals, double* out) const override {
+    each(t, in, signals, out);
+  }
+  void evaluate(double t, const Dual* in, const double* signals, Dual* out) const override {
+    each(t, in, signals, out);
+  }
+
+  void jacobian(double t, const double* in, const double* signals, double* J) const override {
+    for (const Law& law : laws_) {
+      Eigen::Map<Jacobian> j(J);
+      if constexpr (requires { law.jacobian(view(t, in, signals), j); })
+        law.jacobian(view(t, in, signals), j);
+      else
+        by_duals(law, t, in, signals, j);
+      in += n_in;
+      signals += n_signals;
+      J += n_in * n_out;
+    }
+  }
+
+  void energy(const double* in, double* joules) const override {
+    for (const Law& law : laws_) {
+      *joules = 0.0;
+      if constexpr (requires { law.energy(view(0.0, in, in)); })
+        *joules = law.energy(view(0.0, in, in));
+      ++joules;
+      in += n_in;
+    }
+  }
+
+  void observe([[maybe_unused]] double t, [[maybe_unused]] const double* in,
+               [[maybe_unused]] const double* signals, [[maybe_unused]] const double* out,
+               [[maybe_unused]] double* values) const override {
+    if constexpr (requires { F::channels(); })
+      for (const Law& law : laws_) {
+        law.observe(view(t, in, signals), Out<const double>{out, out + w}, values);
+        in += n_in;
+        signals += n_signals;
+        out += n_out;
+        values += channels.size();
+      }
+  }
+
+  bool lost_at_rest([[maybe_unused]] std::size_t law) const override {
+    if constexpr (requires { laws_[law].lost_at_rest(); })
+      return laws_[law].lost_at_rest();
+    return false;
+  }
+
+private:
+  using Jacobian = Eigen::Matrix<double, n_out, n_in, n_out == 1 ? Eigen::RowMajor : 0>;
+
+  template <class S> static In<S> view(double t, const S* in, const double* signals) {
+    return {t, in, in + w, in + 2 * w, signals};
+  }
+
+  template <class S> void each(double t, const S* in, const double* signals, S* out) const {
+    for (const Law& law : laws_) {
+      law(view(t, in, signals), Out<S>{out, out + w});
+      in += n_in;
+      signals += n_signals;
+      out += n_out;
+    }
+  }
+
+  static void by_duals(const Law& law, double t, const double* in, const double* signals,
+                       Eigen::Map<Jacobian>& j) {
+    Dual x[n_in], y[n_out];
+    for (int k = 0; k < n_in; ++k)
+      x[k] = in[k];
+    for (int column = 0; column < n_in; ++column) {
+      x[column].b = 1.0;
+      law(view<Dual>(t, x, signals), Out<Dual>{y, y + w});
+      x[column].b = 0.0;
+      for (int row = 0; row < n_out; ++row)
+        j(row, column) = y[row].b;
+    }
+  }
+
+  std::vector<Law> laws_;
+};
+
+} // namespace hydrodae::element

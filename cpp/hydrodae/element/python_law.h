@@ -1,0 +1,112 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
+
+namespace hydrodae::element {
+
+/// A law that the program which runs the scene gives: load (width,) at t, x (width,), v (width,).
+/// Must not throw; values that are no numbers end the run.
+using Function = std::function<void(double t, const double* x, const double* v, double* load)>;
+
+/// Evaluates a function; derivatives by central differences, whose step h = 6e-6 |x| leaves 1e-10
+/// of a smooth law.
+template <int w> struct FunctionLaw {
+  Function function;
+
+  void operator()(const In<double>& in, const Out<double>& out) const {
+    function(in.t, in.x, in.v, out.load);
+  }
+  void operator()(const In<Dual>& in, const Out<Dual>& out) const {
+    std::array<double, 2 * w> x;
+    for (int k = 0; k < 2 * w; ++k)
+      x[k] = in.x[k].a; // v follows x
+    std::array<double, w> value, slope;
+    function(in.t, x.data(), x.data() + w, value.data());
+    for (int i = 0; i < w; ++i)
+      out.load[i] = value[i];
+    for (int k = 0; k < 2 * w; ++k) {
+      difference(in.t, x, k, slope);
+      for (int i = 0; i < w; ++i)
+        out.load[i].b += slope[i] * in.x[k].b;
+    }
+  }
+
+  template <class J> void jacobian(const In<double>& in, J& j) const {
+    std::array<double, 2 * w> x;
+    std::copy(in.x, in.x + 2 * w, x.begin());
+    std::array<double, w> slope;
+    for (int k = 0; k < 2 * w; ++k) {
+      difference(in.t, x, k, slope);
+      for (int i = 0; i < w; ++i)
+        j(i, k) = slope[i];
+    }
+  }
+
+private:
+  void difference(double t, std::array<double, 2 * w>& x, int k, std::array<double, w>& out) const {
+    constexpr double part = 6e-6, least = 1e-4;
+    const double at = x[k], h = part * std::max(std::abs(at), least);
+    std::array<double, w> before;
+    x[k] = at - h;
+    function(t, x.data(), x.data() + w, before.data());
+    x[k] = at + h;
+    function(t, x.data(), x.data() + w, out.data());
+    x[k] = at;
+    for (int i = 0; i < w; ++i)
+      out[i] = (out[i] - before[i]) / (2.0 * h);
+  }
+};
+
+/// A Python function of t, s, s' that gives the load along the free motion of a joint.
+struct PythonLoad {
+  static constexpr std::string_view type = "python_load";
+  static constexpr Port port = Port::along_joint;
+  std::string name;
+  std::string joint;
+  Function function; ///< given by the program
+
+  FunctionLaw<1> law() const { return {function}; }
+
+  static Fields<PythonLoad> fields() {
+    using P = PythonLoad;
+    return {
+        {"name", &P::name, "-",
+         "Name of this force in the results; its function f(t, s, s') is given to hydrodae.run(..., "
+         "forces={name: function}).",
+         true},
+        {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+    };
+  }
+};
+
+/// A Python function of t, xi, twist (6 each, earth axes) that gives force and moment about the
+/// centre of gravity of a body.
+struct PythonWrench {
+  static constexpr std::string_view type = "python_wrench";
+  static constexpr Port port = Port::on_body;
+  std::string name;
+  std::string body;
+  Function function; ///< given by the program
+
+  FunctionLaw<6> law() const { return {function}; }
+
+  static Fields<PythonWrench> fields() {
+    using P = PythonWrench;
+    return {
+        {"name", &P::name, "-",
+         "Name of this force in the results; its function f(t, displacement, twist) is given to "
+         "hydrodae.run(..., forces={name: function}).",
+         true},
+        {"body", &P::body, "-", "Body that is loaded.", true},
+    };
+  }
+};
+
+} // namespace hydrodae::element

@@ -1,0 +1,265 @@
+#pragma once
+/// The assembly of the Jacobian: constraint rows and rigid bodies; laws and the water are in
+/// assembly_elements.h and assembly_water.h.
+
+#include "hydrodae/system/jacobian.h"
+#include "hydrodae/system/port_gradient.h"
+
+namespace hydrodae::system {
+
+using joint::Matrix12;
+using joint::Vector12;
+using RowVector3 = Eigen::Matrix<double, 1, 3>;
+using RowVector6 = Eigen::Matrix<double, 1, 6>;
+
+/// The assembly, written once for both sinks. "Tangent" columns are virtual displacements
+/// (translations in world axes, rotations in body axes); they become columns of position unknowns
+/// through `tangent` of the body.
+template <class Sink> struct Assembly {
+  using Rotation = BodyData::Rotation;
+  static constexpr bool whole = Sink::whole; ///< else what accelerations need
+  const System& s;
+  JacobianWorkspace& ws;
+  const double t;
+  const double* y;
+  const double* yp;
+  Sink& sink;
+
+  const BodyState<double>& state(int body) const { return ws.state.bodies[body]; }
+
+  /// Row `row`, derivative `d` with respect to the virtual displacement of `body`.
+  void displacement_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_translations; ++k)
+      sink.by_y(row, b.q0 + k, d[b.active[k]]);
+    rotation_columns(row, body, d.tail<3>());
+  }
+
+  /// The same for a derivative `d` with respect to the virtual rotation alone.
+  void rotation_columns(Index row, int body, const RowVector3& d) {
+    const BodyData& b = s.bodies[body];
+    const Index q = b.q0 + b.n_translations;
+    if (b.rotation == Rotation::about_axis)
+      sink.by_y(row, q, d[b.axis]);
+    if (b.rotation == Rotation::free)
+      for (int k = 0; k < 4; ++k)
+        sink.by_y(row, q + k, d.dot(ws.rotation[body].col(k)));
+  }
+
+  void velocity_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(row, b.u0 + k, d[b.active[k]]);
+  }
+
+  void acceleration_columns(Index row, int body, const RowVector6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_yp(row, b.u0 + k, d[b.active[k]]);
+  }
+
+  /// Momentum rows of `body` lose a load whose derivative is `d` (tangent rows).
+  void load_by_displacement(int body, int other, const Matrix6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      displacement_columns(b.u0 + k, other, -d.row(b.active[k]));
+  }
+  void load_by_velocity(int body, int other, const Matrix6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      velocity_columns(b.u0 + k, other, -d.row(b.active[k]));
+  }
+
+  /// Position rows of `body` lose E(q) d for a change d of the tangent velocity, column by column:
+  /// `emit(row, weights)` with weights (1, 6) of the tangent rows.
+  template <class Emit> void position_rows(int body, Emit&& emit) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      if (b.active[k] < 3 || b.rotation == Rotation::about_axis) {
+        RowVector6 weights = RowVector6::Zero();
+        weights[b.active[k]] = -1.0;
+        emit(b.q0 + k, weights);
+      }
+    if (b.rotation != Rotation::free)
+      return;
+    const Eigen::Matrix<double, 4, 3> l = quaternion_rate_matrix<double>(state(body).p);
+    for (int k = 0; k < 4; ++k) {
+      RowVector6 weights = RowVector6::Zero();
+      weights.tail<3>() = -0.5 * l.row(k);
+      emit(b.q0 + b.n_translations + k, weights);
+    }
+  }
+
+  void constraint_row(const JointData& j, Index lambda, Index mu, const Vector12& gradient,
+                      const Matrix12& curvature, const Vector12& u);
+  void constraint_curvature(const JointData& j, const Matrix12& by_lambda, const Matrix12& by_mu);
+  void joints();
+  void couplers();
+  void body_rows();
+  void hydrodynamics();
+  void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
+  void hydro_masses();
+  void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
+  void memory_columns(const HydroBody& i, const Matrix6& L);
+  void phase_columns(const HydroBody& i, const Matrix6& L);
+  void memory_rows();
+  void morison();
+  template <int w, int n>
+  void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
+           const double* jacobian, int n_states, Index z);
+  void elements();
+
+  void run() {
+    joints();
+    couplers();
+    if constexpr (whole)
+      elements();
+    hydrodynamics();
+    morison();
+    body_rows();
+  }
+};
+
+/// What one constraint row adds: its own two rows, and its columns in the rows of the bodies.
+/// In index 1 the derivative of u . T u by the pose is left out: it is of the order h^2 u^2 beside
+/// the rest, and only slows Newton's iteration.
+template <class Sink>
+void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
+                                    const Vector12& gradient, const Matrix12& curvature,
+                                    const Vector12& u) {
+  const bool level_1 = whole && s.formulation == Formulation::index_1;
+  const bool level_3 = whole && s.formulation == Formulation::index_3 && mu >= 0;
+  Vector12 by_pose = level_3 ? gradient : Vector12(curvature.transpose() * u);
+  Vector12 by_velocity = gradient;
+  if (level_1) {
+    const double b = s.baumgarte_rate;
+    const double rate = mu < 0 ? b : 2.0 * b, gap = mu < 0 ? 0.0 : b * b;
+    const Vector12 u_dot = joint_acceleration<double>(j, ws.state.bodies);
+    by_velocity = curvature * u + by_pose + rate * gradient;
+    by_pose = (curvature.transpose() * u_dot + rate * by_pose + gap * gradient).eval();
+  }
+  if (whole && mu >= 0 && s.formulation != Formulation::stabilised)
+    sink.by_y(mu, mu, 1.0);
+  for (int side = 0; side < 2; ++side) {
+    const int b = side == 0 ? j.A.body : j.B.body;
+    if (b < 0 || s.bodies[b].n_active == 0)
+      continue;
+    const RowVector6 G = gradient.segment<6>(6 * side).transpose();
+    if (!level_3)
+      velocity_columns(lambda, b, by_velocity.segment<6>(6 * side).transpose());
+    if (level_1)
+      acceleration_columns(lambda, b, G);
+    displacement_columns(lambda, b, by_pose.segment<6>(6 * side).transpose());
+    for (int k = 0; k < s.bodies[b].n_active; ++k)
+      sink.by_y(s.bodies[b].u0 + k, lambda, -G[s.bodies[b].active[k]]);
+    if (!whole || mu < 0)
+      continue;
+    if (s.formulation == Formulation::stabilised)
+      displacement_columns(mu, b, G);
+    position_rows(b, [&](Index r, const RowVector6& weights) { sink.by_y(r, mu, weights.dot(G)); });
+  }
+}
+
+/// How G^T lambda and G^T mu of a joint turn with the poses of its bodies.
+template <class Sink>
+void Assembly<Sink>::constraint_curvature(const JointData& j, const Matrix12& by_lambda,
+                                          const Matrix12& by_mu) {
+  const std::array<int, 2> body{j.A.body, j.B.body};
+  for (int m = 0; m < 2; ++m)
+    for (int n = 0; n < 2; ++n) {
+      if (body[m] < 0 || body[n] < 0)
+        continue;
+      load_by_displacement(body[m], body[n], by_lambda.block<6, 6>(6 * m, 6 * n));
+      const Matrix6 d_shift = by_mu.block<6, 6>(6 * m, 6 * n);
+      position_rows(body[m], [&](Index r, const RowVector6& weights) {
+        displacement_columns(r, body[n], weights * d_shift);
+      });
+    }
+}
+
+template <class Sink> void Assembly<Sink>::joints() {
+  for (const JointData& j : s.joints) {
+    const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
+    const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
+    Matrix12 by_lambda = Matrix12::Zero(), by_mu = Matrix12::Zero();
+    Vector12 shift = Vector12::Zero();
+    for (const RowData& row : j.rows) {
+      if (!row.kept())
+        continue;
+      const Vector12 gradient =
+          joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
+      const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, j.parameters, g);
+      if constexpr (whole) {
+        by_lambda += y[row.lambda] * curvature;
+        by_mu += y[row.mu] * curvature;
+        shift += y[row.mu] * gradient;
+      }
+      constraint_row(j, row.lambda, row.mu, gradient, curvature, u);
+    }
+    if (!whole || j.rows.empty())
+      continue;
+    constraint_curvature(j, by_lambda, by_mu);
+    add_to_bodies<double>(j, shift, ws.state.shifts);
+  }
+}
+
+template <class Sink> void Assembly<Sink>::couplers() {
+  for (const CouplerData& coupler : s.couplers) {
+    if (!coupler.kept())
+      continue;
+    const double mu = coupler.velocity_level ? 0.0 : y[coupler.mu];
+    for (const CouplerData::Term& term : coupler.terms) {
+      const MotionData& motion = s.motions[term.motion];
+      const JointData& j = s.joints[motion.joint];
+      const joint::Geometry<double> g = joint_geometry<double>(j, ws.state.bodies);
+      const Vector12 gradient =
+          term.factor * joint::motion_row<double>(motion.motion, j.A, j.B, g).gradient;
+      const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
+      constraint_row(j, coupler.lambda, coupler.velocity_level ? -1 : coupler.mu, gradient,
+                     curvature, joint_velocity<double>(j, ws.state.bodies));
+      if (!whole)
+        continue;
+      constraint_curvature(j, y[coupler.lambda] * curvature, mu * curvature);
+      add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
+    }
+  }
+}
+
+// Rigid inertia M u' + gyroscopic moment, and the position rows q' - E(q) (u + G^T mu) - sigma p.
+template <class Sink> void Assembly<Sink>::body_rows() {
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
+    const BodyData& b = s.bodies[i];
+    if (b.n_active == 0)
+      continue;
+    const BodyState<double>& body = state(i);
+    Matrix6 mass = Matrix6::Zero(), gyroscopic = Matrix6::Zero();
+    mass.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
+    mass.bottomRightCorner<3, 3>() = b.inertia;
+    gyroscopic.bottomRightCorner<3, 3>() =
+        skew<double>(body.w) * b.inertia - skew<double>(b.inertia * body.w);
+    for (int k = 0; k < b.n_active; ++k) {
+      acceleration_columns(b.u0 + k, i, mass.row(b.active[k]));
+      if constexpr (whole)
+        velocity_columns(b.u0 + k, i, gyroscopic.row(b.active[k]));
+    }
+    if (!whole)
+      continue;
+    position_rows(i, [&](Index row, const RowVector6& weights) {
+      sink.by_yp(row, row, 1.0);
+      velocity_columns(row, i, weights);
+    });
+    if (b.rotation != Rotation::free)
+      continue;
+    const Index q = b.q0 + b.n_translations;
+    const Eigen::Matrix4d rate =
+        0.5 * quaternion_right_matrix(body.w + ws.state.shifts[i].tail<3>());
+    for (int k = 0; k < 4; ++k) {
+      for (int m = 0; m < 4; ++m)
+        sink.by_y(q + k, q + m, -rate(k, m) - (k == m ? y[b.sigma] : 0.0));
+      sink.by_y(q + k, b.sigma, -body.p[k]);
+      sink.by_y(b.sigma, q + k, body.p[k]);
+    }
+  }
+}
+
+} // namespace hydrodae::system

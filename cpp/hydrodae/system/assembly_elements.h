@@ -1,0 +1,91 @@
+#pragma once
+/// Of the assembly (assembly.h): the laws of System::elements.
+
+#include "hydrodae/system/assembly.h"
+
+namespace hydrodae::system {
+
+/// Load W^T f(x, v, z) on the bodies, and rows z' - h(x, v, z) = 0, by the law's own Jacobian
+/// d(f, h) / d(x, v, z), column by column.
+template <class Sink>
+template <int w, int n>
+void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
+                         const double* jacobian, int n_states, Index z) {
+  const Eigen::Map<const MatrixX> J(jacobian, w + n_states, 2 * w + n_states);
+  const Eigen::Matrix<double, w, w> f_x = J.template topLeftCorner<w, w>(),
+                                    f_v = J.template block<w, w>(0, w);
+  const Eigen::Matrix<double, n, w> W_T = port.W.transpose();
+  const Eigen::Matrix<double, n, n> by_xi =
+      W_T * (f_x * port.x_xi + f_v * port.v_xi) + port.turn;
+  const Eigen::Matrix<double, n, n> by_u = W_T * (f_v * port.v_u);
+  constexpr int sides = n / 6;
+  for (int a = 0; a < sides; ++a)
+    for (int b = 0; b < sides; ++b) {
+      if (bodies[a] < 0 || bodies[b] < 0)
+        continue;
+      load_by_displacement(bodies[a], bodies[b], by_xi.template block<6, 6>(6 * a, 6 * b));
+      load_by_velocity(bodies[a], bodies[b], by_u.template block<6, 6>(6 * a, 6 * b));
+    }
+  for (int k = 0; k < n_states; ++k) {
+    const Eigen::Matrix<double, n, 1> by_z = W_T * J.template block<w, 1>(0, 2 * w + k);
+    const Eigen::Matrix<double, 1, w> h_x = J.template block<1, w>(w + k, 0),
+                                      h_v = J.template block<1, w>(w + k, w);
+    const Eigen::Matrix<double, 1, n> rate_by_xi = -(h_x * port.x_xi + h_v * port.v_xi),
+                                      rate_by_u = -(h_v * port.v_u);
+    for (int a = 0; a < sides; ++a) {
+      if (bodies[a] < 0)
+        continue;
+      const BodyData& body = s.bodies[bodies[a]];
+      for (int c = 0; c < body.n_active; ++c)
+        sink.by_y(body.u0 + c, z + k, -by_z[6 * a + body.active[c]]);
+      displacement_columns(z + k, bodies[a], rate_by_xi.template segment<6>(6 * a));
+      velocity_columns(z + k, bodies[a], rate_by_u.template segment<6>(6 * a));
+    }
+    sink.by_yp(z + k, z + k, 1.0);
+    for (int m = 0; m < n_states; ++m)
+      sink.by_y(z + k, z + m, -J(w + k, 2 * w + m));
+  }
+}
+
+template <class Sink> void Assembly<Sink>::elements() {
+  using element::Port;
+  for (std::size_t l = 0; l < s.elements.size(); ++l) {
+    const ElementList& list = s.elements[l];
+    const element::Shape& shape = list.laws->shape;
+    ElementScratch<double>& scratch = ws.state.elements[l];
+    gather<double>(s, list, ws.state, y, scratch);
+    const double* in = scratch.in.data();
+    const double* signals = list.signals.data();
+    list.laws->evaluate(t, in, signals, scratch.out.data());
+    list.laws->jacobian(t, in, signals, ws.element_jacobian.data());
+    const double *load = scratch.out.data(), *J = ws.element_jacobian.data();
+    const Vector12* rows = scratch.rows.data();
+    Index z = list.z0;
+    for (const PortData& port : list.ports) {
+      if (shape.port == Port::on_body) {
+        PortGradient<6, 6> d;
+        body_gradient(state(port.body), port, in, load, d);
+        law<6, 6>(d, {port.body, -1}, J, shape.n_states, z);
+      } else {
+        const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+        const std::array<int, 2> bodies{j.A.body, j.B.body};
+        if (shape.port == Port::between) {
+          PortGradient<6, 12> d;
+          marker_gradient(s, ws.state, port, in, rows, load, d);
+          law<6, 12>(d, bodies, J, shape.n_states, z);
+        } else {
+          PortGradient<1, 12> d;
+          motion_gradient(s, ws.state, port, *rows, *load, d);
+          law<1, 12>(d, bodies, J, shape.n_states, z);
+        }
+        rows += shape.width;
+      }
+      in += shape.n_in();
+      load += shape.n_out();
+      J += shape.n_in() * shape.n_out();
+      z += shape.n_states;
+    }
+  }
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,165 @@
+#pragma once
+/// Of the assembly (assembly.h): hydrodynamics and Morison elements.
+
+#include "hydrodae/system/assembly.h"
+#include "hydrodae/system/hydro_gradient.h"
+#include "hydrodae/system/morison_gradient.h"
+
+namespace hydrodae::system {
+
+template <class Sink>
+void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
+                                const Matrix6& Q) {
+  const Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
+  Matrix6 LA = L * A, QA = Q * A; // what multiplies dU' and dU
+  if (s.hydro.damped)
+    QA += L * hydro_block(s.hydro.damping, i, j);
+  if (!s.hydro.convolution.empty() && ws.state.past) {
+    LA += L * hydro_block(ws.state.past->by_U_dot, i, j);
+    QA += L * hydro_block(ws.state.past->by_U, i, j);
+  }
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, j, state(j.body));
+  Matrix6 by_velocity;
+  by_velocity << LA * d.a_v + QA * d.U_v, LA * d.a_w + QA * d.U_w;
+  const Matrix6 by_acceleration = LA * d.a_acc;
+  const Matrix63 by_rotation = LA * d.a_phi + QA * d.U_phi;
+  const BodyData& b = s.bodies[i.body];
+  for (int k = 0; k < b.n_active; ++k) {
+    const Index row = b.u0 + k;
+    const int c = b.active[k];
+    rotation_columns(row, j.body, by_rotation.row(c));
+    velocity_columns(row, j.body, by_velocity.row(c));
+    acceleration_columns(row, j.body, by_acceleration.row(c));
+  }
+}
+
+template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, const Matrix6& L) {
+  const BodyData& b = s.bodies[i.body];
+  for (int z = 0; z < s.hydro.n_states; ++z) {
+    Vector6 column = Vector6::Zero();
+    for (int c = 0; c < 6; ++c)
+      if (i.moving[c] >= 0)
+        column[c] = s.hydro.output(i.moving[c], z);
+    if (column.isZero(0.0))
+      continue; // constant data: the same entries at every call
+    const Vector6 load = L * column;
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
+  }
+}
+
+// load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
+template <class Sink>
+void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
+  const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, i, state(i.body), rate, momentum);
+  const BodyData& data = s.bodies[i.body];
+  for (int k = 0; k < data.n_active; ++k) {
+    rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
+    velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
+  }
+  if (!s.hydro.drifting.empty())
+    phase_columns(i, d.L);
+  for (const HydroBody& j : s.hydro.bodies)
+    if (j.moves)
+      hydro_pair(i, j, d.L, d.Q);
+  memory_columns(i, d.L);
+}
+
+/// How the excitation changes with the horizontal displacement of its body.
+template <class Sink> void Assembly<Sink>::phase_columns(const HydroBody& i, const Matrix6& L) {
+  const BodyData& b = s.bodies[i.body];
+  const Eigen::Matrix<double, 6, 2> d = L * excitation_gradient(s, i, state(i.body), t);
+  for (int n = 0; n < b.n_translations && b.active[n] < 2; ++n)
+    for (int k = 0; k < b.n_active; ++k)
+      sink.by_y(b.u0 + k, b.q0 + n, -d(b.active[k], b.active[n]));
+}
+
+template <class Sink> void Assembly<Sink>::memory_rows() {
+  const HydroData& h = s.hydro;
+  for (const HydroData::Block& b : h.blocks) {
+    const Index k = h.z0 + b.state;
+    sink.by_yp(k, k, 1.0);
+    sink.by_y(k, k, -b.a);
+    if (!b.pair)
+      continue;
+    sink.by_yp(k + 1, k + 1, 1.0);
+    sink.by_y(k + 1, k + 1, -b.a);
+    sink.by_y(k, k + 1, b.b);
+    sink.by_y(k + 1, k, -b.b);
+  }
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const HydroBody& hb = h.bodies[i];
+    const int body = hb.body;
+    const BodyData& b = s.bodies[body];
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
+    for (const HydroData::Input& in : h.inputs) {
+      const HydroData::Coordinate& u = h.coordinates[in.coordinate];
+      if (u.hydro_body != static_cast<int>(i))
+        continue;
+      const int c = u.component;
+      const Index row = h.z0 + in.state;
+      if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
+        rotation_columns(row, body, -in.value * d.U_phi.row(c));
+      for (int k = 0; k < b.n_active; ++k)
+        if (const int a = b.active[k]; (a < 3) == (c < 3))
+          sink.by_y(row, b.u0 + k, -in.value * (a < 3 ? d.U_v(c, a) : d.U_w(c, a - 3)));
+    }
+  }
+}
+
+/// L A L^T of each pair, all that the accelerations feel of the water at once.
+template <class Sink> void Assembly<Sink>::hydro_masses() {
+  for (const HydroBody& i : s.hydro.bodies)
+    for (const HydroBody& j : s.hydro.bodies) {
+      if (!i.moves || !j.moves)
+        continue;
+      Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
+      if (!s.hydro.convolution.empty() && ws.state.past)
+        A += hydro_block(ws.state.past->by_U_dot, i, j);
+      const Matrix6 mass = hydro_axes(s.hydro.axes, i, state(i.body)) * A *
+                           hydro_axes(s.hydro.axes, j, state(j.body)).transpose();
+      const BodyData& b = s.bodies[i.body];
+      for (int k = 0; k < b.n_active; ++k)
+        acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));
+    }
+}
+
+template <class Sink> void Assembly<Sink>::hydrodynamics() {
+  const HydroData& h = s.hydro;
+  if (h.n_moving == 0)
+    return;
+  if (!whole)
+    return hydro_masses();
+  Workspace<double>& w = ws.state;
+  hydro_loads<double>(s, w, t, y + h.z0);
+  for (const HydroBody& i : h.bodies) {
+    if (!i.moves)
+      continue;
+    Vector6 rate = Vector6::Zero(), momentum = Vector6::Zero();
+    for (int c = 0; c < 6; ++c) {
+      if (i.moving[c] < 0)
+        continue;
+      rate[c] = w.inertia_force[i.moving[c]];
+      momentum[c] = w.momentum[i.moving[c]];
+    }
+    hydro_body(i, rate, momentum);
+  }
+  memory_rows();
+}
+
+template <class Sink> void Assembly<Sink>::morison() {
+  for (const MorisonData& m : s.morison) {
+    const BodyData& b = s.bodies[m.body];
+    if (b.n_active == 0)
+      continue;
+    const LoadGradient d = morison_gradient(s.water, m, state(m.body), t, ws.state.fluid, ws.fluid);
+    if constexpr (whole) {
+      load_by_displacement(m.body, m.body, d.by_displacement);
+      load_by_velocity(m.body, m.body, d.by_velocity);
+    }
+    for (int k = 0; k < b.n_active; ++k)
+      acceleration_columns(b.u0 + k, m.body, -d.by_acceleration.row(b.active[k]));
+  }
+}
+
+} // namespace hydrodae::system

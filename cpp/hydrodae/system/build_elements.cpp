@@ -1,0 +1,160 @@
+/// What loads the bodies: each list of forces of the case as a list of laws, with the ports that
+/// their members name.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/element/hydrostatics.h"
+#include "hydrodae/element/laws.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/math/rotation.h"
+#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/initial_pose.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+using element::Port;
+
+const joint::JointType spring_type = {"spring", {}, {joint::stretches()}, false};
+const joint::JointType bushing_type = {"bushing", {}, {}, false};
+
+/// A hidden joint: markers without rows.
+void join_markers(const std::string& name, const joint::JointType& type, joint::Marker A,
+                  joint::Marker B, System& s, PortData& port) {
+  JointData j;
+  j.name = name;
+  j.type = &type;
+  j.A = std::move(A);
+  j.B = std::move(B);
+  j.hidden = true;
+  port.joint = static_cast<int>(s.joints.size());
+  const JointData& added = add_joint(s, std::move(j));
+  port.motion = type.motions.empty() ? -1 : added.first_motion;
+}
+
+/// A law that a program has to give.
+template <class F> void check_given(const F& force) {
+  if constexpr (requires { force.function; })
+    if (!force.function)
+      throw ModelError("force." + force.name,
+                       "force " + in_quotes(force.name) + " is a Python function, which nobody "
+                       "gave; run the case as hydrodae.run(case, forces={\"" + force.name +
+                           "\": function})");
+}
+
+template <class F> PortData make_port(const model::Scene& scene, const F& force, System& s) {
+  PortData port;
+  port.component = force.name;
+  if constexpr (F::port == Port::on_body) {
+    port.body = body_index(scene, force.body);
+  } else if constexpr (F::port == Port::along_joint) {
+    port.motion = joint_motion(s, force.joint, {});
+    port.joint = s.motions[static_cast<std::size_t>(port.motion)].joint;
+  } else if constexpr (F::port == Port::along_distance) {
+    const Matrix3 axes = Matrix3::Identity();
+    join_markers(force.name, spring_type, make_marker(scene, force.body_a, force.point_a, axes),
+                 make_marker(scene, force.body_b, force.point_b, axes), s, port);
+  } else {
+    const Matrix3 axes = marker_axes(force.axis, force.axis_x);
+    join_markers(force.name, bushing_type, make_marker(scene, force.body_a, force.point, axes),
+                 make_marker(scene, force.body_b, force.point, axes), s, port);
+  }
+  if constexpr (requires { force.delay; })
+    if (force.delay > 0.0) {
+      port.delay = static_cast<int>(s.delays.size());
+      s.delays.push_back({port.motion, force.delay});
+    }
+  return port;
+}
+
+/// The switch of dry friction: law `law` of the last list.
+void add_friction(const element::DryFriction& f, const PortData& port, std::size_t law, System& s) {
+  SwitchData friction;
+  friction.kind = SwitchData::Kind::friction;
+  friction.motion = port.motion;
+  friction.static_load = f.static_load;
+  friction.kinetic_load = f.kinetic_load.value_or(f.static_load);
+  friction.list = static_cast<int>(s.elements.size()) - 1;
+  friction.law = static_cast<int>(law);
+  add_switch(f.name, friction, s);
+}
+
+template <class F>
+void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s) {
+  if (forces.empty())
+    return;
+  ElementList list;
+  for (const F& force : forces) {
+    check_given(force);
+    list.ports.push_back(make_port(scene, force, s));
+  }
+  list.laws = std::make_shared<const element::Laws<F>>(forces);
+  list.signals.assign(forces.size() * static_cast<std::size_t>(list.laws->shape.n_signals), 0.0);
+  s.elements.push_back(std::move(list));
+  if constexpr (std::is_same_v<F, element::DryFriction>)
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      add_friction(forces[k], PortData(s.elements.back().ports[k]), k, s);
+}
+
+/// Buoyancy and linear hydrostatics in the axes of the database: force (0, 0, rho g V), moment
+/// (r_B - r_G) x (0, 0, rho g V), minus C_hs xi.
+element::LinearWrench hydrostatic_wrench(const hydro::Database& db,
+                                         const hydro::DatabaseBody& entry) {
+  const hydro::Hydrostatics& h = *entry.hydrostatics;
+  const Vector3 lift(0.0, 0.0, db.rho * db.gravity * h.displaced_volume);
+  element::LinearWrench law;
+  law.constant << lift, (h.center_of_buoyancy - entry.reference_point).cross(lift);
+  law.stiffness = h.stiffness;
+  return law;
+}
+
+/// W = T (W0 - C_hs T^T xi) with T the turn by the mean yaw, and xi from the reference pose turned
+/// by it.
+void turn(element::LinearWrench& law, PortData& port, const HydroBody& hb) {
+  Matrix6 T = Matrix6::Zero();
+  T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = rotation_about_axis<double>(2, hb.yaw);
+  law.constant = T * law.constant;
+  law.stiffness = T * law.stiffness * T.transpose();
+  port.turn << std::cos(0.5 * hb.yaw), 0.0, 0.0, std::sin(0.5 * hb.yaw);
+}
+
+} // namespace
+
+void add_elements(const model::Scene& scene, System& s) {
+  std::apply([&](const auto&... list) { (add_list(scene, list, s), ...); }, scene.forces);
+}
+
+void set_hydrostatics(const model::Scene& scene, System& s) {
+  std::vector<element::Hydrostatics> forces;
+  std::vector<PortData> ports;
+  for (const HydroBody& hb : s.hydro.bodies) {
+    const auto body = static_cast<std::size_t>(hb.body);
+    const hydro::DatabaseBody* entry = hydro::find_body(*scene.database, *scene.bodies[body].hydro);
+    if (!entry->hydrostatics)
+      continue;
+    PortData port;
+    port.component = element::Hydrostatics::type;
+    port.body = hb.body;
+    element::LinearWrench law = hydrostatic_wrench(*scene.database, *entry);
+    if (hb.turned)
+      turn(law, port, hb);
+    forces.push_back({s.bodies[body].name, law});
+    ports.push_back(port);
+  }
+  const auto has = [](const ElementList& list) {
+    return list.laws->type == element::Hydrostatics::type;
+  };
+  auto list = std::find_if(s.elements.begin(), s.elements.end(), has);
+  if (forces.empty())
+    return;
+  if (list == s.elements.end())
+    list = s.elements.insert(s.elements.end(), ElementList());
+  list->laws = std::make_shared<const element::Laws<element::Hydrostatics>>(forces);
+  list->ports = ports;
+}
+
+} // namespace hydrodae::system

@@ -1,0 +1,140 @@
+#pragma once
+/// From the bodies to what the laws of System::elements see, and from their loads back to the
+/// bodies (element/elements.h says what each port is).
+
+#include <algorithm>
+
+#include "hydrodae/system/history.h"
+
+namespace hydrodae::system {
+
+/// World force and body-axes moment of a wrench given in earth axes.
+template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
+  Vec6<S> load;
+  load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
+  return load;
+}
+
+/// Force and moment in world axes of a load given as world force and body-axes moment.
+inline Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
+  Vector6 load;
+  load << tangent.head<3>(), state.R * tangent.tail<3>();
+  return load;
+}
+
+/// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
+/// or where there is none the place where the motion stands, at rest.
+template <class S>
+void see_motion(const System& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
+                joint::Vec12<S>& gradient) {
+  const joint::Row<S> row = motion_row<S>(s, ws, port.motion);
+  gradient = row.gradient;
+  if (port.delay >= 0 && ws.past) {
+    const std::array<double, 2>& then = ws.past->delayed[port.delay];
+    *x = S(then[0]);
+    *v = S(then[1]);
+    return;
+  }
+  *x = row.value;
+  *v = port.delay >= 0 ? S(0)
+                       : row.gradient.cwiseProduct(joint_velocity<S>(s.joints[port.joint], ws.bodies))
+                             .sum();
+}
+
+/// Rows W of the relative velocities (d', omega) = W (v_A, w_A, v_B, w_B) between two markers, along
+/// the axes of A's.
+template <class S>
+void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12<S>* rows) {
+  for (int i = 0; i < 3; ++i) {
+    rows[i] = joint::span_row<S>(j.A, j.B, i, g).gradient;
+    const Vec3<S> a = j.A.axes.col(i).template cast<S>();
+    rows[3 + i] << Vec3<S>::Zero(), -a, Vec3<S>::Zero(), g.N.transpose() * a;
+  }
+}
+
+/// Marker B seen from marker A: place, rotation vector, and their velocities.
+template <class S>
+void see_markers(const System& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
+                 joint::Vec12<S>* rows) {
+  const JointData& j = s.joints[port.joint];
+  const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
+  const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
+  relative_rows<S>(j, g, rows);
+  const Mat3<S> axes = j.A.axes.template cast<S>();
+  const Mat3<S> turned = axes.transpose() * g.N * j.B.axes.template cast<S>();
+  const Vec3<S> place = axes.transpose() * (g.e - j.A.point.template cast<S>()),
+                turn = rotation_vector<S>(quaternion_of<S>(turned));
+  for (int i = 0; i < 3; ++i) {
+    x[i] = place[i];
+    x[3 + i] = turn[i];
+  }
+  for (int i = 0; i < 6; ++i)
+    v[i] = rows[i].cwiseProduct(u).sum();
+}
+
+/// What all laws of one list see, into its scratch.
+template <class S>
+void gather(const System& s, const ElementList& list, const Workspace<S>& ws, const S* y,
+            ElementScratch<S>& scratch) {
+  const element::Shape& shape = list.laws->shape;
+  S* in = scratch.in.data();
+  joint::Vec12<S>* rows = scratch.rows.data();
+  const S* z = y + list.z0;
+  for (const PortData& port : list.ports) {
+    S *x = in, *v = in + shape.width;
+    if (shape.port == element::Port::on_body) {
+      const BodyState<S>& state = ws.bodies[port.body];
+      const Vec6<S> xi = displacement<S>(port.turn, s.bodies[port.body], state, y);
+      const Vec6<S> velocity = twist<S>(state);
+      std::copy(xi.data(), xi.data() + 6, x);
+      std::copy(velocity.data(), velocity.data() + 6, v);
+    } else if (shape.port == element::Port::between) {
+      see_markers<S>(s, ws, port, x, v, rows);
+      rows += 6;
+    } else {
+      see_motion<S>(s, ws, port, x, v, *rows++);
+    }
+    std::copy(z, z + shape.n_states, in + 2 * shape.width);
+    z += shape.n_states;
+    in += shape.n_in();
+  }
+}
+
+/// Adds the loads of one law to its bodies: W^T load of its rows, or the wrench itself.
+template <class S>
+void add_load(const System& s, const element::Shape& shape, const PortData& port, const S* load,
+              const joint::Vec12<S>* rows, Workspace<S>& ws) {
+  if (shape.port == element::Port::on_body) {
+    const Eigen::Map<const Vec6<S>> wrench(load);
+    ws.loads[port.body] += to_tangent<S>(ws.bodies[port.body], wrench);
+    return;
+  }
+  joint::Vec12<S> sum = load[0] * rows[0];
+  for (int i = 1; i < shape.width; ++i)
+    sum += load[i] * rows[i];
+  add_to_bodies<S>(s.joints[port.joint], sum, ws.loads);
+}
+
+/// Loads of all elements into `ws.loads`, and the rows z' - f(x, v, z) = 0 of their states.
+template <class S>
+void add_elements(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
+  for (std::size_t l = 0; l < s.elements.size(); ++l) {
+    const ElementList& list = s.elements[l];
+    ElementScratch<S>& scratch = ws.elements[l];
+    const element::Shape& shape = list.laws->shape;
+    gather<S>(s, list, ws, y, scratch);
+    list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
+    const S* out = scratch.out.data();
+    const joint::Vec12<S>* rows = scratch.rows.data();
+    Index z = list.z0;
+    for (const PortData& port : list.ports) {
+      add_load<S>(s, shape, port, out, rows, ws);
+      for (int k = 0; k < shape.n_states; ++k, ++z)
+        residual[z] = yp[z] - out[shape.width + k];
+      rows += shape.port == element::Port::on_body ? 0 : shape.width;
+      out += shape.n_out();
+    }
+  }
+}
+
+} // namespace hydrodae::system

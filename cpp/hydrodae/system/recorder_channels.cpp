@@ -1,0 +1,144 @@
+/// Of the recorder: names, units and frames of all channels.
+
+#include <set>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/recorder.h"
+
+namespace hydrodae::system {
+
+void Recorder::add_channel(std::string path, int width, std::string unit, std::string frame,
+                           std::string description) {
+  width_ += static_cast<std::size_t>(width);
+  channels_.push_back(
+      {std::move(path), width, std::move(unit), std::move(frame), std::move(description)});
+}
+
+/// The axes and the origin of a marker in the reference pose go with the last channel.
+void Recorder::describe_marker(const joint::Marker& marker) {
+  const Vector3 origin =
+      marker.point + (marker.body < 0 ? Vector3(0, 0, 0) : s_.bodies[marker.body].reference);
+  channels_.back().vectors = {{"axis_x", marker.axes.col(0)},
+                              {"axis_y", marker.axes.col(1)},
+                              {"axis_z", marker.axes.col(2)},
+                              {"origin", origin}};
+}
+
+/// What a force reports of itself stands beside its loads on bodies, by their names.
+void Recorder::check_paths() const {
+  std::set<std::string> paths;
+  for (const Channel& channel : channels_)
+    paths.insert(channel.path);
+  for (const Channel& channel : channels_) {
+    const std::string parent = channel.path.substr(0, channel.path.rfind('/'));
+    if (!paths.contains(parent))
+      continue;
+    const std::string name = parent.substr(parent.rfind('/') + 1);
+    throw ModelError("body." + name + ".name", "body " + in_quotes(name) +
+                                                   " has the name of a channel of the results, " +
+                                                   in_quotes(parent) + "; give it another one");
+  }
+}
+
+void Recorder::make_channels() {
+  for (const BodyData& b : s_.bodies) {
+    const std::string head = "bodies/" + b.name + "/";
+    add_channel(head + "position", 3, "m", "world", "Centre of gravity.");
+    add_channel(head + "orientation", 4, "-", "world",
+                "Unit quaternion (w, x, y, z) of the rotation from the reference pose.");
+    add_channel(head + "rotation", 3, "rad", "world", "Rotation vector from the reference pose.");
+    if (b.n_active > 0) {
+      add_channel(head + "velocity", 3, "m/s", "world", "Of the centre of gravity.");
+      add_channel(head + "angular_velocity", 3, "rad/s", "world", "Angular velocity.");
+      add_channel(head + "acceleration", 3, "m/s2", "world", "Of the centre of gravity.");
+      add_channel(head + "angular_acceleration", 3, "rad/s2", "world",
+                  "Rate of the angular velocity.");
+    }
+    if (b.n_active < 6) {
+      std::string note;
+      for (const HydroBody& hb : s_.hydro.bodies)
+        if (s_.bodies[hb.body].name == b.name && !s_.hydro.uncovered.empty())
+          for (const std::string& label : s_.hydro.uncovered)
+            note += (note.empty() ? " Without the hydrodynamic loads that the fit does not give: "
+                                  : ", ") +
+                    label;
+      add_channel(head + "support_force", 3, "N", "world",
+                  "What holds the locked coordinates, on the body." + note);
+      add_channel(head + "support_moment", 3, "N m", "world",
+                  "Moment about the centre of gravity that holds the locked coordinates." + note);
+    }
+  }
+  for (const JointData& j : s_.joints) {
+    if (j.hidden)
+      continue;
+    const std::string head = "joints/" + j.name + "/", frame = "marker A of " + j.name;
+    for (std::size_t m = 0; m < j.type->motions.size(); ++m) {
+      const MotionData& motion = s_.motions[static_cast<std::size_t>(j.first_motion) + m];
+      const std::string unit = motion.motion.is_angle() ? "rad" : "m";
+      add_channel(head + motion.name, 1, unit, frame,
+                  "Joint coordinate of B against A, followed over turns.");
+      add_channel(head + motion.name + "_rate", 1, unit + "/s", frame,
+                  "Rate of the joint coordinate.");
+    }
+    const std::string owner = j.A.body < 0 ? "the ground" : "body " + s_.bodies[j.A.body].name;
+    add_channel(head + "reaction_force", 3, "N", frame,
+                "Force of the joint on body B, along the axes of marker A, which " + owner +
+                    " carries; axis_x, axis_y, axis_z and origin: where they are in the reference "
+                    "pose, world axes.");
+    describe_marker(j.A);
+    add_channel(head + "reaction_moment", 3, "N m", frame,
+                "Moment of the joint on body B about the origin of its marker, along the axes of "
+                "marker A (see the reaction force).");
+    describe_marker(j.A);
+  }
+  for (const CouplerData& c : s_.couplers) {
+    const bool angle = s_.motions[c.terms.front().motion].motion.is_angle();
+    add_channel("constraints/" + c.name + "/reaction", 1, angle ? "N m" : "N", "-",
+                "Load that the constraint puts on its (first) coordinate.");
+  }
+  for (const MarkerData& m : s_.markers) {
+    const std::string head = "markers/" + m.name + "/", body = s_.bodies[m.body].name;
+    const std::string frame = m.body_axes ? "body " + body : "world";
+    const std::string axes =
+        m.body_axes ? " Along axes that " + body +
+                          " carries: in the reference pose those of the world, axis_x, axis_y, "
+                          "axis_z; origin: the point there."
+                    : " Along the axes of the world; origin: the point in the reference pose.";
+    const joint::Marker marker{m.body, m.point, Matrix3::Identity(), nullptr};
+    add_channel(head + "position", 3, "m", "world", "Of a point of " + body + ".");
+    add_channel(head + "velocity", 3, "m/s", frame,
+                "Of a point of " + body + ", over the world." + axes);
+    describe_marker(marker);
+    add_channel(head + "acceleration", 3, "m/s2", frame,
+                "Of a point of " + body + ", over the world; without gravity." + axes);
+    describe_marker(marker);
+  }
+  const Observation& o = observer_.observation();
+  for (const ComponentLoad& load : o.loads) {
+    const std::string head =
+        "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
+    add_channel(head + "force", 3, "N", "world", "Force on the body.");
+    add_channel(head + "moment", 3, "N m", "world",
+                "Moment on the body about its centre of gravity.");
+  }
+  for (Channel& channel : element_channels(s_)) {
+    width_ += static_cast<std::size_t>(channel.width);
+    channels_.push_back(std::move(channel));
+  }
+  if (s_.has_waves())
+    add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
+  add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
+  add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
+  add_channel("energy/potential", 1, "J", "-",
+              "Weight, hydrostatics and springs; zero in the reference pose.");
+  add_channel("energy/total", 1, "J", "-", "Kinetic energies and potential.");
+  for (const std::string& component : o.components)
+    add_channel("energy/work/" + component, 1, "J", "-", "Work on the bodies since the start.");
+  add_channel("energy/balance_error", 1, "J", "-",
+              "Change of the kinetic energies minus the work of all forces: zero but for the "
+              "solver's error.");
+  check_paths();
+}
+
+} // namespace hydrodae::system
