@@ -92,8 +92,7 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
       return; // dry friction is no damper; said in the notes
     const system::JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
     const auto w = system::motion_row<double>(s, ws, port.motion);
-    const element::AtRest rest =
-        element::at_rest(*list.laws, law, VectorX::Constant(1, w.value));
+    const element::AtRest rest = element::at_rest(*list.laws, law, VectorX::Constant(1, w.value));
     out.dampers.push_back(port.component);
     out.damper_damping.push_back(rest.damping(0));
     out.damper_stiffness.push_back(rest.stiffness(0));
@@ -186,11 +185,11 @@ void note_nonlinear(const System& s, LinearModel& out) {
   if (!stops.empty())
     out.notes.push_back("stops and one-sided joints are open in the linear model: " +
                         joined(stops));
-  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
-                              const system::PortData& port) {
-    if (list.laws->lost_at_rest(law) && list.laws->shape.port == element::Port::on_body)
-      lost.push_back(port.component);
-  });
+  system::for_each_law(
+      s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
+        if (list.laws->lost_at_rest(law) && list.laws->shape.port == element::Port::on_body)
+          lost.push_back(port.component);
+      });
   if (!lost.empty())
     out.notes.push_back("quadratic viscous_damping is zero in the linear model (it has no slope at "
                         "rest): " +

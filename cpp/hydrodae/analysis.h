@@ -17,23 +17,23 @@ namespace hydrodae {
 /// xi: virtual displacements, translations in world axes [m], rotations in body axes [rad]. Added
 /// mass and radiation are left to the caller: their velocities are U = T xi'.
 struct LinearModel {
-  std::vector<std::string> coordinates;  ///< (n_u,) "bodies/flap1/pitch"
-  MatrixX mass, damping, stiffness;      ///< M, C, K (n_u, n_u), without hydrodynamics but C_hs
-  MatrixX constraints;                   ///< G (n_lambda, n_u)
-  MatrixX load_by_state;                 ///< F_z (n_u, n_z)
+  std::vector<std::string> coordinates; ///< (n_u,) "bodies/flap1/pitch"
+  MatrixX mass, damping, stiffness;     ///< M, C, K (n_u, n_u), without hydrodynamics but C_hs
+  MatrixX constraints;                  ///< G (n_lambda, n_u)
+  MatrixX load_by_state;                ///< F_z (n_u, n_z)
   MatrixX state_by_state, state_by_xi, state_by_rate; ///< A, B, D (n_z, n_z), (n_z, n_u) twice
-  std::vector<std::string> hydro_labels; ///< (m,) labels of the database that move
-  MatrixX hydro_map;                     ///< T (m, n_u)
-  std::vector<double> hydro_yaws;        ///< (m,) mean yaw of the body of each [rad]
-  std::vector<Vector3> hydro_points;     ///< (m,) where that body stands in the equilibrium [m]
-  std::vector<std::string> motions;      ///< (n_m,) "joints/hinge1/angle"
-  MatrixX motion_map;                    ///< (n_m, n_u) of the joint coordinates
-  std::vector<std::string> dampers;      ///< (n_d,) forces with damping along a joint coordinate
-  std::vector<double> damper_damping;    ///< (n_d,) [N s/m or N m s]
-  std::vector<double> damper_stiffness;  ///< (n_d,) [N/m or N m]
-  std::vector<double> damper_delay;      ///< (n_d,) [s]; where > 0, K holds k and C not c
-  MatrixX damper_map;                    ///< (n_d, n_u) of their coordinates
-  std::vector<std::string> reactions;    ///< (6 n_joints,) "joints/hinge1/reaction_force.x"
+  std::vector<std::string> hydro_labels;              ///< (m,) labels of the database that move
+  MatrixX hydro_map;                                  ///< T (m, n_u)
+  std::vector<double> hydro_yaws;                     ///< (m,) mean yaw of the body of each [rad]
+  std::vector<Vector3> hydro_points;    ///< (m,) where that body stands in the equilibrium [m]
+  std::vector<std::string> motions;     ///< (n_m,) "joints/hinge1/angle"
+  MatrixX motion_map;                   ///< (n_m, n_u) of the joint coordinates
+  std::vector<std::string> dampers;     ///< (n_d,) forces with damping along a joint coordinate
+  std::vector<double> damper_damping;   ///< (n_d,) [N s/m or N m s]
+  std::vector<double> damper_stiffness; ///< (n_d,) [N/m or N m]
+  std::vector<double> damper_delay;     ///< (n_d,) [s]; where > 0, K holds k and C not c
+  MatrixX damper_map;                   ///< (n_d, n_u) of their coordinates
+  std::vector<std::string> reactions;   ///< (6 n_joints,) "joints/hinge1/reaction_force.x"
   MatrixX reaction_by_xi, reaction_by_lambda; ///< (6 n_joints, n_u), (6 n_joints, n_lambda)
 
   /// Points of the Morison elements (each [m]) and, for each, the load on the coordinates by the

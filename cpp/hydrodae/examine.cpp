@@ -72,15 +72,15 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
     if (b.sigma >= 0)
       take(b.sigma, &ElementCost::unknowns);
   }
-  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
-                              const system::PortData&) {
-    const Index n = list.laws->shape.n_states;
-    if (n == 0)
-      return;
-    elements.push_back({"force " + list.laws->names[law]});
-    for (Index k = 0; k < n; ++k)
-      take(list.z0 + n * static_cast<Index>(law) + k, &ElementCost::unknowns);
-  });
+  system::for_each_law(
+      s, [&](const system::ElementList& list, std::size_t law, const system::PortData&) {
+        const Index n = list.laws->shape.n_states;
+        if (n == 0)
+          return;
+        elements.push_back({"force " + list.laws->names[law]});
+        for (Index k = 0; k < n; ++k)
+          take(list.z0 + n * static_cast<Index>(law) + k, &ElementCost::unknowns);
+      });
   if (s.hydro.n_states > 0) {
     elements.push_back({"radiation memory"});
     for (Index k = 0; k < s.hydro.n_states; ++k)

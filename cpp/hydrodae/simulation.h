@@ -36,7 +36,8 @@ struct RunStatistics {
   double verified_error = -1.0;      ///< against a more exact run, likewise; < 0: not verified
   std::string verified_error_of;
   double verified_error_time = 0.0;
-  /// What each power take-off absorbed on average after the ramp of the sea [W], which ends then [s].
+  /// What each power take-off absorbed on average after the ramp of the sea [W], which ends then
+  /// [s].
   std::vector<std::pair<std::string, double>> mean_power;
   double mean_power_from = 0.0;
   long unknowns = 0;

@@ -87,8 +87,8 @@ private:
     if constexpr (requires(F force) { force.function; })
       for (F& force : list)
         if (const auto found = forces.find(force.name); found != forces.end())
-          force.function = [this, call = &found->second](double t, const double* x,
-                                                         const double* v, double* load) {
+          force.function = [this, call = &found->second](double t, const double* x, const double* v,
+                                                         double* load) {
             load_of<element::width(F::port)>(*call, t, x, v, load);
           };
   }

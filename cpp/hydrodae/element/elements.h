@@ -6,9 +6,11 @@
 ///   port             x, v: what is seen                                   load
 ///   along_joint      coordinate s of a joint with one motion, s'          f on s [N, N m]
 ///   along_distance   distance of two points, its rate                     f, pushes apart [N]
-///   on_body          displacement from the reference pose, twist          force and moment about the
+///   on_body          displacement from the reference pose, twist          force and moment about
+///   the
 ///                    (6 each, earth axes)                                 centre of gravity
-///   between          displacement and rotation vector of marker B seen    force and moment on B about
+///   between          displacement and rotation vector of marker B seen    force and moment on B
+///   about
 ///                    from marker A, relative velocities (6 each)          its marker
 ///
 /// The power of a load is load . v in all of them.
@@ -86,7 +88,8 @@ public:
   virtual void evaluate(double t, const Dual* in, const double* signals, Dual* out) const = 0;
 
   /// @param jacobian  (n n_out n_in,) d out / d in of each law, column by column
-  virtual void jacobian(double t, const double* in, const double* signals, double* jacobian) const = 0;
+  virtual void jacobian(double t, const double* in, const double* signals,
+                        double* jacobian) const = 0;
 
   /// Stored energy of each law [J] (n,), that a potential gives back.
   virtual void energy(const double* in, double* joules) const = 0;

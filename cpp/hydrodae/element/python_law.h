@@ -78,7 +78,8 @@ struct PythonLoad {
     using P = PythonLoad;
     return {
         {"name", &P::name, "-",
-         "Name of this force in the results; its function f(t, s, s') is given to hydrodae.run(..., "
+         "Name of this force in the results; its function f(t, s, s') is given to "
+         "hydrodae.run(..., "
          "forces={name: function}).",
          true},
         {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},

@@ -13,11 +13,11 @@ namespace hydrodae::solve {
 /// K holds the geometric stiffness of the reactions in `y`. Memory states of the radiation are left
 /// out; states z of forces add F_z z to the loads, z' = A z + B xi + D xi'.
 struct LinearMatrices {
-  MatrixX mass, damping, stiffness; ///< M, C, K (n_u, n_u)
-  MatrixX constraints;              ///< G (n_lambda, n_u)
-  MatrixX load_by_state;            ///< F_z (n_u, n_z)
+  MatrixX mass, damping, stiffness;                   ///< M, C, K (n_u, n_u)
+  MatrixX constraints;                                ///< G (n_lambda, n_u)
+  MatrixX load_by_state;                              ///< F_z (n_u, n_z)
   MatrixX state_by_state, state_by_xi, state_by_rate; ///< A, B, D (n_z, n_z), (n_z, n_u) twice
-  VectorX forces;                   ///< (n_u,) G^T lambda plus all loads: zero in equilibrium
+  VectorX forces; ///< (n_u,) G^T lambda plus all loads: zero in equilibrium
 };
 
 /// At (t = 0, y, y' = 0); y must be at rest.
@@ -25,9 +25,10 @@ LinearMatrices linear_matrices(const system::System& system, const system::Patte
                                const VectorX& y);
 
 /// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,
-/// with the states of forces (pressures, say) held at theirs, and with the smallest motion along directions in which nothing holds a body. Moves the start of
-/// the system there, at rest, and returns y with the reactions. An unstable pose is noted.
-/// Throws ModelError when there is no equilibrium near, or velocities are given.
+/// with the states of forces (pressures, say) held at theirs, and with the smallest motion along
+/// directions in which nothing holds a body. Moves the start of the system there, at rest, and
+/// returns y with the reactions. An unstable pose is noted. Throws ModelError when there is no
+/// equilibrium near, or velocities are given.
 VectorX move_to_equilibrium(system::System& system);
 
 /// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.

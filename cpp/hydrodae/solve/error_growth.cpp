@@ -129,8 +129,9 @@ void ErrorGrowth::find_change(const VectorX& rate) {
   entries([&](Index k, Index row, double scale) {
     const double inertia =
         std::abs(e_.parts.by_yp[k]) * rate[s_.group[static_cast<std::size_t>(row)]];
-    row_size_[row] = std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]),
-                               scale * std::abs(by_y_[k]), scale * inertia});
+    row_size_[row] =
+        std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]), scale * std::abs(by_y_[k]),
+                  scale * std::abs(first_by_y_[k]), scale * inertia});
   });
   entries([&](Index k, Index row, double scale) {
     const int group = s_.group[static_cast<std::size_t>(row)];
@@ -151,7 +152,8 @@ void ErrorGrowth::find_change(const VectorX& rate) {
 
 /// The implicit midpoint rule on F_y d + F_y' d' = 0, with the mean of the derivatives at both
 /// ends, lest what turns or swings between them feeds the error; memory states by backward Euler,
-/// since some fade within the step; the constraints hold at its end.
+/// since some fade within the step; the constraints hold at its end, and so do the loads of states
+/// of forces, which may fade within a thousandth of it.
 bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
   const double h = t - since_;
   if (h <= 0.0)
@@ -166,7 +168,8 @@ bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
       const Index row = p.row[k];
-      const bool moves = row < s_.z0, half = moves && c < s_.lambda0;
+      const bool of_force = c >= s_.z0 && c < s_.hydro.z0;
+      const bool moves = row < s_.z0, half = moves && c < s_.lambda0 && !of_force;
       const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
                    by_rate =
                        (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;

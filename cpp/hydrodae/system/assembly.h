@@ -105,8 +105,8 @@ template <class Sink> struct Assembly {
   void memory_rows();
   void morison();
   template <int w, int n>
-  void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
-           const double* jacobian, int n_states, Index z);
+  void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,
+           int n_states, Index z);
   void elements();
 
   void run() {

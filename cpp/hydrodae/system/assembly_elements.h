@@ -15,8 +15,7 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
   const Eigen::Matrix<double, w, w> f_x = J.template topLeftCorner<w, w>(),
                                     f_v = J.template block<w, w>(0, w);
   const Eigen::Matrix<double, n, w> W_T = port.W.transpose();
-  const Eigen::Matrix<double, n, n> by_xi =
-      W_T * (f_x * port.x_xi + f_v * port.v_xi) + port.turn;
+  const Eigen::Matrix<double, n, n> by_xi = W_T * (f_x * port.x_xi + f_v * port.v_xi) + port.turn;
   const Eigen::Matrix<double, n, n> by_u = W_T * (f_v * port.v_u);
   constexpr int sides = n / 6;
   for (int a = 0; a < sides; ++a)

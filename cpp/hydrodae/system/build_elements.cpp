@@ -41,9 +41,10 @@ template <class F> void check_given(const F& force) {
   if constexpr (requires { force.function; })
     if (!force.function)
       throw ModelError("force." + force.name,
-                       "force " + in_quotes(force.name) + " is a Python function, which nobody "
-                       "gave; run the case as hydrodae.run(case, forces={\"" + force.name +
-                           "\": function})");
+                       "force " + in_quotes(force.name) +
+                           " is a Python function, which nobody "
+                           "gave; run the case as hydrodae.run(case, forces={\"" +
+                           force.name + "\": function})");
 }
 
 template <class F> PortData make_port(const model::Scene& scene, const F& force, System& s) {

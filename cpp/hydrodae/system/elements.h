@@ -36,13 +36,13 @@ void see_motion(const System& s, const Workspace<S>& ws, const PortData& port, S
     return;
   }
   *x = row.value;
-  *v = port.delay >= 0 ? S(0)
-                       : row.gradient.cwiseProduct(joint_velocity<S>(s.joints[port.joint], ws.bodies))
-                             .sum();
+  *v = port.delay >= 0
+           ? S(0)
+           : row.gradient.cwiseProduct(joint_velocity<S>(s.joints[port.joint], ws.bodies)).sum();
 }
 
-/// Rows W of the relative velocities (d', omega) = W (v_A, w_A, v_B, w_B) between two markers, along
-/// the axes of A's.
+/// Rows W of the relative velocities (d', omega) = W (v_A, w_A, v_B, w_B) between two markers,
+/// along the axes of A's.
 template <class S>
 void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12<S>* rows) {
   for (int i = 0; i < 3; ++i) {

@@ -21,8 +21,8 @@ std::vector<Pose> initial_poses(const model::Scene& scene);
 /// Index of a body in the scene, -1 for "ground".
 int body_index(const model::Scene& scene, const std::string& name);
 
-/// Marker axes in the reference pose (columns x, y, z; z along `axis`, by default that of the world;
-/// x along the part of `axis_x` across it), world axes.
+/// Marker axes in the reference pose (columns x, y, z; z along `axis`, by default that of the
+/// world; x along the part of `axis_x` across it), world axes.
 Matrix3 marker_axes(const std::optional<Vector3>& axis, const std::optional<Vector3>& axis_x);
 
 } // namespace hydrodae::system

@@ -51,7 +51,7 @@ template <class S> struct Workspace {
   VectorX excitation;                    ///< on the coordinates of U
   std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
   std::vector<ElementScratch<S>> elements;
-  double time = 0.0;                     ///< of this evaluation [s]
+  double time = 0.0; ///< of this evaluation [s]
   Turns turns;
 
   explicit Workspace(const System& s)

@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-
 namespace hydrodae::system {
 
 namespace {

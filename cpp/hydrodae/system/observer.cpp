@@ -66,10 +66,13 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   out_.motions.resize(s_.motions.size());
   out_.constraints.resize(s_.couplers.size());
   totals_.resize(s_.bodies.size());
-  out_.elements.resize(element_channels(s_).size());
+  std::size_t own = 0;
+  for (const Channel& channel : element_channels(s_))
+    own += static_cast<std::size_t>(channel.width);
+  out_.elements.resize(own);
   for (const ElementList& list : s_.elements)
-    element_values_.resize(std::max(
-        element_values_.size(), list.laws->size() * (1 + list.laws->channels.size())));
+    element_values_.resize(
+        std::max(element_values_.size(), list.laws->size() * (1 + list.laws->channels.size())));
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
   excitation_ = VectorX::Zero(s_.hydro.excitation.size() + s_.hydro.drifting.size());

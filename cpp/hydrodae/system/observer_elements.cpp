@@ -54,8 +54,8 @@ std::vector<Channel> element_channels(const System& s) {
       out.push_back({head + u.name, 1, unit_along(u.unit, angle), "-", "State of the force."});
     }
     for (const element::Quantity& q : laws.channels)
-      out.push_back({head + std::string(q.name), 1, unit_along(q.unit, angle), "-",
-                     std::string(q.doc)});
+      out.push_back(
+          {head + std::string(q.name), 1, unit_along(q.unit, angle), "-", std::string(q.doc)});
   });
   return out;
 }

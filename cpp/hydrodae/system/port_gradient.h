@@ -9,7 +9,7 @@ namespace hydrodae::system {
 ///   dx = x_xi dxi,   dv = v_xi dxi + v_u du,   load on the bodies W^T f,   d(W^T) f = turn dxi
 template <int w, int n> struct PortGradient {
   Eigen::Matrix<double, w, n> x_xi, v_xi, v_u, W; ///< v_u = W, but for delayed laws: 0
-  Eigen::Matrix<double, n, n> turn; ///< for the load at hand
+  Eigen::Matrix<double, n, n> turn;               ///< for the load at hand
 };
 
 /// s of a motion: W = ds/dxi, d(W u) = (T^T u) . dxi, turn = f T. A delayed law feels the present
@@ -33,8 +33,8 @@ inline void motion_gradient(const System& s, const Workspace<double>& ws, const 
 }
 
 /// Displacement and twist of a body:
-///   d xi = (dr, J R_turn dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi + R^T
-///   dm.
+///   d xi = (dr, J R_turn dphi), d twist = (dv, -R [w]x dphi + R dw), d(R^T m) = [R^T m]x dphi +
+///   R^T dm.
 inline void body_gradient(const BodyState<double>& b, const PortData& port, const double* x,
                           const double* load, PortGradient<6, 6>& out) {
   const Eigen::Map<const Vector3> theta(x + 3), moment(load + 3);

@@ -79,8 +79,8 @@ std::vector<Link> vertical_links(const System& s, const Workspace<double>& ws) {
                              : nullptr;
     if (j && element::at_rest(*list.laws, law).stiffness.isZero(0.0) == false) // a bushing
       for (int i = 0; i < 3; ++i)
-        add(*j, joint::span_row<double>(j->A, j->B, i, joint_geometry<double>(*j, ws.bodies))
-                    .gradient);
+        add(*j,
+            joint::span_row<double>(j->A, j->B, i, joint_geometry<double>(*j, ws.bodies)).gradient);
   });
   return links;
 }

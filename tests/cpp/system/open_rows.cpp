@@ -130,7 +130,8 @@ TEST_CASE("what the joints hold stays where it is, with stops and friction on it
       CAPTURE(method);
       model::Scene scene = locked();
       scene.constraints = {stop("s", "hinge", upper)};
-      std::get<std::vector<element::DryFriction>>(scene.forces).push_back({"dry", "hinge", 0.5, {}});
+      std::get<std::vector<element::DryFriction>>(scene.forces)
+          .push_back({"dry", "hinge", 0.5, {}});
       scene.solver.method = method;
       CHECK(system::build(scene).n_lambda == 6);
       CHECK(simulate(scene, "", {}).status == "completed");
