@@ -10,6 +10,8 @@ namespace hydrodae::force {
 /// Constant force at the centre of gravity and constant moment, both in world axes.
 struct ConstantLoad {
   static constexpr std::string_view type = "constant_load";
+  static constexpr std::string_view doc =
+      "Constant force at the centre of gravity and constant moment, world axes.";
   std::string name;
   std::string body;
   Vector3 force = Vector3::Zero();

@@ -16,6 +16,8 @@ namespace hydrodae::force {
 /// Its power is never positive.
 struct DryFriction {
   static constexpr std::string_view type = "dry_friction";
+  static constexpr std::string_view doc =
+      "Coulomb friction along a joint, with located sticking and slipping.";
   std::string name;
   std::string joint;
   double static_load = 0.0;

@@ -14,6 +14,8 @@ namespace hydrodae::force {
 /// F holds the force [N] and the moment about the centre of gravity [N m].
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
+  static constexpr std::string_view doc =
+      "Mooring as a linear matrix about the reference pose of a body: F = F0 - K xi - C v.";
   std::string name;
   std::string body;
   Matrix6 stiffness = Matrix6::Zero();

@@ -16,6 +16,8 @@ namespace hydrodae::force {
 /// -f(t) s'(t) and may have either sign.
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
+  static constexpr std::string_view doc =
+      "Linear power take-off along a joint: f = -k (s - s0) - c s'.";
   std::string name;
   std::string joint;
   double damping = 0.0;

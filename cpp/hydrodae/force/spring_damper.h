@@ -16,6 +16,9 @@ namespace hydrodae::force {
 /// The points are given in the reference pose. The law is not defined where they coincide.
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
+  static constexpr std::string_view doc =
+      "Spring and damper between points of two bodies: f = -k (s - s0) - c s' + f0, s their "
+      "distance.";
   std::string name;
   std::string body_a;
   std::string body_b;

@@ -15,6 +15,9 @@ namespace hydrodae::force {
 /// continuous, the second one jumps where a component changes sign.
 struct ViscousDamping {
   static constexpr std::string_view type = "viscous_damping";
+  static constexpr std::string_view doc =
+      "Damping of one body about its centre of gravity, linear and quadratic: W = -C v - Q (v "
+      "|v|).";
   std::string name;
   std::string body;
   Matrix6 linear = Matrix6::Zero();
