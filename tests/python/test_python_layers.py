@@ -16,8 +16,8 @@ import pytest
 LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
-    {"curve", "damaged", "irf"},
-    {"memory", "results"},
+    {"curve", "damaged", "irf", "tables"},
+    {"memory", "results", "schema"},
     {"panels", "post"},
     {"plot"},
     # one database
