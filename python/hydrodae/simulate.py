@@ -14,7 +14,7 @@ from threading import Event, current_thread, main_thread
 from types import FrameType
 from typing import Any
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.drives import Drive, Kernel, kernel_drives
 from hydrodae.errors import RunInterrupted, SolverError
 from hydrodae.results import Results
@@ -24,7 +24,7 @@ Progress = Callable[[float, float], bool | None]
 
 
 def run(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     output: str | os.PathLike[str] | None = None,
     *,
     set: Mapping[str, Any] | None = None,
@@ -36,8 +36,8 @@ def run(
 
     Parameters
     ----------
-    case : Case or path
-        The case, or the path of its file.
+    case : Case, Scene or path
+        The case, a scene built in Python, or the path of its file.
     output : path, optional
         Results file (HDF5); folders are made. The run writes ``X.partial.h5`` beside ``X.h5`` and
         renames it when it ends, completed or not: until then an older results file stands. Without

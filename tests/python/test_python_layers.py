@@ -35,7 +35,8 @@ LAYERS = [
     # one case
     {"drives"},
     {"case"},
-    {"simulate", "frequency"},
+    {"builder"},
+    {"simulate", "frequency", "scene"},
     {"states"},
     # many runs of a case, and what people ask about it
     {"study.reference"},
