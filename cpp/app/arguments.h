@@ -2,6 +2,7 @@
 /// The command line of hydrodae-solve.
 
 #include <string>
+#include <vector>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/io/case_reader.h"
@@ -11,6 +12,7 @@ namespace hydrodae::app {
 inline constexpr const char* usage =
     R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet] [--verify]
        hydrodae-solve --check CASE [--set KEY=VALUE]...
+       hydrodae-solve --keys [TABLE [TYPE]]
        hydrodae-solve --version | --help
 
   -o RESULTS       results file (HDF5); an older one is replaced when the run ends, until then it
@@ -21,6 +23,8 @@ inline constexpr const char* usage =
   --force          run a pair of method and formulation that is known to fail
   --verify         run a second time with a tenth of the tolerance, or half the step, and compare
   --check          read and check the case, print what is in it, do not run
+  --keys           list the tables of a case file, the keys of one, or those of a type of entry:
+                   --keys solver, --keys force pto_linear
   --quiet          no progress on stderr
 
 Exit codes: 0 done, 2 bad case or model, 3 solver failure, 4 interrupted; what was computed before
@@ -28,9 +32,10 @@ a failure or an interrupt (Ctrl-C) is kept in the results file.
 )";
 
 struct Arguments {
-  enum class Task { run, check, version, help } task = Task::run;
+  enum class Task { run, check, keys, version, help } task = Task::run;
   std::string case_path, output;
   io::Overrides overrides;
+  std::vector<std::string> words; ///< after --keys
   bool quiet = false, verify = false;
 };
 
@@ -65,6 +70,8 @@ inline Arguments parse(int argc, char** argv) {
       arguments.task = Arguments::Task::version;
     else if (word == "--check")
       arguments.task = Arguments::Task::check;
+    else if (word == "--keys")
+      arguments.task = Arguments::Task::keys;
     else if (word == "--quiet")
       arguments.quiet = true;
     else if (word == "--verify")
@@ -77,7 +84,11 @@ inline Arguments parse(int argc, char** argv) {
       arguments.overrides["solver.method"] = '"' + next_value(argc, argv, i) + '"';
     else if (word == "--force")
       arguments.overrides["solver.force"] = "true";
-    else if (word.starts_with("-") || !arguments.case_path.empty())
+    else if (arguments.task == Arguments::Task::keys && arguments.words.size() < 2 &&
+             !word.starts_with("-"))
+      arguments.words.push_back(word);
+    else if (word.starts_with("-") || !arguments.case_path.empty() ||
+             arguments.task == Arguments::Task::keys)
       throw CaseError("unexpected argument '" + word + "'; see hydrodae-solve --help");
     else
       arguments.case_path = word;

@@ -14,6 +14,7 @@
 #include "arguments.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/simulation.h"
+#include "keys.h"
 
 namespace {
 
@@ -96,6 +97,10 @@ ExitCode perform(const Arguments& arguments) {
   }
   if (arguments.task == Arguments::Task::version) {
     std::cout << "hydrodae " << hydrodae::version << '\n';
+    return ExitCode::done;
+  }
+  if (arguments.task == Arguments::Task::keys) {
+    std::cout << hydrodae::app::keys_answer(arguments.words);
     return ExitCode::done;
   }
   const hydrodae::model::Scene scene =

@@ -23,6 +23,9 @@ void bind_io(py::module_& module) {
       py::arg("text"), py::arg("directory"), py::arg("overrides"),
       py::call_guard<py::gil_scoped_release>(),
       "Read a case from a string; paths in it are relative to `directory`. Raises CaseError.");
+  module.def("check_tables", &io::check_tables, py::arg("text"),
+             py::call_guard<py::gil_scoped_release>(),
+             "Read the tables of a part of a case, each by itself. Raises CaseError.");
 }
 
 } // namespace hydrodae::bindings

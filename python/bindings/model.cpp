@@ -56,6 +56,17 @@ void bind_model(py::module_& module) {
           "database_path",
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")
+      .def_property_readonly(
+          "positions", [](const Scene& s) { return s.positions; },
+          "Where each key stands: key path -> file:line:column, or what the caller calls it.")
+      .def(
+          "with_positions",
+          [](const Scene& s, std::map<std::string, std::string> positions) {
+            Scene copy = s;
+            copy.positions = std::move(positions);
+            return copy;
+          },
+          py::arg("positions"), "A copy in whose messages the keys stand at other places.")
       .def("summary", &model::summary)
       .def("__repr__", [](const Scene& s) {
         return "<hydrodae._core.Scene '" + s.title + "': " + std::to_string(s.bodies.size()) +

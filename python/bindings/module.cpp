@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = hydrodae::version;
   bind_errors();
   bind_model(module);
+  bind_tables(module);
   bind_io(module);
   bind_simulation(module);
   bind_analysis(module);

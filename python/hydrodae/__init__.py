@@ -27,6 +27,7 @@ from hydrodae.version import version
 
 if TYPE_CHECKING:
     from hydrodae import hdb
+    from hydrodae.scene import Scene
     from hydrodae.study.band import working_band
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
@@ -45,6 +46,7 @@ __all__ = [
     "Results",
     "ResultsError",
     "RunInterrupted",
+    "Scene",
     "SolverError",
     "chart",
     "check",
@@ -60,6 +62,7 @@ __all__ = [
 
 #: What is imported when it is first asked for, and where it is: a run needs none of it.
 _LATER = {
+    "Scene": "scene",
     "chart": "study.chart",
     "check": "study.check",
     "equilibrium": "study.equilibrium",

@@ -34,7 +34,21 @@ class Scene:
     @property
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
+    @property
+    def positions(self) -> dict[str, str]:
+        """Where each key stands: key path -> file:line:column, or what the caller calls it."""
+    def with_positions(self, positions: Mapping[str, str]) -> Scene:
+        """A copy in whose messages the keys stand at other places."""
     def summary(self) -> str: ...
+
+def tables() -> list[dict[str, Any]]:
+    """Every table of a case file with its keys, as nested dicts."""
+
+def suggestion(wanted: str, names: Sequence[str]) -> str:
+    """The end of a message about an unknown name: the nearest one and all that are valid."""
+
+def check_tables(text: str) -> None:
+    """Read the tables of a part of a case, each by itself. Raises CaseError."""
 
 def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
     """Read a case file; `overrides` maps dotted keys to TOML values. Raises CaseError."""

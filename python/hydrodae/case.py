@@ -7,15 +7,15 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
 from hydrodae.drives import Drive, kernel_drives
-from hydrodae.laws import Force, kernel_forces
 from hydrodae.errors import CaseError
+from hydrodae.laws import Force, kernel_forces
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -39,6 +39,8 @@ class Case:
         What relative paths in `text` refer to.
     values : mapping from str, optional
         Values by dotted key, for example ``{"solver.rtol": 1e-8}``.
+    tell : callable, optional
+        Rewrites a message that begins with a place in `text`, for a text that nobody wrote.
 
     Raises
     ------
@@ -58,12 +60,14 @@ class Case:
         path: str | os.PathLike[str] | None = None,
         directory: str | os.PathLike[str] = ".",
         values: Mapping[str, Any] | None = None,
+        tell: Callable[[str], str] | None = None,
     ) -> None:
         if (text is None) == (path is None):
             raise TypeError("a case needs either a text or a path")
         self._text = text
         self._path = None if path is None else Path(path)
         self._directory = Path(directory)
+        self._tell = tell
         self._overrides = {key: to_toml(value, key) for key, value in (values or {}).items()}
         self._scene = self._load(self._overrides)
 
@@ -185,23 +189,38 @@ class Case:
             raise CaseError(f"{self._path}: no such case file{_near_file(self._path)}")
         from hydrodae import _core
 
-        if self._path is None:
-            assert self._text is not None
+        if self._path is not None:
+            return _core.load_case(str(self._path), overrides)
+        assert self._text is not None
+        if self._tell is None:
             return _core.parse_case(self._text, str(self._directory), overrides)
-        return _core.load_case(str(self._path), overrides)
+        return _parse_told(self._text, str(self._directory), overrides, self._tell)
 
 
-def read_case(case: Case | str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Case:
-    """Return a case as it is or from its file, with `values` by dotted key replaced.
+class MakesCase(Protocol):
+    """What makes a case of itself, as `hydrodae.Scene` does."""
+
+    def case(self, values: Mapping[str, Any] | None = None) -> Case:
+        """Return it as a case, with `values` by dotted key replaced."""
+
+
+#: What the functions of the package take as a case: a path is that of the case file.
+CaseLike: TypeAlias = Case | MakesCase | str | os.PathLike[str]
+
+
+def read_case(case: CaseLike, values: Mapping[str, Any] | None = None) -> Case:
+    """Return a case as it is, from a scene or from its file, with `values` by dotted key replaced.
 
     Raises
     ------
     CaseError
         The case cannot be used; the message says where and why.
     """
-    if not isinstance(case, Case):
+    if isinstance(case, Case):
+        return case.with_values(values) if values else case
+    if isinstance(case, str | os.PathLike):
         return Case(path=case, values=values)
-    return case.with_values(values) if values else case
+    return case.case(values)
 
 
 def to_toml(value: Any, key: str = "value") -> str:
@@ -271,6 +290,20 @@ def parse_assignment(text: str) -> tuple[str, Any]:
             f"--set {text}: the value is not TOML ({error}); "
             'numbers, true, false, words, "quoted text" and [lists] are'
         ) from None
+
+
+def _parse_told(
+    text: str, directory: str, overrides: dict[str, str], tell: Callable[[str], str]
+) -> Scene:
+    """Parse a case whose messages, also the later ones about the scene, go through `tell`."""
+    from hydrodae import _core
+
+    try:
+        scene = _core.parse_case(text, directory, overrides)
+    except CaseError as error:
+        raise CaseError(tell(str(error))) from None
+    places = {key: tell(f"{place}: ") for key, place in scene.positions.items()}
+    return scene.with_positions({key: place.removesuffix(": ") for key, place in places.items()})
 
 
 def _key(key: Any, context: str) -> str:

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae.commands import chart, check, equilibrium, plot, run
+from hydrodae.commands import chart, check, equilibrium, keys, plot, run, schema
 from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
 from hydrodae.version import version
@@ -149,6 +149,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         stability_command.add_arguments(stability)
         stability.set_defaults(call=stability_command.run)
 
+    keys.add_parser(commands)
+    schema.add_parser(commands)
     versions = commands.add_parser("version", help="print the versions")
     versions.set_defaults(call=_version)
     return parser

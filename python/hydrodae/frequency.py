@@ -13,7 +13,6 @@ coordinate s that acts tau late enters exactly, as (k + iw c) e^{-iw tau} s.
 from __future__ import annotations
 
 import copy
-import os
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -23,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh, null_space
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
@@ -110,7 +109,7 @@ class LinearModel:
         There is no equilibrium near the start of the case.
     """
 
-    def __init__(self, case: Case | str | os.PathLike[str]) -> None:
+    def __init__(self, case: CaseLike) -> None:
         from hydrodae import _core
 
         self._given_database: HydroDatabase | None = None

@@ -14,10 +14,10 @@ from threading import Event, current_thread, main_thread
 from types import FrameType
 from typing import Any
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.drives import Drive, Kernel, kernel_drives
-from hydrodae.laws import Force, kernel_forces
 from hydrodae.errors import RunInterrupted, SolverError
+from hydrodae.laws import Force, kernel_forces
 from hydrodae.results import Results
 
 #: Called with the time and the end time [s] at every output sample; return False to stop the run.
@@ -25,7 +25,7 @@ Progress = Callable[[float, float], bool | None]
 
 
 def run(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     output: str | os.PathLike[str] | None = None,
     *,
     set: Mapping[str, Any] | None = None,
@@ -38,8 +38,8 @@ def run(
 
     Parameters
     ----------
-    case : Case or path
-        The case, or the path of its file.
+    case : Case, Scene or path
+        The case, a scene built in Python, or the path of its file.
     output : path, optional
         Results file (HDF5); folders are made. The run writes ``X.partial.h5`` beside ``X.h5`` and
         renames it when it ends, completed or not: until then an older results file stands. Without
@@ -70,8 +70,8 @@ def run(
     Raises
     ------
     CaseError
-        The case, a drive or a force cannot be used, `output` exists and is no results file (it is not
-        replaced), or another run is writing it.
+        The case, a drive or a force cannot be used, `output` exists and is no results file (it is
+        not replaced), or another run is writing it.
     SolverError
         The integration failed, the disk is full, or `verify` found the motion off by more than
         ``solver.error_guard``. What was computed is kept: the attribute

@@ -411,9 +411,21 @@ def test_the_executable_tells_about_itself(executable, flag):
     assert "hydrodae" in run.stdout
 
 
+def test_the_executable_lists_keys(executable):
+    assert "  force " in solve(executable, "--keys").stdout
+    assert "pto_linear" in solve(executable, "--keys", "force").stdout
+    run = solve(executable, "--keys", "force", "pto_linear")
+    assert run.returncode == 0
+    assert "  damping [N s/m or N m s/rad] (default 0, >= 0)\n      Damping c.\n" in run.stdout
+
+
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
+        (["--keys", "sover"], "there is no table 'sover'; did you mean 'solver'?"),
+        (["--keys", "joint", "revolut"], "did you mean 'revolute'?"),
+        (["--keys", "solver", "ida"], "the table 'solver' has no types"),
+        (["--keys", "joint", "fixed", "x"], "unexpected argument 'x'"),
         ([], "a case file is missing"),
         (["CASE"], "-o RESULTS is missing"),
         (["CASE", "-o"], "-o: a value is missing"),

@@ -258,7 +258,7 @@ PYTHON_LOAD = '[[force]]\ntype = "python_load"\nname = "own"\njoint = "slide"\n'
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_python_law_is_the_same_as_a_built_in_one(method: str) -> None:
-    linear = '[[force]]\ntype = "pto_linear"\nname = "own"\njoint = "slide"\nstiffness = 50.0\ndamping = 1.5\n'
+    linear = PYTHON_LOAD.replace("python_load", "pto_linear") + "stiffness = 50.0\ndamping = 1.5\n"
     solver = f'method = "{method}"\nrtol = 1e-8'
     built_in = hydrodae.run(hydrodae.Case.from_text(slide(linear, 3.0, start=0.2, solver=solver)))[
         "joints/slide/displacement"

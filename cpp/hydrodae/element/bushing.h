@@ -20,6 +20,8 @@ namespace hydrodae::element {
 /// second order in theta.
 struct Bushing {
   static constexpr std::string_view type = "bushing";
+  static constexpr std::string_view doc =
+      "Elastic joint: stiffness and damping of all six relative motions of two bodies at a point.";
   static constexpr Port port = Port::between;
   std::string name;
   std::string body_a;

@@ -11,6 +11,8 @@ namespace hydrodae::element {
 struct ConstantLoad {
   static constexpr std::string_view type = "constant_load";
   static constexpr Port port = Port::on_body;
+  static constexpr std::string_view doc =
+      "Constant force at the centre of gravity and constant moment, world axes.";
   std::string name;
   std::string body;
   Vector3 force = Vector3::Zero();

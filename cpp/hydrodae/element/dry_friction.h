@@ -18,6 +18,8 @@ struct DryFriction {
   static constexpr std::string_view type = "dry_friction";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_signals = 1;
+  static constexpr std::string_view doc =
+      "Coulomb friction along a joint, with located sticking and slipping.";
   std::string name;
   std::string joint;
   double static_load = 0.0;

@@ -20,6 +20,8 @@ namespace hydrodae::element {
 /// Below F_s the joint creeps by micrometres and comes back: it sticks. Smooth, so no events.
 struct FrictionLugre {
   static constexpr std::string_view type = "friction_lugre";
+  static constexpr std::string_view doc =
+      "Bristle friction (LuGre) along a joint: sticks and slips smoothly, by a state of its own.";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_states = 1;
   std::string name;

@@ -15,6 +15,8 @@ namespace hydrodae::element {
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
   static constexpr Port port = Port::on_body;
+  static constexpr std::string_view doc =
+      "Mooring as a linear matrix about the reference pose of a body: F = F0 - K xi - C v.";
   std::string name;
   std::string body;
   Matrix6 stiffness = Matrix6::Zero();

@@ -19,6 +19,8 @@ namespace hydrodae::element {
 /// u = u_fluid - v_body [m/s], w the wet part of the segment (see `wet_part`). There is no
 /// buoyancy: that belongs to the hydrostatics of the database.
 struct Morison {
+  static constexpr std::string_view doc =
+      "Drag and inertia of the water on a point or on a slender member of a body (Morison).";
   std::string name;
   std::string body;
   std::optional<Vector3> point, point_a, point_b;

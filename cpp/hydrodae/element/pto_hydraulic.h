@@ -23,6 +23,8 @@ namespace hydrodae::element {
 /// absorbed, -f s', is what the motor takes, Q_m (p_H - p_L), and what the gas stores.
 struct PtoHydraulic {
   static constexpr std::string_view type = "pto_hydraulic";
+  static constexpr std::string_view doc = "Hydraulic power take-off along a joint: cylinder, check "
+                                          "valves, two gas accumulators, motor.";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_states = 2;
   std::string name;

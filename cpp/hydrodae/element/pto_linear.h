@@ -17,6 +17,8 @@ namespace hydrodae::element {
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
   static constexpr Port port = Port::along_joint;
+  static constexpr std::string_view doc =
+      "Linear power take-off along a joint: f = -k (s - s0) - c s'.";
   std::string name;
   std::string joint;
   double damping = 0.0;

@@ -67,6 +67,7 @@ private:
 /// A Python function of t, s, s' that gives the load along the free motion of a joint.
 struct PythonLoad {
   static constexpr std::string_view type = "python_load";
+  static constexpr std::string_view doc = "Load along a joint by a Python function f(t, s, s').";
   static constexpr Port port = Port::along_joint;
   std::string name;
   std::string joint;
@@ -91,6 +92,8 @@ struct PythonLoad {
 /// centre of gravity of a body.
 struct PythonWrench {
   static constexpr std::string_view type = "python_wrench";
+  static constexpr std::string_view doc =
+      "Force and moment on a body by a Python function f(t, displacement, twist).";
   static constexpr Port port = Port::on_body;
   std::string name;
   std::string body;

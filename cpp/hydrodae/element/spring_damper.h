@@ -17,6 +17,9 @@ namespace hydrodae::element {
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
   static constexpr Port port = Port::along_distance;
+  static constexpr std::string_view doc =
+      "Spring and damper between points of two bodies: f = -k (s - s0) - c s' + f0, s their "
+      "distance.";
   std::string name;
   std::string body_a;
   std::string body_b;

@@ -17,6 +17,9 @@ namespace hydrodae::element {
 struct ViscousDamping {
   static constexpr std::string_view type = "viscous_damping";
   static constexpr Port port = Port::on_body;
+  static constexpr std::string_view doc =
+      "Damping of one body about its centre of gravity, linear and quadratic: W = -C v - Q (v "
+      "|v|).";
   std::string name;
   std::string body;
   Matrix6 linear = Matrix6::Zero();

@@ -12,13 +12,11 @@
 #include "hydrodae/io/hydro_file.h"
 #include "hydrodae/io/record_file.h"
 #include "hydrodae/io/toml_table.h"
+#include "hydrodae/model/scene_tables.h"
+#include "hydrodae/model/tables.h"
 
 namespace hydrodae::io {
 namespace {
-
-const std::vector<std::string> top_level_keys = {
-    "title",      "environment", "hydro", "sea",     "wave",   "body",  "joint",
-    "constraint", "marker",      "force", "morison", "solver", "output"};
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
   try {
@@ -45,7 +43,8 @@ bool read_single(const toml::table& root, const std::string& name, Positions& po
     throw CaseError(table_position(root, name) + ": " + in_quotes(name) +
                     " must be one table: write [" + name + "]");
   positions[name] = table_position(root, name);
-  out = read_table<T>({*node->as_table(), "[" + name + "]", name, positions[name]}, positions);
+  const Table table{*node->as_table(), "[" + name + "]", name, positions[name], name, ""};
+  out = read_table<T>(table, positions);
   return true;
 }
 
@@ -68,18 +67,15 @@ void for_each_entry(const toml::table& root, const std::string& name, Positions&
     const std::string path = name + "." + given.value_or(number);
     positions[path] = position(item.source());
     read(Table{entry, "[[" + name + "]] " + (given ? in_quotes(*given) : number), path,
-               positions[path]});
+               positions[path], name, entry["type"].value<std::string>().value_or("")});
   }
 }
 
 /// Reads the entry into the list whose element type has its `type`.
 void read_force(const Table& table, Positions& positions, model::Forces& forces) {
-  const std::vector<std::string> types = std::apply(
-      [](const auto&... list) {
-        return std::vector<std::string>{
-            std::string(std::remove_cvref_t<decltype(list)>::value_type::type)...};
-      },
-      forces);
+  std::vector<std::string> types;
+  model::for_each_force_type(
+      [&]<class Force>(std::type_identity<Force>) { types.emplace_back(Force::type); });
   Key key{"type", "-", any_value, {types.begin(), types.end()}, ""};
   const toml::node* node = find_key(table, key, positions);
   if (!node)
@@ -94,43 +90,43 @@ void read_force(const Table& table, Positions& positions, model::Forces& forces)
   std::apply([&](auto&... list) { (read_into(list), ...); }, forces);
 }
 
+/// Reads each table into its member of the scene.
+struct TableReader {
+  const toml::table& root;
+  model::Scene& scene;
+
+  template <class T> void operator()(const std::string& name, T model::Scene::* member) const {
+    read_single(root, name, scene.positions, scene.*member);
+  }
+  template <class T>
+  void operator()(const std::string& name, std::optional<T> model::Scene::* member) const {
+    T value;
+    if (read_single(root, name, scene.positions, value))
+      scene.*member = value;
+  }
+  template <class T>
+  void operator()(const std::string& name, std::vector<T> model::Scene::* member) const {
+    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
+      (scene.*member).push_back(read_table<T>(entry, scene.positions));
+    });
+  }
+  void operator()(const std::string& name, model::Forces model::Scene::* member) const {
+    for_each_entry(root, name, scene.positions,
+                   [&](const Table& entry) { read_force(entry, scene.positions, scene.*member); });
+  }
+};
+
+/// The tables that there are.
 model::Scene read_tables(const toml::table& root, const std::string& name) {
   model::Scene scene;
-  Positions& positions = scene.positions;
-  const Table top{root, "the case", "", name + ":1:1"};
-  check_keys(top, top_level_keys);
+  const Table top{root, "the case", "", name + ":1:1", "", ""};
+  std::vector<std::string> keys = model::table_names();
+  keys.insert(keys.begin(), "title");
+  check_keys(top, keys);
   Key title{"title", "-", any_value, {}, ""};
-  if (const toml::node* node = find_key(top, title, positions))
+  if (const toml::node* node = find_key(top, title, scene.positions))
     read_value(*node, title, scene.title);
-
-  read_single(root, "environment", positions, scene.environment);
-  model::HydroOptions hydro;
-  if (read_single(root, "hydro", positions, hydro))
-    scene.hydro = hydro;
-  for_each_entry(root, "body", positions, [&](const Table& entry) {
-    scene.bodies.push_back(read_table<model::Body>(entry, positions));
-  });
-  for_each_entry(root, "joint", positions, [&](const Table& entry) {
-    scene.joints.push_back(read_table<model::Joint>(entry, positions));
-  });
-  for_each_entry(root, "constraint", positions, [&](const Table& entry) {
-    scene.constraints.push_back(read_table<model::Constraint>(entry, positions));
-  });
-  for_each_entry(root, "marker", positions, [&](const Table& entry) {
-    scene.markers.push_back(read_table<model::Marker>(entry, positions));
-  });
-  for_each_entry(root, "force", positions,
-                 [&](const Table& entry) { read_force(entry, positions, scene.forces); });
-  for_each_entry(root, "morison", positions, [&](const Table& entry) {
-    scene.morison.push_back(read_table<element::Morison>(entry, positions));
-  });
-  read_single(root, "sea", positions, scene.sea);
-  for_each_entry(root, "wave", positions, [&](const Table& entry) {
-    scene.waves.push_back(read_table<sea::Wave>(entry, positions));
-  });
-  if (!read_single(root, "solver", positions, scene.solver))
-    throw CaseError(name + ":1:1: missing table [solver]");
-  read_single(root, "output", positions, scene.output);
+  model::for_each_table(TableReader{root, scene});
   return scene;
 }
 
@@ -168,6 +164,8 @@ model::Scene parse(const std::string& text, const std::string& directory,
   toml::table root = parse_toml(text, name);
   apply_overrides(root, overrides);
   model::Scene scene = read_tables(root, name);
+  if (!root.contains("solver"))
+    throw CaseError(name + ":1:1: missing table [solver]");
   scene.path = path;
   scene.text = text;
   for (const auto& [key, value] : overrides)
@@ -207,6 +205,11 @@ model::Scene read_case(const std::string& path, const Overrides& overrides) {
 model::Scene parse_case(const std::string& text, const std::string& directory,
                         const Overrides& overrides, const std::string& name) {
   return parse(text, directory, overrides, name, "");
+}
+
+void check_tables(const std::string& text) {
+  const std::string name = "<case>";
+  read_tables(parse_toml(text, name), name);
 }
 
 } // namespace hydrodae::io

@@ -18,4 +18,8 @@ model::Scene read_case(const std::string& path, const Overrides& overrides = {})
 model::Scene parse_case(const std::string& text, const std::string& directory,
                         const Overrides& overrides = {}, const std::string& name = "<case>");
 
+/// Reads the tables of a part of a case: keys and values, each by itself; no table is required and
+/// nothing is compared with another. Throws CaseError.
+void check_tables(const std::string& text);
+
 } // namespace hydrodae::io

@@ -12,9 +12,7 @@ void check_keys(const Table& table, const std::vector<std::string>& valid) {
   for (const auto& [key, node] : table.node) {
     if (std::find(valid.begin(), valid.end(), key.str()) != valid.end())
       continue;
-    const std::vector<std::string> own =
-        model::keys_of_type(table.path.substr(0, table.path.find('.')),
-                            table.node["type"].value<std::string>().value_or(""));
+    const std::vector<std::string> own = model::keys_of_type(table.kind, table.type);
     throw CaseError(position(key.source()) + ": unknown key " + in_quotes(key.str()) + " in " +
                     table.label + suggestion(key.str(), own.empty() ? valid : own));
   }
@@ -45,7 +43,7 @@ Table nested_table(const Table& parent, const toml::node& node, const std::strin
     throw CaseError(where + ": " + label + " must be a table, such as " + name + " = { ... }");
   const std::string path = parent.path + "." + name;
   positions[path] = where;
-  return {*node.as_table(), label, path, where};
+  return {*node.as_table(), label, path, where, parent.kind + "." + name, parent.type};
 }
 
 } // namespace hydrodae::io

@@ -1,15 +1,14 @@
 #pragma once
 /// A table of a case file as the struct that declares its keys (`T::fields()`).
 
-#include <concepts>
 #include <map>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/core/nested.h"
 #include "hydrodae/io/toml_values.h"
 
 namespace hydrodae::io {
@@ -20,6 +19,8 @@ struct Table {
   std::string label;    ///< "[[body]] 'flap1'"
   std::string path;     ///< "body.flap1"
   std::string position; ///< "case.toml:12:1"
+  std::string kind;     ///< "body", "body.initial"; "" for the case itself
+  std::string type;     ///< of the entry, "" without
 };
 
 /// Key path -> position, for messages of later checks.
@@ -40,16 +41,6 @@ const toml::node* find_key(const Table& table, Key& key, Positions& positions);
 Table nested_table(const Table& parent, const toml::node& node, const std::string& name,
                    Positions& positions);
 
-/// Entries of a list that is read by its `type` name it as a constant; the key itself is no field.
-template <class T>
-concept NamedType = std::same_as<decltype(&T::type), const std::string_view*>;
-
-/// A table `initial` or `drive` of its own.
-template <class T>
-concept HasInitial = requires(T value) { value.initial; };
-template <class T>
-concept HasDrive = requires(T value) { value.drive; };
-
 template <class T> T read_table(const Table& table, Positions& positions);
 
 /// The table `name` of `parent`, if it has one.
@@ -68,10 +59,7 @@ template <class T> T read_table(const Table& table, Positions& positions) {
     valid.emplace_back("type");
   for (const Field<T>& field : fields)
     valid.emplace_back(field.key);
-  if constexpr (HasInitial<T>)
-    valid.emplace_back("initial");
-  if constexpr (HasDrive<T>)
-    valid.emplace_back("drive");
+  for_each_nested<T>([&](const char* name, auto) { valid.emplace_back(name); });
   check_keys(table, valid);
 
   for (const Field<T>& field : fields) {
@@ -82,10 +70,8 @@ template <class T> T read_table(const Table& table, Positions& positions) {
     else if (field.required)
       missing_key(table, field.key, field.unit, field.doc);
   }
-  if constexpr (HasInitial<T>)
-    read_nested(table, "initial", positions, value.initial);
-  if constexpr (HasDrive<T>)
-    read_nested(table, "drive", positions, value.drive);
+  for_each_nested<T>(
+      [&](const char* name, auto member) { read_nested(table, name, positions, value.*member); });
   return value;
 }
 

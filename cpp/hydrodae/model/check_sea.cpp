@@ -26,7 +26,7 @@ void check_keys(const Scene& scene, const sea::Wave& wave) {
       refuse(entry, key,
              "a " + wave.type + " wave has no " + in_quotes(key) + "; it has: " + joined(allowed));
   }
-  for (const std::string& key : needed_wave_keys(wave.type)) {
+  for (const std::string& key : needed_keys("wave", wave.type)) {
     const bool there = key == "height"               ? has_height
                        : key == "period"             ? has_period
                        : key == "significant_height" ? wave.significant_height.has_value()

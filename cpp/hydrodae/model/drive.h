@@ -17,6 +17,9 @@ namespace hydrodae::model {
 /// ramp(t) = (1 - cos(pi t / T)) / 2 for t < T = `ramp`, then 1. The table is a natural cubic
 /// spline. The function comes from the program that runs the scene, where `python` asks for it.
 struct Drive {
+  static constexpr std::string_view doc =
+      "Function of time: constant + rate t + ramp(t) amplitude sin(2 pi t / period + phase) + "
+      "table + function; ramp(t) = (1 - cos(pi t / ramp)) / 2, then 1.";
   double constant = 0.0;
   double rate = 0.0;
   double amplitude = 0.0;

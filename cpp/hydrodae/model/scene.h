@@ -32,6 +32,7 @@ namespace hydrodae::model {
 
 /// Table [environment].
 struct Environment {
+  static constexpr std::string_view doc = "Gravity, and the water where no database tells it.";
   double gravity = 9.81;
   std::optional<double> water_density, water_depth;
 
@@ -50,6 +51,8 @@ struct Environment {
 
 /// Table [hydro]: the database and the rungs of the radiation ladder.
 struct HydroOptions {
+  static constexpr std::string_view doc =
+      "The hydrodynamic database, and how the loads of the water are taken from it.";
   std::string database;
   std::string axes = "mean";
   std::string radiation = "exponential";
@@ -94,6 +97,7 @@ struct HydroOptions {
 
 /// Start of a body, relative to its reference pose.
 struct BodyInitial {
+  static constexpr std::string_view doc = "Start of the body, relative to its reference pose.";
   Vector3 displacement = Vector3::Zero();
   Vector3 rotation = Vector3::Zero();
   std::optional<Vector3> velocity, angular_velocity;
@@ -113,6 +117,7 @@ struct BodyInitial {
 
 /// Table [[body]].
 struct Body {
+  static constexpr std::string_view doc = "A rigid body.";
   std::string name;
   std::vector<std::string> motion = {"rigid"};
   double mass = 0.0;
@@ -153,6 +158,8 @@ struct Body {
 
 /// Start of a joint, in its own coordinate. Body B (and what hangs on it) is moved.
 struct JointInitial {
+  static constexpr std::string_view doc =
+      "Start of the joint in its own coordinate; body B, and what hangs on it, is moved.";
   std::optional<double> angle;
   std::optional<double> angle_rate;
   std::optional<double> displacement;
@@ -172,6 +179,8 @@ struct JointInitial {
 /// Table [[joint]]. Markers are made from `point`, `axis` (their z) and `axis_x` in the reference
 /// pose of both bodies.
 struct Joint {
+  static constexpr std::string_view doc =
+      "A joint that carries body B on body A, or on the ground.";
   std::string name;
   std::string type;
   std::string body_a;
@@ -196,6 +205,7 @@ struct Joint {
 ///   coupler:     s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts
 ///   stop:        lower <= s <= upper, with impacts: s' after = -restitution s' before
 struct Constraint {
+  static constexpr std::string_view doc = "A condition on coordinates of joints or bodies.";
   std::string name;
   std::string type;
   std::optional<std::string> joint;
@@ -250,6 +260,7 @@ struct Constraint {
 
 /// Table [[marker]]: a point of a body whose motion is reported.
 struct Marker {
+  static constexpr std::string_view doc = "A point of a body whose motion is reported.";
   std::string name;
   std::string body;
   Vector3 point = Vector3::Zero();
@@ -275,6 +286,7 @@ struct Marker {
 
 /// Table [output].
 struct OutputOptions {
+  static constexpr std::string_view doc = "What the results file holds.";
   double step = 0.1;
 
   static Fields<OutputOptions> fields() {

@@ -9,6 +9,8 @@
 namespace hydrodae::model {
 
 struct SolverOptions {
+  static constexpr std::string_view doc =
+      "Which method integrates the scene, how exactly, and what ends a run that goes wrong.";
   std::string method = "ida";
   std::string formulation = "stabilised";
   std::string start = "given";

@@ -1,6 +1,7 @@
 #include "hydrodae/model/type_keys.h"
 
 #include <algorithm>
+#include <map>
 
 #include "hydrodae/joint/types.h"
 #include "hydrodae/sea/wave.h"
@@ -31,6 +32,33 @@ Keys joint_keys(const std::string& name) {
   return keys;
 }
 
+Keys joint_initial_keys(const std::string& name) {
+  const joint::JointType* type = joint::find_joint_type(name);
+  Keys keys;
+  if (type && type->turns())
+    add(keys, {"angle_deg", "angle_rate"});
+  if (type && type->slides())
+    add(keys, {"displacement", "displacement_rate"});
+  return keys;
+}
+
+Keys needed_joint_keys(const std::string& name) {
+  using Row = joint::BasicRow::Kind;
+  const joint::JointType* type = joint::find_joint_type(name);
+  Keys keys;
+  if (!type)
+    return keys;
+  if (type->needs_axis)
+    add(keys, {"axis"});
+  if (type->has_row(Row::distance))
+    add(keys, {"point_b"});
+  if (type->has_row(Row::screw))
+    add(keys, {"pitch"});
+  if (type->has_row(Row::across))
+    add(keys, {"path"});
+  return keys;
+}
+
 Keys constraint_keys(const std::string& type) {
   if (type == "coordinate")
     return {"name", "type", "joint", "body", "coordinate", "level", "drive"};
@@ -50,7 +78,7 @@ Keys wave_keys(const std::string& type) {
       return {};
   }
   Keys keys = {"name", "type", "heading_deg"};
-  add(keys, needed_wave_keys(type));
+  add(keys, needed_keys("wave", type));
   if (type == "regular") {
     add(keys, {"phase_deg"});
   } else if (type == "measured") {
@@ -66,9 +94,7 @@ Keys wave_keys(const std::string& type) {
   return keys;
 }
 
-} // namespace
-
-std::vector<std::string> needed_wave_keys(const std::string& type) {
+Keys needed_wave_keys(const std::string& type) {
   if (type == "regular")
     return {"height", "period"};
   if (type == "measured")
@@ -80,11 +106,51 @@ std::vector<std::string> needed_wave_keys(const std::string& type) {
   return {"significant_height", "peak_period"};
 }
 
+Keys needed_constraint_keys(const std::string& type) {
+  if (type == "coupler")
+    return {"joint", "joint_b"};
+  return type == "stop" ? Keys{"joint"} : Keys{};
+}
+
+const std::map<std::string, std::string> type_docs = {
+    {"constraint.coordinate", "One coordinate of a joint or a body follows a function of time."},
+    {"constraint.coupler", "Two joint coordinates keep a ratio, as gears, racks and belts do: "
+                           "s_b - s_b(0) = ratio (s - s(0))."},
+    {"constraint.stop", "A joint coordinate stays within bounds, with impacts."},
+    {"wave.regular", "One wave of one period: H/2 cos(w t - k.x + phase)."},
+    {"wave.jonswap", "JONSWAP spectrum (Hasselmann et al. 1973)."},
+    {"wave.bretschneider", "JONSWAP spectrum with gamma = 1."},
+    {"wave.pierson_moskowitz", "Spectrum of a fully grown wind sea; its period follows from Hs."},
+    {"wave.ochi_hubble", "One part of the spectrum of Ochi and Hubble (1976); the other part is a "
+                         "wave system of its own."},
+    {"wave.table", "Spectrum given point by point, straight lines between."},
+    {"wave.measured", "Elevation over time at a point: the harmonics of the record."},
+};
+
+} // namespace
+
 std::vector<std::string> keys_of_type(const std::string& kind, const std::string& type) {
-  return kind == "joint"        ? joint_keys(type)
-         : kind == "constraint" ? constraint_keys(type)
-         : kind == "wave"       ? wave_keys(type)
+  return kind == "joint"           ? joint_keys(type)
+         : kind == "joint.initial" ? joint_initial_keys(type)
+         : kind == "constraint"    ? constraint_keys(type)
+         : kind == "wave"          ? wave_keys(type)
+                                   : Keys{};
+}
+
+std::vector<std::string> needed_keys(const std::string& kind, const std::string& type) {
+  return kind == "joint"        ? needed_joint_keys(type)
+         : kind == "constraint" ? needed_constraint_keys(type)
+         : kind == "wave"       ? needed_wave_keys(type)
                                 : Keys{};
+}
+
+std::string doc_of_type(const std::string& kind, const std::string& type) {
+  if (kind == "joint") {
+    const joint::JointType* row = joint::find_joint_type(type);
+    return row ? std::string(row->doc) : "";
+  }
+  const auto found = type_docs.find(kind + "." + type);
+  return found == type_docs.end() ? "" : found->second;
 }
 
 } // namespace hydrodae::model

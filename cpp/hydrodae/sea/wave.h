@@ -11,6 +11,7 @@ namespace hydrodae::sea {
 
 /// Table [sea]: what all wave systems share.
 struct Sea {
+  static constexpr std::string_view doc = "What all wave systems share, and the current.";
   double ramp = 0.0;
   Vector3 current = Vector3::Zero();
   std::string phase = "fixed";
@@ -49,6 +50,8 @@ struct Sea {
 ///   table:              S given point by point, straight lines between, m0 as given
 ///   measured:           elevation over time at a point: the harmonics of the record
 struct Wave {
+  static constexpr std::string_view doc =
+      "One wave system; the sea is the sum of all, and still without any.";
   std::string name;
   std::string type;
   std::optional<double> height, period;

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
 
 
-def working_band(
-    case: Case | str | os.PathLike[str], database: HydroDatabase
-) -> tuple[float, float]:
+def working_band(case: CaseLike, database: HydroDatabase) -> tuple[float, float]:
     """Frequencies [rad/s] that a case works at: from 0.6 of its lowest to 1.3 of its highest.
 
     Its natural frequencies and those of its waves count, within the database.
 
     Parameters
     ----------
-    case : Case or path
+    case : Case, Scene or path
         Its own database does not matter; a path may be that of a case whose database, or whose fit
         in it, is still to be made.
     database : HydroDatabase

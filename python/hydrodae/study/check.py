@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from typing import Any
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.drives import Drive
 from hydrodae.laws import Force
 
 
 def check(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     *,
     set: Mapping[str, Any] | None = None,
     drives: Mapping[str, Drive] | None = None,
@@ -22,8 +21,8 @@ def check(
 
     Parameters
     ----------
-    case : Case or path
-        The case, or the path of its file.
+    case : Case, Scene or path
+        The case, a scene built in Python, or the path of its file.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
     drives, forces : mapping from str to callable, optional

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.frequency import LinearModel
 
 Array = NDArray[np.float64]
@@ -64,15 +63,13 @@ class Equilibrium:
         return "\n".join(lines)
 
 
-def equilibrium(
-    case: Case | str | os.PathLike[str], *, set: Mapping[str, Any] | None = None
-) -> Equilibrium:
+def equilibrium(case: CaseLike, *, set: Mapping[str, Any] | None = None) -> Equilibrium:
     """Solve for the static pose of a case in still water.
 
     Parameters
     ----------
-    case : Case or path
-        The case, or the path of its file.
+    case : Case, Scene or path
+        The case, a scene built in Python, or the path of its file.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
 

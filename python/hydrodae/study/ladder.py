@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.errors import CaseError, SolverError
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
@@ -89,7 +88,7 @@ class Ladder:
 
 
 def ladder(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     *,
     frequency: float | None = None,
     channel: str | None = None,
@@ -100,7 +99,7 @@ def ladder(
 
     Parameters
     ----------
-    case : Case or path
+    case : Case, Scene or path
         With a database; rungs that it cannot run (no fit, no kernel) are told with the reason.
     frequency : float, optional
         Of constant radiation [rad/s]; default: that of the largest wave, else of the least damped

@@ -73,7 +73,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
-       "'angle_deg'? (valid: angle_deg, angle_rate, displacement, displacement_rate)"},
+       "'angle_deg'? (valid: angle_deg, angle_rate)"},
       {"mass = 10.0\n", "", "case.toml:12:1: missing key 'mass' in [[body]] 'flap' (Mass [kg])"},
       {"name = \"flap\"\n", "",
        "case.toml:12:1: missing key 'name' in [[body]] #2 (Name of the body)"},

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.simulate import Progress
 from hydrodae.study.chart import methods as methods_of
@@ -26,7 +26,7 @@ _SCOUT = 1e-4
 
 
 def chart(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     *,
     methods: Sequence[str] = METHODS,
     tolerances: Sequence[float] = TOLERANCES,
@@ -42,7 +42,7 @@ def chart(
 
     Parameters
     ----------
-    case : Case or path
+    case : Case, Scene or path
     methods : sequence of str
         "name" or "name:order", such as "radau:13".
     tolerances : sequence of float, -
@@ -113,7 +113,7 @@ def chart(
 
 
 def recommend(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     error: float,
     *,
     methods: Sequence[str] = SHORT_METHODS,
@@ -127,7 +127,7 @@ def recommend(
 
     Parameters
     ----------
-    case : Case or path
+    case : Case, Scene or path
     error : float, -
         As `chart` measures it: 1e-3 is a thousandth of the largest excursion.
     methods : sequence of str

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, Mode, Response
 from hydrodae.study.rao import output, text
@@ -154,7 +154,7 @@ class Rao:
 
 
 def rao(
-    case: Case | str | os.PathLike[str] | LinearModel,
+    case: CaseLike | LinearModel,
     *,
     periods: Sequence[float] | None = None,
     heading: float = 0.0,
@@ -166,7 +166,7 @@ def rao(
 
     Parameters
     ----------
-    case : Case, path or LinearModel
+    case : Case, Scene, path or LinearModel
         The case, the path of its file, or the case as it was linearised before.
     periods : sequence of float, optional
         Wave periods of `Rao.chosen` [s]; default: up to six within the database.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, read_case
+from hydrodae.case import CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.frequency import LinearModel
 from hydrodae.study.sensitivity.variants import variants
@@ -41,7 +40,7 @@ class Row:
 
 
 def sensitivity(
-    case: Case | str | os.PathLike[str],
+    case: CaseLike,
     result: str,
     *,
     periods: Sequence[float] = (),
@@ -55,7 +54,7 @@ def sensitivity(
 
     Parameters
     ----------
-    case : Case or path
+    case : Case, Scene or path
     result : str
         "period" (natural modes: period and damping ratio), "rao" (amplitudes of `channels` at
         `periods`), "power" (mean power of all dampers in the sea of the case).

@@ -1,0 +1,45 @@
+#pragma once
+/// The tables of a case file and where they stand in the scene: the one list of them.
+
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae::model {
+
+/// Calls `visit(name, member)` for every table [name] and every list [[name]], in the order in
+/// which they are read. The member is a struct of fields, an optional one, a vector of them (a
+/// list), or `Forces` (a list in which every `type` is a struct of its own).
+template <class Visit> void for_each_table(const Visit& visit) {
+  visit("environment", &Scene::environment);
+  visit("hydro", &Scene::hydro);
+  visit("sea", &Scene::sea);
+  visit("wave", &Scene::waves);
+  visit("body", &Scene::bodies);
+  visit("joint", &Scene::joints);
+  visit("constraint", &Scene::constraints);
+  visit("marker", &Scene::markers);
+  visit("force", &Scene::forces);
+  visit("morison", &Scene::morison);
+  visit("solver", &Scene::solver);
+  visit("output", &Scene::output);
+}
+
+/// Must every case have this table?
+constexpr bool is_required_table(std::string_view name) {
+  return name == "body" || name == "solver";
+}
+
+/// Calls `visit(std::type_identity<Force>{})` for the struct of every kind of force.
+template <class Visit> void for_each_force_type(const Visit& visit) {
+  std::apply(
+      [&](const auto&... list) {
+        (visit(std::type_identity<typename std::remove_cvref_t<decltype(list)>::value_type>{}),
+         ...);
+      },
+      Forces{});
+}
+
+} // namespace hydrodae::model

@@ -1,0 +1,54 @@
+#pragma once
+/// Every table of a case file with its keys, as data. `hydrodae keys`, `hydrodae schema`, the pages
+/// of docs/reference and the Python class Scene are made from it.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hydrodae/core/field.h"
+
+namespace hydrodae::model {
+
+/// What the value of a key is; see `Member` for the short forms of words and matrix6.
+enum class ValueKind {
+  number,
+  integer,
+  truth,
+  word,
+  words,
+  numbers,
+  points,
+  vector3,
+  vector6,
+  matrix6
+};
+
+/// Its name: "number", ...
+std::string_view name_of(ValueKind kind);
+
+struct FieldInfo {
+  std::string key, unit, doc;
+  ValueKind kind = ValueKind::number;
+  bool required = false;
+  Range range;                      ///< of every number of the value, in the unit of the file
+  std::vector<std::string> choices; ///< allowed words; empty: any
+  std::string default_value;        ///< as TOML, which is JSON too; "" for none
+};
+
+struct TableInfo {
+  std::string name; ///< "body", "initial" inside it; of a type the word of the key `type`
+  std::string doc;
+  bool list = false;             ///< [[name]] rather than [name]
+  bool required = false;         ///< must every case have it?
+  std::vector<FieldInfo> fields; ///< of a list with types: what they all have
+  std::vector<TableInfo> nested;
+  std::vector<TableInfo> types; ///< each with all its keys; empty where entries are of one kind
+};
+
+std::vector<TableInfo> tables();
+
+/// Names of the tables.
+std::vector<std::string> table_names();
+
+} // namespace hydrodae::model

@@ -1,0 +1,1762 @@
+"""Scenes built in Python. Made by docs/reference.py from the fields of the kernel."""
+
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict
+
+from numpy.typing import NDArray
+
+from hydrodae.builder.base import SceneBase, TypedList
+
+_Numbers = Sequence[float] | NDArray[Any]
+_Rows = Sequence[_Numbers] | NDArray[Any]
+_HydroAxes = Literal[
+    "mean",
+    "yaw",
+    "body",
+]
+_HydroRadiation = Literal[
+    "none",
+    "constant",
+    "exponential",
+    "convolution",
+]
+_SeaPhase = Literal[
+    "fixed",
+    "moving",
+]
+_JonswapSpacing = Literal[
+    "energy",
+    "frequency",
+]
+_BodyMotion = Literal[
+    "fixed",
+    "planar",
+    "point",
+    "rigid",
+    "surge",
+    "sway",
+    "heave",
+    "roll",
+    "pitch",
+    "yaw",
+]
+_CoordinateLevel = Literal[
+    "position",
+    "velocity",
+]
+_MarkerAxes = Literal[
+    "world",
+    "body",
+]
+_MorisonSurface = Literal[
+    "mean",
+    "instantaneous",
+]
+_SolverMethod = Literal[
+    "ida",
+    "radau",
+    "gauss",
+    "lobatto_iiic",
+    "generalized_alpha",
+    "explicit_rk",
+]
+_SolverFormulation = Literal[
+    "stabilised",
+    "index_2",
+    "index_3",
+    "index_1",
+]
+_SolverStart = Literal[
+    "given",
+    "equilibrium",
+]
+
+class BodyInitial(TypedDict, total=False):
+    """Table `initial` of `body`."""
+
+    displacement: _Numbers
+    rotation_deg: _Numbers
+    velocity: _Numbers
+    angular_velocity: _Numbers
+
+class RevoluteInitial(TypedDict, total=False):
+    """Table `initial` of `revolute`."""
+
+    angle_deg: float
+    angle_rate: float
+
+class PrismaticInitial(TypedDict, total=False):
+    """Table `initial` of `prismatic`."""
+
+    displacement: float
+    displacement_rate: float
+
+class UniversalInitial(TypedDict, total=False):
+    """Table `initial` of `universal`."""
+
+    angle_deg: float
+    angle_rate: float
+
+class CylindricalInitial(TypedDict, total=False):
+    """Table `initial` of `cylindrical`."""
+
+    angle_deg: float
+    angle_rate: float
+    displacement: float
+    displacement_rate: float
+
+class PlanarInitial(TypedDict, total=False):
+    """Table `initial` of `planar`."""
+
+    angle_deg: float
+    angle_rate: float
+    displacement: float
+    displacement_rate: float
+
+class SlidingInitial(TypedDict, total=False):
+    """Table `initial` of `sliding`."""
+
+    displacement: float
+    displacement_rate: float
+
+class ScrewInitial(TypedDict, total=False):
+    """Table `initial` of `screw`."""
+
+    angle_deg: float
+    angle_rate: float
+    displacement: float
+    displacement_rate: float
+
+class PathInitial(TypedDict, total=False):
+    """Table `initial` of `path`."""
+
+    displacement: float
+    displacement_rate: float
+
+class CoordinateDrive(TypedDict, total=False):
+    """Table `drive` of `coordinate`."""
+
+    constant: float
+    rate: float
+    amplitude: float
+    period: float
+    phase_deg: float
+    ramp: float
+    time: _Numbers
+    values: _Numbers
+    python: bool
+
+class WaveTypes(TypedList):
+    """One wave system; the sea is the sum of all, and still without any."""
+
+    def regular(
+        self,
+        name: str,
+        *,
+        height: float,
+        period: float,
+        phase_deg: float = ...,
+        heading_deg: float = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "regular".
+
+        One wave of one period: H/2 cos(w t - k.x + phase).
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        height : number, m
+            Height H of a regular wave, crest to trough. Allowed: >= 0.
+        period : number, s
+            Period of a regular wave. Allowed: > 0.
+        phase_deg : number, deg, default 0
+            Phase of a regular wave: its crest passes the origin when w t = -phase.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def jonswap(
+        self,
+        name: str,
+        *,
+        significant_height: float,
+        peak_period: float,
+        gamma: float = ...,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        spreading: float = ...,
+        components: int = ...,
+        spacing: _JonswapSpacing = ...,
+        frequency_range: _Numbers = ...,
+        seed: int = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "jonswap".
+
+        JONSWAP spectrum (Hasselmann et al. 1973).
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        gamma : number, default 3.3
+            Peak enhancement of JONSWAP. Allowed: 1 to 20.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        spreading : number, optional
+            Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
+            deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
+        components : integer, default 200
+            Number of components of an irregular wave. Allowed: 2 to 100000.
+        spacing : text, default "energy"
+            Bins of equal energy or of equal width in frequency; each has one component at a
+            frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
+            energy, frequency.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def bretschneider(
+        self,
+        name: str,
+        *,
+        significant_height: float,
+        peak_period: float,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        spreading: float = ...,
+        components: int = ...,
+        spacing: _JonswapSpacing = ...,
+        frequency_range: _Numbers = ...,
+        seed: int = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "bretschneider".
+
+        JONSWAP spectrum with gamma = 1.
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        spreading : number, optional
+            Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
+            deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
+        components : integer, default 200
+            Number of components of an irregular wave. Allowed: 2 to 100000.
+        spacing : text, default "energy"
+            Bins of equal energy or of equal width in frequency; each has one component at a
+            frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
+            energy, frequency.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def pierson_moskowitz(
+        self,
+        name: str,
+        *,
+        significant_height: float,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        spreading: float = ...,
+        components: int = ...,
+        spacing: _JonswapSpacing = ...,
+        frequency_range: _Numbers = ...,
+        seed: int = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "pierson_moskowitz".
+
+        Spectrum of a fully grown wind sea; its period follows from Hs.
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        spreading : number, optional
+            Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
+            deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
+        components : integer, default 200
+            Number of components of an irregular wave. Allowed: 2 to 100000.
+        spacing : text, default "energy"
+            Bins of equal energy or of equal width in frequency; each has one component at a
+            frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
+            energy, frequency.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def ochi_hubble(
+        self,
+        name: str,
+        *,
+        significant_height: float,
+        peak_period: float,
+        shape: float = ...,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        spreading: float = ...,
+        components: int = ...,
+        spacing: _JonswapSpacing = ...,
+        frequency_range: _Numbers = ...,
+        seed: int = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "ochi_hubble".
+
+        One part of the spectrum of Ochi and Hubble (1976); the other part is a wave system of
+        its own.
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        shape : number, default 1
+            Shape l of Ochi-Hubble. Allowed: 0.5 to 20.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        spreading : number, optional
+            Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
+            deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
+        components : integer, default 200
+            Number of components of an irregular wave. Allowed: 2 to 100000.
+        spacing : text, default "energy"
+            Bins of equal energy or of equal width in frequency; each has one component at a
+            frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
+            energy, frequency.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def table(
+        self,
+        name: str,
+        *,
+        frequency: _Numbers,
+        density: _Numbers,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        spreading: float = ...,
+        components: int = ...,
+        spacing: _JonswapSpacing = ...,
+        frequency_range: _Numbers = ...,
+        seed: int = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "table".
+
+        Spectrum given point by point, straight lines between.
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        frequency : list of numbers, rad/s
+            Frequencies of a table, ascending. Allowed: > 0.
+        density : list of numbers, m2 s/rad
+            Spectral density S at these frequencies. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        spreading : number, optional
+            Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
+            deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
+        components : integer, default 200
+            Number of components of an irregular wave. Allowed: 2 to 100000.
+        spacing : text, default "energy"
+            Bins of equal energy or of equal width in frequency; each has one component at a
+            frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
+            energy, frequency.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def measured(
+        self,
+        name: str,
+        *,
+        file: str = ...,
+        time: _Numbers = ...,
+        elevation: _Numbers = ...,
+        point: _Numbers = ...,
+        start: float = ...,
+        taper: float = ...,
+        lost_variance: float = ...,
+        heading_deg: float = ...,
+        frequency_range: _Numbers = ...,
+    ) -> str:
+        """Add `[[wave]]` with the type "measured".
+
+        Elevation over time at a point: the harmonics of the record.
+
+        Parameters
+        ----------
+        name : text
+            Name of the wave system.
+        file : text, optional
+            Measured elevation: text with commas, named columns time [s] and elevation [m];
+            relative to the case file.
+        time : list of numbers, s, optional
+            Times of a measured elevation, at equal steps; without a file.
+        elevation : list of numbers, m, optional
+            Measured elevation at these times.
+        point : list of numbers, m, optional
+            Where it was measured, [x, y]; the origin by default.
+        start : number, s, default 0
+            Time since the first sample of the record at which t = 0. Allowed: >= 0.
+        taper : number, s, default 30
+            Time over which a record fades at both ends, where the waves before and after it,
+            which also load the body, are not known; 30 s by default. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        frequency_range : list of numbers, rad/s, optional
+            Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
+            above, as far as the database reaches. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
+class JointTypes(TypedList):
+    """A joint that carries body B on body A, or on the ground."""
+
+    def spherical(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+    ) -> str:
+        """Add `[[joint]]` with the type "spherical".
+
+        Ball joint: the bodies share one point and turn about it freely.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def revolute(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: RevoluteInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "revolute".
+
+        Hinge: body B turns about the axis.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: angle_deg [deg], angle_rate [rad/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def prismatic(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: PrismaticInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "prismatic".
+
+        Slider: body B moves along the axis and does not turn.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: displacement [m], displacement_rate [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def fixed(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers = ...,
+        axis_x: _Numbers = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "fixed".
+
+        Weld: the bodies move as one.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers, optional
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def universal(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: UniversalInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "universal".
+
+        Cardan joint: body B turns about two crossed axes, x of body A and y of body B.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: angle_deg [deg], angle_rate [rad/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def cylindrical(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: CylindricalInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "cylindrical".
+
+        Body B turns about the axis and moves along it.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: angle_deg [deg], angle_rate [rad/s], displacement [m], displacement_rate
+            [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def planar(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: PlanarInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "planar".
+
+        Body B moves in the plane across the axis and turns in it.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: angle_deg [deg], angle_rate [rad/s], displacement [m], displacement_rate
+            [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def sliding(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        axis_x: _Numbers = ...,
+        initial: SlidingInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "sliding".
+
+        A point of body B moves along the axis, which body A carries; all rotations are free.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: displacement [m], displacement_rate [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def screw(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        axis: _Numbers,
+        pitch: float,
+        axis_x: _Numbers = ...,
+        initial: ScrewInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "screw".
+
+        Body B turns about the axis and advances along it by `pitch` for each turn.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        axis : 3 numbers
+            Direction of the axis in the reference pose, world axes: z of both markers.
+        axis_x : 3 numbers, optional
+            Direction across the axis that is x of both markers (made perpendicular to the
+            axis).
+        pitch : number, m per turn
+            Advance of body B along the axis for one turn about it, not zero; screw joint only.
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: angle_deg [deg], angle_rate [rad/s], displacement [m], displacement_rate
+            [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def distance(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        point_b: _Numbers,
+        length: float = ...,
+        one_sided: bool = ...,
+        restitution: float = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "distance".
+
+        Massless rod between two points; `one_sided`: an inextensible rope.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        point_b : 3 numbers, m
+            Point on body B in the reference pose, world axes; distance joint only.
+        length : number, m, optional
+            Distance that is kept; default: that of point and point_b. Distance joint only.
+            Allowed: > 0.
+        one_sided : true or false, default false
+            The points may come nearer than `length`, as on a taut or slack rope; distance joint
+            only.
+        restitution : number, optional
+            Rate of the distance after a one-sided joint becomes taut over the rate before; 0,
+            the default: no rebound. Allowed: 0 to 1.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def path(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        path: _Rows,
+        initial: PathInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "path".
+
+        A point of body B moves along a curve that body A carries.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        path : list of points, m
+            Points of the curve that body A carries, in the reference pose, world axes, joined
+            by a natural cubic spline that goes on straight beyond its ends; path joint only.
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: displacement [m], displacement_rate [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
+class ConstraintTypes(TypedList):
+    """A condition on coordinates of joints or bodies."""
+
+    def coordinate(
+        self,
+        name: str,
+        *,
+        joint: str = ...,
+        body: str = ...,
+        coordinate: str = ...,
+        level: _CoordinateLevel = ...,
+        drive: CoordinateDrive = ...,
+    ) -> str:
+        """Add `[[constraint]]` with the type "coordinate".
+
+        One coordinate of a joint or a body follows a function of time.
+
+        Parameters
+        ----------
+        name : text
+            Name of the constraint in the results.
+        joint : text, optional
+            Joint whose coordinate is meant.
+        body : text, optional
+            Body whose coordinate is meant (relative to its reference pose).
+        coordinate : text, optional
+            Which one: surge ... yaw of a body; angle, displacement (angle_2, ...) of a joint.
+            By default the first of the joint.
+        level : text, default "position"
+            What follows the function: the coordinate or its rate. Allowed: position, velocity.
+        drive : dict, optional
+            Function of time: constant + rate t + ramp(t) amplitude sin(2 pi t / period + phase)
+            + table + function; ramp(t) = (1 - cos(pi t / ramp)) / 2, then 1. Keys: constant [m
+            or rad], rate [m/s or rad/s], amplitude [m or rad], period [s], phase_deg [deg],
+            ramp [s], time [s], values [m or rad], python.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def coupler(
+        self,
+        name: str,
+        *,
+        joint: str,
+        joint_b: str,
+        coordinate: str = ...,
+        coordinate_b: str = ...,
+        ratio: float = ...,
+    ) -> str:
+        """Add `[[constraint]]` with the type "coupler".
+
+        Two joint coordinates keep a ratio, as gears, racks and belts do: s_b - s_b(0) = ratio
+        (s - s(0)).
+
+        Parameters
+        ----------
+        name : text
+            Name of the constraint in the results.
+        joint : text
+            Joint whose coordinate is meant.
+        coordinate : text, optional
+            Which one: surge ... yaw of a body; angle, displacement (angle_2, ...) of a joint.
+            By default the first of the joint.
+        joint_b : text
+            Second joint of a coupler.
+        coordinate_b : text, optional
+            Its coordinate; by default the first.
+        ratio : number, - or m/rad, default 1
+            Motion of the second joint per motion of the first.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def stop(
+        self,
+        name: str,
+        *,
+        joint: str,
+        coordinate: str = ...,
+        lower: float = ...,
+        upper: float = ...,
+        lower_deg: float = ...,
+        upper_deg: float = ...,
+        restitution: float = ...,
+    ) -> str:
+        """Add `[[constraint]]` with the type "stop".
+
+        A joint coordinate stays within bounds, with impacts.
+
+        Parameters
+        ----------
+        name : text
+            Name of the constraint in the results.
+        joint : text
+            Joint whose coordinate is meant.
+        coordinate : text, optional
+            Which one: surge ... yaw of a body; angle, displacement (angle_2, ...) of a joint.
+            By default the first of the joint.
+        lower : number, m, optional
+            Least displacement that a stop allows.
+        upper : number, m, optional
+            Largest displacement that a stop allows.
+        lower_deg : number, deg, optional
+            Least angle that a stop allows.
+        upper_deg : number, deg, optional
+            Largest angle that a stop allows.
+        restitution : number, optional
+            Rate after an impact over the rate before; 0, the default: no rebound. Allowed: 0 to
+            1.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
+class ForceTypes(TypedList):
+    """What loads the bodies beside weight, water and joints."""
+
+    def mooring_matrix(
+        self,
+        name: str,
+        *,
+        body: str,
+        stiffness: _Numbers | _Rows,
+        damping: _Numbers | _Rows = ...,
+        pretension: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "mooring_matrix".
+
+        Mooring as a linear matrix about the reference pose of a body: F = F0 - K xi - C v.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body : text
+            Body that is moored.
+        stiffness : 6 numbers or 6 x 6, N/m, N, N m
+            K: six numbers (diagonal: surge, sway, heave, roll, pitch, yaw) or a 6x6 matrix.
+        damping : 6 numbers or 6 x 6, N s/m, N s, N m s, default [0, 0, 0, 0, 0, 0]
+            C: six numbers (diagonal) or a 6x6 matrix.
+        pretension : 6 numbers, N, N m, default [0, 0, 0, 0, 0, 0]
+            F0: force and moment in the reference pose.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def pto_linear(
+        self,
+        name: str,
+        *,
+        joint: str,
+        damping: float = ...,
+        stiffness: float = ...,
+        neutral: float = ...,
+        delay: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "pto_linear".
+
+        Linear power take-off along a joint: f = -k (s - s0) - c s'.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint with one free motion (revolute or prismatic).
+        damping : number, N s/m or N m s/rad, default 0
+            Damping c. Allowed: >= 0.
+        stiffness : number, N/m or N m/rad, default 0
+            Stiffness k. Allowed: >= 0.
+        neutral : number, m or rad, default 0
+            Joint coordinate s0 at which the spring is slack.
+        delay : number, s, default 0
+            Pure delay tau of damper and spring: they act on the coordinate as it was tau ago.
+            Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def spring_damper(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point_a: _Numbers,
+        point_b: _Numbers,
+        stiffness: float = ...,
+        damping: float = ...,
+        force: float = ...,
+        length: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "spring_damper".
+
+        Spring and damper between points of two bodies: f = -k (s - s0) - c s' + f0, s their
+        distance.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body_a : text
+            First body, or ground.
+        body_b : text
+            Second body, or ground.
+        point_a : 3 numbers, m
+            Point of the first body in the reference pose, world axes.
+        point_b : 3 numbers, m
+            Point of the second body in the reference pose, world axes.
+        stiffness : number, N/m, default 0
+            Stiffness k. Allowed: >= 0.
+        damping : number, N s/m, default 0
+            Damping c. Allowed: >= 0.
+        force : number, N, default 0
+            Constant part f0, positive apart.
+        length : number, m, optional
+            Length s0 at which the spring is slack; default: distance of the points in the
+            reference pose. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def constant_load(
+        self,
+        name: str,
+        *,
+        body: str,
+        force: _Numbers = ...,
+        moment: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "constant_load".
+
+        Constant force at the centre of gravity and constant moment, world axes.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body : text
+            Body that is loaded.
+        force : 3 numbers, N, default [0, 0, 0]
+            Force at the centre of gravity, world axes.
+        moment : 3 numbers, N m, default [0, 0, 0]
+            Moment, world axes.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def viscous_damping(
+        self,
+        name: str,
+        *,
+        body: str,
+        linear: _Numbers | _Rows = ...,
+        quadratic: _Numbers | _Rows = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "viscous_damping".
+
+        Damping of one body about its centre of gravity, linear and quadratic: W = -C v - Q (v
+        |v|).
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body : text
+            Body that is damped.
+        linear : 6 numbers or 6 x 6, N s/m, N s, N m s, default [0, 0, 0, 0, 0, 0]
+            C: six numbers (diagonal: surge, sway, heave, roll, pitch, yaw) or a 6x6 matrix.
+        quadratic : 6 numbers or 6 x 6, N s2/m2, N s2, N m s2, default [0, 0, 0, 0, 0, 0]
+            Q: six numbers (diagonal) or a 6x6 matrix.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def dry_friction(
+        self,
+        name: str,
+        *,
+        joint: str,
+        static: float,
+        kinetic: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "dry_friction".
+
+        Coulomb friction along a joint, with located sticking and slipping.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint with one free motion (revolute or prismatic).
+        static : number, N or N m
+            Largest load that sticking holds. Allowed: > 0.
+        kinetic : number, N or N m, optional
+            Load while slipping; default: as `static`. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
+class Scene(SceneBase):
+    """A scene that is built call by call; `hydrodae.run` and the other functions take it."""
+
+    def environment(
+        self,
+        *,
+        gravity: float = ...,
+        water_density: float = ...,
+        water_depth: float = ...,
+    ) -> None:
+        """Add `[environment]`.
+
+        Gravity, and the water where no database tells it.
+
+        Parameters
+        ----------
+        gravity : number, m/s2, default 9.81
+            Acceleration of gravity, along -z. Allowed: >= 0.
+        water_density : number, kg/m3, optional
+            Density of the water, where no hydrodynamic database tells it. Allowed: > 0.
+        water_depth : number, m, optional
+            Depth of the water, where no hydrodynamic database tells it; infinite by default.
+            Allowed: > 0.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def hydro(
+        self,
+        *,
+        database: str,
+        axes: _HydroAxes = ...,
+        radiation: _HydroRadiation = ...,
+        memory_length: float = ...,
+        frequency: float = ...,
+        fit: str = ...,
+    ) -> None:
+        """Add `[hydro]`.
+
+        The hydrodynamic database, and how the loads of the water are taken from it.
+
+        Parameters
+        ----------
+        database : text
+            Path of hydro.h5, relative to the case file.
+        axes : text, default "mean"
+            Axes in which added mass, radiation and excitation act: earth axes turned by the yaw
+            that each body has at the start or in the equilibrium (mean), axes that follow its
+            yaw (yaw), or axes carried by each body (body: large rotations in still water).
+            Allowed: mean, yaw, body.
+        radiation : text, default "exponential"
+            Radiation: none (added mass at infinite frequency only), constant (added mass and
+            damping at one frequency), the fitted exponential memory, or the convolution with
+            the radiation kernel. Allowed: none, constant, exponential, convolution.
+        memory_length : number, s, optional
+            Length of the kernel of the convolution; by default that of the database. Allowed: >
+            0.
+        frequency : number, rad/s, optional
+            Frequency of added mass and damping of constant radiation. Allowed: > 0.
+        fit : text, optional
+            Name of the exponential fit; by default the one with the fewest states that covers
+            the coordinates that move.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def sea(
+        self,
+        *,
+        ramp: float = ...,
+        current: _Numbers = ...,
+        phase: _SeaPhase = ...,
+    ) -> None:
+        """Add `[sea]`.
+
+        What all wave systems share, and the current.
+
+        Parameters
+        ----------
+        ramp : number, s, default 0
+            Time over which all waves grow from nothing, by a polynomial of degree 7 (three
+            continuous derivatives). Allowed: >= 0.
+        current : 3 numbers, m/s, default [0, 0, 0]
+            Velocity of the water, the same everywhere, on which the Morison elements work; the
+            waves do not feel it.
+        phase : text, default "fixed"
+            Where a body feels the phase of the waves: at its reference position (fixed), or
+            where it is (moving: for bodies that drift; then every evaluation sums all
+            components). Allowed: fixed, moving.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    @property
+    def wave(self) -> WaveTypes:
+        """One wave system; the sea is the sum of all, and still without any."""
+    def body(
+        self,
+        name: str,
+        *,
+        mass: float,
+        center_of_gravity: _Numbers,
+        motion: _BodyMotion | Sequence[_BodyMotion] = ...,
+        inertia: _Numbers = ...,
+        products_of_inertia: _Numbers = ...,
+        principal_axes_deg: _Numbers = ...,
+        hydro: str = ...,
+        initial: BodyInitial = ...,
+    ) -> str:
+        """Add `[[body]]`.
+
+        A rigid body.
+
+        Parameters
+        ----------
+        name : text
+            Name of the body.
+        motion : text or list of texts, default "rigid"
+            What the body can do: fixed, heave, planar (surge, heave, pitch), point (3
+            translations), rigid (6), or a list of free coordinates. Allowed: fixed, planar,
+            point, rigid, surge, sway, heave, roll, pitch, yaw.
+        mass : number, kg
+            Mass. Allowed: >= 0.
+        center_of_gravity : 3 numbers, m
+            Centre of gravity in the reference pose, world axes.
+        inertia : 3 numbers, kg m2, default [0, 0, 0]
+            Moments of inertia Ixx, Iyy, Izz about the centre of gravity. Allowed: >= 0.
+        products_of_inertia : 3 numbers, kg m2, default [0, 0, 0]
+            Ixy, Iyz, Izx as entries of the inertia tensor (Ixy = -sum m x y).
+        principal_axes_deg : 3 numbers, deg, optional
+            Rotation vector that turns the world axes into the principal axes of inertia in the
+            reference pose; inertia then holds the principal moments.
+        hydro : text, optional
+            Name of this body in the hydrodynamic database; without it the body is dry.
+        initial : dict, optional
+            Start of the body, relative to its reference pose. Keys: displacement [m],
+            rotation_deg [deg], velocity [m/s], angular_velocity [rad/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    @property
+    def joint(self) -> JointTypes:
+        """A joint that carries body B on body A, or on the ground."""
+    @property
+    def constraint(self) -> ConstraintTypes:
+        """A condition on coordinates of joints or bodies."""
+    def marker(
+        self,
+        name: str,
+        *,
+        body: str,
+        point: _Numbers,
+        axes: _MarkerAxes = ...,
+    ) -> str:
+        """Add `[[marker]]`.
+
+        A point of a body whose motion is reported.
+
+        Parameters
+        ----------
+        name : text
+            Name of the marker in the results.
+        body : text
+            Body that carries it.
+        point : 3 numbers, m
+            Where it is in the reference pose, world axes.
+        axes : text, default "world"
+            Axes of the velocity and acceleration that are reported: of the world, or carried by
+            the body. The position is in world axes. Allowed: world, body.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    @property
+    def force(self) -> ForceTypes:
+        """What loads the bodies beside weight, water and joints."""
+    def morison(
+        self,
+        name: str,
+        *,
+        body: str,
+        point: _Numbers = ...,
+        point_a: _Numbers = ...,
+        point_b: _Numbers = ...,
+        diameter: float = ...,
+        area: float = ...,
+        volume: float = ...,
+        drag_coefficient: float = ...,
+        drag_axial: float = ...,
+        added_mass_coefficient: float = ...,
+        added_mass_axial: float = ...,
+        segments: int = ...,
+        surface: _MorisonSurface = ...,
+    ) -> str:
+        """Add `[[morison]]`.
+
+        Drag and inertia of the water on a point or on a slender member of a body (Morison).
+
+        Parameters
+        ----------
+        name : text
+            Name of this element in the results, as a force.
+        body : text
+            Body that carries it.
+        point : 3 numbers, m, optional
+            Where a point element is in the reference pose, world axes.
+        point_a : 3 numbers, m, optional
+            First end of a member in the reference pose, world axes.
+        point_b : 3 numbers, m, optional
+            Second end of a member in the reference pose, world axes.
+        diameter : number, m, optional
+            Diameter D of a member, or of a point element (a sphere). Allowed: > 0.
+        area : number, m2, optional
+            Drag area A of a point element without a diameter. Allowed: >= 0.
+        volume : number, m3, optional
+            Volume V of a point element without a diameter. Allowed: >= 0.
+        drag_coefficient : number, default 0
+            C_d: drag across a member (over D dl), or of a point element (over A). Allowed: >=
+            0.
+        drag_axial : number, default 0
+            C_dt: drag along a member, over its wetted surface pi D dl. Allowed: >= 0.
+        added_mass_coefficient : number, optional
+            C_a, across a member; the inertia force is rho V (1 + C_a). Without this key there
+            is no inertia force: right for a body whose database holds excitation and added
+            mass. Allowed: >= 0.
+        added_mass_axial : number, default 0
+            C_at: added mass along a member. Allowed: >= 0.
+        segments : integer, default 20
+            Pieces of equal length into which a member is cut ; 20 by default. Allowed: 1 to
+            1000.
+        surface : text, default "mean"
+            Up to which surface the element is wet: the mean one (as in linear theory), or the
+            instantaneous one, where the water above z = 0 moves as at z = 0. Allowed: mean,
+            instantaneous.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def solver(
+        self,
+        *,
+        end_time: float,
+        method: _SolverMethod = ...,
+        formulation: _SolverFormulation = ...,
+        start: _SolverStart = ...,
+        rtol: float = ...,
+        step: float = ...,
+        max_step: float = ...,
+        max_order: int = ...,
+        order: int = ...,
+        spectral_radius: float = ...,
+        baumgarte_time: float = ...,
+        energy_guard: float = ...,
+        branch_guard: bool = ...,
+        error_guard: float = ...,
+        step_guard: float = ...,
+        tolerance_assembly: float = ...,
+        force: bool = ...,
+        length_scale: float = ...,
+        time_scale: float = ...,
+    ) -> None:
+        """Add `[solver]`.
+
+        Which method integrates the scene, how exactly, and what ends a run that goes wrong.
+
+        Parameters
+        ----------
+        method : text, default "ida"
+            Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic),
+            generalised alpha on the Lie group, or projected explicit Runge-Kutta. Allowed: ida,
+            radau, gauss, lobatto_iiic, generalized_alpha, explicit_rk.
+        formulation : text, default "stabilised"
+            Equations of the constraints: stabilised index 2 (Gear, Gupta, Leimkuhler), plain
+            index 2, index 3, or index 1; the last three for comparisons. Allowed: stabilised,
+            index_2, index_3, index_1.
+        start : text, default "given"
+            Start from the given pose, or at rest from the static equilibrium in still water
+            near it. Allowed: given, equilibrium.
+        end_time : number, s
+            End of the run. Allowed: > 0.
+        rtol : number, default 1e-06
+            Local error tolerance relative to the scales of the scene (see length_scale,
+            time_scale). Allowed: 1e-13 to 0.1.
+        step : number, s, default 0
+            Fixed step; 0: the method chooses. Needed by gauss, lobatto_iiic and
+            generalized_alpha. Allowed: >= 0.
+        max_step : number, s, default 0
+            Longest step; 0: no limit. Allowed: >= 0.
+        max_order : integer, default 5
+            Highest order of the BDF method. Allowed: 1 to 5.
+        order : integer, default 0
+            Order of a Runge-Kutta method: radau 1, 3, .. 19, gauss 2, 4, .. 20, lobatto_iiic 2,
+            4, .. 18, explicit_rk 5 or 8; 0: radau chooses among 5, 9 and 13, gauss takes 6,
+            lobatto_iiic 4, explicit_rk 8. Allowed: 0 to 20.
+        spectral_radius : number, default 0.8
+            Of generalized_alpha for infinitely fast modes: 1 no damping, 0 most. Allowed: 0 to
+            1.
+        baumgarte_time : number, s, default 0
+            Time in which index 1 takes back a gap (Baumgarte); 0: never. Allowed: >= 0.
+        energy_guard : number, optional
+            A run ends as failed when the energy balance is off by more than this part of the
+            energy exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop
+            0.01 sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion
+            is lost there. Mechanisms that drives guide altogether may miss ten times as much,
+            since their reactions take and give it. Allowed: >= 0.
+        branch_guard : true or false, default true
+            A run of a scene with closed loops ends as failed when its velocities jump though
+            nothing strikes: at a singular pose the motion left its branch.
+        error_guard : number, default 0.1
+            A run ends as failed when the errors of its steps, carried along by the linearised
+            equations, and the energy that they miss may put the motion off by more than this
+            part of it: when twice their estimate is more, with fixed steps three times; 0: no
+            guard. Allowed: >= 0.
+        step_guard : number, optional
+            A run of fixed steps ends as failed when the estimated errors of its steps, summed
+            over ten time scales of the bodies, are more than this angle [rad], or this part of
+            a body's lever; 0: no guard. By default 0.02. Allowed: >= 0.
+        tolerance_assembly : number, default 1e-06
+            Joints that are out of line with each other by less than this part of the body's
+            lever (its farthest joint or radius of gyration), or of one radian, count as exact:
+            a row that follows from the others but for that gives way. By more, they would lock
+            the mechanism and are refused. Allowed: 1e-12 to 0.1.
+        force : true or false, default false
+            Run what is known to fail, for comparisons: a pair of method and formulation,
+            radiation that is not passive, joints that are out of line with each other.
+        length_scale : number, m, optional
+            Length that the tolerance of positions refers to; default: from the bodies and
+            joints. Allowed: 1e-12 to 1e+12.
+        time_scale : number, s, optional
+            Time that turns the position scale into the velocity scale; default: from gravity,
+            else from the start. Allowed: 1e-12 to 1e+12.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def output(
+        self,
+        *,
+        step: float = ...,
+    ) -> None:
+        """Add `[output]`.
+
+        What the results file holds.
+
+        Parameters
+        ----------
+        step : number, s, default 0.1
+            Time between two samples of the results. Allowed: > 0.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
