@@ -274,6 +274,8 @@ void History::evaluate(double t, bool locked, Past& out) const {
 }
 
 const Past& History::at(double t, bool locked) const {
+  if (nodes_.size() > 1) // patterns and poses are looked at whatever the time
+    t = std::max(t, nodes_[nodes_.size() - 2].t);
   locked = locked && !s_.hydro.convolution.locked.empty();
   for (const Past& past : memo_)
     if (past.known && past.t == t && (past.locked || !locked))
