@@ -9,5 +9,6 @@ PYBIND11_MODULE(_core, module) {
   bind_model(module);
   bind_io(module);
   bind_simulation(module);
+  bind_stepping(module);
   bind_analysis(module);
 }

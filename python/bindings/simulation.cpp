@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "drives.h"
 #include "hydrodae/core/error.h"
 
 namespace py = pybind11;
@@ -52,49 +53,6 @@ private:
   std::exception_ptr failure_;
 };
 
-/// Functions of time by the name of their constraint: t -> (f, f', f'').
-using Drives = std::map<std::string, py::function>;
-
-/// Calls Python from inside the residual. Solvers written in C are on the way: an exception waits
-/// until the run, which ends on values that are no numbers, has come back.
-class PythonDrives {
-public:
-  /// A copy of the scene that has the functions.
-  model::Scene join(const model::Scene& scene, const Drives& drives) {
-    model::Scene out = scene;
-    for (model::Constraint& c : out.constraints)
-      if (const auto found = drives.find(c.name); found != drives.end())
-        c.drive.function = [this, call = &found->second](double t) {
-          return value(*call, t); // the map outlives the run; copies need no GIL
-        };
-    return out;
-  }
-
-  /// With the GIL held.
-  void raise_failure() {
-    if (failure_)
-      std::rethrow_exception(std::exchange(failure_, nullptr));
-  }
-
-  bool failed() const { return failure_ != nullptr; }
-
-private:
-  std::array<double, 3> value(const py::function& call, double t) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (!failure_) {
-      const py::gil_scoped_acquire gil;
-      try {
-        return call(t).cast<std::array<double, 3>>();
-      } catch (...) {
-        failure_ = std::current_exception();
-      }
-    }
-    return {nan, nan, nan};
-  }
-
-  std::exception_ptr failure_;
-};
-
 py::dict as_dict(const RunStatistics& s) {
   using namespace py::literals;
   return py::dict(
@@ -111,7 +69,7 @@ py::dict as_dict(const RunStatistics& s) {
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
-             const Drives& functions, bool verify) {
+             const Drives& functions, bool verify, double checkpoint, bool resume) {
   PythonProgress progress(callback);
   PythonDrives drives;
   const model::Scene driven = drives.join(scene, functions);
@@ -121,7 +79,7 @@ py::dict run(const model::Scene& scene, const std::string& output, const py::obj
     statistics = simulate(
         driven, output,
         [&](double time, double end_time) { return !drives.failed() && progress(time, end_time); },
-        verify);
+        {verify, checkpoint, resume});
   } catch (const ModelError& error) {
     drives.raise_failure();
     throw CaseError(model::located(scene, error));
@@ -154,11 +112,14 @@ void bind_simulation(py::module_& module) {
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             py::arg("drives"), py::arg("verify") = false,
+             py::arg("drives"), py::arg("verify") = false, py::arg("checkpoint") = -1.0,
+             py::arg("resume") = false,
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
              "`drives` has a function t -> (f, f', f'') for every constraint in "
              "`scene.python_drives`;\n"
-             "`verify`: compares the motion with that of a second, more exact run.\n\n"
+             "`verify`: compares the motion with that of a second, more exact run;\n"
+             "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
+             "from one.\n\n"
              "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
              "solver. Raises\nSolverError when the integration fails; the file then holds what was "
              "computed.");

@@ -23,6 +23,7 @@ from hydrodae.errors import (
 )
 from hydrodae.results import Results, ResultsError
 from hydrodae.simulate import run
+from hydrodae.simulation import Simulation
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ __all__ = [
     "Results",
     "ResultsError",
     "RunInterrupted",
+    "Simulation",
     "SolverError",
     "chart",
     "check",

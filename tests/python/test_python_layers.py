@@ -35,7 +35,7 @@ LAYERS = [
     # one case
     {"drives"},
     {"case"},
-    {"simulate", "frequency"},
+    {"simulate", "simulation", "frequency"},
     {"states"},
     # many runs of a case, and what people ask about it
     {"study.reference"},

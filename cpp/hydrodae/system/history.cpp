@@ -114,6 +114,12 @@ void History::append(double t, const VectorX& y, const VectorX& yp) {
     past.known = false;
 }
 
+void History::remember(Archive& a) {
+  a(nodes_, first_, start_, point_time_, point_value_, dropped_, ws_.turns);
+  for (Past& past : memo_)
+    past.known = false;
+}
+
 /// Lets go what no time from the last accepted point but one on will ask for.
 void History::forget() {
   if (nodes_.size() < 2)

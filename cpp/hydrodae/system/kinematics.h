@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hydrodae/core/archive.h"
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
@@ -23,6 +24,7 @@ struct Turns {
   double time = 0.0;
   bool known = false; ///< else the values are near those of the start, and the rates are not known
   std::vector<double> value, rate;
+  void remember(Archive& a) { a(time, known, value, rate); }
 };
 
 /// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which

@@ -166,7 +166,7 @@ void Recorder::begin(double t, const Interpolant& at) {
   for (std::size_t node = 0; node <= last; ++node)
     for (std::size_t k = 0; k < work_.size(); ++k)
       end_work_[k] += h * rule_.weights[node] * powers_[node][k];
-  balance_error_ = balance(end_work_);
+  whole_.balance_error = balance(end_work_);
   balance_mechanisms();
   end_kinetic_ = observer_.observation().mechanism_kinetic;
   take_turns();
@@ -263,12 +263,12 @@ double Recorder::balance(const std::vector<double>& work) {
     if (gives_[k])
       given -= work[k];
   }
-  given_ = std::max(given_, given);
-  kinetic_ = moving;
+  whole_.given = std::max(whole_.given, given);
+  whole_.kinetic = moving;
   const double error = moving - energy0_ - total_work;
-  largest_kinetic_ = std::max(largest_kinetic_, moving);
-  largest_energy_ = std::max(largest_energy_, exchanged);
-  largest_error_ = std::max(largest_error_, std::abs(error));
+  whole_.largest_kinetic = std::max(whole_.largest_kinetic, moving);
+  whole_.largest_energy = std::max(whole_.largest_energy, exchanged);
+  whole_.largest_error = std::max(whole_.largest_error, std::abs(error));
   return error;
 }
 
@@ -362,7 +362,20 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   if (end_ > t_) // else the start of the run
     at(t, y_, yp_);
   observer_.observe(t, y_, yp_);
-  const std::vector<double> work = work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0);
+  fill(row, work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0));
+}
+
+void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) {
+  const Whole before = whole_;
+  y_ = y;
+  yp_ = yp;
+  observer_.observe(t_, y_, yp_);
+  fill(row, work_);
+  whole_ = before;
+}
+
+/// From where the observer is.
+void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);
@@ -377,7 +390,13 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
 }
 
 double Recorder::relative_balance_error() const {
-  return largest_energy_ > 0.0 ? largest_error_ / largest_energy_ : 0.0;
+  return whole_.largest_energy > 0.0 ? whole_.largest_error / whole_.largest_energy : 0.0;
+}
+
+void Recorder::remember(Archive& a) {
+  a(t_, end_, power_, work_, turns_, end_kinetic_, mechanisms_, energy0_, whole_, rule_);
+  if (!a.saves())
+    observer_.follow(turns_);
 }
 
 } // namespace hydrodae::system
