@@ -1,16 +1,19 @@
 #pragma once
 /// The command line of hydrodae-solve.
 
+#include <charconv>
 #include <string>
 #include <vector>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/simulation.h"
 
 namespace hydrodae::app {
 
 inline constexpr const char* usage =
-    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet] [--verify]
+    R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet]
+                      [--verify | --checkpoint SECONDS] [--resume]
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --keys [TABLE [TYPE]]
        hydrodae-solve --version | --help
@@ -22,6 +25,11 @@ inline constexpr const char* usage =
   --method NAME    the same as --set solver.method="NAME": ida, radau, explicit_rk, ...
   --force          run a pair of method and formulation that is known to fail
   --verify         run a second time with a tenth of the tolerance, or half the step, and compare
+  --checkpoint SECONDS
+                   keep RESULTS.checkpoint.h5 beside RESULTS.h5 while the run lasts: what --resume
+                   goes on from, anew after so many seconds of wall time
+  --resume         go on from the checkpoint of a run that was cut off; the results file then holds
+                   the whole run. The case and its overrides have to be those of that run
   --check          read and check the case, print what is in it, do not run
   --keys           list the tables of a case file, the keys of one, or those of a type of entry:
                    --keys solver, --keys force pto_linear
@@ -36,13 +44,23 @@ struct Arguments {
   std::string case_path, output;
   io::Overrides overrides;
   std::vector<std::string> words; ///< after --keys
-  bool quiet = false, verify = false;
+  bool quiet = false;
+  RunOptions options;
 };
 
 inline std::string next_value(int argc, char** argv, int& i) {
   if (i + 1 >= argc)
     throw CaseError(std::string(argv[i]) + ": a value is missing");
   return argv[++i];
+}
+
+/// A time of at least 0 [s].
+inline double seconds(const std::string& text) {
+  double value = -1.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0))
+    throw CaseError("--checkpoint " + text + ": expected a number of seconds, 0 or more");
+  return value;
 }
 
 /// "KEY=VALUE"
@@ -75,7 +93,11 @@ inline Arguments parse(int argc, char** argv) {
     else if (word == "--quiet")
       arguments.quiet = true;
     else if (word == "--verify")
-      arguments.verify = true;
+      arguments.options.verify = true;
+    else if (word == "--resume")
+      arguments.options.resume = true;
+    else if (word == "--checkpoint")
+      arguments.options.checkpoint = seconds(next_value(argc, argv, i));
     else if (word == "-o" || word == "--output")
       arguments.output = next_value(argc, argv, i);
     else if (word == "--set")

@@ -75,7 +75,7 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGXFSZ, SIG_IGN); // a file over the limit of the shell is told as a full disk is
   Reporter reporter(arguments.quiet);
   const hydrodae::RunStatistics statistics =
-      hydrodae::simulate(scene, arguments.output, std::ref(reporter), arguments.verify);
+      hydrodae::simulate(scene, arguments.output, std::ref(reporter), arguments.options);
   reporter.finish();
   if (!arguments.quiet)
     for (const std::string& note : statistics.notes)

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hydrodae/io/results_file.h"
+#include "hydrodae/run/simulation.h"
 #include "hydrodae/simulation.h"
-#include "hydrodae/solve/switching.h"
 
 namespace hydrodae {
 
@@ -20,25 +20,7 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
 io::Attributes attributes(const RunStatistics& statistics, const model::Scene& scene,
                           double balance_error);
 
-/// What the stops of a scene have taken: columns of sums, and a table of impacts for each.
-class ImpactOutput {
-public:
-  explicit ImpactOutput(const system::System& system);
-
-  std::vector<Channel> channels() const;
-  std::size_t width() const { return 2 * stops_.size(); }
-
-  /// Sums so far, in the order of the channels; `at` is of width().
-  void fill(const solve::Switching* switching, double* at) const;
-  void write(const solve::Switching* switching, io::ResultsFile& file) const;
-
-private:
-  struct Stop {
-    std::size_t index; ///< among the switches
-    std::string name;
-    bool angle;
-  };
-  std::vector<Stop> stops_;
-};
+/// What the stops have taken, impact by impact.
+void write_impacts(const run::Simulation& simulation, io::ResultsFile& file);
 
 } // namespace hydrodae

@@ -50,15 +50,27 @@ struct RunStatistics {
 /// coordinates that nothing moves, and what could be modelled with less. Throws ModelError.
 std::string examine(const model::Scene& scene);
 
+/// How a run is made, apart from its scene.
+struct RunOptions {
+  /// Runs the scene a second time, at a tenth of the tolerance or half the step, and compares the
+  /// motion at the output samples.
+  bool verify = false;
+  /// Wall time between checkpoints [s], 0: one after each step, negative: none. A checkpoint
+  /// X.checkpoint.h5 stands beside X.h5 until the run is completed. Each makes the method start
+  /// anew, see run::Simulation.
+  double checkpoint = -1.0;
+  /// Goes on from the checkpoint; the results then hold the whole run.
+  bool resume = false;
+};
+
 /// Integrates the scene from 0 to its end time and writes `output_path` (no file if empty), which
 /// has its name when the run has ended; see ResultsFile.
 /// Throws ModelError when the scene cannot start, CaseError when `output_path` cannot be written,
 /// SolverError when the integration fails or the disk is full (the file then has status "failed"
-/// and keeps what was computed).
-/// @param verify  runs the scene a second time, at a tenth of the tolerance or half the step, and
-///   compares the motion at the output samples. SolverError, with status "failed", where the two
-///   are further apart than solver.error_guard, or the second run stops.
+/// and keeps what was computed); also where `verify` finds the two runs further apart than
+/// solver.error_guard, or the second one stops; CaseError when there is nothing to resume, or it is
+/// of another case.
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
-                       const Progress& progress = {}, bool verify = false);
+                       const Progress& progress = {}, const RunOptions& options = {});
 
 } // namespace hydrodae

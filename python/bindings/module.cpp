@@ -10,5 +10,6 @@ PYBIND11_MODULE(_core, module) {
   bind_tables(module);
   bind_io(module);
   bind_simulation(module);
+  bind_stepping(module);
   bind_analysis(module);
 }

@@ -1,6 +1,5 @@
 #include "hydrodae/simulation.h"
 
-#include <algorithm>
 #include <array>
 #include <exception>
 #include <functional>
@@ -8,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "functions.h"
 #include "hydrodae/core/error.h"
 
 namespace py = pybind11;
@@ -54,81 +53,6 @@ private:
   std::exception_ptr failure_;
 };
 
-/// Functions of time by the name of their constraint: t -> (f, f', f''); or laws by the name of
-/// their force: t, x, v -> load.
-using Functions = std::map<std::string, py::function>;
-
-/// Calls Python from inside the residual. Solvers written in C are on the way: an exception waits
-/// until the run, which ends on values that are no numbers, has come back.
-class PythonFunctions {
-public:
-  /// A copy of the scene that has the functions.
-  model::Scene join(const model::Scene& scene, const Functions& drives, const Functions& forces) {
-    model::Scene out = scene;
-    std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
-    for (model::Constraint& c : out.constraints)
-      if (const auto found = drives.find(c.name); found != drives.end())
-        c.drive.function = [this, call = &found->second](double t) {
-          return value(*call, t); // the map outlives the run; copies need no GIL
-        };
-    return out;
-  }
-
-  /// With the GIL held.
-  void raise_failure() {
-    if (failure_)
-      std::rethrow_exception(std::exchange(failure_, nullptr));
-  }
-
-  bool failed() const { return failure_ != nullptr; }
-
-private:
-  template <class F> void join_laws(std::vector<F>& list, const Functions& forces) {
-    if constexpr (requires(F force) { force.function; })
-      for (F& force : list)
-        if (const auto found = forces.find(force.name); found != forces.end())
-          force.function = [this, call = &found->second](double t, const double* x, const double* v,
-                                                         double* load) {
-            load_of<element::width(F::port)>(*call, t, x, v, load);
-          };
-  }
-
-  template <int w>
-  void load_of(const py::function& call, double t, const double* x, const double* v, double* load) {
-    std::fill(load, load + w, nan);
-    if (failure_)
-      return;
-    const py::gil_scoped_acquire gil;
-    try {
-      if constexpr (w == 1) {
-        *load = call(t, *x, *v).template cast<double>();
-      } else {
-        const auto out = call(t, py::array_t<double>(w, x), py::array_t<double>(w, v))
-                             .template cast<std::array<double, w>>();
-        std::copy(out.begin(), out.end(), load);
-      }
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
-  }
-
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-  std::array<double, 3> value(const py::function& call, double t) {
-    if (!failure_) {
-      const py::gil_scoped_acquire gil;
-      try {
-        return call(t).cast<std::array<double, 3>>();
-      } catch (...) {
-        failure_ = std::current_exception();
-      }
-    }
-    return {nan, nan, nan};
-  }
-
-  std::exception_ptr failure_;
-};
-
 py::dict as_dict(const RunStatistics& s) {
   using namespace py::literals;
   return py::dict(
@@ -145,19 +69,19 @@ py::dict as_dict(const RunStatistics& s) {
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
-             const Functions& drives, const Functions& forces, bool verify) {
+             const Functions& drives, const Functions& forces, bool verify, double checkpoint,
+             bool resume) {
   PythonProgress progress(callback);
   PythonFunctions functions;
   const model::Scene driven = functions.join(scene, drives, forces);
   RunStatistics statistics;
   try {
     const py::gil_scoped_release release;
-    statistics = simulate(
-        driven, output,
-        [&](double time, double end_time) {
-          return !functions.failed() && progress(time, end_time);
-        },
-        verify);
+    statistics = simulate(driven, output,
+                          [&](double time, double end_time) {
+                            return !functions.failed() && progress(time, end_time);
+                          },
+                          {verify, checkpoint, resume});
   } catch (const ModelError& error) {
     functions.raise_failure();
     throw CaseError(model::located(scene, error));
@@ -192,11 +116,14 @@ void bind_simulation(py::module_& module) {
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
              py::arg("drives"), py::arg("forces"), py::arg("verify") = false,
+             py::arg("checkpoint") = -1.0, py::arg("resume") = false,
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
              "`drives` has a function t -> (f, f', f'') for every constraint in "
              "`scene.python_drives`;\n"
              "`forces` a law t, x, v -> load for every force in `scene.python_forces`;\n"
-             "`verify`: compares the motion with that of a second, more exact run.\n\n"
+             "`verify`: compares the motion with that of a second, more exact run;\n"
+             "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
+             "from one.\n\n"
              "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
              "solver. Raises\nSolverError when the integration fails; the file then holds what was "
              "computed.");

@@ -23,6 +23,7 @@ from hydrodae.errors import (
 )
 from hydrodae.results import Results, ResultsError
 from hydrodae.simulate import run
+from hydrodae.simulation import Simulation
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ __all__ = [
     "ResultsError",
     "RunInterrupted",
     "Scene",
+    "Simulation",
     "SolverError",
     "chart",
     "check",

@@ -79,12 +79,58 @@ def simulate(
     drives: Mapping[str, Callable[[float], Sequence[float]]],
     forces: Mapping[str, Callable[[float, Any, Any], Any]],
     verify: bool = False,
+    checkpoint: float = -1.0,
+    resume: bool = False,
 ) -> dict[str, Any]:
     """Run `scene` and write `output`; `progress(t, t_end)` returns False to stop.
 
     `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`;
     `forces` a law t, x, v -> load for every force in `scene.python_forces`;
-    `verify`: compares the motion with that of a second, more exact run.
+    `verify`: compares the motion with that of a second, more exact run; `checkpoint`: wall time
+    between checkpoints [s], negative: none; `resume`: goes on from one.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.
     """
+
+class State:
+    """All that a run is at an accepted instant: a value that can be copied, compared, pickled."""
+
+    @property
+    def time(self) -> float:
+        """Of the instant, s."""
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """The unknowns (n,)."""
+    @property
+    def yp(self) -> NDArray[np.float64]:
+        """Their rates (n,)."""
+    def __copy__(self) -> State: ...
+    def __deepcopy__(self, memo: dict[int, Any]) -> State: ...
+
+class Stepper:
+    """A run that Python drives, step by step; users have `hydrodae.Simulation`."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        drives: Mapping[str, Callable[[float], Sequence[float]]],
+        forces: Mapping[str, Callable[[float, Any, Any], Any]],
+    ) -> None: ...
+    def advance(self, limit: float) -> float:
+        """One accepted step, to `limit` [s] at most; returns the time reached."""
+    def state(self) -> State: ...
+    def restore(self, state: State) -> None: ...
+    def read(self, channel: str) -> list[float]:
+        """The values of a channel now."""
+    def write(self, input: str, value: float) -> None:
+        """Holds an input at a value from now on."""
+    @property
+    def time(self) -> float: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def channels(self) -> list[tuple[str, int, str]]:
+        """(name, width, unit) of each."""
+    @property
+    def inputs(self) -> dict[str, float]:
+        """What each input is held at."""

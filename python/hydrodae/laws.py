@@ -13,8 +13,8 @@ from hydrodae.errors import CaseError
 if TYPE_CHECKING:
     from hydrodae._core import Scene
 
-#: load = f(t, s, rate) along a joint [N or N m]; or f(t, displacement, twist) of a body, six numbers
-#: each, earth axes, to force and moment about the centre of gravity.
+#: load = f(t, s, rate) along a joint [N or N m]; or f(t, displacement, twist) of a body, six
+#: numbers each, earth axes, to force and moment about the centre of gravity.
 Force = Callable[[float, Any, Any], Any]
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.drives import Drive, Kernel, kernel_drives
-from hydrodae.errors import RunInterrupted, SolverError
+from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.laws import Force, kernel_forces
 from hydrodae.results import Results
 
@@ -33,6 +33,8 @@ def run(
     drives: Mapping[str, Drive] | None = None,
     forces: Mapping[str, Force] | None = None,
     verify: bool = False,
+    checkpoint: float | None = None,
+    resume: bool = False,
 ) -> Results:
     """Simulate a case from its initial state to its end time.
 
@@ -62,6 +64,13 @@ def run(
         Run a second time, at a tenth of the tolerance or half the step, and compare the motion at
         the output samples: `results.statistics` then has ``verified_error``, relative to the size
         of the motion, ``verified_error_of`` and ``verified_error_time``. Twice the time and more.
+    checkpoint : float, optional
+        Keep ``X.checkpoint.h5`` beside ``X.h5`` until the run is completed, anew after so many
+        seconds of wall time: what `resume` goes on from when the run was killed or stopped. At
+        each the method starts anew (see `Simulation.state`).
+    resume : bool
+        Go on from the checkpoint; the results then hold the whole run. Case, overrides, database
+        and version have to be those of that run. Functions in `drives` are the caller's to repeat.
 
     Returns
     -------
@@ -71,7 +80,7 @@ def run(
     ------
     CaseError
         The case, a drive or a force cannot be used, `output` exists and is no results file (it is
-        not replaced), or another run is writing it.
+        not replaced), another run is writing it, or there is no checkpoint of this case to resume.
     SolverError
         The integration failed, the disk is full, or `verify` found the motion off by more than
         ``solver.error_guard``. What was computed is kept: the attribute
@@ -83,6 +92,8 @@ def run(
     functions = (kernel_drives(case.scene, drives), kernel_forces(case.scene, forces))
     folder = None
     if output is None:
+        if checkpoint is not None or resume:
+            raise CaseError("a checkpoint stands beside the results file: name an output")
         folder = _TemporaryFolder()
         path = folder.path / "results.h5"
     else:
@@ -90,7 +101,7 @@ def run(
         path.parent.mkdir(parents=True, exist_ok=True)
     older = _stamp(path)
     try:
-        status = _integrate(case, path, progress, functions, verify)
+        status = _integrate(case, path, progress, functions, verify, checkpoint, resume)
     except SolverError as error:
         error.results = None if _stamp(path) == older else Results(path, owner=folder)
         raise
@@ -108,6 +119,8 @@ def _integrate(
     progress: Progress | None,
     functions: tuple[dict[str, Kernel], dict[str, Force]],
     verify: bool,
+    checkpoint: float | None,
+    resume: bool,
 ) -> str:
     """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
 
@@ -126,7 +139,15 @@ def _integrate(
         return go_on and not interrupt.is_set()
 
     with _interrupt_event() as interrupt:
-        status: str = _core.simulate(case.scene, str(path), report, *functions, verify)["status"]
+        status: str = _core.simulate(
+            case.scene,
+            str(path),
+            report,
+            *functions,
+            verify,
+            -1.0 if checkpoint is None else checkpoint,
+            resume,
+        )["status"]
     if failure:
         raise failure[0]
     return status

@@ -13,6 +13,7 @@ LAYERS = [
     {"model"},
     {"io", "system"},
     {"solve"},
+    {"run"},
     {"simulation.h", "analysis.h", "examine.h", "run_output.h"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}

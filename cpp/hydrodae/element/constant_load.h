@@ -1,9 +1,11 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
 #include "hydrodae/core/field.h"
-#include "hydrodae/element/linear_wrench.h"
+#include "hydrodae/element/elements.h"
 
 namespace hydrodae::element {
 
@@ -11,6 +13,7 @@ namespace hydrodae::element {
 struct ConstantLoad {
   static constexpr std::string_view type = "constant_load";
   static constexpr Port port = Port::on_body;
+  static constexpr int n_signals = 6;
   static constexpr std::string_view doc =
       "Constant force at the centre of gravity and constant moment, world axes.";
   std::string name;
@@ -18,11 +21,25 @@ struct ConstantLoad {
   Vector3 force = Vector3::Zero();
   Vector3 moment = Vector3::Zero();
 
-  /// The law that the system evaluates.
-  LinearWrench law() const {
-    LinearWrench w;
-    w.constant << force, moment;
-    return w;
+  /// Its load is what the signals are; it does work as a potential.
+  struct Law {
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      std::copy(in.signals, in.signals + 6, out.load);
+    }
+    template <class J> void jacobian(const In<double>&, J& j) const { j.setZero(); }
+    double energy(const In<double>& in) const {
+      return -Eigen::Map<const Vector6>(in.signals).dot(Eigen::Map<const Vector6>(in.x));
+    }
+  };
+  Law law() const { return {}; }
+
+  /// A program may change them while it runs.
+  static std::vector<Signal> inputs() {
+    return {{"force.x", "N"},    {"force.y", "N"},    {"force.z", "N"},
+            {"moment.x", "N m"}, {"moment.y", "N m"}, {"moment.z", "N m"}};
+  }
+  std::array<double, n_signals> start_signals() const {
+    return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
   }
 
   static Fields<ConstantLoad> fields() {

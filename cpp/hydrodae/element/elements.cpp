@@ -2,6 +2,13 @@
 
 namespace hydrodae::element {
 
+std::string unit_along(std::string_view unit, bool angle) {
+  const std::size_t either = unit.find(" or ");
+  if (either == std::string_view::npos)
+    return std::string(unit);
+  return std::string(angle ? unit.substr(either + 4) : unit.substr(0, either));
+}
+
 AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
   const auto n = list.size(), states = static_cast<std::size_t>(list.shape.n_states);
   const Index in_size = list.shape.n_in(), out_size = list.shape.n_out(), w = list.shape.width;
@@ -12,10 +19,9 @@ AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
       in[static_cast<Index>(k) * in_size + 2 * w + static_cast<Index>(z)] =
           list.unknowns[k * states + z].start;
   in.segment(static_cast<Index>(law) * in_size, x.size()) = x;
-  const std::vector<double> signals(n * static_cast<std::size_t>(list.shape.n_signals), 0.0);
   std::vector<double> all(n * static_cast<std::size_t>(in_size * out_size), 0.0);
-  list.evaluate(0.0, in.data(), signals.data(), out.data());
-  list.jacobian(0.0, in.data(), signals.data(), all.data());
+  list.evaluate(0.0, in.data(), list.signals.data(), out.data());
+  list.jacobian(0.0, in.data(), list.signals.data(), all.data());
   const auto k = static_cast<Index>(law);
   const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
   return {out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};

@@ -15,6 +15,7 @@
 ///
 /// The power of a load is load . v in all of them.
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,12 +43,22 @@ struct Quantity {
   std::string_view name, unit, doc;
 };
 
+/// A number that a law is given from outside, held until it is written again; without a name: by
+/// the system itself.
+struct Signal {
+  std::string_view name, unit;
+  double least = -INFINITY;
+};
+
+/// Of "N or N m": the first along a displacement, the second along an angle.
+std::string unit_along(std::string_view unit, bool angle);
+
 /// What one law sees.
 template <class S> struct In {
   double t;              ///< [s]
   const S *x, *v;        ///< (width,)
   const S* z;            ///< (n_states,)
-  const double* signals; ///< (n_signals,) held from event to event
+  const double* signals; ///< (n_signals,)
 };
 
 /// What it answers.
@@ -76,6 +87,8 @@ public:
   std::vector<std::string> names; ///< (n,)
   std::vector<Unknown> unknowns;  ///< (n n_states,)
   std::vector<Quantity> channels; ///< of each law
+  std::vector<Signal> inputs;     ///< of each law (n_signals,)
+  std::vector<double> signals;    ///< what they are at the start (n n_signals,)
 
   std::size_t size() const { return names.size(); }
 
@@ -92,7 +105,7 @@ public:
                         double* jacobian) const = 0;
 
   /// Stored energy of each law [J] (n,), that a potential gives back.
-  virtual void energy(const double* in, double* joules) const = 0;
+  virtual void energy(const double* in, const double* signals, double* joules) const = 0;
 
   /// Values of `channels` (n n_channels,); `out`: of `evaluate`.
   virtual void observe(double t, const double* in, const double* signals, const double* out,
@@ -102,7 +115,7 @@ public:
   virtual bool lost_at_rest(std::size_t law) const = 0;
 };
 
-/// A law about rest at x (zero where it is empty), z at its start, without signals.
+/// A law about rest at x (zero where it is empty), z and signals at their starts.
 struct AtRest {
   VectorX load;               ///< (width,)
   MatrixX stiffness, damping; ///< (width, width) -d load / dx, -d load / dv

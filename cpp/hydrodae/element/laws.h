@@ -12,8 +12,9 @@
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
 ///
-/// A force with states says n_states and unknowns(). One header and one line in the list of forces
-/// (model/scene.h) are all that a new kind takes.
+/// A force with states says n_states and unknowns(); one with numbers that a program may change
+/// while it runs, n_signals, inputs() and start_signals(). One header and one line in the list of
+/// forces (model/scene.h) are all that a new kind takes.
 
 #include <type_traits>
 #include <utility>
@@ -45,6 +46,10 @@ public:
     absorbs = type.starts_with("pto_");
     if constexpr (requires { F::channels(); })
       channels = F::channels();
+    if constexpr (requires { F::inputs(); })
+      inputs = F::inputs();
+    else
+      inputs.resize(n_signals);
   }
   explicit Laws(const std::vector<F>& forces) : Laws() {
     for (const F& force : forces)
@@ -54,49 +59,56 @@ public:
   void add(const F& force) {
     laws_.push_back(force.law());
     names.push_back(force.name);
+    if constexpr (requires { force.start_signals(); })
+      for (const double value : force.start_signals())
+        signals.push_back(value);
+    else
+      signals.resize(signals.size() + n_signals, 0.0);
     if constexpr (nz > 0)
       for (const Unknown& u : force.unknowns())
         unknowns.push_back(u);
   }
 
-  void evaluate(double t, const double* in, const double* signals, double* out) const override {
-    each(t, in, signals, out);
+  void evaluate(double t, const double* in, const double* held, double* out) const override {
+    each(t, in, held, out);
   }
-  void evaluate(double t, const Dual* in, const double* signals, Dual* out) const override {
-    each(t, in, signals, out);
+  void evaluate(double t, const Dual* in, const double* held, Dual* out) const override {
+    each(t, in, held, out);
   }
 
-  void jacobian(double t, const double* in, const double* signals, double* J) const override {
+  void jacobian(double t, const double* in, const double* held, double* J) const override {
     for (const Law& law : laws_) {
       Eigen::Map<Jacobian> j(J);
-      if constexpr (requires { law.jacobian(view(t, in, signals), j); })
-        law.jacobian(view(t, in, signals), j);
+      if constexpr (requires { law.jacobian(view(t, in, held), j); })
+        law.jacobian(view(t, in, held), j);
       else
-        by_duals(law, t, in, signals, j);
+        by_duals(law, t, in, held, j);
       in += n_in;
-      signals += n_signals;
+      held += n_signals;
       J += n_in * n_out;
     }
   }
 
-  void energy(const double* in, double* joules) const override {
+  void energy(const double* in, [[maybe_unused]] const double* held,
+              double* joules) const override {
     for (const Law& law : laws_) {
       *joules = 0.0;
-      if constexpr (requires { law.energy(view(0.0, in, in)); })
-        *joules = law.energy(view(0.0, in, in));
+      if constexpr (requires { law.energy(view(0.0, in, held)); })
+        *joules = law.energy(view(0.0, in, held));
       ++joules;
+      held += n_signals;
       in += n_in;
     }
   }
 
   void observe([[maybe_unused]] double t, [[maybe_unused]] const double* in,
-               [[maybe_unused]] const double* signals, [[maybe_unused]] const double* out,
+               [[maybe_unused]] const double* held, [[maybe_unused]] const double* out,
                [[maybe_unused]] double* values) const override {
     if constexpr (requires { F::channels(); })
       for (const Law& law : laws_) {
-        law.observe(view(t, in, signals), Out<const double>{out, out + w}, values);
+        law.observe(view(t, in, held), Out<const double>{out, out + w}, values);
         in += n_in;
-        signals += n_signals;
+        held += n_signals;
         out += n_out;
         values += channels.size();
       }
@@ -111,27 +123,27 @@ public:
 private:
   using Jacobian = Eigen::Matrix<double, n_out, n_in, n_out == 1 ? Eigen::RowMajor : 0>;
 
-  template <class S> static In<S> view(double t, const S* in, const double* signals) {
-    return {t, in, in + w, in + 2 * w, signals};
+  template <class S> static In<S> view(double t, const S* in, const double* held) {
+    return {t, in, in + w, in + 2 * w, held};
   }
 
-  template <class S> void each(double t, const S* in, const double* signals, S* out) const {
+  template <class S> void each(double t, const S* in, const double* held, S* out) const {
     for (const Law& law : laws_) {
-      law(view(t, in, signals), Out<S>{out, out + w});
+      law(view(t, in, held), Out<S>{out, out + w});
       in += n_in;
-      signals += n_signals;
+      held += n_signals;
       out += n_out;
     }
   }
 
-  static void by_duals(const Law& law, double t, const double* in, const double* signals,
+  static void by_duals(const Law& law, double t, const double* in, const double* held,
                        Eigen::Map<Jacobian>& j) {
     Dual x[n_in], y[n_out];
     for (int k = 0; k < n_in; ++k)
       x[k] = in[k];
     for (int column = 0; column < n_in; ++column) {
       x[column].b = 1.0;
-      law(view<Dual>(t, x, signals), Out<Dual>{y, y + w});
+      law(view<Dual>(t, x, held), Out<Dual>{y, y + w});
       x[column].b = 0.0;
       for (int row = 0; row < n_out; ++row)
         j(row, column) = y[row].b;

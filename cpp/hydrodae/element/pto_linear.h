@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,7 @@ namespace hydrodae::element {
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
   static constexpr Port port = Port::along_joint;
+  static constexpr int n_signals = 3;
   static constexpr std::string_view doc =
       "Linear power take-off along a joint: f = -k (s - s0) - c s'.";
   std::string name;
@@ -30,14 +32,26 @@ struct PtoLinear {
   const PtoLinear& law() const { return *this; }
 
   template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
-    *out.load = S(-stiffness) * (*in.x - S(neutral)) - S(damping) * *in.v;
+    const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2];
+    *out.load = S(-k) * (*in.x - S(s0)) - S(c) * *in.v;
   }
-  template <class J> void jacobian(const In<double>&, J& j) const { j << -stiffness, -damping; }
+  template <class J> void jacobian(const In<double>& in, J& j) const {
+    j << -in.signals[1], -in.signals[0];
+  }
 
   /// Energy stored in the spring [J].
   double energy(const In<double>& in) const {
-    return 0.5 * stiffness * (*in.x - neutral) * (*in.x - neutral);
+    const double stretched = *in.x - in.signals[2];
+    return 0.5 * in.signals[1] * stretched * stretched;
   }
+
+  /// A program may change them while it runs.
+  static std::vector<Signal> inputs() {
+    return {{"damping", "N s/m or N m s/rad", 0.0},
+            {"stiffness", "N/m or N m/rad", 0.0},
+            {"neutral", "m or rad"}};
+  }
+  std::array<double, n_signals> start_signals() const { return {damping, stiffness, neutral}; }
 
   static Fields<PtoLinear> fields() {
     using P = PtoLinear;

@@ -70,6 +70,22 @@ std::string partial_name(const std::string& path) {
   return (file.parent_path() / file.stem()).string() + ".partial" + file.extension().string();
 }
 
+std::string name_beside(const std::string& path, const std::string& what) {
+  const fs::path file = behind_links(path);
+  return (file.parent_path() / file.stem()).string() + "." + what + file.extension().string();
+}
+
+void require_idle(const std::string& path) {
+  const std::string partial = name_beside(path, "partial");
+  const int descriptor = ::open(partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0)
+    return;
+  const int error = lock(descriptor);
+  ::close(descriptor);
+  if (error == EAGAIN || error == EACCES)
+    throw CaseError(path + ": cannot be resumed: another run is writing it (to " + partial + ")");
+}
+
 void check_output(const std::string& path, const std::vector<std::string>& inputs) {
   std::error_code ignored; // what does not exist is not the same
   for (const std::string& input : inputs)

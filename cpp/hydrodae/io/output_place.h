@@ -13,6 +13,12 @@ namespace hydrodae::io {
 /// "X.partial.h5" for "X.h5".
 std::string partial_name(const std::string& path);
 
+/// "X.checkpoint.h5" for "X.h5" and "checkpoint", beside what a link means.
+std::string name_beside(const std::string& path, const std::string& what);
+
+/// Throws CaseError when a run writes the partial file of `path`.
+void require_idle(const std::string& path);
+
 /// Throws CaseError unless `path` is free or holds a hydrodae results file, which may be replaced,
 /// or when it is one of `inputs`, by whatever spelling or link.
 void check_output(const std::string& path, const std::vector<std::string>& inputs);

@@ -43,7 +43,6 @@ public:
       : s_(system), e_(system, pattern, options.rtol), family_(family_of(options.method)),
         fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
-        end_(options.end_time),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
         w_(system.n), error_(system.n), v_(VectorX::Zero(system.n)), guess_(system.n),
@@ -58,14 +57,14 @@ public:
     e_.accept(t_, y_, yp_);
   }
 
-  double step() override;
-  void bound(double latest) override { bound_ = latest; }
+  double step(double end, double bound) override;
   const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
+  void remember(Archive& a) override;
 
 private:
   void use(int stages);
@@ -91,12 +90,13 @@ private:
   Equations e_;
   const Family family_;
   const bool fixed_, chooses_order_, project_;
-  const double end_, max_step_;
+  const double max_step_;
+  double end_ = 0.0;                  ///< of the step in the making [s]
   std::optional<SaddlePoint> saddle_; ///< where the end of a step is projected
   ProgressGuard guard_;
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
-  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0, bound_ = INFINITY;
+  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0;
   VectorX step_error_; ///< (lambda0,)
   double reach_ = 0.0; ///< time to which the error control would have stepped [s]
   VectorX y_, yp_, y0_, w_, error_, v_, guess_, guess_rate_;
@@ -359,7 +359,7 @@ void Collocation::accept(double h) {
     evaluate(1.0, at_end);
     y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
     y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
-    interpolate(t_, at_end, yp_);
+    evaluate_rates(1.0, yp_);
     if (project_ && (!saddle_->accelerations(t_, y_, yp_) || !saddle_->project(t_, y_) ||
                      !saddle_->accelerations(t_, y_, yp_)))
       fail("the constraints cannot be met at the end of the step");
@@ -391,13 +391,14 @@ void Collocation::choose_order(double error) {
     use(stages - 2);
 }
 
-double Collocation::step() {
+double Collocation::step(double end, double bound) {
   constexpr double safety = 0.9, most_growth = 5.0, most_cut = 0.125;
   constexpr double newton_cut = 0.4, aim = 0.25; // of the step; of Newton's contraction
+  end_ = end;
   bool rejected = done_ == 0.0;
   double hopeless = HUGE_VAL; // step from which on simplified Newton fails
   for (;;) {
-    const double left = end_ - t_, bounded = fixed_ ? HUGE_VAL : bound_ - t_;
+    const double left = end_ - t_, bounded = fixed_ ? HUGE_VAL : bound - t_, wanted = h_;
     auto fitted = [&](double h) { return std::min(left - h < 0.01 * h ? left : h, bounded); };
     double h = fitted(h_);
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
@@ -406,7 +407,7 @@ double Collocation::step() {
     e_.weights(y_, w_);
     // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
     // full Newton takes the step that the error allows, at the cost of about 2 s of the short ones.
-    const double allowed = std::min({reach_, end_, fixed_ ? end_ : bound_}) - t_;
+    const double allowed = std::min({reach_, end_, fixed_ ? end_ : bound}) - t_;
     const double shortest = fixed_ ? 0.0 : allowed / (2.0 * newton_->rk().stages);
     bool solved = h >= shortest && h < hopeless && simplified(h);
     if (!solved && !fixed_ && newton_cut * h >= shortest) {
@@ -461,6 +462,8 @@ double Collocation::step() {
       h_ = std::min(max_step_, h * grow);
     else
       h_ = h;
+    if (h == left) // a step that was cut says nothing against longer ones
+      h_ = std::max(h_, wanted);
     choose_order(err);
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
@@ -474,13 +477,29 @@ void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {
     return;
   }
   const double x = (t - t0_) / done_;
-  if (t >= t_)
+  if (t >= t_) {
     y = y_;
-  else
-    evaluate(x, y);
+    yp = yp_;
+    return;
+  }
+  evaluate(x, y);
   evaluate_rates(x, yp);
-  if (t < t_ && nodes_.size() <= 2)
+  if (nodes_.size() <= 2)
     between_ends(x, y);
+}
+
+/// Without the matrices: they are made again.
+void Collocation::remember(Archive& a) {
+  int stages = newton_->rk().stages;
+  a(stages, Z_);
+  if (!a.saves()) {
+    if (Z_.cols() > 0)
+      use(static_cast<int>(Z_.cols())); // the last step may have been one of another order
+    use(stages);
+  }
+  a(rates_, y0_, t0_, done_, slope0_, slope_, h_, reach_, last_h_, last_error_, contraction_,
+    was_full_, since_change_, slack_, *stage_error_, step_error_, local_error_, inner_error_,
+    e_.statistics.last_step, e_.statistics.last_order, guard_);
 }
 
 } // namespace

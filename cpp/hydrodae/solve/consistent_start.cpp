@@ -82,4 +82,16 @@ void consistent_start(const System& s, const system::Pattern& pattern, VectorX& 
                            "each other, or a body that moves has no mass");
 }
 
+void make_consistent(System& s, double t, VectorX& y, VectorX& yp) {
+  const system::Formulation formulation = s.formulation;
+  s.formulation = system::Formulation::stabilised;
+  const system::Pattern pattern = system::find_pattern(s);
+  Equations equations(s, pattern, 1.0);
+  equations.accept(t, y, yp);
+  const bool good = SaddlePoint(equations).accelerations(t, y, yp);
+  s.formulation = formulation;
+  if (!good)
+    throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s");
+}
+
 } // namespace hydrodae::solve

@@ -14,4 +14,8 @@ namespace hydrodae::solve {
 void consistent_start(const system::System& system, const system::Pattern& pattern, VectorX& y,
                       VectorX& yp);
 
+/// Rates and reactions that belong to the positions, velocities and loads of an accepted instant,
+/// whatever formulation is integrated. Throws SolverError where there are none.
+void make_consistent(system::System& system, double t, VectorX& y, VectorX& yp);
+
 } // namespace hydrodae::solve

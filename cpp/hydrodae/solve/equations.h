@@ -90,6 +90,7 @@ public:
     steps_ = 0;
     checked_ = t;
   }
+  void remember(Archive& a) { a(steps_, checked_); }
 
 private:
   static constexpr long watch = 5000;

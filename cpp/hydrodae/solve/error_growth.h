@@ -27,6 +27,7 @@ public:
     VectorX piled, plain; ///< E and the sum without growth, by group (n_groups,)
     VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_groups,)
     VectorX change;       ///< of the equations, the largest so far (n_groups,)
+    void remember(Archive& a) { a(vector, fresh, gathered, added, piled, plain, level, change); }
   };
 
   /// @param y, yp state at t, from which on these rows hold
@@ -64,6 +65,11 @@ public:
   /// Largest change of the linearised equations against those of the start, by group, relative to
   /// their own size (n_groups,): 0 of linear equations.
   const VectorX& change() const { return error_.change; }
+
+  void remember(Archive& a) {
+    a(error_, by_y_, by_rate_, first_by_y_, growth_, fade_, change_, since_, window_, every_,
+      steps_);
+  }
 
 private:
   bool carry(double t, const VectorX& rate, VectorX& vector);

@@ -27,7 +27,6 @@ public:
   ExplicitRk(const system::System& system, const system::Pattern& pattern,
              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
-        end_(options.end_time),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         e_(system, pattern, options.rtol), saddle_(e_), n_(system.lambda0),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
@@ -41,13 +40,15 @@ public:
       throw SolverError(t_, "no finite accelerations at the start");
   }
 
-  double step() override;
-  void bound(double latest) override { bound_ = latest; }
+  double step(double end, double bound) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
+  void remember(Archive& a) override {
+    a(h_, last_error_, e_.statistics.last_step, e_.statistics.last_order, guard_);
+  }
 
 private:
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
@@ -60,7 +61,7 @@ private:
 
   const Pair& pair_;
   const bool fixed_;
-  const double end_, max_step_;
+  const double max_step_;
   Equations e_;
   SaddlePoint saddle_;
   const Index n_;
@@ -70,7 +71,7 @@ private:
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
-  double last_error_ = 1e-4, bound_ = INFINITY;
+  double last_error_ = 1e-4;
   VectorX step_error_;  ///< (lambda0,)
   VectorX local_error_; ///< (n_bodies,), of fixed steps
 };
@@ -161,14 +162,14 @@ void ExplicitRk::estimate(double h) {
     local_error_ = sizes(tableaux::rk8_e5).binaryExpr(sizes(tableaux::rk8_e3), &of_order_8);
 }
 
-double ExplicitRk::step() {
+double ExplicitRk::step(double end, double bound) {
   constexpr double safety = 0.9, least = 0.2, most = 6.0;
   const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
   extended_ = false;
   bool failed = false;
   for (;;) {
-    const double left = end_ - t_;
-    double h = std::min({h_, left, fixed_ ? left : bound_ - t_});
+    const double left = end - t_, wanted = h_;
+    double h = std::min({h_, left, fixed_ ? left : bound - t_});
     if (left - h < 0.1 * h)
       h = left;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
@@ -204,7 +205,7 @@ double ExplicitRk::step() {
     y_ = trial_;
     t0_ = t_;
     done_ = h;
-    t_ = h == left ? end_ : t_ + h;
+    t_ = h == left ? end : t_ + h;
     e_.accept(t_, y_, trial_yp_);
     if (!saddle_.accelerations(t_, y_, yp_))
       fail("no finite accelerations");
@@ -217,6 +218,8 @@ double ExplicitRk::step() {
                      failed ? 1.0 : most);
       last_error_ = std::max(e, 1e-4);
       h_ = std::min(max_step_, h * grow);
+      if (h == left) // a step that was cut says nothing against longer ones
+        h_ = std::max(h_, wanted);
     }
     ++e_.statistics.steps;
     e_.statistics.last_step = done_;

@@ -32,9 +32,9 @@ public:
                    const model::SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
       : s_(system), e_(system, pattern, newton_tolerance), lu_(pattern.column_start, pattern.row),
-        t_(t0), t0_(t0), end_(options.end_time), h_(options.step), n_x_(system.n_u + system.n_z),
-        y_(y), yp_(yp), y0_(y), yp0_(yp), trial_(y), trial_yp_(yp), residual_(y), w_(y),
-        a_(yp.segment(system.u0, n_x_)), a_new_(a_), velocity_(VectorX::Zero(system.n_u)) {
+        t_(t0), t0_(t0), h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y),
+        yp0_(yp), trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)),
+        a_new_(a_), velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
     alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
     alpha_f_ = rho / (rho + 1.0);
@@ -44,13 +44,16 @@ public:
     e_.accept(t_, y_, yp_);
   }
 
-  double step() override;
-  void bound(double) override {}
+  double step(double end, double bound) override;
   const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }
+  void remember(Archive& a) override {
+    a(a_, y0_, yp0_, t0_, local_error_, inner_error_, step_error_, e_.statistics.last_step,
+      e_.statistics.last_order);
+  }
 
 private:
   template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
@@ -66,7 +69,7 @@ private:
   SparseLu<double> lu_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
   double error_constant_ = 0; ///< of the positions, of h^3 q'''
-  double t_ = 0.0, t0_ = 0.0, end_, h_;
+  double t_ = 0.0, t0_ = 0.0, h_;
   Index n_x_;
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
   VectorX velocity_;                  ///< G^T mu of the last residual, tangent
@@ -203,10 +206,10 @@ void GeneralizedAlpha::find_inner_error(double h) {
   inner_error_ = body_sizes(s_, followed - trial_.head(n)) / 64.0;
 }
 
-double GeneralizedAlpha::step() {
+double GeneralizedAlpha::step(double end, double) {
   double h = h_;
-  if (end_ - t_ < 1.0001 * h)
-    h = end_ - t_;
+  if (end - t_ < 1.0001 * h)
+    h = end - t_;
   e_.weights(y_, w_);
   bool done = false;
   for (int attempt = 0; attempt < 2 && !done; ++attempt) {
@@ -233,7 +236,7 @@ double GeneralizedAlpha::step() {
   y0_ = y_;
   yp0_ = yp_;
   t0_ = t_;
-  t_ = h == end_ - t_ ? end_ : t_ + h;
+  t_ = h == end - t_ ? end : t_ + h;
   y_ = trial_;
   yp_ = trial_yp_;
   yp_.head(s_.n_q).setZero();

@@ -1,6 +1,6 @@
 #pragma once
 /// Witnesses of a run that went wrong without the integrator's noticing; judged after each accepted
-/// step. (The energy balance is the third: see simulation.cpp.)
+/// step. (run/guards.h puts them in a row.)
 
 #include <deque>
 
@@ -46,6 +46,8 @@ public:
   /// other than in its best pose seen?
   bool near_singular(double t, const VectorX& y, const VectorX& yp);
 
+  void remember(Archive& a) { a(best_); }
+
 private:
   VectorX independence(double t, const VectorX& y, const VectorX& yp);
 
@@ -73,6 +75,8 @@ public:
   /// Only scenes with loops have singular poses to fear.
   bool active() const { return active_; }
 
+  void remember(Archive& a) { a(largest_, past_); }
+
 private:
   VectorX energies(const VectorX& u) const;
 
@@ -96,6 +100,8 @@ public:
   /// Throws SolverError when the errors add up to more than is allowed.
   /// @param h, order, errors: length [s] of the last step, order of the method, its errors by body
   void check(double t, double h, int order, const VectorX& errors);
+
+  void remember(Archive& a) { a(sums_); }
 
 private:
   const system::System& s_;

@@ -108,11 +108,11 @@ public:
         guard(t0, end_time, time_scale) {
     start(options, y0, yp0);
   }
-  double step() override;
-  void bound(double latest) override { bound_ = latest; }
+  double step(double end, double bound) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override;
+  void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
 
 private:
   const system::System& system;
@@ -124,7 +124,7 @@ private:
   int restarts = 0;
   Statistics before;          ///< of the starts before the last
   VectorX now, now_rate, out; ///< copies for the calls that take our vectors
-  double t_ = 0.0, end_time = 0.0, bound_ = INFINITY;
+  double t_ = 0.0, end_time = 0.0;
   VectorX error_;
   double first = 0.0;      ///< first step [s]
   double time_scale = 0.0; ///< longest of the bodies [s]
@@ -301,8 +301,8 @@ const VectorX& Ida::step_error() {
   return error_;
 }
 
-double Ida::step() {
-  check(IDASetStopTime(memory.get(), std::min(bound_, end_time)), "IDASetStopTime");
+double Ida::step(double end, double bound) {
+  check(IDASetStopTime(memory.get(), std::min(bound, end)), "IDASetStopTime");
   int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
   while (flag == IDA_CONV_FAIL && restart())
     flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "hydrodae/core/archive.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/solve/statistics.h"
 #include "hydrodae/system/jacobian.h"
@@ -17,11 +18,15 @@ public:
 
   /// Makes one step and returns the time reached [s]. Throws SolverError with the time, the reason,
   /// and the unknowns or equations that are worst.
-  virtual double step() = 0;
+  /// @param end [s] later than the time reached: no step goes beyond it, and one that nearly gets
+  ///   there ends there exactly
+  /// @param bound [s] likewise, but methods of a fixed step keep their step
+  virtual double step(double end, double bound) = 0;
 
-  /// From now on no step goes beyond `latest` [s], which is later than the time reached; methods of
-  /// a fixed step keep their step.
-  virtual void bound(double latest) = 0;
+  /// What the next steps depend on besides t, y and y' at the end of the last: of one-step methods
+  /// the step, its error and the polynomial of the last step. To be restored into an integrator of
+  /// the same system and options that was made with that t, y and y'.
+  virtual void remember(Archive& a) = 0;
 
   /// Estimated error of the last step in q, u, z (lambda0,), signed as far as the method knows it.
   virtual const VectorX& step_error() = 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include "hydrodae/core/archive.h"
 
 namespace hydrodae::solve {
 
@@ -12,6 +13,11 @@ struct Statistics {
   long convergence_failures = 0;
   double last_step = 0.0; ///< [s]
   int last_order = 0;
+
+  void remember(Archive& a) {
+    a(steps, residual_calls, jacobian_calls, newton_iterations, error_test_failures,
+      convergence_failures, last_step, last_order);
+  }
 
   /// Adds the counts of another part of the same run; the last step stays.
   Statistics& operator+=(const Statistics& other) {

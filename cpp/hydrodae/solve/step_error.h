@@ -1,6 +1,7 @@
 #pragma once
 /// How far a step of fixed length misses the truth, estimated from what the method has at hand.
 
+#include "hydrodae/core/archive.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/system.h"
 
@@ -36,6 +37,8 @@ public:
 
   /// The same as a change of the positions (n_q,): the pattern of the last coefficient known.
   const VectorX& pattern() const { return pattern_; }
+
+  void remember(Archive& a) { a(before_, highest_, below_); }
 
 private:
   void take_pattern(const system::System& system, const VectorX& v, const VectorX& errors);

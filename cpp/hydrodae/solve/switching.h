@@ -13,6 +13,8 @@
 #include <memory>
 #include <optional>
 
+#include "hydrodae/core/archive.h"
+#include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::solve {
@@ -24,7 +26,6 @@ public:
 
   /// Everything open, as the build left it. Throws ModelError when the start is beyond a stop.
   Switching(system::System& system, double rtol);
-  ~Switching();
 
   /// The first time in (t0, t1] at which a switch has to change [s], if there is one. `nodes`:
   /// into how many parts the step is cut to look for it.
@@ -40,7 +41,8 @@ public:
   /// What a stop or one-sided joint takes in one impact: the size of its impulse [N s or N m s],
   /// and the energy lost [J].
   struct Impact {
-    double time, impulse, energy_lost;
+    double time = 0.0, impulse = 0.0, energy_lost = 0.0;
+    void remember(Archive& a) { a(time, impulse, energy_lost); }
   };
 
   /// What a stop or one-sided joint has taken in its impacts so far.
@@ -48,6 +50,7 @@ public:
     double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
     double energy_lost = 0.0; ///< [J]
     std::vector<Impact> impacts;
+    void remember(Archive& a) { a(impulse, energy_lost, impacts); }
   };
   const std::vector<Struck>& struck() const { return struck_; } ///< one for each switch
 
@@ -56,12 +59,46 @@ public:
 
   long events() const { return events_; }
 
+  /// What it knows of the past, apart from the states of the switches, which are the system's.
+  void remember(Archive& a);
+
+  /// After that was restored, and the system laid out: goes on from an accepted instant.
+  void resume(double t, const VectorX& y, const VectorX& yp);
+
 private:
   using Data = system::SwitchData;
   struct Motion { ///< s, s', s'' of the coordinate
     double value = 0.0, rate = 0.0, acceleration = 0.0;
   };
-  struct Present;
+  using State = Data::State;
+  using Kind = Data::Kind;
+
+  static constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
+  static constexpr double resting = 1e-9;  ///< rates and loads likewise
+
+  /// For the time of its life the equations are stabilised, whatever the integrator solves.
+  class Stabilised {
+  public:
+    explicit Stabilised(system::System& s) : s_(s), formulation_(s.formulation) {
+      s.formulation = system::Formulation::stabilised;
+    }
+    ~Stabilised() { s_.formulation = formulation_; }
+    Stabilised(const Stabilised&) = delete;
+    Stabilised& operator=(const Stabilised&) = delete;
+
+  private:
+    system::System& s_;
+    system::Formulation formulation_;
+  };
+
+  /// The equations with the rows that hold now, ready for accelerations and impulses.
+  struct Present {
+    system::Pattern pattern;
+    Equations equations;
+    SaddlePoint saddle;
+    explicit Present(const system::System& s)
+        : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
+  };
   struct Size { ///< what counts as one
     double length = 1.0, rate = 1.0, load = 1.0;
   };

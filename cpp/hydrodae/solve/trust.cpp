@@ -228,6 +228,11 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
       std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), coherent_, every_);
 }
 
+void Trust::remember(Archive& a) {
+  a(*growth_, unit_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_, energies_,
+    looked_);
+}
+
 Trust::Estimate Trust::estimate(const VectorX& reached) const {
   const ErrorGrowth::Error& e = growth_->error();
   Estimate out;

@@ -46,6 +46,9 @@ public:
   };
   Estimate estimate(const VectorX& reached) const;
 
+  /// To be restored after `restart` with the same rows.
+  void remember(Archive& a);
+
 private:
   double least(int mechanism) const;
   double size(Index group, const VectorX& reached) const;
@@ -83,6 +86,7 @@ private:
     double late = 0.0;    ///< phase that this has cost [rad]
     double kinetic = 0.0; ///< its mean over some swings [J]
     double given = 0.0;   ///< that dampers had taken at the last look [J]
+    void remember(Archive& a) { a(struck, seen, missing, late, kinetic, given); }
   };
   std::vector<Energy> energies_;
   double looked_ = 0.0; ///< time of the last look [s]

@@ -94,7 +94,7 @@ void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s
     list.ports.push_back(make_port(scene, force, s));
   }
   list.laws = std::make_shared<const element::Laws<F>>(forces);
-  list.signals.assign(forces.size() * static_cast<std::size_t>(list.laws->shape.n_signals), 0.0);
+  list.signals = list.laws->signals;
   s.elements.push_back(std::move(list));
   if constexpr (std::is_same_v<F, element::DryFriction>)
     for (std::size_t k = 0; k < forces.size(); ++k)

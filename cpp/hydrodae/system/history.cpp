@@ -114,6 +114,12 @@ void History::append(double t, const VectorX& y, const VectorX& yp) {
     past.known = false;
 }
 
+void History::remember(Archive& a) {
+  a(nodes_, first_, start_, point_time_, point_value_, dropped_, ws_.turns);
+  for (Past& past : memo_)
+    past.known = false;
+}
+
 /// Lets go what no time from the last accepted point but one on will ask for.
 void History::forget() {
   if (nodes_.size() < 2)
@@ -274,6 +280,8 @@ void History::evaluate(double t, bool locked, Past& out) const {
 }
 
 const Past& History::at(double t, bool locked) const {
+  if (nodes_.size() > 1) // patterns and poses are looked at whatever the time
+    t = std::max(t, nodes_[nodes_.size() - 2].t);
   locked = locked && !s_.hydro.convolution.locked.empty();
   for (const Past& past : memo_)
     if (past.known && past.t == t && (past.locked || !locked))

@@ -48,11 +48,14 @@ public:
 
   double last_time() const { return nodes_.back().t; }
 
+  void remember(Archive& a);
+
 private:
   struct Node {
     double t = 0.0;
     VectorX value, rate;    ///< (n_signals,) U and U'; of each delay s and s', then s' and s''
     std::size_t points = 0; ///< quadrature points up to here, since the start
+    void remember(Archive& a) { a(t, value, rate, points); }
   };
   void forget();
   void signals(double t, const VectorX& y, const VectorX& yp, Node& node);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hydrodae/core/archive.h"
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
@@ -23,6 +24,7 @@ struct Turns {
   double time = 0.0;
   bool known = false; ///< else the values are near those of the start, and the rates are not known
   std::vector<double> value, rate;
+  void remember(Archive& a) { a(time, known, value, rate); }
 };
 
 /// What the laws of one list see and answer; rows: gradients of what they see (widths other than

@@ -13,6 +13,7 @@ namespace hydrodae::system {
 struct Crossing {
   double time = 0.0, value = 0.0; ///< of the first sample beyond the limit [s], [rad] or [m]
   double largest = 0.0;           ///< of all samples
+  void remember(Archive& a) { a(time, value, largest); }
 };
 
 /// What is watched of one hydrodynamic body that moves, against its mean pose: the pose of the
@@ -28,11 +29,16 @@ struct LinearLimits {
     std::optional<Crossing> turn;       ///< [rad], beyond `largest_turn`
     std::optional<Crossing> rise;       ///< vertical [m], beyond half the draught
     std::optional<Crossing> drift;      ///< horizontal [m], beyond a tenth of the wave length
+    void remember(Archive& a) { a(turn, rise, drift); }
   };
   static constexpr double largest_turn = 15.0 * pi / 180.0; ///< [rad]
   double tenth_wave = INFINITY; ///< tenth of the wave length, which matters where the phase of the
                                 ///< waves does not follow the bodies [m]
   std::vector<Body> bodies;
+  void remember(Archive& a) {
+    for (Body& b : bodies)
+      b.remember(a);
+  }
 };
 
 /// What to watch in a scene. The draught is not in the database: displaced volume over waterplane,

@@ -143,6 +143,12 @@ void MotionScale::accept(double t, const VectorX& y) {
     update(t);
 }
 
+void MotionScale::remember(Archive& a) {
+  a(reached_, translated_, s_.motion_scale, s_.translation_scale);
+  if (!a.saves())
+    set_scales(s_);
+}
+
 std::vector<std::string> MotionScale::notes() const {
   std::vector<std::string> out;
   if (!s_.scales_follow)

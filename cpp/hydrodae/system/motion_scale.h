@@ -31,6 +31,9 @@ public:
   /// Groups whose motion is below what rounding lets the tolerance follow.
   std::vector<std::string> notes() const;
 
+  /// Restoring it, the scales of the system are those of then.
+  void remember(Archive& a);
+
 private:
   void expect_start(const Pattern& pattern, const VectorX& y, const VectorX& yp);
   void expect(const BodyData& body, bool translation, double motion);

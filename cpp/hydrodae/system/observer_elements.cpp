@@ -9,14 +9,6 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Of "N or N m": the first along a displacement, the second along an angle.
-std::string unit_along(std::string_view unit, bool angle) {
-  const std::size_t either = unit.find(" or ");
-  if (either == std::string_view::npos)
-    return std::string(unit);
-  return std::string(angle ? unit.substr(either + 4) : unit.substr(0, either));
-}
-
 void add_port_channels(const System& s, const element::Elements& laws, const PortData& port,
                        const std::string& head, std::vector<Channel>& out) {
   if (element::is_along(laws.shape.port)) {
@@ -51,11 +43,12 @@ std::vector<Channel> element_channels(const System& s) {
     const auto n = static_cast<std::size_t>(laws.shape.n_states);
     for (std::size_t z = 0; z < n; ++z) {
       const element::Unknown& u = laws.unknowns[k * n + z];
-      out.push_back({head + u.name, 1, unit_along(u.unit, angle), "-", "State of the force."});
+      out.push_back(
+          {head + u.name, 1, element::unit_along(u.unit, angle), "-", "State of the force."});
     }
     for (const element::Quantity& q : laws.channels)
-      out.push_back(
-          {head + std::string(q.name), 1, unit_along(q.unit, angle), "-", std::string(q.doc)});
+      out.push_back({head + std::string(q.name), 1, element::unit_along(q.unit, angle), "-",
+                     std::string(q.doc)});
   });
   return out;
 }
@@ -85,7 +78,7 @@ void Observer::observe_elements(const double* y) {
     const double *in = scratch.in.data(), *load = scratch.out.data();
     laws.evaluate(ws_.time, in, list.signals.data(), scratch.out.data());
     double *energy = element_values_.data(), *declared = energy + laws.size();
-    laws.energy(in, energy);
+    laws.energy(in, list.signals.data(), energy);
     laws.observe(ws_.time, in, list.signals.data(), load, declared);
     const joint::Vec12<double>* rows = scratch.rows.data();
     for (const PortData& port : list.ports) {

@@ -59,7 +59,7 @@ void Recorder::begin(double t, const Interpolant& at) {
     at(t, y_, yp_);
     observer_.observe(t, y_, yp_);
   }
-  balance_error_ = balance(end_work_);
+  whole_.balance_error = balance(end_work_);
   balance_mechanisms();
   end_kinetic_ = observer_.observation().mechanism_kinetic;
   take_turns();
@@ -68,7 +68,7 @@ void Recorder::begin(double t, const Interpolant& at) {
 // The power of a force on its bodies is what it does not absorb.
 std::vector<Recorder::Absorbed> Recorder::absorbed() const {
   std::vector<Absorbed> out;
-  if (end_ <= mean_from_)
+  if (t_ <= mean_from_)
     return out;
   const std::vector<std::string>& components = observer_.observation().components;
   for_each_law(s_, [&](const ElementList& list, std::size_t, const PortData& port) {
@@ -77,7 +77,7 @@ std::vector<Recorder::Absorbed> Recorder::absorbed() const {
     const auto k = static_cast<std::size_t>(
         std::find(components.begin(), components.end(), port.component) - components.begin());
     const double before = mean_work_.empty() ? 0.0 : mean_work_[k];
-    out.push_back({port.component, (before - end_work_[k]) / (end_ - mean_from_)});
+    out.push_back({port.component, (before - work_[k]) / (t_ - mean_from_)});
   });
   return out;
 }
@@ -173,12 +173,12 @@ double Recorder::balance(const std::vector<double>& work) {
     if (gives_[k])
       given -= work[k];
   }
-  given_ = std::max(given_, given);
-  kinetic_ = moving;
+  whole_.given = std::max(whole_.given, given);
+  whole_.kinetic = moving;
   const double error = moving - energy0_ - total_work;
-  largest_kinetic_ = std::max(largest_kinetic_, moving);
-  largest_energy_ = std::max(largest_energy_, exchanged);
-  largest_error_ = std::max(largest_error_, std::abs(error));
+  whole_.largest_kinetic = std::max(whole_.largest_kinetic, moving);
+  whole_.largest_energy = std::max(whole_.largest_energy, exchanged);
+  whole_.largest_error = std::max(whole_.largest_error, std::abs(error));
   return error;
 }
 
@@ -272,7 +272,20 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   if (end_ > t_) // else the start of the run
     at(t, y_, yp_);
   observer_.observe(t, y_, yp_);
-  const std::vector<double> work = work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0);
+  fill(row, work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0));
+}
+
+void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) {
+  const Whole before = whole_;
+  y_ = y;
+  yp_ = yp;
+  observer_.observe(t_, y_, yp_);
+  fill(row, work_);
+  whole_ = before;
+}
+
+/// From where the observer is.
+void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);
@@ -289,7 +302,14 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
 }
 
 double Recorder::relative_balance_error() const {
-  return largest_energy_ > 0.0 ? largest_error_ / largest_energy_ : 0.0;
+  return whole_.largest_energy > 0.0 ? whole_.largest_error / whole_.largest_energy : 0.0;
+}
+
+void Recorder::remember(Archive& a) {
+  a(t_, end_, power_, work_, turns_, end_kinetic_, mechanisms_, energy0_, whole_, rule_,
+    mean_work_);
+  if (!a.saves())
+    observer_.follow(turns_);
 }
 
 } // namespace hydrodae::system

@@ -13,6 +13,7 @@ namespace hydrodae::system {
 /// Nodes on [0, 1], the ends among them, and weights, by which the work over one step is summed.
 struct Quadrature {
   std::vector<double> nodes{0.0, 0.5, 1.0}, weights{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+  void remember(Archive& a) { a(nodes, weights); }
 };
 
 /// Integrates the work of every force over the accepted steps, follows angles over turns, and fills
@@ -38,6 +39,9 @@ public:
   /// after the other; length `width()`.
   void sample(double t, const Interpolant& at, std::span<double> row);
 
+  /// Fills the row of the end of the last closed step, where y, y' are given. Changes nothing.
+  void look(const VectorX& y, const VectorX& yp, std::span<double> row);
+
   /// Closes the step: work and turns are carried over.
   void accept();
 
@@ -57,8 +61,8 @@ public:
   double relative_balance_error() const;
 
   /// Balance error at the end of the last step, and the largest energy exchanged [J].
-  double balance_error() const { return balance_error_; }
-  double largest_energy() const { return largest_energy_; }
+  double balance_error() const { return whole_.balance_error; }
+  double largest_energy() const { return whole_.largest_energy; }
 
   /// Balance error at the end of the last step, and what it is to be compared with.
   struct Balance {
@@ -66,9 +70,11 @@ public:
     double start = 0.0;                  ///< kinetic energy of its bodies at the start [J]
     double kinetic = 0.0, now = 0.0;     ///< the largest of it so far, and that of now [J]
     double given = 0.0; ///< the most that dampers, springs and radiation have taken in all [J]
+    void remember(Archive& a) { a(error, exchanged, start, kinetic, now, given); }
   };
   Balance whole() const {
-    return {balance_error_, largest_energy_, energy0_, largest_kinetic_, kinetic_, given_};
+    return {whole_.balance_error,   whole_.largest_energy, energy0_,
+            whole_.largest_kinetic, whole_.kinetic,        whole_.given};
   }
 
   /// The same for each mechanism by itself, with all that acts on it from outside; none where there
@@ -77,6 +83,7 @@ public:
 
   /// From `time` [s] on means are taken, see `absorbed`; by default from the start.
   void average_from(double time) { mean_from_ = time; }
+  double averaged_from() const { return mean_from_; }
 
   /// What each power take-off has absorbed on average [W], none before that time.
   struct Absorbed {
@@ -84,8 +91,19 @@ public:
     double mean_power = 0.0;
   };
   std::vector<Absorbed> absorbed() const;
+  /// Between two steps.
+  void remember(Archive& a);
 
 private:
+  /// Balance of the scene, and its largest values so far [J].
+  struct Whole {
+    double largest_kinetic = 0.0, kinetic = 0.0, given = 0.0; ///< as in Balance
+    double largest_energy = 0.0, largest_error = 0.0, balance_error = 0.0;
+    void remember(Archive& a) {
+      a(largest_kinetic, kinetic, given, largest_energy, largest_error, balance_error);
+    }
+  };
+  void fill(std::span<double> row, const std::vector<double>& work);
   void make_channels();
   void check_paths() const;
   void add_channel(std::string path, int width, std::string unit, std::string frame,
@@ -116,9 +134,8 @@ private:
   std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
   double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
-  double largest_kinetic_ = 0.0, kinetic_ = 0.0, given_ = 0.0; ///< as in Balance
+  Whole whole_;
   std::vector<bool> gives_; ///< by component: may take energy out of the motion for good
-  double largest_energy_ = 0.0, largest_error_ = 0.0, balance_error_ = 0.0;
   Quadrature rule_;
   VectorX y_, yp_;
 };

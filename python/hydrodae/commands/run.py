@@ -32,8 +32,28 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         action="store_true",
         help="run a second time with a tenth of the tolerance, or half the step, and compare",
     )
+    parser.add_argument(
+        "--checkpoint",
+        metavar="SECONDS",
+        type=_seconds,
+        help="keep a checkpoint beside the results file, anew after so many seconds of wall time, "
+        "until the run is completed",
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from the checkpoint of a run that was cut off, or stopped",
+    )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     parser.set_defaults(call=run)
+
+
+def _seconds(text: str) -> float:
+    """A time of at least 0 s."""
+    value = float(text)
+    if not 0.0 <= value < float("inf"):
+        raise ValueError(text)
+    return value
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -51,11 +71,12 @@ def run(arguments: argparse.Namespace) -> int:
         values["solver.force"] = True
     case = Case(path=arguments.case, values=values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
+    how = {name: getattr(arguments, name) for name in ("verify", "checkpoint", "resume")}
     if arguments.quiet:
-        simulate.run(case, output, verify=arguments.verify)
+        simulate.run(case, output, **how)
         return 0
     with ProgressLine(case.title) as progress:
-        results = simulate.run(case, output, progress=progress, verify=arguments.verify)
+        results = simulate.run(case, output, progress=progress, **how)
     print(results.summary())
     print(f"  results in {output}")
     return 0

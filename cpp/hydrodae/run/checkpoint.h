@@ -1,0 +1,33 @@
+#pragma once
+/// What a run leaves beside its results file, so that another process can go on from there.
+
+#include <string>
+
+#include "hydrodae/model/scene.h"
+#include "hydrodae/run/state.h"
+
+namespace hydrodae::run {
+
+struct Checkpoint {
+  State state;
+  Memory output; ///< what the writer of the results needs besides
+};
+
+/// "X.checkpoint.h5" for "X.h5".
+std::string checkpoint_name(const std::string& results);
+
+/// Replaces the checkpoint of a results file in one step. Throws SolverError when it cannot be
+/// written.
+void write_checkpoint(const std::string& results, const model::Scene& scene,
+                      const Checkpoint& checkpoint);
+
+/// Throws CaseError where there is none, or it is of another case, database or version.
+Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene);
+
+/// Throws CaseError when another kind of file has the name of the checkpoint.
+void require_checkpoint_place(const std::string& results);
+
+/// Does nothing where there is none.
+void remove_checkpoint(const std::string& results);
+
+} // namespace hydrodae::run

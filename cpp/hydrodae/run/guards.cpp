@@ -1,0 +1,164 @@
+#include "hydrodae/run/guards.h"
+
+#include <algorithm>
+
+#include "hydrodae/solve/energy_guard.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+/// "largest reactions ..." at y, for messages.
+std::string reactions(const system::System& s, const VectorX& y) {
+  if (s.n_lambda == 0)
+    return "";
+  VectorX values = VectorX::Zero(s.n);
+  for (Index i = s.lambda0; i < s.mu0; ++i)
+    values[i] = y[i] / s.scale[i];
+  return "\n  largest reactions, relative to the weights: " + solve::worst(values, s.names);
+}
+
+class EnergyCheck : public Guard {
+public:
+  EnergyCheck(const system::System& s, solve::EnergyGuard guard, PoseWatch& watch)
+      : s_(s), guard_(std::move(guard)), watch_(watch) {}
+  void check(const Step& step) override {
+    guard_.check(
+        step.end, step.recorder, [&] { return watch_.near_singular(step); },
+        [&] { return reactions(s_, step.y); });
+  }
+  void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
+
+private:
+  const system::System& s_;
+  solve::EnergyGuard guard_;
+  PoseWatch& watch_;
+};
+
+class StepCheck : public Guard {
+public:
+  explicit StepCheck(solve::StepGuard guard) : guard_(std::move(guard)) {}
+  void check(const Step& step) override {
+    const solve::Statistics s = step.integrator.statistics();
+    guard_.check(step.end, s.last_step, s.last_order, step.integrator.local_error());
+  }
+  void remember(Archive& a) override { guard_.remember(a); }
+
+private:
+  solve::StepGuard guard_;
+};
+
+class BranchCheck : public Guard {
+public:
+  explicit BranchCheck(solve::BranchGuard guard) : guard_(std::move(guard)) {}
+  void check(const Step& step) override { guard_.check(step.end, step.y); }
+  void restart(const Step&) override { guard_.restart(); }
+  void remember(Archive& a) override { guard_.remember(a); }
+
+private:
+  solve::BranchGuard guard_;
+};
+
+class DriftCheck : public Guard {
+public:
+  DriftCheck(const system::System& s, PoseWatch& watch)
+      : s_(s), guard_(std::make_unique<solve::DriftGuard>(s)), watch_(watch) {}
+  void check(const Step& step) override {
+    guard_->check(step.end, step.y, step.yp);
+    if (guard_->misses_singular_poses() && watch_.near_singular(step))
+      guard_->fail_at_singular_pose(step.end);
+  }
+  void restart(const Step&) override { guard_ = std::make_unique<solve::DriftGuard>(s_); }
+
+private:
+  const system::System& s_;
+  std::unique_ptr<solve::DriftGuard> guard_;
+  PoseWatch& watch_;
+};
+
+class TrustCheck : public Guard {
+public:
+  explicit TrustCheck(const Judges& judges) : judges_(judges) {}
+  void check(const Step& step) override {
+    judges_.scale.accept(step.end, step.y);
+    judges_.trust.accept(step.end, step.integrator, judges_.scale.reached(), step.y, step.event,
+                         step.recorder);
+  }
+  void restart(const Step& step) override {
+    judges_.trust.restart(judges_.pattern, step.end, step.y, step.yp);
+  }
+  void remember(Archive& a) override { judges_.trust.remember(a); }
+
+private:
+  Judges judges_;
+};
+
+} // namespace
+
+PoseWatch::PoseWatch(const system::System& s, const model::SolverOptions& options, const VectorX& y,
+                     bool wanted)
+    : s_(s), method_(options.method) {
+  if (wanted && solve::has_loop(s))
+    guard_ = std::make_unique<solve::PoseGuard>(s, y);
+}
+
+bool PoseWatch::near_singular(const Step& step) {
+  const bool short_steps = method_ == "ida";
+  if (!guard_ || (short_steps && ++asked_ % 4 != 0))
+    return false;
+  const int looks = short_steps ? 1 : 6;
+  for (int k = 1; k <= looks; ++k) {
+    const double t = k == looks ? step.end : step.start + (step.end - step.start) * k / looks;
+    step.integrator.interpolate(t, y_, yp_);
+    if (guard_->near_singular(t, y_, yp_))
+      return true;
+  }
+  return false;
+}
+
+std::string PoseWatch::with_remedy(std::string text, double t, const VectorX& y,
+                                   const VectorX& yp) {
+  if (!guard_ || !guard_->near_singular(t, y, yp))
+    return text;
+  const std::string remedy =
+      method_ == "radau" || method_ == "explicit_rk"
+          ? "; it is next to a singular pose (a dead point, or bars in line), where the motion may "
+            "have no unique way on: a smaller rtol, or a little friction, may help"
+          : "; it is next to a singular pose (a dead point, or bars in line): solver.method = "
+            "\"radau\" or \"explicit_rk\" passes such poses";
+  return text.insert(std::min(text.find('\n'), text.size()), remedy);
+}
+
+void PoseWatch::restart(const VectorX& y) {
+  if (guard_)
+    guard_ = std::make_unique<solve::PoseGuard>(s_, y);
+}
+
+void PoseWatch::remember(Archive& a) {
+  a(asked_);
+  if (guard_)
+    a(*guard_);
+}
+
+std::vector<std::unique_ptr<Guard>> make_guards(const system::System& system,
+                                                const model::SolverOptions& options,
+                                                const VectorX& y, const Judges& judges,
+                                                std::unique_ptr<PoseWatch>& watch) {
+  std::vector<std::unique_ptr<Guard>> guards;
+  solve::EnergyGuard energy(system, options);
+  const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
+  watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);
+  guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
+  if (const double allowed = options.step_guard.value_or(0.02); options.step > 0.0 && allowed > 0.0)
+    guards.push_back(
+        std::make_unique<StepCheck>(solve::StepGuard(system, allowed, options.end_time)));
+  if (options.branch_guard)
+    if (solve::BranchGuard branch(system); branch.active())
+      guards.push_back(std::make_unique<BranchCheck>(std::move(branch)));
+  if (drifts)
+    guards.push_back(std::make_unique<DriftCheck>(system, *watch));
+  guards.push_back(std::make_unique<TrustCheck>(judges));
+  return guards;
+}
+
+} // namespace hydrodae::run

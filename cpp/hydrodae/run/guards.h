@@ -1,0 +1,88 @@
+#pragma once
+/// What watches a run, as one list: each guard looks at every accepted step, in this order.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/solve/guards.h"
+#include "hydrodae/solve/integrator.h"
+#include "hydrodae/solve/trust.h"
+#include "hydrodae/system/motion_scale.h"
+#include "hydrodae/system/recorder.h"
+
+namespace hydrodae::run {
+
+/// The step that was accepted last, as the guards see it.
+struct Step {
+  double start = 0.0, end = 0.0; ///< [s]
+  bool event = false;            ///< rows of the system come or go at its end
+  const VectorX& y;              ///< at its end; after an event those that go on from there
+  const VectorX& yp;
+  solve::Integrator& integrator; ///< gives y, y' inside the step
+  const system::Recorder& recorder;
+};
+
+class Guard {
+public:
+  virtual ~Guard() = default;
+
+  /// Throws SolverError where the motion is not to be trusted any more.
+  virtual void check(const Step& step) = 0;
+
+  /// Other rows hold from the end of the step on.
+  virtual void restart(const Step&) {}
+
+  /// At the end of the run. Throws SolverError as `check` does.
+  virtual void finish(const Step&) {}
+
+  /// What it has to know of the steps before.
+  virtual void remember(Archive&) {}
+};
+
+/// Tells whether a step was at or next to a singular pose of a closed loop, for the guards that
+/// allow less there. It watches nothing in scenes without loops.
+class PoseWatch {
+public:
+  /// @param y pose of the start, taken for a regular one
+  /// @param wanted some guard will ask
+  PoseWatch(const system::System& system, const model::SolverOptions& options, const VectorX& y,
+            bool wanted);
+
+  /// Of short steps one in four is looked at, since the way through such a pose takes more; long
+  /// ones are looked at inside, too.
+  bool near_singular(const Step& step);
+
+  /// What to do about a step that cannot be made next to a singular pose, behind the first line of
+  /// `text`.
+  std::string with_remedy(std::string text, double t, const VectorX& y, const VectorX& yp);
+
+  void restart(const VectorX& y);
+  void remember(Archive& a);
+
+private:
+  const system::System& s_;
+  std::string method_;
+  std::unique_ptr<solve::PoseGuard> guard_; ///< null: nothing to watch
+  long asked_ = 0;                          ///< times that a singular pose would have mattered
+  VectorX y_, yp_;
+};
+
+/// Where the motion itself is judged: the tolerances follow it, then errors are held against it.
+struct Judges {
+  system::MotionScale& scale;
+  solve::Trust& trust;
+  const system::Pattern& pattern; ///< of the rows that hold
+};
+
+/// All guards that the options ask for, in the order in which they look: energy, fixed steps,
+/// velocities that jump, constraints that drift, piled up errors.
+/// @param watch takes the watch over singular poses, which outlives the guards
+/// @param y pose of the start
+std::vector<std::unique_ptr<Guard>> make_guards(const system::System& system,
+                                                const model::SolverOptions& options,
+                                                const VectorX& y, const Judges& judges,
+                                                std::unique_ptr<PoseWatch>& watch);
+
+} // namespace hydrodae::run

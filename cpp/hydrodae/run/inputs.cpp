@@ -1,0 +1,46 @@
+#include "hydrodae/run/inputs.h"
+
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+
+namespace hydrodae::run {
+
+std::vector<Input> find_inputs(system::System& s) {
+  std::vector<Input> out;
+  for (system::ElementList& list : s.elements) {
+    double* value = list.signals.data();
+    for (std::size_t k = 0; k < list.ports.size(); ++k) {
+      const int motion = list.ports[k].motion;
+      const bool angle =
+          motion >= 0 && s.motions[static_cast<std::size_t>(motion)].motion.is_angle();
+      for (const element::Signal& signal : list.laws->inputs) {
+        if (!signal.name.empty())
+          out.push_back({"forces/" + list.laws->names[k] + "/" + std::string(signal.name),
+                         element::unit_along(signal.unit, angle), value, signal.least});
+        ++value;
+      }
+    }
+  }
+  return out;
+}
+
+Input& input_named(std::vector<Input>& inputs, const std::string& name) {
+  std::vector<std::string> names;
+  for (Input& input : inputs) {
+    if (input.name == name)
+      return input;
+    names.push_back(input.name);
+  }
+  throw CaseError("there is no input " + in_quotes(name) + suggestion(name, names));
+}
+
+void check_value(const Input& input, double value) {
+  if (!std::isfinite(value) || value < input.least)
+    throw CaseError("input " + in_quotes(input.name) + " [" + input.unit + "]: expected a finite " +
+                    std::string(std::isfinite(input.least) ? "number of at least 0" : "number") +
+                    ", got " + number_text(value));
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,29 @@
+#pragma once
+/// What a program may change while it runs a scene: constants of forces, held from one accepted
+/// instant to the next write.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::run {
+
+struct Input {
+  std::string name; ///< "forces/pto/damping"
+  std::string unit;
+  double* value = nullptr; ///< in the system
+  double least = -INFINITY;
+};
+
+/// The inputs that forces declare: damping, stiffness and neutral coordinate of each linear power
+/// take-off ("forces/pto/damping"), the components of each constant load. They point into `system`.
+std::vector<Input> find_inputs(system::System& system);
+
+/// Throws CaseError, with the nearest name, where there is no such input.
+Input& input_named(std::vector<Input>& inputs, const std::string& name);
+
+/// Throws CaseError where the value is not finite or too small for the input.
+void check_value(const Input& input, double value);
+
+} // namespace hydrodae::run

@@ -1,0 +1,255 @@
+#include "hydrodae/run/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/io/sha256.h"
+#include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/equilibrium.h"
+#include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/system/mechanisms.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The columns that belong to the solver rather than to the scene.
+const std::vector<Channel> solver_channels = {
+    {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
+    {"solver/order", 1, "-", "-", "Order of that step."}};
+
+/// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
+constexpr double step_edge = 0.02;
+
+std::string fingerprint_of(const model::Scene& scene) {
+  return io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene.text + '\n' +
+                            joined(scene.overrides, "\n") + '\n' +
+                            (scene.database ? scene.database->sha256 : ""));
+}
+
+} // namespace
+
+Simulation::Simulation(model::Scene scene)
+    : scene_(std::move(scene)), options_(scene_.solver),
+      approaches_events_(options_.method == "radau" && options_.step == 0.0),
+      fingerprint_(fingerprint_of(scene_)), system_(solve::starting_system(scene_)),
+      pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)),
+      inputs_(find_inputs(system_)) {
+  solve::consistent_start(system_, pattern_, y_, yp_);
+  system::take_time_scales(system_, y_, yp_);
+  forcing_ = std::make_unique<system::Forcing>(system_, options_.end_time, scene_.output.step);
+  scale_ = std::make_unique<system::MotionScale>(system_, pattern_, y_, yp_, forcing_->motion(),
+                                                 scene_.sea.ramp, options_.rtol);
+  if (!system_.switches.empty()) {
+    switching_ = std::make_unique<solve::Switching>(system_, options_.rtol);
+    switching_->settle(0.0, y_, yp_);
+  }
+  formulate();
+  begin_history();
+  make_integrator();
+  trust_ = std::make_unique<solve::Trust>(system_, pattern_, options_, y_, yp_);
+  recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
+  recorder_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
+  guards_ = make_guards(system_, options_, y_, {*scale_, *trust_, pattern_}, poses_);
+  make_channels();
+}
+
+/// The start is found on the stabilised equations; then the formulation may change.
+void Simulation::formulate() {
+  using system::Formulation;
+  static const std::map<std::string, Formulation> formulations = {
+      {"stabilised", Formulation::stabilised},
+      {"index_2", Formulation::index_2},
+      {"index_3", Formulation::index_3},
+      {"index_1", Formulation::index_1}};
+  system_.formulation = formulations.at(options_.formulation);
+  if (options_.baumgarte_time > 0.0)
+    system_.baumgarte_rate = 1.0 / options_.baumgarte_time;
+  if (system_.formulation != Formulation::stabilised || switching_)
+    pattern_ = system::find_pattern(system_);
+}
+
+/// The past of a scene that depends on it begins at the start, and limits the steps.
+void Simulation::begin_history() {
+  if (!system::has_past(system_))
+    return;
+  const std::string note = system::limit_steps(system_, options_);
+  if (!note.empty())
+    system_.notes.push_back(note);
+  history_ = std::make_unique<system::History>(system_);
+  history_->append(0.0, y_, yp_);
+  system_.history = history_.get();
+}
+
+void Simulation::make_channels() {
+  channels_ = recorder_->channels();
+  channels_.insert(channels_.end(), solver_channels.begin(), solver_channels.end());
+  const std::vector<Channel> taken = impacts_.channels();
+  channels_.insert(channels_.end(), taken.begin(), taken.end());
+  width_ = recorder_->width() + solver_channels.size() + impacts_.width();
+}
+
+void Simulation::make_integrator() {
+  integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
+}
+
+solve::Statistics Simulation::statistics() const {
+  solve::Statistics all = before_start_;
+  const solve::Statistics now = integrator_->statistics();
+  all += now;
+  all.last_step = now.last_step;
+  all.last_order = now.last_order;
+  return all;
+}
+
+void Simulation::advance(double limit, const Inside& inside) {
+  if (finished() || !(limit > t_))
+    return;
+  take_inputs();
+  now_.clear();
+  const Clock::time_point before = Clock::now();
+  const bool event = make_step(std::min(limit, options_.end_time));
+  solver_time_ += seconds_since(before);
+  choose_quadrature();
+  recorder_->begin(t_, at_);
+  if (inside)
+    inside();
+  recorder_->accept();
+  at_(t_, y_, yp_);
+  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
+  for (const std::unique_ptr<Guard>& guard : guards_)
+    guard->check(step);
+  if (history_)
+    history_->append(t_, y_, yp_);
+  if (event)
+    restart();
+}
+
+/// One step, cut short where a stop or dry friction changes.
+/// @returns whether it ends in such an event
+bool Simulation::make_step(double end) {
+  for (;;) {
+    last_start_ = step_start_;
+    step_start_ = t_;
+    if (switching_ && approaches_events_)
+      at_(t_, y_start_, yp_start_);
+    const double bound = find_bound();
+    try {
+      t_ = integrator_->step(end, bound);
+    } catch (const SolverError& error) {
+      at_(t_, y_, yp_);
+      throw SolverError(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));
+    }
+    std::optional<double> event;
+    if (switching_)
+      event = switching_->locate(step_start_, t_, quadrature_nodes_ + 2, at_);
+    if (!event || !inside_of_step(*event)) {
+      t_ = event.value_or(t_);
+      return event.has_value();
+    }
+    approach(*event);
+  }
+}
+
+/// No step may pass over what is known ahead of time, nor over an event that was found.
+double Simulation::find_bound() {
+  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns());
+  if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
+    event_near_ = INFINITY;
+  const double step = scene_.solver.step;
+  constexpr double too_long = 4.0;
+  if (step > too_long * (limit.time - t_))
+    throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: the step of " +
+                              number_text(step) + " s is too long for " + *limit.by +
+                              ", which may be passed over; " + rounded_text(limit.time - t_) +
+                              " s may do");
+  return std::min(limit.time, event_near_);
+}
+
+/// Is a time in the middle of the last step, where the polynomial through the stages of radau is of
+/// a lower order than the end, so that each event would leave its error?
+bool Simulation::inside_of_step(double t) const {
+  const double least = step_edge * (t_ - step_start_);
+  return approaches_events_ && t - step_start_ > least && t_ - t > least;
+}
+
+/// Takes the last step back, and lets the next ones end at the event.
+void Simulation::approach(double event) {
+  before_start_ += integrator_->statistics();
+  t_ = step_start_;
+  event_near_ = event;
+  switching_->follow(recorder_->turns());
+  y_ = y_start_;
+  yp_ = yp_start_;
+  make_integrator();
+}
+
+/// The rule by which the work over the coming step is summed.
+void Simulation::choose_quadrature() {
+  const int nodes = integrator_->quadrature_nodes();
+  if (nodes == quadrature_nodes_)
+    return;
+  quadrature_nodes_ = nodes;
+  const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
+  recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
+}
+
+/// Goes on from an event, or with other inputs, by the rows and loads that hold from now on.
+void Simulation::restart() {
+  const Clock::time_point before = Clock::now();
+  std::optional<double> struck;
+  follow_turns();
+  if (switching_)
+    struck = switching_->settle(t_, y_, yp_);
+  else
+    solve::make_consistent(system_, t_, y_, yp_);
+  recorder_->restart(y_, yp_, struck);
+  for (std::size_t k = 0; struck && k < system_.switches.size(); ++k)
+    if (!switching_->struck()[k].impacts.empty())
+      trust_->strike(
+          system::moving_body(system_, system::joint_of(system_, system_.switches[k].motion))
+              ->mechanism);
+  if (history_)
+    history_->append(t_, y_, yp_);
+  if (!finished()) {
+    before_start_ += integrator_->statistics();
+    pattern_ = system::find_pattern(system_);
+    make_integrator();
+    restart_guards();
+  }
+  solver_time_ += seconds_since(before);
+}
+
+/// What is made from now on knows on which turn the angles are.
+void Simulation::follow_turns() {
+  const system::Turns& turns = recorder_->turns();
+  for (std::size_t m = 0; m < turns.value.size(); ++m)
+    system_.motions[m].start = turns.value[m];
+  if (switching_)
+    switching_->follow(turns);
+}
+
+void Simulation::restart_guards() {
+  const Step step{t_, t_, false, y_, yp_, *integrator_, *recorder_};
+  poses_->restart(y_);
+  for (const std::unique_ptr<Guard>& guard : guards_)
+    guard->restart(step);
+}
+
+void Simulation::finish() {
+  const Step step{step_start_, t_, false, y_, yp_, *integrator_, *recorder_};
+  for (const std::unique_ptr<Guard>& guard : guards_)
+    guard->finish(step);
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,142 @@
+#pragma once
+/// A run that somebody else drives: step by step, saved and restored, read and written by name.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/channel.h"
+#include "hydrodae/model/scene.h"
+#include "hydrodae/run/guards.h"
+#include "hydrodae/run/impacts.h"
+#include "hydrodae/run/inputs.h"
+#include "hydrodae/run/state.h"
+#include "hydrodae/solve/switching.h"
+#include "hydrodae/system/forcing.h"
+#include "hydrodae/system/history.h"
+
+namespace hydrodae::run {
+
+/// One run of a checked scene. Every accepted step is judged by the guards of the scene.
+///
+/// `state` and `restore` are exact: what follows depends on the State alone, bit for bit, whether
+/// the run that gave it goes on, goes back to it, or another one of the same scene takes it over.
+/// To that end `state` makes the method start anew from it in the run itself, too: one-step methods
+/// go on with their step, order and polynomial and factorise their matrices again; ida begins at
+/// order 1. So a run whose state was taken differs from one left alone, within the tolerance.
+class Simulation {
+public:
+  /// At the start of the run. Throws ModelError or SolverError when the scene cannot start.
+  explicit Simulation(model::Scene scene);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  double time() const { return t_; } ///< of the last accepted step [s]
+  bool finished() const { return t_ >= options_.end_time; }
+
+  /// Called with every accepted step while `sample` may ask for times inside it.
+  using Inside = std::function<void()>;
+
+  /// Makes one accepted step: as long as the method likes, to an event of a stop or of dry
+  /// friction, or to `limit` [s], where it ends exactly. Does nothing at the end of the run, or
+  /// where `limit` is not later than the time. Throws SolverError when the step cannot be made, or
+  /// a guard does not trust the motion; only `restore` goes on from there.
+  void advance(double limit = INFINITY, const Inside& inside = {});
+
+  /// The guards' last look, at the end of the run. Throws SolverError.
+  void finish();
+
+  /// All that the run is now; see above.
+  State state();
+
+  /// Goes to a state of the same scene, back or ahead. Throws CaseError for that of another.
+  void restore(const State& state);
+
+  /// Which scene this is: equal texts, overrides, databases and versions have equal fingerprints.
+  const std::string& fingerprint() const { return fingerprint_; }
+
+  /// Every column that `sample` fills, in its order.
+  const std::vector<Channel>& channels() const { return channels_; }
+  std::size_t width() const { return width_; }
+
+  /// One row of all channels at a time inside the step (see `advance`), or now.
+  void sample(double t, std::span<double> row);
+
+  /// The values of a channel now: one, three or four. Changes nothing. Throws CaseError, with the
+  /// nearest name, where there is none.
+  std::span<const double> read(const std::string& channel);
+
+  /// What may be written, by name; see Input.
+  const std::vector<Input>& inputs() const { return inputs_; }
+
+  /// Holds an input at a value from now on: accelerations jump, and the method starts anew. Throws
+  /// CaseError for an unknown name or a value that it cannot have.
+  void write(const std::string& input, double value);
+
+  // What a results file tells of a run.
+  const model::Scene& scene() const { return scene_; }
+  const system::System& system() const { return system_; }
+  const system::Recorder& recorder() const { return *recorder_; }
+  const ImpactOutput& impacts() const { return impacts_; }
+  const solve::Switching* switching() const { return switching_.get(); }
+  solve::Statistics statistics() const;
+  double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
+  long nonzeros() const { return pattern_.nonzeros(); }
+  long events() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
+  solve::Trust::Estimate estimate() const { return trust_->estimate(scale_->reached()); }
+  std::vector<std::string> scale_notes() const { return scale_->notes(); }
+
+private:
+  friend class hydrodae::Archive;
+  void formulate();
+  void begin_history();
+  void make_channels();
+  bool make_step(double end);
+  double find_bound();
+  bool inside_of_step(double t) const;
+  void approach(double event);
+  void choose_quadrature();
+  void make_integrator();
+  void restart();
+  void follow_turns();
+  void restart_guards();
+  void take_inputs();
+  void fill_counts(std::span<double> row) const;
+  void remember(Archive& a);
+
+  model::Scene scene_;
+  model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
+  bool approaches_events_;       ///< with steps that end there
+  std::string fingerprint_;
+  system::System system_;
+  system::Pattern pattern_;
+  VectorX y_, yp_; ///< at the end of the last step
+  ImpactOutput impacts_{system_};
+  std::vector<Input> inputs_;
+  bool written_ = false;                        ///< inputs that the motion does not know yet
+  std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
+  std::unique_ptr<system::History> history_;    ///< where loads depend on the past
+  std::unique_ptr<system::Forcing> forcing_;    ///< limits the steps
+  std::unique_ptr<system::MotionScale> scale_;  ///< adapts the tolerances
+  std::unique_ptr<solve::Integrator> integrator_;
+  std::unique_ptr<solve::Trust> trust_;
+  std::unique_ptr<system::Recorder> recorder_;
+  std::unique_ptr<PoseWatch> poses_;
+  std::vector<std::unique_ptr<Guard>> guards_;
+  std::vector<Channel> channels_;
+  std::size_t width_ = 0;
+  std::vector<double> now_;        ///< row of the present instant; empty: not asked for yet
+  solve::Statistics before_start_; ///< of the integrators before the last start
+  double solver_time_ = 0.0;       ///< wall time inside the method [s]
+  double t_ = 0.0, step_start_ = 0.0, last_start_ = 0.0;
+  double event_near_ = INFINITY; ///< where the next steps end [s]
+  VectorX y_start_, yp_start_;   ///< at the start of the step
+  int quadrature_nodes_ = 3;
+  system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
+    integrator_->interpolate(t, y, yp);
+  };
+};
+
+} // namespace hydrodae::run

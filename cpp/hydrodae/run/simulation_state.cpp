@@ -1,0 +1,79 @@
+/// Saving and restoring a Simulation.
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/run/simulation.h"
+
+namespace hydrodae::run {
+
+void Simulation::remember(Archive& a) {
+  std::vector<system::SwitchData::State> modes;
+  for (const system::SwitchData& element : system_.switches)
+    modes.push_back(element.state);
+  a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes);
+  for (const Input& input : inputs_)
+    a(*input.value);
+  if (modes.size() != system_.switches.size())
+    throw Error("the state has other switches than the scene");
+  for (std::size_t k = 0; k < modes.size() && !a.saves(); ++k)
+    system::set_state(system_, system_.switches[k], modes[k]);
+}
+
+State Simulation::state() {
+  take_inputs();
+  State out;
+  out.time = t_;
+  out.y = y_;
+  out.yp = yp_;
+  out.scene = fingerprint_;
+  const solve::Statistics before = before_start_;
+  before_start_ = statistics(); // counts of this integrator end here, as those of any other
+  save(out.memory, "run", *this);
+  before_start_ = before;
+  save(out.memory, "recorder", *recorder_);
+  save(out.memory, "scales", *scale_);
+  save(out.memory, "integrator", *integrator_);
+  save(out.memory, "poses", *poses_);
+  for (std::size_t k = 0; k < guards_.size(); ++k)
+    save(out.memory, "guard_" + std::to_string(k), *guards_[k]);
+  if (switching_)
+    save(out.memory, "switching", *switching_);
+  if (history_)
+    save(out.memory, "history", *history_);
+  restore(out);
+  return out;
+}
+
+void Simulation::restore(const State& state) {
+  using hydrodae::restore;
+  if (state.scene != fingerprint_)
+    throw CaseError("the state is of another case, database or version of hydrodae than this run");
+  const Memory& memory = state.memory;
+  written_ = false;
+  now_.clear();
+  t_ = state.time;
+  y_ = state.y;
+  yp_ = state.yp;
+  restore(memory, "run", *this); // the modes of the switches with it
+  restore(memory, "recorder", *recorder_);
+  if (switching_) {
+    system::lay_out(system_);
+    restore(memory, "switching", *switching_);
+  }
+  restore(memory, "scales", *scale_);
+  if (y_.size() != system_.n || yp_.size() != system_.n)
+    throw Error("the state has other unknowns than the scene");
+  pattern_ = system::find_pattern(system_);
+  follow_turns();
+  if (history_)
+    restore(memory, "history", *history_);
+  if (switching_)
+    switching_->resume(t_, y_, yp_);
+  make_integrator();
+  restore(memory, "integrator", *integrator_);
+  restart_guards();
+  restore(memory, "poses", *poses_);
+  for (std::size_t k = 0; k < guards_.size(); ++k)
+    restore(memory, "guard_" + std::to_string(k), *guards_[k]);
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,59 @@
+/// Reading and writing a Simulation by name.
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/run/simulation.h"
+
+namespace hydrodae::run {
+
+void Simulation::sample(double t, std::span<double> row) {
+  recorder_->sample(t, at_, row.first(recorder_->width()));
+  fill_counts(row);
+}
+
+/// The columns behind those of the recorder.
+void Simulation::fill_counts(std::span<double> row) const {
+  const solve::Statistics s = integrator_->statistics();
+  double* out = row.data() + recorder_->width();
+  *out++ = s.last_step;
+  *out++ = s.last_order;
+  impacts_.fill(switching_.get(), out);
+}
+
+std::span<const double> Simulation::read(const std::string& channel) {
+  take_inputs();
+  if (now_.empty()) {
+    now_.resize(width_);
+    recorder_->look(y_, yp_, std::span(now_).first(recorder_->width()));
+    fill_counts(now_);
+  }
+  std::size_t column = 0;
+  std::vector<std::string> names;
+  for (const Channel& c : channels_) {
+    if (c.path == channel)
+      return std::span<const double>(now_).subspan(column, static_cast<std::size_t>(c.width));
+    column += static_cast<std::size_t>(c.width);
+    names.push_back(c.path);
+  }
+  throw CaseError("there is no channel " + in_quotes(channel) + suggestion(channel, names));
+}
+
+void Simulation::write(const std::string& input, double value) {
+  Input& target = input_named(inputs_, input);
+  check_value(target, value);
+  if (*target.value == value)
+    return;
+  *target.value = value;
+  written_ = true;
+}
+
+/// Before the motion goes on, or is looked at: accelerations that belong to the inputs.
+void Simulation::take_inputs() {
+  if (!written_)
+    return;
+  written_ = false;
+  now_.clear();
+  restart();
+}
+
+} // namespace hydrodae::run
