@@ -156,7 +156,9 @@ def find(name: str, type: str | None = None) -> Table:
 
     named = {table.name: table for table in tables()}
     if name not in named:
-        raise CaseError(f"there is no table {name!r}{_core.suggestion(name, list(named))}")
+        owners = " and ".join(owner.header for owner in owners_of(name))
+        hint = f"; it is a type of {owners}" if owners else _core.suggestion(name, list(named))
+        raise CaseError(f"there is no table {name!r}{hint}")
     if type is None:
         return named[name]
     types = {kind.name: kind for kind in named[name].types}
@@ -166,6 +168,11 @@ def find(name: str, type: str | None = None) -> Table:
         hint = _core.suggestion(type, list(types))
         raise CaseError(f"{named[name].header} has no type {type!r}{hint}")
     return types[type]
+
+
+def owners_of(type: str) -> list[Table]:
+    """Return the lists whose entries may have this type."""
+    return [table for table in tables() if any(kind.name == type for kind in table.types)]
 
 
 def _table(data: Mapping[str, Any]) -> Table:

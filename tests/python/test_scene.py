@@ -165,6 +165,8 @@ def test_unknown_methods_and_types_are_told_with_the_nearest() -> None:
     scene = hydrodae.Scene()
     with pytest.raises(AttributeError, match="a scene has no 'boddy'; did you mean 'body'"):
         scene.boddy  # type: ignore[attr-defined]  # noqa: B018
+    with pytest.raises(AttributeError, match=r"did you mean scene\.joint\.revolute\?"):
+        scene.revolute  # type: ignore[attr-defined]  # noqa: B018
     with pytest.raises(AttributeError, match=r"scene.force has no type 'pto_liner'; did you mean"):
         scene.force.pto_liner  # type: ignore[attr-defined]  # noqa: B018
     with pytest.raises(TypeError, match="takes the name first"):

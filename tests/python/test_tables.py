@@ -166,6 +166,7 @@ def test_keys_lists_tables_types_and_keys(
         (["sover"], "there is no table 'sover'; did you mean 'solver'?"),
         (["force", "pto_liner"], "[[force]] has no type 'pto_liner'; did you mean 'pto_linear'?"),
         (["solver", "ida"], "[solver] has no types"),
+        (["pto_linear"], "there is no table 'pto_linear'; it is a type of [[force]]"),
     ],
 )
 def test_unknown_names_are_told_with_the_nearest(

@@ -22,7 +22,7 @@ constexpr std::array<MotionWord, 4> whole_motions = {{
     {"rigid", {true, true, true, true, true, true}},
 }};
 
-[[noreturn]] void refuse(const Body& body, const std::string& message) {
+[[noreturn]] void refuse_motion(const Body& body, const std::string& message) {
   throw ModelError("body." + body.name + ".motion",
                    "body " + in_quotes(body.name) + ": " + message);
 }
@@ -32,8 +32,9 @@ void add_word(const Body& body, const std::string& word, Six& free) {
     if (motion.word != word)
       continue;
     if (body.motion.size() > 1)
-      refuse(body, "motion " + in_quotes(word) + " stands alone; a list holds coordinates (" +
-                       joined(coordinate_names) + ")");
+      refuse_motion(body, "motion " + in_quotes(word) +
+                              " stands alone; a list holds coordinates (" +
+                              joined(coordinate_names) + ")");
     free = motion.free;
     return;
   }
@@ -42,11 +43,11 @@ void add_word(const Body& body, const std::string& word, Six& free) {
     std::vector<std::string> valid(coordinate_names.begin(), coordinate_names.end());
     for (const MotionWord& motion : whole_motions)
       valid.emplace_back(motion.word);
-    refuse(body, "unknown motion " + in_quotes(word) + suggestion(word, valid));
+    refuse_motion(body, "unknown motion " + in_quotes(word) + suggestion(word, valid));
   }
   bool& coordinate = free[static_cast<std::size_t>(found - coordinate_names.begin())];
   if (coordinate)
-    refuse(body, "motion names " + in_quotes(word) + " twice");
+    refuse_motion(body, "motion names " + in_quotes(word) + " twice");
   coordinate = true;
 }
 
@@ -54,12 +55,13 @@ void add_word(const Body& body, const std::string& word, Six& free) {
 
 std::array<bool, 6> free_coordinates(const Body& body) {
   if (body.motion.empty())
-    refuse(body, "motion is empty; a body that stays is 'fixed'");
+    refuse_motion(body, "motion is empty; a body that stays is 'fixed'");
   Six free{};
   for (const std::string& word : body.motion)
     add_word(body, word, free);
   if (std::count(free.begin() + 3, free.end(), true) == 2)
-    refuse(body, "motion frees two of roll, pitch and yaw; possible are one rotation or all three");
+    refuse_motion(
+        body, "motion frees two of roll, pitch and yaw; possible are one rotation or all three");
   return free;
 }
 

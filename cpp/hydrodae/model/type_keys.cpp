@@ -10,22 +10,22 @@ namespace hydrodae::model {
 namespace {
 
 using Keys = std::vector<std::string>;
+using RowKind = joint::BasicRow::Kind;
 
 void add(Keys& keys, const Keys& more) { keys.insert(keys.end(), more.begin(), more.end()); }
 
 Keys joint_keys(const std::string& name) {
-  using Row = joint::BasicRow::Kind;
   const joint::JointType* type = joint::find_joint_type(name);
   if (!type)
     return {};
   Keys keys = {"name", "type", "body_a", "body_b", "point"};
-  if (type->needs_axis || type->has_row(Row::perp))
+  if (type->needs_axis || type->has_row(RowKind::perp))
     add(keys, {"axis", "axis_x"});
-  if (type->has_row(Row::distance))
+  if (type->has_row(RowKind::distance))
     add(keys, {"point_b", "length", "one_sided", "restitution"});
-  if (type->has_row(Row::screw))
+  if (type->has_row(RowKind::screw))
     add(keys, {"pitch"});
-  if (type->has_row(Row::across))
+  if (type->has_row(RowKind::across))
     add(keys, {"path"});
   if (!type->motions.empty())
     add(keys, {"initial"});
@@ -43,18 +43,17 @@ Keys joint_initial_keys(const std::string& name) {
 }
 
 Keys needed_joint_keys(const std::string& name) {
-  using Row = joint::BasicRow::Kind;
   const joint::JointType* type = joint::find_joint_type(name);
   Keys keys;
   if (!type)
     return keys;
   if (type->needs_axis)
     add(keys, {"axis"});
-  if (type->has_row(Row::distance))
+  if (type->has_row(RowKind::distance))
     add(keys, {"point_b"});
-  if (type->has_row(Row::screw))
+  if (type->has_row(RowKind::screw))
     add(keys, {"pitch"});
-  if (type->has_row(Row::across))
+  if (type->has_row(RowKind::across))
     add(keys, {"path"});
   return keys;
 }

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from hydrodae.builder.entries import Entry, Teller, check_entry, hint, make_entry
 from hydrodae.case import Case, to_toml
 from hydrodae.errors import CaseError
-from hydrodae.tables import Table, tables
+from hydrodae.tables import Table, owners_of, tables
 
 
 class SceneBase:
@@ -71,7 +71,9 @@ class SceneBase:
             if name.startswith("_"):
                 raise AttributeError(name)
             near = hint(name, [table.name for table in tables()])
-            raise AttributeError(f"a scene has no {name!r}{near}")
+            calls = [f"scene.{owner.name}.{name}" for owner in owners_of(name)]
+            said = f"; did you mean {' or '.join(calls)}?" if calls else near
+            raise AttributeError(f"a scene has no {name!r}{said}")
 
     def _add(self, table: Table, kind: Table, keys: Mapping[str, Any]) -> str | None:
         """Check one entry by itself and keep it; returns its name, if it has one."""

@@ -9,7 +9,8 @@
 #include "hydrodae/model/type_keys.h"
 
 using namespace hydrodae;
-using namespace hydrodae::model;
+using model::FieldInfo;
+using model::TableInfo;
 
 namespace {
 
@@ -45,7 +46,7 @@ void for_each(const std::vector<TableInfo>& tables,
 } // namespace
 
 TEST_CASE("every table, type and key says what it means") {
-  for_each(tables(), [](const TableInfo& table) {
+  for_each(model::tables(), [](const TableInfo& table) {
     CHECK_MESSAGE(!table.doc.empty(), table.name);
     for (const FieldInfo& field : table.fields)
       CHECK_MESSAGE((field.doc.ends_with(".") && !field.unit.empty()), table.name, ".", field.key);
@@ -53,21 +54,21 @@ TEST_CASE("every table, type and key says what it means") {
 }
 
 TEST_CASE("the keys of each type are fields, and those that it needs are its own") {
-  for (const TableInfo& table : tables()) {
+  for (const TableInfo& table : model::tables()) {
     for (const TableInfo& type : table.types) {
       CHECK(named(type.fields, "type").choices == std::vector<std::string>{type.name});
       if (table.name == "force")
         continue; // every force is a struct of its own
-      const std::vector<std::string> own = keys_of_type(table.name, type.name);
+      const std::vector<std::string> own = model::keys_of_type(table.name, type.name);
       CHECK_MESSAGE(own.size() == type.fields.size() + type.nested.size(), type.name);
-      for (const std::string& key : needed_keys(table.name, type.name))
+      for (const std::string& key : model::needed_keys(table.name, type.name))
         CHECK_MESSAGE(named(type.fields, key).required, type.name, ".", key);
     }
   }
 }
 
 TEST_CASE("a list with types has what all types have") {
-  const std::vector<TableInfo> all = tables();
+  const std::vector<TableInfo> all = model::tables();
   CHECK(keys_of(named(all, "force")) == "name type");
   CHECK(keys_of(named(all, "joint")) == "name type body_a body_b point");
   CHECK(keys_of(named(named(all, "joint").types, "screw")) ==
@@ -81,7 +82,7 @@ TEST_CASE("a list with types has what all types have") {
 }
 
 TEST_CASE("defaults are those of the structs, and none where a value means that there is none") {
-  const std::vector<TableInfo> all = tables();
+  const std::vector<TableInfo> all = model::tables();
   const auto value = [&](const std::string& table, const std::string& key) {
     return named(named(all, table).fields, key).default_value;
   };
@@ -101,10 +102,10 @@ TEST_CASE("defaults are those of the structs, and none where a value means that 
 }
 
 TEST_CASE("the list of tables is in the order of the reader") {
-  CHECK(table_names().front() == "environment");
-  CHECK(table_names().size() == tables().size());
-  CHECK(named(tables(), "solver").required);
-  CHECK(named(tables(), "body").required);
-  CHECK(named(tables(), "body").list);
-  CHECK_FALSE(named(tables(), "hydro").required);
+  CHECK(model::table_names().front() == "environment");
+  CHECK(model::table_names().size() == model::tables().size());
+  CHECK(named(model::tables(), "solver").required);
+  CHECK(named(model::tables(), "body").required);
+  CHECK(named(model::tables(), "body").list);
+  CHECK_FALSE(named(model::tables(), "hydro").required);
 }
