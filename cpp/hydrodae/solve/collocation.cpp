@@ -40,7 +40,8 @@ class Collocation : public Integrator {
 public:
   Collocation(const system::System& system, const system::Pattern& pattern,
               const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
-      : s_(system), e_(system, pattern, options.rtol), family_(family_of(options.method)),
+      : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, options.rtol),
+        family_(family_of(options.method)),
         fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
@@ -87,6 +88,7 @@ private:
   [[noreturn]] void fail(const std::string& reason);
 
   const system::System& s_;
+  const system::Pattern pattern_; ///< of Newton's matrix
   Equations e_;
   const Family family_;
   const bool fixed_, chooses_order_, project_;

@@ -3,8 +3,6 @@
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_klu.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +14,11 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/equations.h"
+#include "hydrodae/solve/ida_matrix.h"
 
 namespace hydrodae::solve {
 
 namespace {
-
-constexpr int amd_ordering = 0; ///< of KLU; SUNDIALS' default COLAMD fills more on these patterns
 
 /// Of the tolerance asked for: what BDF adds up over its many steps is then no more than what the
 /// one-step methods do at equal rtol (measured on spinning and striking bodies).
@@ -102,7 +99,8 @@ class Ida : public Integrator {
 public:
   Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
       double t0, const VectorX& y0, const VectorX& yp0)
-      : system(s), pattern(p), rtol(share * options.rtol), equations(s, p, rtol), good(y0),
+      : system(s), pattern(condensed(s, p)), rtol(share * options.rtol),
+        equations(s, pattern, rtol), newton{{s, pattern}}, good(y0),
         good_rate(yp0), t_good(t0), now(y0), now_rate(yp0), out(s.n), t_(t0),
         end_time(options.end_time), time_scale(equations.time_scale()),
         guard(t0, end_time, time_scale) {
@@ -116,9 +114,10 @@ public:
 
 private:
   const system::System& system;
-  const system::Pattern& pattern;
+  const system::Pattern pattern; ///< of Newton's matrix
   double rtol;
   Equations equations;
+  IdaMatrix newton;
   VectorX good, good_rate; ///< at the last accepted step
   double t_good = 0.0;
   int restarts = 0;
@@ -166,20 +165,14 @@ int Ida::residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
   return finite ? 0 : 1; // recoverable: IDA tries a shorter step
 }
 
-int Ida::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector, SUNMatrix j,
-                  void* user, N_Vector, N_Vector, N_Vector) {
+int Ida::jacobian(double t, double alpha, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* user,
+                  N_Vector, N_Vector, N_Vector) {
   Ida& self = *static_cast<Ida*>(user);
   self.now = view(y, self.system.n);
   self.now_rate = view(yp, self.system.n);
   self.equations.jacobian(t, self.now, self.now_rate);
-  // IDA clears the indices together with the values before each call.
-  const system::Pattern& p = self.pattern;
-  std::copy(p.column_start.begin(), p.column_start.end(), SUNSparseMatrix_IndexPointers(j));
-  std::copy(p.row.begin(), p.row.end(), SUNSparseMatrix_IndexValues(j));
-  double* values = SUNSparseMatrix_Data(j);
-  const system::JacobianParts& parts = self.equations.parts;
-  for (std::size_t k = 0; k < p.row.size(); ++k)
-    values[k] = parts.by_y[k] + alpha * parts.by_yp[k];
+  self.newton.parts = &self.equations.parts;
+  self.newton.alpha = alpha;
   return 0;
 }
 
@@ -235,10 +228,8 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
   first = std::min(
       {equations.first_step(y0, yp0), left, options.max_step > 0.0 ? options.max_step : left});
   check(IDASetInitStep(ida, first), "IDASetInitStep");
-  matrix.reset(made(SUNSparseMatrix(system.n, system.n, pattern.nonzeros(), CSC_MAT, context.get()),
-                    "SUNSparseMatrix"));
-  linear_solver.reset(made(SUNLinSol_KLU(y.get(), matrix.get(), context.get()), "SUNLinSol_KLU"));
-  check(SUNLinSol_KLUSetOrdering(linear_solver.get(), amd_ordering), "SUNLinSol_KLUSetOrdering");
+  matrix.reset(made(make_ida_matrix(context.get()), "SUNMatNewEmpty"));
+  linear_solver.reset(made(make_ida_solver(newton, context.get()), "SUNLinSolNewEmpty"));
   check(IDASetLinearSolver(ida, linear_solver.get(), matrix.get()), "IDASetLinearSolver");
   check(IDASetJacFn(ida, jacobian), "IDASetJacFn");
 }

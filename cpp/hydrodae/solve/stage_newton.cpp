@@ -15,29 +15,20 @@ constexpr double accuracy = 1e-3;
 
 StageNewton::StageNewton(Equations& equations, const RungeKutta& rk)
     : e_(equations), rk_(rk),
-      real_(std::make_unique<SparseLu<double>>(e_.pattern.column_start, e_.pattern.row)) {
+      real_(std::make_unique<NewtonMatrix<double>>(e_.system, e_.pattern)) {
   const Index n = e_.system.n;
   for (std::size_t k = 0; k < rk_.pairs.size(); ++k)
     pairs_.push_back(
-        std::make_unique<SparseLu<std::complex<double>>>(e_.pattern.column_start, e_.pattern.row));
+        std::make_unique<NewtonMatrix<std::complex<double>>>(e_.system, e_.pattern));
   stage_ = rate_ = residual_ = work_ = MatrixX::Zero(n, rk_.stages);
   y_ = yp_ = r_ = VectorX::Zero(n);
   complex_.resize(static_cast<std::size_t>(n));
 }
 
 bool StageNewton::factorise(double h) {
-  const system::JacobianParts& parts = e_.parts;
-  const double gamma = 1.0 / (rk_.gamma0 * h);
-  for (std::size_t k = 0; k < parts.by_y.size(); ++k)
-    real_->values()[k] = parts.by_y[k] + gamma * parts.by_yp[k];
-  bool good = real_->factorise();
-  for (std::size_t p = 0; p < pairs_.size() && good; ++p) {
-    const std::complex<double> lambda = rk_.pairs[p] / h;
-    std::vector<std::complex<double>>& values = pairs_[p]->values();
-    for (std::size_t k = 0; k < parts.by_y.size(); ++k)
-      values[k] = parts.by_y[k] + lambda * parts.by_yp[k];
-    good = pairs_[p]->factorise();
-  }
+  bool good = real_->factorise(e_.parts, 1.0 / (rk_.gamma0 * h));
+  for (std::size_t p = 0; p < pairs_.size() && good; ++p)
+    good = pairs_[p]->factorise(e_.parts, rk_.pairs[p] / h);
   return good;
 }
 
@@ -118,7 +109,7 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
     int column = 0;
     if (!rk_.real.empty())
       real_->solve(work_.col(column++).data());
-    for (std::unique_ptr<SparseLu<std::complex<double>>>& lu : pairs_) {
+    for (std::unique_ptr<NewtonMatrix<std::complex<double>>>& lu : pairs_) {
       for (Index k = 0; k < e_.system.n; ++k)
         complex_[static_cast<std::size_t>(k)] = {work_(k, column), work_(k, column + 1)};
       lu->solve(complex_.data());
@@ -135,9 +126,9 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
 
 /// Pattern of all stages: J and B in the diagonal blocks, B elsewhere.
 void StageNewton::make_full() {
-  const system::Pattern& p = e_.pattern;
   const int s = rk_.stages;
-  full_ = std::make_unique<Full>();
+  full_ = std::make_unique<Full>(system::find_pattern(e_.system));
+  const system::Pattern& p = full_->pattern;
   full_->slots.assign(static_cast<std::size_t>(s * s), std::vector<Index>(p.row.size(), -1));
   full_->start.assign(1, 0);
   for (int j = 0; j < s; ++j)
@@ -162,7 +153,9 @@ void StageNewton::make_full() {
     }
   // Unknown by unknown, all stages of each, in the order of the matrix of one stage: its fill, in
   // blocks of s x s.
-  const Elimination one = real_->elimination();
+  const Elimination one = e_.system.hydro.n_states > 0
+                              ? SparseLu<double>(p.column_start, p.row).elimination()
+                              : real_->elimination();
   Elimination all;
   for (std::size_t k = 0; k < one.row.size(); ++k)
     for (int i = 0; i < s; ++i) {
@@ -174,7 +167,8 @@ void StageNewton::make_full() {
 
 bool StageNewton::factorise_full(double t, double h) {
   const int s = rk_.stages;
-  const std::size_t nonzeros = e_.pattern.row.size();
+  const std::size_t nonzeros = full_->pattern.row.size();
+  const system::JacobianParts& parts = full_->parts;
   std::vector<double>& values = full_->lu->values();
   const double alpha = 1.0 / (rk_.gamma0 * h);
   VectorX regular(e_.system.sigma0 - e_.system.lambda0);
@@ -183,6 +177,10 @@ bool StageNewton::factorise_full(double t, double h) {
     yp_ = rate_.col(i);
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
     e_.regularisation(alpha, regular);
+    if (e_.system.hydro.n_states > 0)
+      e_.jacobian(t + rk_.c[i] * h, y_, yp_, full_->pattern, full_->parts);
+    else
+      std::swap(e_.parts, full_->parts);
     for (Index m = 0; m < regular.size(); ++m) {
       const Index slot = full_->diagonal[static_cast<std::size_t>(i * regular.size() + m)];
       if (slot >= 0)
@@ -194,7 +192,7 @@ bool StageNewton::factorise_full(double t, double h) {
       for (std::size_t k = 0; k < nonzeros; ++k)
         if (slots[k] >= 0)
           values[static_cast<std::size_t>(slots[k])] =
-              (i == j ? e_.parts.by_y[k] : 0.0) + factor * e_.parts.by_yp[k];
+              (i == j ? parts.by_y[k] : 0.0) + factor * parts.by_yp[k];
     }
   }
   return full_->lu->factorise();

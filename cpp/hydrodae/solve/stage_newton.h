@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hydrodae/solve/equations.h"
-#include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/newton_matrix.h"
 #include "hydrodae/solve/runge_kutta.h"
 
 namespace hydrodae::solve {
@@ -42,11 +42,14 @@ public:
 
 private:
   struct Full {
+    system::Pattern pattern;     ///< of one stage, the memory with it
+    system::JacobianParts parts; ///< of one stage
     std::vector<Index> start, row;
     std::vector<Index>
         diagonal; ///< places of the multipliers' own diagonal entries, stage by stage
     std::vector<std::vector<Index>> slots; ///< [i * s + j][k]: place of entry k of block (i, j), -1
     std::unique_ptr<SparseLu<double>> lu;
+    explicit Full(system::Pattern whole) : pattern(std::move(whole)), parts(pattern) {}
   };
   bool residuals(double t, double h, const VectorX& y0, const MatrixX& Z);
   double size(const VectorX& w, const MatrixX& dZ) const;
@@ -58,8 +61,8 @@ private:
 
   Equations& e_;
   RungeKutta rk_;
-  std::unique_ptr<SparseLu<double>> real_;
-  std::vector<std::unique_ptr<SparseLu<std::complex<double>>>> pairs_;
+  std::unique_ptr<NewtonMatrix<double>> real_;
+  std::vector<std::unique_ptr<NewtonMatrix<std::complex<double>>>> pairs_;
   std::unique_ptr<Full> full_;
   MatrixX stage_, rate_, residual_, work_;
   VectorX y_, yp_, r_;

@@ -17,7 +17,8 @@ using RowVector6 = Eigen::Matrix<double, 1, 6>;
 /// through `tangent` of the body.
 template <class Sink> struct Assembly {
   using Rotation = BodyData::Rotation;
-  static constexpr bool whole = Sink::whole; ///< else what accelerations need
+  static constexpr bool whole = Sink::whole;   ///< else what accelerations need
+  static constexpr bool memory = Sink::memory; ///< else its rows are those of the identity
   const System& s;
   JacobianWorkspace& ws;
   const double t;

@@ -62,7 +62,8 @@ void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const V
   for (const HydroBody& j : s.hydro.bodies)
     if (j.moves)
       hydro_pair(i, j, d.L, d.Q);
-  memory_columns(i, d.L);
+  if constexpr (memory)
+    memory_columns(i, d.L);
 }
 
 /// How the excitation changes with the horizontal displacement of its body.
@@ -76,6 +77,11 @@ template <class Sink> void Assembly<Sink>::phase_columns(const HydroBody& i, con
 
 template <class Sink> void Assembly<Sink>::memory_rows() {
   const HydroData& h = s.hydro;
+  if (!memory) {
+    for (int k = 0; k < h.n_states; ++k)
+      sink.by_y(h.z0 + k, h.z0 + k, 1.0);
+    return;
+  }
   for (const HydroData::Block& b : h.blocks) {
     const Index k = h.z0 + b.state;
     sink.by_yp(k, k, 1.0);

@@ -12,7 +12,7 @@ namespace {
 
 /// Collects the places that the assembly visits.
 template <Part made> struct PatternSink {
-  static constexpr bool whole = made == Part::whole;
+  static constexpr bool whole = made != Part::accelerations, memory = made == Part::whole;
   Visits visits, rates; ///< (column, row); rates: those of dF/dy'
   void by_y(Index row, Index column, double) { visits.emplace_back(column, row); }
   void by_yp(Index row, Index column, double) {
@@ -23,7 +23,7 @@ template <Part made> struct PatternSink {
 
 /// Adds the values into the slots found before.
 template <Part made> struct ValueSink {
-  static constexpr bool whole = made == Part::whole;
+  static constexpr bool whole = made != Part::accelerations, memory = made == Part::whole;
   const Index* slot;
   JacobianParts& out;
   void by_y(Index, Index, double value) { out.by_y[*slot++] += value; }
@@ -61,6 +61,29 @@ void fill(const System& system, const Pattern& pattern, JacobianWorkspace& ws, d
   Assembly<ValueSink<made>>{system, ws, t, y, yp, sink}.run();
 }
 
+void fill_memory(const System& s, const JacobianWorkspace& ws, JacobianParts& out) {
+  const HydroData& h = s.hydro;
+  out.memory.resize(h.bodies.size()); // once
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const HydroBody& hb = h.bodies[i];
+    const auto body = static_cast<std::size_t>(hb.body);
+    const BodyData& b = s.bodies[body];
+    const BodyState<double>& state = ws.state.bodies[body];
+    const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state);
+    MemoryPort& port = out.memory[i];
+    port.L = hydro_axes(h.axes, hb, state);
+    port.by_unknown.setZero();
+    if (b.rotation == BodyData::Rotation::about_axis)
+      port.by_unknown.col(0) = d.U_phi.col(b.axis);
+    if (b.rotation == BodyData::Rotation::free)
+      port.by_unknown.leftCols<4>() = d.U_phi * ws.rotation[body];
+    for (int k = 0; k < b.n_active; ++k) {
+      const int c = b.active[static_cast<std::size_t>(k)];
+      port.by_unknown.col(4 + k) = c < 3 ? d.U_v.col(c) : d.U_w.col(c - 3);
+    }
+  }
+}
+
 } // namespace
 
 JacobianWorkspace::JacobianWorkspace(const System& system)
@@ -74,8 +97,15 @@ JacobianWorkspace::JacobianWorkspace(const System& system)
 }
 
 Pattern find_pattern(const System& system, Part part) {
-  return part == Part::whole ? pattern_of<Part::whole>(system)
-                             : pattern_of<Part::accelerations>(system);
+  switch (part) {
+  case Part::whole:
+    return pattern_of<Part::whole>(system);
+  case Part::condensed:
+    return pattern_of<Part::condensed>(system);
+  case Part::accelerations:
+    break;
+  }
+  return pattern_of<Part::accelerations>(system);
 }
 
 void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
@@ -83,10 +113,16 @@ void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& w
   std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
   std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);
   prepare(system, ws, t, y, yp);
-  if (pattern.part == Part::whole)
-    fill<Part::whole>(system, pattern, ws, t, y, yp, out);
-  else
-    fill<Part::accelerations>(system, pattern, ws, t, y, yp, out);
+  switch (pattern.part) {
+  case Part::whole:
+    return fill<Part::whole>(system, pattern, ws, t, y, yp, out);
+  case Part::condensed:
+    fill<Part::condensed>(system, pattern, ws, t, y, yp, out);
+    return fill_memory(system, ws, out);
+  case Part::accelerations:
+    break;
+  }
+  fill<Part::accelerations>(system, pattern, ws, t, y, yp, out);
 }
 
 } // namespace hydrodae::system

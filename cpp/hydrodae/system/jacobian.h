@@ -8,9 +8,11 @@
 
 namespace hydrodae::system {
 
-/// What of the Jacobian is made: all of it, or what accelerations follow from: the mass matrix, and
-/// the velocity rows of the constraints with their derivatives by positions and multipliers.
-enum class Part { whole, accelerations };
+/// What of the Jacobian is made: all of it; all but the radiation memory, whose rows are those of
+/// the identity (solve/newton_matrix.h puts in their place what JacobianParts::memory tells); or
+/// what accelerations follow from: the mass matrix, and the velocity rows of the constraints with
+/// their derivatives by positions and multipliers.
+enum class Part { whole, condensed, accelerations };
 
 /// Compressed columns of the Jacobian. The assembly always visits the same entries in the same
 /// order; `slots[k]` is the place of the k-th visit in the values array.
@@ -33,9 +35,17 @@ Pattern make_pattern(Index n, const Visits& visits, const Visits& rates);
 /// Runs the assembly once without values to find the pattern.
 Pattern find_pattern(const System& system, Part part = Part::whole);
 
+/// How a body feels the memory states, load L C z, and drives them, z' = ... + B dU.
+struct MemoryPort {
+  Matrix6 L;
+  /// dU by the unknowns of its rotation (columns 0 to 3), and by its velocities (from column 4 on).
+  Eigen::Matrix<double, 6, 10> by_unknown;
+};
+
 /// The two parts of the Jacobian, kept apart so that any real or complex alpha can join them.
 struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
+  std::vector<MemoryPort> memory;  ///< of each hydrodynamic body; with Part::condensed
   explicit JacobianParts(const Pattern& pattern)
       : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
 };

@@ -1,0 +1,65 @@
+#pragma once
+/// The matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, with the radiation memory
+/// eliminated by hand. Its states z feel the bodies through their velocities U only, and are block
+/// diagonal, D = alpha - A_r in blocks of one or two:
+///
+///   [ J     L C ] [dx]   [r_x]        (J + L T U_x) dx = r_x - L C D^-1 r_z,   T = C D^-1 B_r
+///   [ -B U_x  D ] [dz] = [r_z]        dz = D^-1 (r_z + B_r U_x dx)
+///
+/// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left goes
+/// to KLU. Without memory states it is KLU alone.
+
+#include <complex>
+#include <vector>
+
+#include "hydrodae/solve/klu.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::solve {
+
+template <class Scalar> class NewtonMatrix {
+public:
+  /// `pattern`: of Part::condensed, or any where there is no memory. Both must outlive it.
+  NewtonMatrix(const system::System& system, const system::Pattern& pattern);
+
+  /// False when the matrix is singular or holds values that are not finite. The parts are read
+  /// until the next call.
+  bool factorise(const system::JacobianParts& parts, Scalar alpha);
+
+  /// Overwrites b (n,) with the solution.
+  void solve(Scalar* b);
+
+  /// See SparseLu.
+  Elimination elimination() const { return lu_.elimination(); }
+
+private:
+  using VectorS = VecX<Scalar>;
+  using MatrixS = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  template <class Visit> void for_each_entry(Visit&& visit) const;
+  void find_slots(const system::Pattern& pattern);
+  void find_transfer(Scalar alpha);
+  void add_memory();
+  void divide(Eigen::Ref<MatrixS> z) const;
+
+  const system::System& s_;
+  const system::JacobianParts* parts_ = nullptr;
+  SparseLu<Scalar> lu_;
+  std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
+  Scalar alpha_{};
+  bool known_ = false; ///< T is that of alpha
+  MatrixS transfer_;   ///< T (n_moving, n_moving)
+  MatrixX input_;      ///< B_r (n_states, n_moving)
+  MatrixS driven_;     ///< D^-1 B_r
+  MatrixS z_;          ///< (n_states, 1) scratch
+  VectorS U_;          ///< (n_moving,) scratch
+};
+
+/// `pattern` without the radiation memory: what a NewtonMatrix is made of.
+inline system::Pattern condensed(const system::System& s, const system::Pattern& pattern) {
+  return s.hydro.n_states > 0 ? system::find_pattern(s, system::Part::condensed) : pattern;
+}
+
+extern template class NewtonMatrix<double>;
+extern template class NewtonMatrix<std::complex<double>>;
+
+} // namespace hydrodae::solve
