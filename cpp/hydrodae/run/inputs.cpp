@@ -30,12 +30,26 @@ void add_constant_loads(const model::Scene& scene, system::System& s, std::vecto
                        &f.law.constant[static_cast<Eigen::Index>(k)]});
 }
 
+/// A rate that jumps takes the velocities with it at once, by an impulse of all rows. Stops that
+/// push only, and friction that slips, would have to be asked first.
+void add_rates(system::System& s, std::vector<Input>& out) {
+  if (!s.switches.empty())
+    return;
+  for (system::CouplerData& c : s.couplers) {
+    const auto motion = static_cast<std::size_t>(c.terms.front().motion);
+    if (c.velocity_level && c.terms.size() == 1)
+      out.push_back({"constraints/" + c.name + "/rate",
+                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &c.drive.constant});
+  }
+}
+
 } // namespace
 
 std::vector<Input> find_inputs(const model::Scene& scene, system::System& system) {
   std::vector<Input> out;
   add_take_offs(system, out);
   add_constant_loads(scene, system, out);
+  add_rates(system, out);
   return out;
 }
 

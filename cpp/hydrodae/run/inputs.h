@@ -18,7 +18,8 @@ struct Input {
 };
 
 /// Damping, stiffness and neutral coordinate of each linear power take-off; the components of each
-/// constant load ("forces/load/force.x"). They point into `system`.
+/// constant load ("forces/load/force.x"); where nothing switches, the constant part of each rate
+/// that a constraint prescribes ("constraints/motor/rate"). They point into `system`.
 std::vector<Input> find_inputs(const model::Scene& scene, system::System& system);
 
 /// Throws CaseError, with the nearest name, where there is no such input.

@@ -55,7 +55,7 @@ public:
   void restore(const State& state);
 
   /// Which scene this is: equal texts, overrides, databases and versions have equal fingerprints.
-  const std::string& fingerprint() const { return fingerprint_; }
+  const std::string& fingerprint();
 
   /// Every column that `sample` fills, in its order.
   const std::vector<Channel>& channels() const { return channels_; }
@@ -109,7 +109,7 @@ private:
   model::Scene scene_;
   model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
   bool approaches_events_;       ///< with steps that end there
-  std::string fingerprint_;
+  std::string fingerprint_;      ///< empty: not asked for yet
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_; ///< at the end of the last step

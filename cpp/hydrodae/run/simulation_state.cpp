@@ -1,9 +1,19 @@
 /// Saving and restoring a Simulation.
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/io/sha256.h"
 #include "hydrodae/run/simulation.h"
 
 namespace hydrodae::run {
+
+const std::string& Simulation::fingerprint() {
+  if (fingerprint_.empty())
+    fingerprint_ = io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
+                                      joined(scene_.overrides, "\n") + '\n' +
+                                      (scene_.database ? scene_.database->sha256 : ""));
+  return fingerprint_;
+}
 
 void Simulation::remember(Archive& a) {
   std::vector<system::SwitchData::State> modes;
@@ -24,7 +34,7 @@ State Simulation::state() {
   out.time = t_;
   out.y = y_;
   out.yp = yp_;
-  out.scene = fingerprint_;
+  out.scene = fingerprint();
   const solve::Statistics before = before_start_;
   before_start_ = statistics(); // counts of this integrator end here, as those of any other
   save(out.memory, "run", *this);
@@ -45,7 +55,7 @@ State Simulation::state() {
 
 void Simulation::restore(const State& state) {
   using hydrodae::restore;
-  if (state.scene != fingerprint_)
+  if (state.scene != fingerprint())
     throw CaseError("the state is of another case, database or version of hydrodae than this run");
   const Memory& memory = state.memory;
   written_ = false;
