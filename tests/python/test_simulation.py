@@ -200,6 +200,9 @@ def test_a_failed_step_can_be_taken_back() -> None:
     state = simulation.state()
     with pytest.raises(hydrodae.SolverError, match="step_guard"):
         to_the_end(simulation)
+    for way_on in (simulation.advance, simulation.state):
+        with pytest.raises(hydrodae.SolverError, match="from a state that is restored only"):
+            way_on()
     simulation.restore(state)
     assert simulation.time == 0.0
     assert simulation.advance(1e-4) == 1e-4

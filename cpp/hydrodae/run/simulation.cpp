@@ -106,8 +106,10 @@ solve::Statistics Simulation::statistics() const {
 void Simulation::advance(double limit, const Inside& inside) {
   if (finished() || !(limit > t_))
     return;
+  require_going();
   take_inputs();
   now_.clear();
+  failed_ = true; // until the step is accepted by all
   const Clock::time_point before = Clock::now();
   const bool event = make_step(std::min(limit, options_.end_time));
   solver_time_ += seconds_since(before);
@@ -124,6 +126,13 @@ void Simulation::advance(double limit, const Inside& inside) {
     history_->append(t_, y_, yp_);
   if (event)
     restart();
+  failed_ = false;
+}
+
+void Simulation::require_going() const {
+  if (failed_)
+    throw SolverError(t_, "the run has stopped at t = " + number_text(t_) +
+                              " s; it goes on from a state that is restored only");
 }
 
 /// One step, cut short where a stop or dry friction changes.

@@ -103,6 +103,7 @@ private:
   void follow_turns();
   void restart_guards();
   void take_inputs();
+  void require_going() const;
   void fill_counts(std::span<double> row) const;
   void remember(Archive& a);
 
@@ -116,6 +117,7 @@ private:
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
   bool written_ = false;                        ///< inputs that the motion does not know yet
+  bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
   std::unique_ptr<system::History> history_;    ///< where loads depend on the past
   std::unique_ptr<system::Forcing> forcing_;    ///< limits the steps

@@ -29,6 +29,7 @@ void Simulation::remember(Archive& a) {
 }
 
 State Simulation::state() {
+  require_going();
   take_inputs();
   State out;
   out.time = t_;
@@ -59,6 +60,7 @@ void Simulation::restore(const State& state) {
     throw CaseError("the state is of another case, database or version of hydrodae than this run");
   const Memory& memory = state.memory;
   written_ = false;
+  failed_ = true; // until all is restored
   now_.clear();
   t_ = state.time;
   y_ = state.y;
@@ -84,6 +86,7 @@ void Simulation::restore(const State& state) {
   restore(memory, "poses", *poses_);
   for (std::size_t k = 0; k < guards_.size(); ++k)
     restore(memory, "guard_" + std::to_string(k), *guards_[k]);
+  failed_ = false;
 }
 
 } // namespace hydrodae::run
