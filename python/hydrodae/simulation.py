@@ -87,8 +87,9 @@ class Simulation:
         """What `write` may change, with the values that hold now.
 
         ``forces/NAME/damping``, ``stiffness`` and ``neutral`` of each linear power take-off,
-        ``forces/NAME/force.x`` to ``moment.z`` of each constant load; units as in the case file,
-        angles in rad.
+        ``forces/NAME/force.x`` to ``moment.z`` of each constant load, and in scenes without stops,
+        one-sided joints and dry friction ``constraints/NAME/rate``, the constant part of each rate
+        that a constraint prescribes; SI units and rad.
         """
         return self._stepper.inputs
 
@@ -159,8 +160,8 @@ class Simulation:
     def write(self, name: str, value: float) -> None:
         """Hold an input at a value from now on, until the next write.
 
-        Accelerations jump there, so the method starts anew as it does at an event; a value that
-        holds already changes nothing.
+        Accelerations jump there, and with a prescribed rate velocities, so the method starts anew
+        as it does at an event; a value that holds already changes nothing.
 
         Raises
         ------

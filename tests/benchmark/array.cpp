@@ -69,8 +69,8 @@ std::shared_ptr<const hydro::Database> made_up(int n) {
     fit.poles[k] = {-0.3 - 0.2 * std::abs(draw()), 0.6 + 0.5 * std::abs(draw())};
     for (int c = 0; c < coordinates; ++c) {
       const double near = 1.0 / (1.0 + std::abs(k * coordinates / pairs - c) / 3);
-      fit.input_matrix(k, c) = std::complex<double>(draw(), draw()) * near * unit[c] *
-                               std::sqrt(0.05 * mass);
+      fit.input_matrix(k, c) =
+          std::complex<double>(draw(), draw()) * near * unit[c] * std::sqrt(0.05 * mass);
     }
   }
   fit.output_matrix = fit.input_matrix.adjoint();
@@ -151,9 +151,9 @@ int main(int argc, char** argv) {
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  std::printf("%d %ld %ld %ld %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.1f\n", n,
-              static_cast<long>(s.n), static_cast<long>(whole.nonzeros()),
-              static_cast<long>(less.nonzeros()), jacobian, sparse[0], sparse[1], own[0], own[1],
-              run[0], run[1], static_cast<double>(usage.ru_maxrss) / 1024.0);
+  std::printf("%d %ld %ld %ld %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.1f\n", n, static_cast<long>(s.n),
+              static_cast<long>(whole.nonzeros()), static_cast<long>(less.nonzeros()), jacobian,
+              sparse[0], sparse[1], own[0], own[1], run[0], run[1],
+              static_cast<double>(usage.ru_maxrss) / 1024.0);
   return 0;
 }

@@ -139,7 +139,9 @@ class Kernel:
         output: str,
         progress: Callable[[float, float], bool],
         drives: dict[str, Any],
-        verify: bool,
+        verify: bool = False,
+        checkpoint: float = -1.0,
+        resume: bool = False,
     ) -> dict[str, Any]:
         assert not drives
         assert not verify

@@ -124,6 +124,34 @@ def test_a_force_is_held_from_a_write_on(method: str) -> None:
     assert simulation.read("energy/balance_error") == pytest.approx(0.0, abs=1e-4)
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_a_motor_takes_another_rate_at_once(method: str) -> None:
+    """The cart follows the rate; what its mass and the spring take is the work of the motor."""
+    motor = """
+[[constraint]]
+name = "motor"
+type = "coordinate"
+joint = "slide"
+level = "velocity"
+drive = { constant = 0.0 }
+"""
+    case = hydrodae.Case.from_text(CART.replace("[solver]", motor + "[solver]"))
+    values = {"solver.method": method, **METHODS[method], "solver.time_scale": 0.1}  # at rest first
+    simulation = Simulation(case, set=values)
+    x, time = 0.5, 0.0
+    for rate in (0.3, -0.5, 0.0, 1.0):
+        simulation.write("constraints/motor/rate", rate)
+        assert simulation.read("joints/slide/displacement_rate") == pytest.approx(rate, abs=1e-12)
+        time += 0.25
+        while simulation.time < time:
+            simulation.advance(time)
+        x += 0.25 * rate
+        assert simulation.read("joints/slide/displacement") == pytest.approx(x, abs=1e-9)
+        stored = 0.5 * 2.0 * rate**2 + 100.0 * (x**2 - 0.25)
+        assert simulation.read("energy/work/constraints") == pytest.approx(stored, abs=1e-6)
+        assert simulation.read("energy/balance_error") == pytest.approx(0.0, abs=1e-7)
+
+
 def test_writing_what_holds_changes_nothing() -> None:
     a, b = cart(), cart()
     while not a.finished:
@@ -172,6 +200,9 @@ def test_a_failed_step_can_be_taken_back() -> None:
     state = simulation.state()
     with pytest.raises(hydrodae.SolverError, match="step_guard"):
         to_the_end(simulation)
+    for way_on in (simulation.advance, simulation.state):
+        with pytest.raises(hydrodae.SolverError, match="from a state that is restored only"):
+            way_on()
     simulation.restore(state)
     assert simulation.time == 0.0
     assert simulation.advance(1e-4) == 1e-4

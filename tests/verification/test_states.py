@@ -156,7 +156,7 @@ def test_going_on_equals_coming_back(name: str, method: str, repository: Path) -
 def test_a_thousand_rollbacks_leave_no_trace(method: str, repository: Path) -> None:
     name = {"ida": "stop", "radau": "friction", "explicit_rk": "delay"}.get(method, "stop")
     case, values = scene(name, method, repository)
-    values["solver.end_time"] = 2.0
+    values["solver.end_time"] = 0.8 if method == "ida" else 2.0  # which restarts with small steps
     undisturbed = Simulation(case, set=values)
     states, gap = [undisturbed.state()], 3
     while not undisturbed.finished:

@@ -97,7 +97,7 @@ Texts read_texts(const std::string& path) {
   const hdf5::Input input(path);
   Texts out;
   for (const char* name :
-       {"format", "version", "case_text", "case_overrides", "hydro_sha256", "scene"})
+       {"format", "version", "case_text", "case_overrides", "hydro_sha256", "scene", "sha256"})
     if (input.has_attribute("/", name))
       out[name] = input.text("/", name);
   return out;

@@ -7,12 +7,20 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/memory_file.h"
 #include "hydrodae/io/output_place.h"
+#include "hydrodae/io/sha256.h"
 
 namespace hydrodae::run {
 
 namespace {
 
 constexpr const char *of_state = "state", *of_output = "output";
+
+/// SHA-256 of all numbers: damage is told before a run goes on from it.
+std::string digest_of_numbers(const Checkpoint& checkpoint) {
+  State output;
+  output.memory = checkpoint.output;
+  return io::sha256_of_text(checkpoint.state.bytes() + output.bytes());
+}
 
 io::Texts identity(const model::Scene& scene) {
   return {{"format", "hydrodae-checkpoint 1"},
@@ -61,6 +69,7 @@ void write_checkpoint(const std::string& results, const model::Scene& scene,
   io::MemoryFile file;
   file.texts = identity(scene);
   file.texts["scene"] = checkpoint.state.scene;
+  file.texts["sha256"] = digest_of_numbers(checkpoint);
   file.groups[of_state] = checkpoint.state.numbers();
   file.groups[of_output] = checkpoint.output;
   try {
@@ -78,11 +87,13 @@ Checkpoint read_checkpoint(const std::string& results, const model::Scene& scene
   io::MemoryFile file = io::read_memory(path);
   check_identity(path, file.texts, scene);
   try {
-    return {State::from_numbers(std::move(file.groups[of_state]), file.texts["scene"]),
-            std::move(file.groups[of_output])};
-  } catch (const Error& error) {
-    throw CaseError(path + ": " + error.what());
+    Checkpoint out{State::from_numbers(std::move(file.groups[of_state]), file.texts["scene"]),
+                   std::move(file.groups[of_output])};
+    if (digest_of_numbers(out) == file.texts["sha256"])
+      return out;
+  } catch (const Error&) { // parts of it are missing
   }
+  throw CaseError(path + ": cannot be resumed: it is damaged");
 }
 
 void require_checkpoint_place(const std::string& results) {

@@ -7,8 +7,9 @@
 
 namespace hydrodae::run {
 
-std::vector<Input> find_inputs(system::System& s) {
-  std::vector<Input> out;
+namespace {
+
+void add_forces(system::System& s, std::vector<Input>& out) {
   for (system::ElementList& list : s.elements) {
     double* value = list.signals.data();
     for (std::size_t k = 0; k < list.ports.size(); ++k) {
@@ -23,6 +24,27 @@ std::vector<Input> find_inputs(system::System& s) {
       }
     }
   }
+}
+
+/// A rate that jumps takes the velocities with it at once, by an impulse of all rows. Stops that
+/// push only, and friction that slips, would have to be asked first.
+void add_rates(system::System& s, std::vector<Input>& out) {
+  if (!s.switches.empty())
+    return;
+  for (system::CouplerData& c : s.couplers) {
+    const auto motion = static_cast<std::size_t>(c.terms.front().motion);
+    if (c.velocity_level && c.terms.size() == 1)
+      out.push_back({"constraints/" + c.name + "/rate",
+                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &c.drive.constant});
+  }
+}
+
+} // namespace
+
+std::vector<Input> find_inputs(system::System& system) {
+  std::vector<Input> out;
+  add_forces(system, out);
+  add_rates(system, out);
   return out;
 }
 

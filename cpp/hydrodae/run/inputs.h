@@ -17,7 +17,9 @@ struct Input {
 };
 
 /// The inputs that forces declare: damping, stiffness and neutral coordinate of each linear power
-/// take-off ("forces/pto/damping"), the components of each constant load. They point into `system`.
+/// take-off ("forces/pto/damping"), the components of each constant load; where nothing switches,
+/// the constant part of each rate that a constraint prescribes ("constraints/motor/rate"). They
+/// point into `system`.
 std::vector<Input> find_inputs(system::System& system);
 
 /// Throws CaseError, with the nearest name, where there is no such input.

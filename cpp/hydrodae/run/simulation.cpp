@@ -7,7 +7,6 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/io/sha256.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/runge_kutta.h"
@@ -31,20 +30,13 @@ const std::vector<Channel> solver_channels = {
 /// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
 constexpr double step_edge = 0.02;
 
-std::string fingerprint_of(const model::Scene& scene) {
-  return io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene.text + '\n' +
-                            joined(scene.overrides, "\n") + '\n' +
-                            (scene.database ? scene.database->sha256 : ""));
-}
-
 } // namespace
 
 Simulation::Simulation(model::Scene scene)
     : scene_(std::move(scene)), options_(scene_.solver),
       approaches_events_(options_.method == "radau" && options_.step == 0.0),
-      fingerprint_(fingerprint_of(scene_)), system_(solve::starting_system(scene_)),
-      pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)),
-      inputs_(find_inputs(system_)) {
+      system_(solve::starting_system(scene_)), pattern_(system::find_pattern(system_)),
+      y_(system::initial_state(system_)), inputs_(find_inputs(system_)) {
   solve::consistent_start(system_, pattern_, y_, yp_);
   system::take_time_scales(system_, y_, yp_);
   forcing_ = std::make_unique<system::Forcing>(system_, options_.end_time, scene_.output.step);
@@ -115,8 +107,10 @@ solve::Statistics Simulation::statistics() const {
 void Simulation::advance(double limit, const Inside& inside) {
   if (finished() || !(limit > t_))
     return;
+  require_going();
   take_inputs();
   now_.clear();
+  failed_ = true; // until the step is accepted by all
   const Clock::time_point before = Clock::now();
   const bool event = make_step(std::min(limit, options_.end_time));
   solver_time_ += seconds_since(before);
@@ -133,6 +127,13 @@ void Simulation::advance(double limit, const Inside& inside) {
     history_->append(t_, y_, yp_);
   if (event)
     restart();
+  failed_ = false;
+}
+
+void Simulation::require_going() const {
+  if (failed_)
+    throw SolverError(t_, "the run has stopped at t = " + number_text(t_) +
+                              " s; it goes on from a state that is restored only");
 }
 
 /// One step, cut short where a stop or dry friction changes.
@@ -212,7 +213,7 @@ void Simulation::restart() {
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
-    solve::make_consistent(system_, t_, y_, yp_);
+    struck = solve::make_consistent(system_, t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
   for (std::size_t k = 0; struck && k < system_.switches.size(); ++k)
     if (!switching_->struck()[k].impacts.empty())

@@ -55,7 +55,7 @@ public:
   void restore(const State& state);
 
   /// Which scene this is: equal texts, overrides, databases and versions have equal fingerprints.
-  const std::string& fingerprint() const { return fingerprint_; }
+  const std::string& fingerprint();
 
   /// Every column that `sample` fills, in its order.
   const std::vector<Channel>& channels() const { return channels_; }
@@ -103,19 +103,21 @@ private:
   void follow_turns();
   void restart_guards();
   void take_inputs();
+  void require_going() const;
   void fill_counts(std::span<double> row) const;
   void remember(Archive& a);
 
   model::Scene scene_;
   model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
   bool approaches_events_;       ///< with steps that end there
-  std::string fingerprint_;
+  std::string fingerprint_;      ///< empty: not asked for yet
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_; ///< at the end of the last step
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
   bool written_ = false;                        ///< inputs that the motion does not know yet
+  bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
   std::unique_ptr<system::History> history_;    ///< where loads depend on the past
   std::unique_ptr<system::Forcing> forcing_;    ///< limits the steps

@@ -1,9 +1,19 @@
 /// Saving and restoring a Simulation.
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/io/sha256.h"
 #include "hydrodae/run/simulation.h"
 
 namespace hydrodae::run {
+
+const std::string& Simulation::fingerprint() {
+  if (fingerprint_.empty())
+    fingerprint_ = io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
+                                      joined(scene_.overrides, "\n") + '\n' +
+                                      (scene_.database ? scene_.database->sha256 : ""));
+  return fingerprint_;
+}
 
 void Simulation::remember(Archive& a) {
   std::vector<system::SwitchData::State> modes;
@@ -19,12 +29,13 @@ void Simulation::remember(Archive& a) {
 }
 
 State Simulation::state() {
+  require_going();
   take_inputs();
   State out;
   out.time = t_;
   out.y = y_;
   out.yp = yp_;
-  out.scene = fingerprint_;
+  out.scene = fingerprint();
   const solve::Statistics before = before_start_;
   before_start_ = statistics(); // counts of this integrator end here, as those of any other
   save(out.memory, "run", *this);
@@ -45,10 +56,11 @@ State Simulation::state() {
 
 void Simulation::restore(const State& state) {
   using hydrodae::restore;
-  if (state.scene != fingerprint_)
+  if (state.scene != fingerprint())
     throw CaseError("the state is of another case, database or version of hydrodae than this run");
   const Memory& memory = state.memory;
   written_ = false;
+  failed_ = true; // until all is restored
   now_.clear();
   t_ = state.time;
   y_ = state.y;
@@ -74,6 +86,7 @@ void Simulation::restore(const State& state) {
   restore(memory, "poses", *poses_);
   for (std::size_t k = 0; k < guards_.size(); ++k)
     restore(memory, "guard_" + std::to_string(k), *guards_[k]);
+  failed_ = false;
 }
 
 } // namespace hydrodae::run

@@ -51,9 +51,12 @@ void Simulation::write(const std::string& input, double value) {
 void Simulation::take_inputs() {
   if (!written_)
     return;
+  require_going();
   written_ = false;
   now_.clear();
+  failed_ = true; // until there are accelerations
   restart();
+  failed_ = false;
 }
 
 } // namespace hydrodae::run

@@ -1,13 +1,17 @@
 #include "hydrodae/run/state.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+
+#include "hydrodae/io/sha256.h"
 
 namespace hydrodae::run {
 
 namespace {
 
 constexpr std::string_view head = "hydrodae state 1\n";
+constexpr std::size_t digest_size = 64; ///< of the SHA-256 at the end
 
 [[noreturn]] void refuse_bytes() { throw Error("these bytes are no state of a hydrodae run"); }
 
@@ -90,11 +94,15 @@ std::string State::bytes() const {
     put_list(name, out);
     put_list(values, out);
   }
-  return out;
+  return out + io::sha256_of_text(out);
 }
 
 State State::from_bytes(const std::string& bytes) {
-  ByteReader reader(bytes);
+  const std::size_t size = bytes.size() - std::min(bytes.size(), digest_size);
+  const std::string content = bytes.substr(0, size);
+  if (io::sha256_of_text(content) != bytes.substr(size))
+    refuse_bytes();
+  ByteReader reader(content);
   reader.skip(head);
   std::string scene = reader.list<std::string>();
   Memory numbers;

@@ -41,8 +41,8 @@ public:
   Collocation(const system::System& system, const system::Pattern& pattern,
               const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, options.rtol),
-        family_(family_of(options.method)),
-        fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
+        family_(family_of(options.method)), fixed_(options.step > 0.0),
+        chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),

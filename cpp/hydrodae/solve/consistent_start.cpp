@@ -66,6 +66,24 @@ void check_constraints(const System& s, const VectorX& y, const VectorX& r) {
                 s.motions[c.terms.front().motion].motion.is_angle());
 }
 
+/// Velocities that keep all rows again, where they are more than rounding off. An impulse acts over
+/// the mean of the rates before and after, those of a drive among them.
+/// @returns the work of the rows [J]; nothing: the velocities stay as they are
+std::optional<double> jump(const System& s, double t, SaddlePoint& saddle, VectorX& y) {
+  constexpr double least_jump = 1e-9; // of the rates that count as one
+  VectorX struck = y, before;
+  const VectorX impulses = saddle.strike(t, struck, VectorX::Zero(s.n_lambda), before);
+  const auto scale = s.row_scale.segment(s.lambda0, s.n_lambda);
+  if (before.cwiseQuotient(scale).cwiseAbs().maxCoeff() <= least_jump)
+    return std::nullopt;
+  y = struck;
+  double work = 0.5 * impulses.dot(before);
+  for (const system::CouplerData& c : s.couplers)
+    if (c.kept())
+      work += impulses[c.lambda - s.lambda0] * c.drive(t)[c.velocity_level ? 0 : 1];
+  return work;
+}
+
 } // namespace
 
 void consistent_start(const System& s, const system::Pattern& pattern, VectorX& y, VectorX& yp) {
@@ -82,16 +100,23 @@ void consistent_start(const System& s, const system::Pattern& pattern, VectorX& 
                            "each other, or a body that moves has no mass");
 }
 
-void make_consistent(System& s, double t, VectorX& y, VectorX& yp) {
+std::optional<double> make_consistent(System& s, double t, VectorX& y, VectorX& yp) {
   const system::Formulation formulation = s.formulation;
   s.formulation = system::Formulation::stabilised;
   const system::Pattern pattern = system::find_pattern(s);
   Equations equations(s, pattern, 1.0);
   equations.accept(t, y, yp);
-  const bool good = SaddlePoint(equations).accelerations(t, y, yp);
+  SaddlePoint saddle(equations);
+  std::optional<double> work;
+  bool good = saddle.accelerations(t, y, yp);
+  if (good && s.n_lambda > 0) {
+    work = jump(s, t, saddle, y);
+    good = !work || saddle.accelerations(t, y, yp);
+  }
   s.formulation = formulation;
   if (!good)
     throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s");
+  return work;
 }
 
 } // namespace hydrodae::solve

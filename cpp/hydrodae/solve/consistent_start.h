@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::solve {
@@ -15,7 +17,9 @@ void consistent_start(const system::System& system, const system::Pattern& patte
                       VectorX& yp);
 
 /// Rates and reactions that belong to the positions, velocities and loads of an accepted instant,
-/// whatever formulation is integrated. Throws SolverError where there are none.
-void make_consistent(system::System& system, double t, VectorX& y, VectorX& yp);
+/// whatever formulation is integrated; velocities that drives do not allow any more jump by
+/// impulses of the rows. Throws SolverError where there are none.
+/// @returns the work of all rows through their impulses [J] where velocities jumped
+std::optional<double> make_consistent(system::System& system, double t, VectorX& y, VectorX& yp);
 
 } // namespace hydrodae::solve

@@ -100,10 +100,9 @@ public:
   Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
       double t0, const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(condensed(s, p)), rtol(share * options.rtol),
-        equations(s, pattern, rtol), newton{{s, pattern}}, good(y0),
-        good_rate(yp0), t_good(t0), now(y0), now_rate(yp0), out(s.n), t_(t0),
-        end_time(options.end_time), time_scale(equations.time_scale()),
-        guard(t0, end_time, time_scale) {
+        equations(s, pattern, rtol), newton{{s, pattern}}, good(y0), good_rate(yp0), t_good(t0),
+        now(y0), now_rate(yp0), out(s.n), t_(t0), end_time(options.end_time),
+        time_scale(equations.time_scale()), guard(t0, end_time, time_scale) {
     start(options, y0, yp0);
   }
   double step(double end, double bound) override;

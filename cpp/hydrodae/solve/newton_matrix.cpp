@@ -22,8 +22,8 @@ NewtonMatrix<Scalar>::NewtonMatrix(const system::System& s, const system::Patter
   find_slots(pattern);
 }
 
-/// Visits the entries of L T U_x: visit(row, column, i, component of i, j, k) with bodies i and j of
-/// the water, and k the rotation unknown or, from 4 on, the velocity unknown of j.
+/// Visits the entries of L T U_x: visit(row, column, i, component of i, j, k) with bodies i and j
+/// of the water, and k the rotation unknown or, from 4 on, the velocity unknown of j.
 template <class Scalar>
 template <class Visit>
 void NewtonMatrix<Scalar>::for_each_entry(Visit&& visit) const {

@@ -1,13 +1,13 @@
 #pragma once
-/// The matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, with the radiation memory
-/// eliminated by hand. Its states z feel the bodies through their velocities U only, and are block
-/// diagonal, D = alpha - A_r in blocks of one or two:
+/// The matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, with the radiation
+/// memory eliminated by hand. Its states z feel the bodies through their velocities U only, and are
+/// block diagonal, D = alpha - A_r in blocks of one or two:
 ///
 ///   [ J     L C ] [dx]   [r_x]        (J + L T U_x) dx = r_x - L C D^-1 r_z,   T = C D^-1 B_r
 ///   [ -B U_x  D ] [dz] = [r_z]        dz = D^-1 (r_z + B_r U_x dx)
 ///
-/// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left goes
-/// to KLU. Without memory states it is KLU alone.
+/// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left
+/// goes to KLU. Without memory states it is KLU alone.
 
 #include <complex>
 #include <vector>

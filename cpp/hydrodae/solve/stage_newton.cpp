@@ -14,12 +14,10 @@ constexpr double accuracy = 1e-3;
 } // namespace
 
 StageNewton::StageNewton(Equations& equations, const RungeKutta& rk)
-    : e_(equations), rk_(rk),
-      real_(std::make_unique<NewtonMatrix<double>>(e_.system, e_.pattern)) {
+    : e_(equations), rk_(rk), real_(std::make_unique<NewtonMatrix<double>>(e_.system, e_.pattern)) {
   const Index n = e_.system.n;
   for (std::size_t k = 0; k < rk_.pairs.size(); ++k)
-    pairs_.push_back(
-        std::make_unique<NewtonMatrix<std::complex<double>>>(e_.system, e_.pattern));
+    pairs_.push_back(std::make_unique<NewtonMatrix<std::complex<double>>>(e_.system, e_.pattern));
   stage_ = rate_ = residual_ = work_ = MatrixX::Zero(n, rk_.stages);
   y_ = yp_ = r_ = VectorX::Zero(n);
   complex_.resize(static_cast<std::size_t>(n));

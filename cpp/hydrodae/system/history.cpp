@@ -274,14 +274,14 @@ void History::evaluate(double t, bool locked, Past& out) const {
     out.delayed[d] = delayed(static_cast<int>(d), t);
   if (n_U_ == 0)
     return;
+  if (nodes_.size() > 1) // patterns and poses are looked at whatever the time
+    t = std::max(t, nodes_[nodes_.size() - 2].t);
   const std::size_t node = node_before(t);
   const Eigen::Index rows = gather_steps(t, node), piece = gather_piece(t, node, rows);
   sum_pairs(locked, std::max(rows, piece), piece, out);
 }
 
 const Past& History::at(double t, bool locked) const {
-  if (nodes_.size() > 1) // patterns and poses are looked at whatever the time
-    t = std::max(t, nodes_[nodes_.size() - 2].t);
   locked = locked && !s_.hydro.convolution.locked.empty();
   for (const Past& past : memo_)
     if (past.known && past.t == t && (past.locked || !locked))

@@ -9,7 +9,6 @@
 #include "../../property/scenes.h"
 #include "hydrodae/system/jacobian.h"
 
-
 namespace {
 
 using namespace hydrodae;
