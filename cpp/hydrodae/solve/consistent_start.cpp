@@ -13,7 +13,7 @@ namespace {
 
 using system::System;
 
-constexpr double closed = 1e-6; ///< gaps above this part of their scale are refused
+constexpr double largest_gap = 1e-6; ///< gaps above this part of their scale are refused
 constexpr double start_balanced = 1e-8;
 
 /// Is axis `axis` of both markers held parallel? Two rows keep the other axes of A perpendicular to
@@ -37,9 +37,9 @@ void check_row(const System& s, const VectorX& r, const std::string& key, Index 
     throw ModelError(key, s.row_names[row] + " " + verb + " " + number_text(r[row]) +
                               (angle ? " rad" : " m") + unit + " at the start");
   };
-  if (mu >= 0 && std::abs(r[mu]) > closed * s.row_scale[mu])
+  if (mu >= 0 && std::abs(r[mu]) > largest_gap * s.row_scale[mu])
     refuse(mu, "is", "");
-  if (std::abs(r[lambda]) > closed * s.row_scale[lambda])
+  if (std::abs(r[lambda]) > largest_gap * s.row_scale[lambda])
     refuse(lambda, "is", "/s");
 }
 
