@@ -1375,6 +1375,210 @@ class ForceTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def pto_hydraulic(
+        self,
+        name: str,
+        *,
+        joint: str,
+        area: float,
+        motor_conductance: float,
+        pressure_high: float,
+        pressure_low: float,
+        volume_high: float,
+        volume_low: float,
+        valve_rate: float,
+        polytropic: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "pto_hydraulic".
+
+        Hydraulic power take-off along a joint: cylinder, check valves, two gas accumulators,
+        motor.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint with one free motion (revolute or prismatic).
+        area : number, m2 or m3/rad
+            Area A of the piston; on a rotation times its lever. Allowed: > 0.
+        motor_conductance : number, m3/(s Pa)
+            Flow G through the motor for each pascal between the accumulators. Allowed: >= 0.
+        pressure_high : number, Pa
+            Pressure of the high accumulator at the start, absolute. Allowed: > 0.
+        pressure_low : number, Pa
+            Pressure of the low accumulator at the start, absolute. Allowed: > 0.
+        volume_high : number, m3
+            Gas in the high accumulator at the start. Allowed: > 0.
+        volume_low : number, m3
+            Gas in the low accumulator at the start. Allowed: > 0.
+        polytropic : number, default 1.4
+            Exponent n of the gas: 1 isothermal, 1.4 adiabatic (nitrogen). Allowed: 1 to 2.
+        valve_rate : number, m/s or rad/s
+            Rate s'_v about which the check valves change over. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def friction_lugre(
+        self,
+        name: str,
+        *,
+        joint: str,
+        static: float,
+        stribeck_rate: float,
+        bristle_stiffness: float,
+        kinetic: float = ...,
+        bristle_damping: float = ...,
+        viscous: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "friction_lugre".
+
+        Bristle friction (LuGre) along a joint: sticks and slips smoothly, by a state of its
+        own.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint with one free motion (revolute or prismatic).
+        static : number, N or N m
+            Largest load F_s that sticking holds. Allowed: > 0.
+        kinetic : number, N or N m, optional
+            Load F_c of fast slip, without the viscous part; default: as `static`. Allowed: > 0.
+        stribeck_rate : number, m/s or rad/s
+            Rate s'_s over which the load falls from `static` to `kinetic`. Allowed: > 0.
+        bristle_stiffness : number, N/m or N m/rad
+            Stiffness sigma_0. Allowed: > 0.
+        bristle_damping : number, N s/m or N m s/rad, optional
+            Damping sigma_1 of the bristles; default: 2 sqrt(sigma_0), critical for a unit mass.
+            Allowed: >= 0.
+        viscous : number, N s/m or N m s/rad, default 0
+            Viscous damping sigma_2. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def bushing(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        stiffness: _Numbers | _Rows,
+        axis: _Numbers = ...,
+        axis_x: _Numbers = ...,
+        damping: _Numbers | _Rows = ...,
+        pretension: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "bushing".
+
+        Elastic joint: stiffness and damping of all six relative motions of two bodies at a
+        point.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body_a : text
+            First body, or ground: it carries the axes.
+        body_b : text
+            Second body, or ground: the load acts on it.
+        point : 3 numbers, m
+            Where the bushing is in the reference pose, world axes.
+        axis : 3 numbers, optional
+            Its z axis in the reference pose; default: that of the world.
+        axis_x : 3 numbers, optional
+            Its x axis in the reference pose, across `axis`.
+        stiffness : 6 numbers or 6 x 6, N/m, N, N m/rad
+            K: six numbers (diagonal: x, y, z, about x, y, z) or a 6x6 matrix.
+        damping : 6 numbers or 6 x 6, N s/m, N s, N m s/rad, default [0, 0, 0, 0, 0, 0]
+            C: six numbers (diagonal) or a 6x6 matrix.
+        pretension : 6 numbers, N, N m, default [0, 0, 0, 0, 0, 0]
+            W0: force and moment in the reference pose.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def python_load(
+        self,
+        name: str,
+        *,
+        joint: str,
+    ) -> str:
+        """Add `[[force]]` with the type "python_load".
+
+        Load along a joint by a Python function f(t, s, s').
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results; its function f(t, s, s') is given to
+            hydrodae.run(..., forces={name: function}).
+        joint : text
+            Joint with one free motion (revolute or prismatic).
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def python_wrench(
+        self,
+        name: str,
+        *,
+        body: str,
+    ) -> str:
+        """Add `[[force]]` with the type "python_wrench".
+
+        Force and moment on a body by a Python function f(t, displacement, twist).
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results; its function f(t, displacement, twist) is given
+            to hydrodae.run(..., forces={name: function}).
+        body : text
+            Body that is loaded.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
 
 class Scene(SceneBase):
     """A scene that is built call by call; `hydrodae.run` and the other functions take it."""

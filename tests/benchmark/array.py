@@ -28,9 +28,7 @@ def build() -> Path:
     configure = ["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]
     options = ["-DCMAKE_UNITY_BUILD=ON", "-DHYDRODAE_BUILD_BENCHMARKS=ON"]
     subprocess.run([*configure, *options], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(
-        ["cmake", "--build", BUILD, "--target", "hydrodae-array-benchmark"], check=True
-    )
+    subprocess.run(["cmake", "--build", BUILD, "--target", "hydrodae-array-benchmark"], check=True)
     return BUILD / "tests" / "benchmark" / "hydrodae-array-benchmark"
 
 

@@ -149,7 +149,7 @@ def test_keys_lists_tables_types_and_keys(
     assert all(table.header in listed for table in tables())
     of_list = keys_printed(capsys, "force")
     assert "pto_linear" in of_list
-    assert "stiffness" not in of_list
+    assert "neutral" not in of_list
     of_type = keys_printed(capsys, "force", "pto_linear").splitlines()
     row = next(line for line in of_type if line.startswith("damping"))
     assert row.split() == "damping N s/m or N m s/rad 0 >= 0 Damping c.".split()

@@ -94,8 +94,7 @@ struct SolverOptions {
         {"error_guard", &O::error_guard, "-",
          "A run ends as failed when the errors of its steps, carried along by the linearised "
          "equations, and the energy that they miss may put the motion off by more than this part "
-         "of "
-         "it: when twice their estimate is more, with fixed steps three times; 0: no guard.",
+         "of it: when twice their estimate is more, with fixed steps three times; 0: no guard.",
          false, at_least(0)},
         {"step_guard", &O::step_guard, "-",
          "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "

@@ -52,10 +52,6 @@ public:
 
   const Error& error() const { return error_; }
 
-  /// By how much the vector carried along has grown from the last look but one to the last, by
-  /// group (n_groups,); 1 where there was none.
-  const VectorX& growth() const { return growth_; }
-
   /// By how much E has faded for good between these looks (n_groups,): 1 where nothing damps.
   const VectorX& fade() const { return fade_; }
 

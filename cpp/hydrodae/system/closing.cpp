@@ -7,12 +7,11 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double closed = 1e-12; ///< gaps, in units of their scale, that count as none
-constexpr double damping = 1e-4; ///< of singular values of rows of length one, squared
-constexpr double longest_way =
-    3.0; ///< largest step: three scales are 0.3 levers, keeps to the branch
-constexpr double parallel = 0.03; ///< part of a gap that motions close, where it cannot be closed
-constexpr double nearby = 0.3;    ///< way, in scales, that closes a gap without leaving the pose
+constexpr double closed = 1e-12;    ///< gaps, in units of their scale, that count as none
+constexpr double damping = 1e-4;    ///< of singular values of rows of length one, squared
+constexpr double longest_way = 3.0; ///< scales, 0.3 levers: a step that keeps to the branch
+constexpr double parallel = 0.03;   ///< part of a gap that motions close, where it cannot be closed
+constexpr double nearby = 0.3;      ///< way, in scales, that closes a gap without leaving the pose
 
 } // namespace
 
