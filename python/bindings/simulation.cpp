@@ -111,11 +111,12 @@ std::string examine_scene(const model::Scene& scene, const Functions& drives,
 
 void bind_simulation(py::module_& module) {
   module.def(
-      "examine", &examine_scene, py::arg("scene"), py::arg("drives"), py::arg("forces"),
+      "examine", &examine_scene, py::arg("scene"), py::arg("drives"),
+      py::arg("forces") = Functions{},
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             py::arg("drives"), py::arg("forces"), py::arg("verify") = false,
+             py::arg("drives"), py::arg("forces") = Functions{}, py::arg("verify") = false,
              py::arg("checkpoint") = -1.0, py::arg("resume") = false,
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
              "`drives` has a function t -> (f, f', f'') for every constraint in "

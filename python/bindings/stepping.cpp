@@ -102,7 +102,7 @@ void bind_stepping(py::module_& module) {
                       [](const py::bytes& b) { return State::from_bytes(std::string(b)); }));
   py::class_<Stepper>(module, "Stepper", "A run that Python drives, step by step.")
       .def(py::init<const model::Scene&, Functions, Functions>(), py::arg("scene"),
-           py::arg("drives"), py::arg("forces"))
+           py::arg("drives"), py::arg("forces") = Functions{})
       .def("advance", &Stepper::advance, py::arg("limit"),
            "One accepted step, to `limit` [s] at most; returns the time reached.")
       .def("state", &Stepper::state)

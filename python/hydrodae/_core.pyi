@@ -59,7 +59,7 @@ def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene
 def examine(
     scene: Scene,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
-    forces: Mapping[str, Callable[[float, Any, Any], Any]],
+    forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
 ) -> str:
     """The scene as a tree, what it costs, mobility and redundant rows. Raises CaseError."""
 
@@ -77,7 +77,7 @@ def simulate(
     output: str,
     progress: Callable[[float, float], bool] | None,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
-    forces: Mapping[str, Callable[[float, Any, Any], Any]],
+    forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
     verify: bool = False,
     checkpoint: float = -1.0,
     resume: bool = False,
@@ -114,7 +114,7 @@ class Stepper:
         self,
         scene: Scene,
         drives: Mapping[str, Callable[[float], Sequence[float]]],
-        forces: Mapping[str, Callable[[float, Any, Any], Any]],
+        forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
     ) -> None: ...
     def advance(self, limit: float) -> float:
         """One accepted step, to `limit` [s] at most; returns the time reached."""

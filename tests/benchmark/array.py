@@ -3,8 +3,8 @@
     .venv/bin/python tests/benchmark/array.py -o tests/benchmark/array.png
 
 Builds tests/benchmark/array.cpp (release, in build/benchmark) and runs it for several n with 10 n
-memory states. Up to --whole bodies the whole sparse matrix, memory and all, is factorised by KLU for
-comparison; with 100 it has 2.2 million nonzeros and takes a while.
+memory states. Up to --whole bodies the whole sparse matrix, memory and all, is factorised by KLU
+for comparison; with 100 it has 2.2 million nonzeros and takes a while.
 """
 
 from __future__ import annotations
@@ -25,8 +25,12 @@ BODIES = (1, 3, 10, 30, 100)
 
 def build() -> Path:
     """Compile the benchmark; return its path."""
-    configure = ["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]
-    options = ["-DCMAKE_UNITY_BUILD=ON", "-DHYDRODAE_BUILD_BENCHMARKS=ON"]
+    configure = ["cmake", "-S", str(ROOT), "-B", str(BUILD), "-G", "Ninja"]
+    options = [
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_UNITY_BUILD=ON",
+        "-DHYDRODAE_BUILD_BENCHMARKS=ON",
+    ]
     subprocess.run([*configure, *options], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", BUILD, "--target", "hydrodae-array-benchmark"], check=True)
     return BUILD / "tests" / "benchmark" / "hydrodae-array-benchmark"

@@ -300,7 +300,7 @@ step = 0.1
     time = results["bodies/bead/position"].time.values
     # x + i y = sum of two rotations: s^2 - 0.8 i s + 9 = 0
     roots = np.roots([1.0, -0.8j, 9.0])
-    parts = np.linalg.solve([[1.0, 1.0], roots], [0.1, 0.0])
+    parts = np.linalg.solve(np.array([np.ones(2), roots]), np.array([0.1, 0.0]))
     exact = sum(c * np.exp(s * time) for c, s in zip(parts, roots, strict=True))
     place = results["bodies/bead/position"].values
     assert place[:, 0] + 1j * place[:, 1] == pytest.approx(exact, abs=1e-6)
