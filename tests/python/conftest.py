@@ -130,6 +130,7 @@ class Kernel:
             joint_names=["hinge1", "hinge2"],
             end_time=10.0,
             python_drives=[],
+            python_forces=[],
             summary=lambda: f"3 bodies, 2 joints, paths from {directory}",
         )
 
@@ -139,11 +140,13 @@ class Kernel:
         output: str,
         progress: Callable[[float, float], bool],
         drives: dict[str, Any],
+        forces: dict[str, Any],
         verify: bool = False,
         checkpoint: float = -1.0,
         resume: bool = False,
     ) -> dict[str, Any]:
         assert not drives
+        assert not forces
         assert not verify
         self.runs += 1
         times, status, message = [0.0], "completed", ""

@@ -34,7 +34,7 @@ def test_toml_example(readme: Path) -> None:
 
 
 def test_python_example(readme: Path) -> None:
-    (text,) = blocks(readme, "python")
+    text, *_ = blocks(readme, "python")  # what follows are single calls
     done = subprocess.run(
         [sys.executable, "-c", text], cwd=readme.parent, capture_output=True, text=True, check=False
     )

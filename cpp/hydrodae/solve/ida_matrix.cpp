@@ -15,7 +15,8 @@ SUNLinearSolver_Type direct(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
 
 int factorise_matrix(SUNLinearSolver solver, SUNMatrix) {
   IdaMatrix& m = *static_cast<IdaMatrix*>(solver->content);
-  return m.newton.factorise(*m.parts, m.alpha) ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  constexpr bool careful = true; // one matrix serves many steps
+  return m.newton.factorise(*m.parts, m.alpha, careful) ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
 }
 
 int solve_matrix(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, double) {

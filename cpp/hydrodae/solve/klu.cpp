@@ -11,7 +11,8 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth that asks for new pivots
+constexpr double bad_pivots = 1e-8;         ///< reciprocal pivot growth that asks for new pivots
+constexpr double ill_conditioned = 3.7e-11; ///< reciprocal condition that does, where asked for
 
 template <class Scalar> constexpr bool is_real = std::is_same_v<Scalar, double>;
 
@@ -45,15 +46,26 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
                                                          symbolic, numeric, &common));
     return ok ? common.rgrowth : 0.0;
   }
-  bool refactorise() {
+  /// By a cheap bound, and where that is low by a better estimate.
+  bool ill() {
+    if constexpr (is_real<Scalar>) {
+      klu_l_rcond(symbolic, numeric, &common);
+      if (common.rcond >= ill_conditioned)
+        return false;
+      klu_l_condest(start.data(), raw(values), symbolic, numeric, &common);
+      return !(common.condest <= 1.0 / ill_conditioned);
+    }
+    return false;
+  }
+  bool refactorise(bool careful) {
     const bool ok =
         is_real<Scalar>
             ? klu_l_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common)
             : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
-    return ok && growth() > bad_pivots;
+    return ok && growth() > bad_pivots && !(careful && ill());
   }
-  bool factorise() {
-    if (numeric && refactorise())
+  bool factorise(bool careful) {
+    if (numeric && refactorise(careful))
       return true;
     drop();
     numeric = is_real<Scalar>
@@ -103,11 +115,11 @@ template <class Scalar> SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = defaul
 
 template <class Scalar> std::vector<Scalar>& SparseLu<Scalar>::values() { return impl_->values; }
 
-template <class Scalar> bool SparseLu<Scalar>::factorise() {
+template <class Scalar> bool SparseLu<Scalar>::factorise(bool careful) {
   for (const Scalar& v : impl_->values)
     if (!std::isfinite(std::abs(v)))
       return false;
-  return impl_->factorise();
+  return impl_->factorise(careful);
 }
 
 template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {

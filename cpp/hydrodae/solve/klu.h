@@ -31,8 +31,9 @@ public:
   /// The values (nonzeros,), to be filled before `factorise`.
   std::vector<Scalar>& values();
 
-  /// False when the matrix is singular or holds values that are not finite.
-  bool factorise();
+  /// False when the matrix is singular or holds values that are not finite. `careful`: new pivots
+  /// also where a real matrix is ill-conditioned with those of before.
+  bool factorise(bool careful = false);
 
   /// Order of elimination, with the pivots of the last factorisation where there is one.
   Elimination elimination() const;

@@ -112,7 +112,8 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
 }
 
 template <class Scalar>
-bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar alpha) {
+bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar alpha,
+                                     bool careful) {
   parts_ = &parts;
   std::vector<Scalar>& values = lu_.values();
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -121,7 +122,7 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar 
     find_transfer(alpha);
     add_memory();
   }
-  return lu_.factorise();
+  return lu_.factorise(careful);
 }
 
 template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {

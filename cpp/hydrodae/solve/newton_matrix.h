@@ -23,8 +23,8 @@ public:
   NewtonMatrix(const system::System& system, const system::Pattern& pattern);
 
   /// False when the matrix is singular or holds values that are not finite. The parts are read
-  /// until the next call.
-  bool factorise(const system::JacobianParts& parts, Scalar alpha);
+  /// until the next call. `careful`: see SparseLu.
+  bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false);
 
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
