@@ -190,6 +190,12 @@ void note_nonlinear(const System& s, LinearModel& out) {
         if (list.laws->lost_at_rest(law) && list.laws->shape.port == element::Port::on_body)
           lost.push_back(port.component);
       });
+  system::for_each_law(
+      s, [&](const system::ElementList& list, std::size_t, const system::PortData& port) {
+        if (!list.laws->at_rest_only.empty())
+          out.notes.push_back("the linear model has of " + in_quotes(port.component) +
+                              " the slope at rest only: " + std::string(list.laws->at_rest_only));
+      });
   if (!lost.empty())
     out.notes.push_back("quadratic viscous_damping is zero in the linear model (it has no slope at "
                         "rest): " +

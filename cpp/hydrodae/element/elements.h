@@ -84,6 +84,7 @@ public:
   std::string_view type; ///< as in case files; "hydrostatic" and such for those of the water
   Shape shape;
   bool absorbs = false;           ///< a power take-off: what it takes is a device's output
+  std::string_view at_rest_only;  ///< why its slope at rest tells little; empty: it does not
   std::vector<std::string> names; ///< (n,)
   std::vector<Unknown> unknowns;  ///< (n n_states,)
   std::vector<Quantity> channels; ///< of each law

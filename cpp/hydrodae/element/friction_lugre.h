@@ -24,6 +24,8 @@ struct FrictionLugre {
       "Bristle friction (LuGre) along a joint: sticks and slips smoothly, by a state of its own.";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_states = 1;
+  static constexpr std::string_view at_rest_only =
+      "it sticks there: its bristles are a spring and a damper";
   std::string name;
   std::string joint;
   double static_load = 0.0;

@@ -12,6 +12,8 @@
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
 ///
+/// and F may say at_rest_only, why a linear model knows little of it
+///
 /// A force with states says n_states and unknowns(); one with numbers that a program may change
 /// while it runs, n_signals, inputs() and start_signals(). One header and one line in the list of
 /// forces (model/scene.h) are all that a new kind takes.
@@ -44,6 +46,8 @@ public:
     type = F::type;
     shape = {F::port, w, nz, n_signals};
     absorbs = type.starts_with("pto_");
+    if constexpr (requires { F::at_rest_only; })
+      at_rest_only = F::at_rest_only;
     if constexpr (requires { F::channels(); })
       channels = F::channels();
     if constexpr (requires { F::inputs(); })

@@ -27,6 +27,8 @@ struct PtoHydraulic {
                                           "valves, two gas accumulators, motor.";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_states = 2;
+  static constexpr std::string_view at_rest_only =
+      "its damping there is A (p_H - p_L) / valve_rate, far above that at working rates";
   std::string name;
   std::string joint;
   double area = 0.0;

@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/scene_tables.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -11,6 +13,13 @@ namespace {
 
 template <class T> const std::vector<T>& forces(const model::Scene& scene) {
   return std::get<std::vector<T>>(scene.forces);
+}
+
+std::string force_types() {
+  std::vector<std::string> names;
+  model::for_each_force_type(
+      [&]<class Force>(std::type_identity<Force>) { names.emplace_back(Force::type); });
+  return joined(names);
 }
 
 void check_messages(const std::vector<BadInput>& table) {
@@ -81,12 +90,12 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
       {"[[force]]", "[force]", "case.toml:28:1: 'force' must be a list of tables: write [[force]]"},
       {"[solver]", "[[solver]]", "case.toml:34:1: 'solver' must be one table: write [solver]"},
       {"type = \"pto_linear\"\n", "",
-       "case.toml:28:1: missing key 'type' in [[force]] 'pto1' (Kind of force: mooring_matrix, "
-       "pto_linear, spring_damper, constant_load, viscous_damping, dry_friction)"},
+       "case.toml:28:1: missing key 'type' in [[force]] 'pto1' (Kind of force: " + force_types() +
+           ")"},
       {"type = \"pto_linear\"", "type = \"pto_liner\"",
        "case.toml:30:1: key 'type' in [[force]] 'pto1': unknown value 'pto_liner'; did you mean "
-       "'pto_linear'? (valid: mooring_matrix, pto_linear, spring_damper, constant_load, "
-       "viscous_damping, dry_friction)"},
+       "'pto_linear'? (valid: " +
+           force_types() + ")"},
       {"initial = { angle_deg = 90.0 }", "initial = 90.0",
        "case.toml:26:1: initial of [[joint]] 'hinge' must be a table, such as initial = { ... }"},
   });
