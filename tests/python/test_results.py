@@ -100,6 +100,19 @@ def test_summary_has_cost_and_extrema_in_degrees(results_file):
     assert lines[-1].startswith("  energy balance: error at most ")
 
 
+def test_summary_names_the_mean_power_of_each_take_off(results_file):
+    with h5py.File(results_file, "a") as file:
+        solver = file["solver"].attrs
+        solver["mean_power_absorbed.pto1"], solver["mean_power_absorbed.pto2"] = 1200.0, 34.0
+        solver["mean_power_absorbed"], solver["mean_power_from"] = 1234.0, 50.0
+        solver["damaged"] = 1.0  # a name that is no text comes as bytes
+        h5py.h5a.rename(file["solver"].id, b"damaged", b"\xff\xfe")
+    results = Results.read(results_file)
+    assert "�" in "".join(results.statistics)
+    line = next(line for line in results.summary().splitlines() if "mean absorbed" in line)
+    assert line == "  mean absorbed power after 50 s: pto1 1,200 W, pto2 34 W, in all 1,234 W"
+
+
 @pytest.mark.parametrize("status", ["interrupted", "failed"])
 def test_summary_of_a_partial_run_says_so(results_writer, status):
     path = results_writer(np.linspace(0, 30, 301), status=status, message="hinge1 locked")

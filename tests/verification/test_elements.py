@@ -61,6 +61,7 @@ static = 12.0
 kinetic = 8.0
 stribeck_rate = 0.01
 bristle_stiffness = 1e5
+bristle_damping = 632.4555320336759
 viscous = 3.0
 """
 

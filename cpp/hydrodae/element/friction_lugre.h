@@ -31,7 +31,8 @@ struct FrictionLugre {
   double static_load = 0.0;
   double stribeck_rate = 0.0;
   double bristle_stiffness = 0.0;
-  std::optional<double> kinetic_load, bristle_damping;
+  double bristle_damping = 0.0;
+  std::optional<double> kinetic_load;
   double viscous = 0.0;
 
   /// The law that the system evaluates.
@@ -48,14 +49,10 @@ struct FrictionLugre {
     }
     double energy(const In<double>& in) const { return 0.5 * stiffness * in.z[0] * in.z[0]; }
   };
-  /// Bristles of a unit mass are critically damped by default: sigma_1 = 2 sqrt(sigma_0).
   Law law() const {
-    return {static_load,
-            kinetic_load.value_or(static_load),
-            stribeck_rate,
-            bristle_stiffness,
-            bristle_damping.value_or(2.0 * std::sqrt(bristle_stiffness)),
-            viscous};
+    return {static_load,     kinetic_load.value_or(static_load),
+            stribeck_rate,   bristle_stiffness,
+            bristle_damping, viscous};
   }
 
   std::array<Unknown, n_states> unknowns() const {
@@ -77,8 +74,9 @@ struct FrictionLugre {
         {"bristle_stiffness", &F::bristle_stiffness, "N/m or N m/rad", "Stiffness sigma_0.", true,
          more_than(0)},
         {"bristle_damping", &F::bristle_damping, "N s/m or N m s/rad",
-         "Damping sigma_1 of the bristles; default: 2 sqrt(sigma_0), critical for a unit mass.",
-         false, at_least(0)},
+         "Damping sigma_1 of the bristles: 2 sqrt(sigma_0 m) lets a mass (or inertia) m stick "
+         "without swinging.",
+         true, at_least(0)},
         {"viscous", &F::viscous, "N s/m or N m s/rad", "Viscous damping sigma_2.", false,
          at_least(0)},
     };

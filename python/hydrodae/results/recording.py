@@ -84,11 +84,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
             )
-        self._header = {name: _plain(value) for name, value in file.attrs.items()}
+        self._header = {_name(key): _plain(value) for key, value in file.attrs.items()}
         if not isinstance(self._header.get("status"), str):
             raise ResultsError(f"{self.path}: damaged: it has no status")
         solver = file.get("solver")
-        self._statistics = {} if solver is None else {k: _plain(v) for k, v in solver.attrs.items()}
+        attributes = {} if solver is None else solver.attrs
+        self._statistics = {_name(key): _plain(value) for key, value in attributes.items()}
         lengths: dict[str, int] = {}
         impacts: list[str] = []
 
@@ -292,6 +293,11 @@ def _find(path: Path) -> Path:
 
 def _warn(message: str) -> None:
     warnings.warn(message, ResultsWarning, stacklevel=4)
+
+
+def _name(key: str | bytes) -> str:
+    """Return the name of an attribute; damaged ones come as bytes."""
+    return key.decode("utf-8", "replace") if isinstance(key, bytes) else key
 
 
 def _plain(value: Any) -> Any:

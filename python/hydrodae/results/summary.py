@@ -72,14 +72,18 @@ def _errors(results: Recording) -> list[str]:
 def _power(results: Recording) -> list[str]:
     """What power take-offs absorbed on average, each and in all."""
     head = "mean_power_absorbed."
-    known = results.statistics
-    each = {key.removeprefix(head): float(known[key]) for key in known if key.startswith(head)}
+    known = {
+        key: float(value)
+        for key, value in results.statistics.items()
+        if key.startswith("mean_power_") and isinstance(value, int | float)
+    }
+    each = {key.removeprefix(head): power for key, power in known.items() if key.startswith(head)}
     if not each:
         return []
     parts = [f"{name} {power:,.4g} W" for name, power in each.items()]
-    if len(each) > 1:
-        parts.append(f"in all {float(known['mean_power_absorbed']):,.4g} W")
-    since = float(known["mean_power_from"])
+    if len(each) > 1 and "mean_power_absorbed" in known:
+        parts.append(f"in all {known['mean_power_absorbed']:,.4g} W")
+    since = known.get("mean_power_from", 0.0)
     return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
 
 
