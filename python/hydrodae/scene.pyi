@@ -1435,8 +1435,8 @@ class ForceTypes(TypedList):
         static: float,
         stribeck_rate: float,
         bristle_stiffness: float,
+        bristle_damping: float,
         kinetic: float = ...,
-        bristle_damping: float = ...,
         viscous: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "friction_lugre".
@@ -1458,9 +1458,9 @@ class ForceTypes(TypedList):
             Rate s'_s over which the load falls from `static` to `kinetic`. Allowed: > 0.
         bristle_stiffness : number, N/m or N m/rad
             Stiffness sigma_0. Allowed: > 0.
-        bristle_damping : number, N s/m or N m s/rad, optional
-            Damping sigma_1 of the bristles; default: 2 sqrt(sigma_0), critical for a unit mass.
-            Allowed: >= 0.
+        bristle_damping : number, N s/m or N m s/rad
+            Damping sigma_1 of the bristles: 2 sqrt(sigma_0 m) lets a mass (or inertia) m stick
+            without swinging. Allowed: >= 0.
         viscous : number, N s/m or N m s/rad, default 0
             Viscous damping sigma_2. Allowed: >= 0.
 
