@@ -1,10 +1,10 @@
 """Growth of cost with the number of bodies that the water couples: surge, heave and pitch each.
 
-    .venv/bin/python tests/benchmark/array.py -o tests/benchmark/array.png
+    .venv/bin/python tests/benchmark/array_growth.py -o tests/benchmark/array_growth.png
 
-Builds tests/benchmark/array.cpp (release, in build/benchmark) and runs it for several n with 10 n
-memory states. Up to --whole bodies the whole sparse matrix, memory and all, is factorised by KLU
-for comparison; with 100 it has 2.2 million nonzeros and takes a while.
+Builds tests/benchmark/array_growth.cpp (release, in build/benchmark) and runs it for several n
+with 10 n memory states. Up to --whole bodies the whole sparse matrix, memory and all, is factorised
+by KLU for comparison; with 100 it has 0.8 million nonzeros.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ def build() -> Path:
         "-DHYDRODAE_BUILD_BENCHMARKS=ON",
     ]
     subprocess.run([*configure, *options], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", BUILD, "--target", "hydrodae-array-benchmark"], check=True)
-    return BUILD / "tests" / "benchmark" / "hydrodae-array-benchmark"
+    subprocess.run(["cmake", "--build", BUILD, "--target", "hydrodae-array-growth"], check=True)
+    return BUILD / "tests" / "benchmark" / "hydrodae-array-growth"
 
 
 def main() -> None:
@@ -41,7 +41,7 @@ def main() -> None:
     parser.add_argument("--bodies", type=int, nargs="+", default=BODIES)
     parser.add_argument("--whole", type=int, default=100, help="most bodies for the whole matrix")
     parser.add_argument("--program", type=Path, help="the benchmark, where it is built already")
-    parser.add_argument("-o", "--output", type=Path, default=Path("build/array.png"))
+    parser.add_argument("-o", "--output", type=Path, default=Path("build/array_growth.png"))
     arguments = parser.parse_args()
     program = arguments.program or build()
     rows = []

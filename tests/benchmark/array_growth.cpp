@@ -1,18 +1,17 @@
-/// hydrodae-array-benchmark: time and memory against the number of bodies. n bodies that surge,
+/// hydrodae-array-growth: time and memory against the number of bodies. n bodies that surge,
 /// heave and pitch, 10 n memory states, all coupled with all (a made-up passive database).
 ///
-///   cmake --preset tests -DHYDRODAE_BUILD_BENCHMARKS=ON -DHYDRODAE_SANITIZE=OFF ...; see
-///   tests/benchmark/array.py, which builds and runs it.
+///   .venv/bin/python tests/benchmark/array_growth.py        builds and runs it
 ///
 /// A line for each n: unknowns, nonzeros of the whole Jacobian and of that without memory, seconds
 /// to factorise each (the first time, and again), seconds of a run per simulated second, MiB.
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <random>
+#include <string>
 
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/equilibrium.h"
@@ -29,6 +28,15 @@ constexpr int states_each = 10;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Most memory that this program has had [MiB] (Linux).
+double most_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:"))
+      return std::stod(line.substr(6)) / 1024.0;
+  return 0.0;
 }
 
 /// Memory z' = A z + B U, load B^T z with A + A^T < 0: passive whatever B is.
@@ -149,11 +157,8 @@ int main(int argc, char** argv) {
     timed.solver.method = k == 0 ? "ida" : "radau";
     run[k] = simulate(timed, "").solver_time / scene.solver.end_time;
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   std::printf("%d %ld %ld %ld %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.1f\n", n, static_cast<long>(s.n),
               static_cast<long>(whole.nonzeros()), static_cast<long>(less.nonzeros()), jacobian,
-              sparse[0], sparse[1], own[0], own[1], run[0], run[1],
-              static_cast<double>(usage.ru_maxrss) / 1024.0);
+              sparse[0], sparse[1], own[0], own[1], run[0], run[1], most_memory());
   return 0;
 }
