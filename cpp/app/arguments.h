@@ -13,7 +13,7 @@ namespace hydrodae::app {
 
 inline constexpr const char* usage =
     R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet]
-                      [--verify | --checkpoint SECONDS] [--resume]
+                      [--verify | --checkpoint SECONDS] [--resume] [--library FILE]...
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --keys [TABLE [TYPE]]
        hydrodae-solve --version | --help
@@ -30,6 +30,7 @@ inline constexpr const char* usage =
                    goes on from, anew after so many seconds of wall time
   --resume         go on from the checkpoint of a run that was cut off; the results file then holds
                    the whole run. The case and its overrides have to be those of that run
+  --library FILE   take force laws of types library_load and library_wrench from this shared library
   --check          read and check the case, print what is in it, do not run
   --keys           list the tables of a case file, the keys of one, or those of a type of entry:
                    --keys solver, --keys force pto_linear
@@ -43,6 +44,7 @@ struct Arguments {
   enum class Task { run, check, keys, version, help } task = Task::run;
   std::string case_path, output;
   io::Overrides overrides;
+  std::vector<std::string> libraries;
   std::vector<std::string> words; ///< after --keys
   bool quiet = false;
   RunOptions options;
@@ -102,6 +104,8 @@ inline Arguments parse(int argc, char** argv) {
       arguments.output = next_value(argc, argv, i);
     else if (word == "--set")
       add_override(next_value(argc, argv, i), arguments.overrides);
+    else if (word == "--library")
+      arguments.libraries.push_back(next_value(argc, argv, i));
     else if (word == "--method")
       arguments.overrides["solver.method"] = '"' + next_value(argc, argv, i) + '"';
     else if (word == "--force")

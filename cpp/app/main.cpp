@@ -13,6 +13,7 @@
 
 #include "arguments.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/io/libraries.h"
 #include "hydrodae/simulation.h"
 #include "keys.h"
 
@@ -103,8 +104,8 @@ ExitCode perform(const Arguments& arguments) {
     std::cout << hydrodae::app::keys_answer(arguments.words);
     return ExitCode::done;
   }
-  const hydrodae::model::Scene scene =
-      hydrodae::io::read_case(arguments.case_path, arguments.overrides);
+  hydrodae::model::Scene scene = hydrodae::io::read_case(arguments.case_path, arguments.overrides);
+  hydrodae::io::join_libraries(arguments.libraries, scene);
   try {
     if (arguments.task == Arguments::Task::run)
       return run(scene, arguments);

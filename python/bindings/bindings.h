@@ -9,6 +9,7 @@ void bind_errors();
 void bind_model(pybind11::module_& module);
 void bind_tables(pybind11::module_& module);
 void bind_io(pybind11::module_& module);
+void bind_mooring(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
 void bind_stepping(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);

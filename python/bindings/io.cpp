@@ -2,6 +2,7 @@
 
 #include "bindings.h"
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/io/libraries.h"
 
 namespace py = pybind11;
 
@@ -23,6 +24,15 @@ void bind_io(py::module_& module) {
       py::arg("text"), py::arg("directory"), py::arg("overrides"),
       py::call_guard<py::gil_scoped_release>(),
       "Read a case from a string; paths in it are relative to `directory`. Raises CaseError.");
+  module.def(
+      "join_libraries",
+      [](model::Scene scene, const std::vector<std::string>& paths) {
+        io::join_libraries(paths, scene);
+        return scene;
+      },
+      py::arg("scene"), py::arg("paths"),
+      "A copy of the scene whose forces have their laws from these shared libraries. Raises "
+      "CaseError.");
   module.def("check_tables", &io::check_tables, py::arg("text"),
              py::call_guard<py::gil_scoped_release>(),
              "Read the tables of a part of a case, each by itself. Raises CaseError.");

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   bind_model(module);
   bind_tables(module);
   bind_io(module);
+  bind_mooring(module);
   bind_simulation(module);
   bind_stepping(module);
   bind_analysis(module);

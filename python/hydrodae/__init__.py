@@ -28,6 +28,7 @@ from hydrodae.version import version
 
 if TYPE_CHECKING:
     from hydrodae import hdb
+    from hydrodae.mooring import Catenary, catenary
     from hydrodae.scene import Scene
     from hydrodae.study.band import working_band
     from hydrodae.study.chart import chart, recommend
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Case",
     "CaseError",
+    "Catenary",
     "DatabaseError",
     "HydrodaeError",
     "Results",
@@ -50,6 +52,7 @@ __all__ = [
     "Scene",
     "Simulation",
     "SolverError",
+    "catenary",
     "chart",
     "check",
     "equilibrium",
@@ -64,6 +67,8 @@ __all__ = [
 
 #: What is imported when it is first asked for, and where it is: a run needs none of it.
 _LATER = {
+    "Catenary": "mooring",
+    "catenary": "mooring",
     "Scene": "scene",
     "chart": "study.chart",
     "check": "study.check",

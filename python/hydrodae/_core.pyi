@@ -56,6 +56,12 @@ def load_case(path: str, overrides: Mapping[str, str]) -> Scene:
 def parse_case(text: str, directory: str, overrides: Mapping[str, str]) -> Scene:
     """Read a case from a string; paths in it are relative to `directory`. Raises CaseError."""
 
+def join_libraries(scene: Scene, paths: Sequence[str]) -> Scene:
+    """A copy of the scene whose forces have their laws from these shared libraries.
+
+    Raises CaseError.
+    """
+
 def examine(
     scene: Scene,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
@@ -68,6 +74,29 @@ def linearize(scene: Scene) -> dict[str, Any]:
 
     Raises CaseError.
     """
+
+class CatenaryHold:
+    horizontal: float
+    vertical: float
+    stiffness: NDArray[np.float64]
+    out_of_plane: float
+    on_seabed: float
+    anchor_horizontal: float
+    anchor_vertical: float
+    tension: float
+
+def catenary(
+    x: float,
+    z: float,
+    length: Sequence[float],
+    weight: Sequence[float],
+    stiffness: Sequence[float],
+    loads: Sequence[float],
+    seabed: bool,
+    friction: float,
+    points: Sequence[float],
+) -> tuple[CatenaryHold, NDArray[np.float64]]:
+    """What holds a line, and its profile (4, n_points). Raises CaseError."""
 
 def wave_components(scene: Scene) -> NDArray[np.float64]:
     """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""

@@ -7,7 +7,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
@@ -39,6 +39,9 @@ class Case:
         What relative paths in `text` refer to.
     values : mapping from str, optional
         Values by dotted key, for example ``{"solver.rtol": 1e-8}``.
+    libraries : sequence of paths, optional
+        Shared libraries with the laws of forces of type ``library_load`` and ``library_wrench``
+        (cpp/hydrodae/element/plugin.h). They are programs: load what you trust only.
     tell : callable, optional
         Rewrites a message that begins with a place in `text`, for a text that nobody wrote.
 
@@ -60,6 +63,7 @@ class Case:
         path: str | os.PathLike[str] | None = None,
         directory: str | os.PathLike[str] = ".",
         values: Mapping[str, Any] | None = None,
+        libraries: Sequence[str | os.PathLike[str]] = (),
         tell: Callable[[str], str] | None = None,
     ) -> None:
         if (text is None) == (path is None):
@@ -68,18 +72,27 @@ class Case:
         self._path = None if path is None else Path(path)
         self._directory = Path(directory)
         self._tell = tell
+        self._libraries = [os.fspath(path) for path in libraries]
         self._overrides = {key: to_toml(value, key) for key, value in (values or {}).items()}
         self._scene = self._load(self._overrides)
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Case:
+    def read(
+        cls, path: str | os.PathLike[str], *, libraries: Sequence[str | os.PathLike[str]] = ()
+    ) -> Case:
         """Read the case file at `path`."""
-        return cls(path=path)
+        return cls(path=path, libraries=libraries)
 
     @classmethod
-    def from_text(cls, text: str, directory: str | os.PathLike[str] = ".") -> Case:
+    def from_text(
+        cls,
+        text: str,
+        directory: str | os.PathLike[str] = ".",
+        *,
+        libraries: Sequence[str | os.PathLike[str]] = (),
+    ) -> Case:
         """Read a case from a string; relative paths in it refer to `directory`."""
-        return cls(text, directory=directory)
+        return cls(text, directory=directory, libraries=libraries)
 
     def set(self, key: str, value: Any) -> None:
         """Replace the value at a dotted `key`, such as "solver.rtol" or "joint.hinge1.type".
@@ -185,6 +198,14 @@ class Case:
         self._overrides = overrides
 
     def _load(self, overrides: dict[str, str]) -> Scene:
+        scene = self._read(overrides)
+        if not self._libraries:
+            return scene
+        from hydrodae import _core
+
+        return _core.join_libraries(scene, self._libraries)
+
+    def _read(self, overrides: dict[str, str]) -> Scene:
         if self._path is not None and not self._path.is_file():
             raise CaseError(f"{self._path}: no such case file{_near_file(self._path)}")
         from hydrodae import _core

@@ -144,6 +144,16 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
           using T = std::remove_reference_t<decltype(value)>;
           if constexpr (std::is_same_v<T, double>) {
             value = number();
+          } else if constexpr (std::is_same_v<T, bool>) {
+            value = false;
+          } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+            if (field.required)
+              value = {number(), number()};
+          } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+            value = {"a", "ground", "b"};
+          } else if constexpr (std::is_same_v<T, std::vector<Vector3>>) {
+            for (int k = 0; k < 3; ++k)
+              value.push_back(number() * random.vector());
           } else if constexpr (std::is_same_v<T, std::string>) {
             value = field.key == "body" || field.key == "body_b" ? "b"
                     : field.key == "body_a"                      ? "a"
@@ -170,6 +180,21 @@ template <int w> element::Function smooth_function() {
   };
 }
 
+/// What a shared library might give: a load and a state that follows the first rate.
+template <int w>
+void library_law(double t, const double* x, const double* v, const double* z, const double*,
+                 double* load, double* z_dot) {
+  for (int i = 0; i < w; ++i)
+    load[i] = -x[i] * v[i] + std::cos(t) * z[0];
+  *z_dot = v[0] * v[0] - 2.0 * z[0] * x[0];
+}
+
+template <int w> const hydrodae_law* smooth_library_law() {
+  static const hydrodae_state state = {"memory", "m2/s", 0.5, 0.3};
+  static const hydrodae_law law = {"smooth", w > 1, 0, nullptr, 1, &state, library_law<w>, nullptr};
+  return &law;
+}
+
 /// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
 /// it can have one.
 inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
@@ -184,6 +209,15 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
           if constexpr (requires(Law law) { law.function; })
             for (Law& law : list)
               law.function = smooth_function<element::width(Law::port)>();
+          if constexpr (requires(Law law) { law.found; })
+            for (Law& law : list)
+              law.found = smooth_library_law<element::width(Law::port)>();
+          if constexpr (requires(Law law) { law.upper; })
+            for (Law& law : list)
+              law.upper = -0.2; // beyond it
+          if constexpr (requires(Law law) { law.reversal_rate; })
+            for (Law& law : list)
+              law.reversal_rate = 0.3;
           if constexpr (requires(Law law) { law.delay; })
             for (Law& law : list)
               law.delay = late ? 0.4 : 0.0;

@@ -16,7 +16,7 @@ import pytest
 LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
-    {"curve", "damaged", "irf", "tables"},
+    {"curve", "damaged", "irf", "mooring", "tables"},
     {"memory", "results", "schema"},
     {"panels", "post"},
     {"plot"},

@@ -54,6 +54,11 @@ template <class T> struct Field {
   std::vector<std::string_view> choices = any_word; ///< allowed words of a string; empty: any
 };
 
+/// What is wrong with the values of an entry taken together.
+struct Fault {
+  std::string key, message;
+};
+
 template <class T> using Fields = std::vector<Field<T>>;
 
 } // namespace hydrodae

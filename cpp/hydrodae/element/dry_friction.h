@@ -22,6 +22,7 @@ struct DryFriction {
       "Coulomb friction along a joint, with located sticking and slipping.";
   std::string name;
   std::string joint;
+  std::optional<std::string> coordinate;
   double static_load = 0.0;
   std::optional<double> kinetic_load;
 
@@ -35,11 +36,21 @@ struct DryFriction {
   };
   Law law() const { return {}; }
 
+  /// What is wrong with it, if anything.
+  std::optional<Fault> fault() const {
+    if (kinetic_load && *kinetic_load > static_load)
+      return Fault{"kinetic", "the kinetic friction must not be above the static one"};
+    return {};
+  }
+
   static Fields<DryFriction> fields() {
     using D = DryFriction;
     return {
         {"name", &D::name, "-", "Name of this force in the results.", true},
-        {"joint", &D::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"joint", &D::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &D::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
         {"static", &D::static_load, "N or N m", "Largest load that sticking holds.", true,
          more_than(0)},
         {"kinetic", &D::kinetic_load, "N or N m", "Load while slipping; default: as `static`.",

@@ -12,10 +12,13 @@
 ///   between          displacement and rotation vector of marker B seen    force and moment on B
 ///   about
 ///                    from marker A, relative velocities (6 each)          its marker
+///   points           places of n points of bodies or the ground, their    force on each (3 n) [N]
+///                    velocities (3 n each, earth axes)
 ///
 /// The power of a load is load . v in all of them.
 
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,10 +29,14 @@
 
 namespace hydrodae::element {
 
-enum class Port { along_joint, along_distance, on_body, between };
+enum class Port { along_joint, along_distance, on_body, between, points };
 
 constexpr bool is_along(Port p) { return p == Port::along_joint || p == Port::along_distance; }
-constexpr int width(Port p) { return is_along(p) ? 1 : 6; }
+/// Does the system keep the gradients of what such a port sees? Others are simple.
+constexpr bool has_rows(Port p) { return is_along(p) || p == Port::between; }
+constexpr int width(Port p, int n_points = 0) {
+  return p == Port::points ? 3 * n_points : is_along(p) ? 1 : 6;
+}
 
 /// A state z of a law, z' = what the law answers.
 struct Unknown {
@@ -52,6 +59,13 @@ struct Signal {
 
 /// Of "N or N m": the first along a displacement, the second along an angle.
 std::string unit_along(std::string_view unit, bool angle);
+
+/// A function of time that a law follows, known ahead: no step passes over what it does.
+struct Schedule {
+  std::string what;    ///< for messages: "the winch of rope ..."
+  double finest = 0.0; ///< time within which it may change [s]
+  std::function<double(double)> at;
+};
 
 /// What one law sees.
 template <class S> struct In {
@@ -90,6 +104,8 @@ public:
   std::vector<Quantity> channels; ///< of each law
   std::vector<Signal> inputs;     ///< of each law (n_signals,)
   std::vector<double> signals;    ///< what they are at the start (n n_signals,)
+  bool timed = false;             ///< do loads depend on the time by themselves?
+  std::vector<Schedule> schedules;
 
   std::size_t size() const { return names.size(); }
 

@@ -28,6 +28,7 @@ struct FrictionLugre {
       "it sticks there: its bristles are a spring and a damper";
   std::string name;
   std::string joint;
+  std::optional<std::string> coordinate;
   double static_load = 0.0;
   double stribeck_rate = 0.0;
   double bristle_stiffness = 0.0;
@@ -59,11 +60,21 @@ struct FrictionLugre {
     return {{{"deflection", "m or rad", static_load / bristle_stiffness, 0.0}}};
   }
 
+  /// What is wrong with it, if anything.
+  std::optional<Fault> fault() const {
+    if (kinetic_load && *kinetic_load > static_load)
+      return Fault{"kinetic", "the kinetic friction must not be above the static one"};
+    return {};
+  }
+
   static Fields<FrictionLugre> fields() {
     using F = FrictionLugre;
     return {
         {"name", &F::name, "-", "Name of this force in the results.", true},
-        {"joint", &F::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"joint", &F::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &F::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
         {"static", &F::static_load, "N or N m", "Largest load F_s that sticking holds.", true,
          more_than(0)},
         {"kinetic", &F::kinetic_load, "N or N m",

@@ -12,7 +12,9 @@
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
 ///
-/// and F may say at_rest_only, why a linear model knows little of it
+/// One that acts on points says how many, n_points.
+/// and F may say at_rest_only, why a linear model knows little of it, and that it is timed: that
+/// its load depends on the time by itself
 ///
 /// A force with states says n_states and unknowns(); one with numbers that a program may change
 /// while it runs, n_signals, inputs() and start_signals(). One header and one line in the list of
@@ -36,15 +38,23 @@ template <class F> constexpr int signals_of() {
   return 0;
 }
 
+template <class F> constexpr int points_of() {
+  if constexpr (requires { F::n_points; })
+    return F::n_points;
+  return 0;
+}
+
 template <class F> class Laws final : public Elements {
 public:
   using Law = std::remove_cvref_t<decltype(std::declval<const F&>().law())>;
-  static constexpr int w = width(F::port), nz = states_of<F>(), n_in = 2 * w + nz, n_out = w + nz,
-                       n_signals = signals_of<F>();
+  static constexpr int w = width(F::port, points_of<F>()), nz = states_of<F>(), n_in = 2 * w + nz,
+                       n_out = w + nz, n_signals = signals_of<F>();
 
   Laws() {
     type = F::type;
     shape = {F::port, w, nz, n_signals};
+    if constexpr (requires { F::timed; })
+      timed = F::timed;
     absorbs = type.starts_with("pto_");
     if constexpr (requires { F::at_rest_only; })
       at_rest_only = F::at_rest_only;

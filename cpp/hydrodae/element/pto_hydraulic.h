@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,7 @@ struct PtoHydraulic {
       "its damping there is A (p_H - p_L) / valve_rate, far above that at working rates";
   std::string name;
   std::string joint;
+  std::optional<std::string> coordinate;
   double area = 0.0;
   double motor_conductance = 0.0;
   double pressure_high = 0.0, pressure_low = 0.0;
@@ -72,11 +74,21 @@ struct PtoHydraulic {
     values[1] = motor_conductance * drop * drop;
   }
 
+  /// What is wrong with it, if anything.
+  std::optional<Fault> fault() const {
+    if (pressure_low > pressure_high)
+      return Fault{"pressure_low", "the low accumulator has more pressure than the high one"};
+    return {};
+  }
+
   static Fields<PtoHydraulic> fields() {
     using P = PtoHydraulic;
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
-        {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"joint", &P::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &P::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
         {"area", &P::area, "m2 or m3/rad", "Area A of the piston; on a rotation times its lever.",
          true, more_than(0)},
         {"motor_conductance", &P::motor_conductance, "m3/(s Pa)",

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,7 @@ struct PtoLinear {
       "Linear power take-off along a joint: f = -k (s - s0) - c s'.";
   std::string name;
   std::string joint;
+  std::optional<std::string> coordinate;
   double damping = 0.0;
   double stiffness = 0.0;
   double neutral = 0.0;
@@ -57,7 +59,10 @@ struct PtoLinear {
     using P = PtoLinear;
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
-        {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"joint", &P::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &P::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
         {"damping", &P::damping, "N s/m or N m s/rad", "Damping c.", false, at_least(0)},
         {"stiffness", &P::stiffness, "N/m or N m/rad", "Stiffness k.", false, at_least(0)},
         {"neutral", &P::neutral, "m or rad", "Joint coordinate s0 at which the spring is slack."},

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -69,8 +70,10 @@ struct PythonLoad {
   static constexpr std::string_view type = "python_load";
   static constexpr std::string_view doc = "Load along a joint by a Python function f(t, s, s').";
   static constexpr Port port = Port::along_joint;
+  static constexpr bool timed = true;
   std::string name;
   std::string joint;
+  std::optional<std::string> coordinate;
   Function function; ///< given by the program
 
   FunctionLaw<1> law() const { return {function}; }
@@ -83,7 +86,10 @@ struct PythonLoad {
          "hydrodae.run(..., "
          "forces={name: function}).",
          true},
-        {"joint", &P::joint, "-", "Joint with one free motion (revolute or prismatic).", true},
+        {"joint", &P::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &P::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
     };
   }
 };
@@ -95,6 +101,7 @@ struct PythonWrench {
   static constexpr std::string_view doc =
       "Force and moment on a body by a Python function f(t, displacement, twist).";
   static constexpr Port port = Port::on_body;
+  static constexpr bool timed = true;
   std::string name;
   std::string body;
   Function function; ///< given by the program

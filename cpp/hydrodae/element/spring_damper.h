@@ -2,18 +2,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hydrodae/core/field.h"
 #include "hydrodae/element/elements.h"
+#include "hydrodae/math/curve.h"
 
 namespace hydrodae::element {
 
 /// Spring and damper between a point of one body and a point of another (or of the ground).
 ///
-///   f = -k (s - s0) - c s' + f0      [N], s the distance of the points [m], f > 0 pushes them
-///   apart
+///   f = -k d - k2 d^2 - k3 d^3 - ... - F(d) - c s' + f0      [N], f > 0 pushes them apart
 ///
-/// The points are given in the reference pose. The law is not defined where they coincide.
+/// s: distance of the points [m], d = s - s0; F: a curve through measured points, straight beyond
+/// its ends. A negative k pushes away from s0. The points are given in the reference pose. The law
+/// is not defined where they coincide.
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
   static constexpr Port port = Port::along_distance;
@@ -29,22 +32,50 @@ struct SpringDamper {
   double damping = 0.0;
   double force = 0.0;
   std::optional<double> length; ///< s0; by default the distance in the reference pose
+  std::vector<double> hardening;
+  std::vector<double> curve_at, curve_force;
 
   /// The law that the system evaluates, with s0 known.
   struct Law {
     double stiffness, damping, force, length;
+    std::vector<double> hardening;
+    Curve curve;
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
-      *out.load = S(force) - S(stiffness) * (*in.x - S(length)) - S(damping) * *in.v;
+      const S d = *in.x - S(length);
+      S f = S(force) - S(stiffness) * d - S(damping) * *in.v, power = d;
+      for (const double k : hardening) {
+        power *= d;
+        f -= S(k) * power;
+      }
+      if (!curve.empty())
+        f -= curve(d);
+      *out.load = f;
     }
-    template <class J> void jacobian(const In<double>&, J& j) const { j << -stiffness, -damping; }
     double energy(const In<double>& in) const {
-      const double stretched = *in.x - length;
-      return 0.5 * stiffness * stretched * stretched - force * stretched;
+      const double d = *in.x - length;
+      double sum = 0.5 * stiffness * d * d - force * d, power = 0.5 * d * d, n = 2.0;
+      for (const double k : hardening) {
+        power *= n / (n + 1.0) * d;
+        n += 1.0;
+        sum += k * power;
+      }
+      if (!curve.empty())
+        sum += curve.area(d) - curve.area(0.0);
+      return sum;
     }
   };
   Law law() const {
-    return {stiffness, damping, force, length.value_or((point_b - point_a).norm())};
+    return {stiffness, damping,
+            force,     length.value_or((point_b - point_a).norm()),
+            hardening, curve_at.empty() ? Curve() : Curve(curve_at, curve_force)};
+  }
+
+  /// What is wrong with it, if anything.
+  std::optional<Fault> fault() const {
+    if (const std::string_view wrong = Curve::fault(curve_at, curve_force); !wrong.empty())
+      return Fault{"curve_at", "'curve_at' " + std::string(wrong) + " 'curve_force'"};
+    return {};
   }
 
   static Fields<SpringDamper> fields() {
@@ -57,13 +88,16 @@ struct SpringDamper {
          true},
         {"point_b", &D::point_b, "m", "Point of the second body in the reference pose, world axes.",
          true},
-        {"stiffness", &D::stiffness, "N/m", "Stiffness k.", false, at_least(0)},
+        {"stiffness", &D::stiffness, "N/m", "Stiffness k; negative: it pushes away from `length`."},
         {"damping", &D::damping, "N s/m", "Damping c.", false, at_least(0)},
         {"force", &D::force, "N", "Constant part f0, positive apart."},
         {"length", &D::length, "m",
          "Length s0 at which the spring is slack; default: distance of the points in the reference "
          "pose.",
          false, at_least(0)},
+        {"hardening", &D::hardening, "N/m2, N/m3, ...", "k2, k3, ... of the powers of s - s0."},
+        {"curve_at", &D::curve_at, "m", "Places s - s0, ascending, of `curve_force`."},
+        {"curve_force", &D::curve_force, "N", "Forces F there, together for > 0."},
     };
   }
 };

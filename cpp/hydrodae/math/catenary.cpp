@@ -14,6 +14,7 @@ constexpr double smallest = std::numeric_limits<double>::min();
 struct Span {
   double x = 0.0, z = 0.0;
   double x_H = 0.0, x_V = 0.0, z_V = 0.0; ///< at this length; z_H = x_V
+  double phi = 0.0; ///< int (T + T^2 / 2 EA) ds: x and z are its derivatives by H and V
 };
 
 /// A length L of weight w whose vertical force is V at its lower end, V + w L at its upper end:
@@ -53,6 +54,8 @@ Span hang(double H, double V, double L, double w, double EA) {
   out.x_H = arc - lean + L / EA;
   out.x_V = -sign * H * L * rise / (Ta * Tb);
   out.z_V = lean + L / EA;
+  out.phi = 0.25 * L * (Ta + Tb + (a + b) * rise) + 0.5 * H * H * arc +
+            (H * H + (a * a + a * b + b * b) / 3.0) * L / (2.0 * EA);
   return out;
 }
 
@@ -65,9 +68,11 @@ struct Walk {
   bool lies = false;   ///< all that comes next, on the bed
   double pull = H;     ///< there
   double by_V = 0.0;   ///< d pull / dV: as V lifts the line off the bed, less friction acts
+  double phi = 0.0;    ///< complementary energy [J]
   CatenaryReach out = {};
 
   void add_span(const Span& a) {
+    phi += a.phi;
     out.X += a.x;
     out.Z += a.z;
     out.gradient(0, 0) += a.x_H;
@@ -106,6 +111,7 @@ struct Walk {
     const double taut = held * length > pull ? pull / held : length;
     out.X += length + (pull - 0.5 * held * taut) * taut / part.stiffness;
     out.on_bed += length;
+    phi += (pull + 0.5 * pull * pull / part.stiffness) * length; // without friction
     out.gradient(0, 0) += taut / part.stiffness;
     out.gradient(0, 1) += by_V * taut / part.stiffness;
     lose(held * taut);
@@ -327,6 +333,12 @@ CatenaryHold hold(const Catenary& line, double X, double Z) {
   if (!(std::hypot(X - r.X, Z - r.Z) <= 1e-9 * std::max(line.length(), std::hypot(X, Z))))
     return describe(r, nan, nan, Eigen::Matrix2d::Constant(nan), nan);
   return describe(r, H, V, r.gradient.inverse(), H / X);
+}
+
+double energy(const Catenary& line, const CatenaryHold& found, double X, double Z) {
+  Walk walk{.line = line, .H = std::max(found.horizontal, speck(line)), .V = found.vertical};
+  walk.run();
+  return found.horizontal * X + found.vertical * Z - walk.phi;
 }
 
 std::vector<LinePoint> profile(const Catenary& line, const CatenaryHold& found, double X,

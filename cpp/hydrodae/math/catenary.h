@@ -56,6 +56,10 @@ CatenaryReach reach(const Catenary& line, double H, double V);
 /// Pure: the same answer for the same place.
 CatenaryHold hold(const Catenary& line, double X, double Z);
 
+/// Energy that the line stores, by its stretch and its height [J], over a bed without friction: H
+/// and V are its derivatives by X and Z. Zero is where nothing else is.
+double energy(const Catenary& line, const CatenaryHold& found, double X, double Z);
+
 /// A point of the line.
 struct LinePoint {
   double s = 0.0;       ///< unstretched length from the anchor [m]

@@ -34,6 +34,12 @@ void check_reference(const Entry& entry, const std::string& key, const std::stri
 void check_ends(const Scene& scene, const Entry& entry, const std::string& body_a,
                 const std::string& body_b);
 
+/// Refuses `joint_key = joint` unless that joint has a motion, and `coordinate_key = coordinate`
+/// unless it is one of its motions.
+void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::string& joint_key,
+                            const std::string& joint, const std::string& coordinate_key,
+                            const std::optional<std::string>& coordinate);
+
 /// Are two points of a scene the same, up to rounding [m]?
 bool coincide(const Vector3& a, const Vector3& b);
 

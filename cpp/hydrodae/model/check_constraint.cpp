@@ -5,9 +5,7 @@
 #include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::model {
-namespace {
 
-/// `joint_key` names a joint with a motion, `coordinate_key` one of its motions.
 void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::string& joint_key,
                             const std::string& joint, const std::string& coordinate_key,
                             const std::optional<std::string>& coordinate) {
@@ -22,6 +20,8 @@ void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::s
     check_reference(entry, coordinate_key, *coordinate, names,
                     "motion of joint " + in_quotes(joint));
 }
+
+namespace {
 
 void check_body_coordinate(const Scene& scene, const Entry& entry, const std::string& name,
                            const std::optional<std::string>& coordinate) {

@@ -1,18 +1,22 @@
+#include "hydrodae/core/text.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
 namespace {
 
-/// The joint has one motion, along which the force acts.
-void check_single_motion(const Scene& scene, const Entry& entry, const std::string& name) {
-  check_reference(entry, "joint", name, names_of(scene.joints), "joint");
-  const Joint& joint = *find_named(scene.joints, name);
-  const std::size_t n = joint::find_joint_type(joint.type)->motions.size();
-  if (n != 1)
+/// The joint has the coordinate along which the force acts; `coordinate` says which of several.
+/// @returns whether it is an angle
+bool check_motion(const Scene& scene, const Entry& entry, const std::string& name,
+                  const std::optional<std::string>& coordinate) {
+  check_joint_coordinate(scene, entry, "joint", name, "coordinate", coordinate);
+  const std::string& type = find_named(scene.joints, name)->type;
+  const std::vector<std::string> motions = joint::motion_names(*joint::find_joint_type(type));
+  if (!coordinate && motions.size() > 1)
     refuse(entry, "joint",
-           "a " + joint.type + " joint has " + (n == 0 ? "no motion" : "more than one motion") +
-               " of its own to act along; use a joint that turns or slides");
+           "a " + type + " joint has more than one coordinate: name one by the key 'coordinate'" +
+               suggestion("", motions));
+  return coordinate.value_or(motions.front()).starts_with("angle");
 }
 
 /// What a force refers to is read off its members: `body` names a body, `joint` a joint, `body_a`
@@ -21,22 +25,37 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
   const Entry entry{"force", force.name};
   if constexpr (requires { force.body; })
     check_reference(entry, "body", force.body, names_of(scene.bodies), "body");
-  if constexpr (requires { force.joint; })
-    check_single_motion(scene, entry, force.joint);
-  if constexpr (requires { force.pressure_high; }) {
-    if (force.pressure_low > force.pressure_high)
-      refuse(entry, "pressure_low", "the low accumulator has more pressure than the high one");
+  if constexpr (requires { force.joint; }) {
+    const bool angle = check_motion(scene, entry, force.joint, force.coordinate);
+    if constexpr (requires { force.lower_angle; }) {
+      if (angle && (force.lower || force.upper))
+        refuse(entry, force.lower ? "lower" : "upper",
+               "the coordinate is an angle: write 'lower_deg' and 'upper_deg'");
+      if (!angle && (force.lower_angle || force.upper_angle))
+        refuse(entry, force.lower_angle ? "lower_deg" : "upper_deg",
+               "the coordinate is a displacement: write 'lower' and 'upper'");
+    }
   }
-  if constexpr (requires { force.kinetic_load; }) {
-    if (force.kinetic_load && *force.kinetic_load > force.static_load)
-      refuse(entry, "kinetic", "the kinetic friction must not be above the static one");
-  }
+  if constexpr (requires { force.fault(); })
+    if (const std::optional<Fault> fault = force.fault())
+      refuse(entry, fault->key, fault->message);
   if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
     if constexpr (requires { force.point_a; })
       if (coincide(force.point_a, force.point_b))
         refuse(entry, "point_b",
                "point_a and point_b coincide in the reference pose: the force has no direction");
+  }
+  if constexpr (requires { force.bodies; }) {
+    std::vector<std::string> names = names_of(scene.bodies);
+    names.emplace_back(ground);
+    bool moves = false;
+    for (const std::string& body : force.bodies) {
+      check_reference(entry, "bodies", body, names, "body");
+      moves = moves || body != ground;
+    }
+    if (!moves)
+      refuse(entry, "bodies", "acts on the ground only");
   }
   if constexpr (requires { force.axis_x; }) {
     const Vector3 z = force.axis.value_or(Vector3::UnitZ());

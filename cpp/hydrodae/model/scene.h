@@ -13,14 +13,21 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
 #include "hydrodae/element/bushing.h"
+#include "hydrodae/element/catenary_line.h"
 #include "hydrodae/element/constant_load.h"
 #include "hydrodae/element/dry_friction.h"
+#include "hydrodae/element/end_stop.h"
 #include "hydrodae/element/friction_lugre.h"
+#include "hydrodae/element/friction_stribeck.h"
+#include "hydrodae/element/library_law.h"
 #include "hydrodae/element/mooring_matrix.h"
 #include "hydrodae/element/morison.h"
+#include "hydrodae/element/pto_general.h"
 #include "hydrodae/element/pto_hydraulic.h"
 #include "hydrodae/element/pto_linear.h"
+#include "hydrodae/element/pto_rotary.h"
 #include "hydrodae/element/python_law.h"
+#include "hydrodae/element/rope.h"
 #include "hydrodae/element/spring_damper.h"
 #include "hydrodae/element/viscous_damping.h"
 #include "hydrodae/hydro/database.h"
@@ -296,13 +303,17 @@ struct OutputOptions {
 };
 
 /// Every kind of force, in the order in which the case reader and the system visit them. A new kind
-/// is one header in force/ and one entry here.
+/// is one header in element/ and one entry here.
 using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<element::PtoLinear>,
                           std::vector<element::SpringDamper>, std::vector<element::ConstantLoad>,
                           std::vector<element::ViscousDamping>, std::vector<element::DryFriction>,
                           std::vector<element::PtoHydraulic>, std::vector<element::FrictionLugre>,
                           std::vector<element::Bushing>, std::vector<element::PythonLoad>,
-                          std::vector<element::PythonWrench>>;
+                          std::vector<element::PythonWrench>, std::vector<element::PtoGeneral>,
+                          std::vector<element::PtoRotary>, std::vector<element::FrictionStribeck>,
+                          std::vector<element::EndStop>, std::vector<element::Rope>,
+                          std::vector<element::CatenaryLine>, std::vector<element::LibraryLoad>,
+                          std::vector<element::LibraryWrench>>;
 
 struct Scene {
   std::string title;

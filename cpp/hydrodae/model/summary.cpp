@@ -114,6 +114,8 @@ template <class Force> void write_force(std::ostream& out, const Force& force) {
       out << ", " << number_text(force.delay) << " s late";
   if constexpr (requires { force.body_a; })
     out << " between " << force.body_a << " and " << force.body_b;
+  if constexpr (requires { force.bodies; })
+    out << " over " << force.bodies.size() << " points of " << joined(force.bodies);
   out << '\n';
 }
 

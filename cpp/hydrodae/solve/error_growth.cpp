@@ -19,6 +19,7 @@ ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern
       most_(4 * every), every_(every) {
   linearise(t);
   first_by_y_ = by_y_;
+  first_u_ = y_.segment(s.u0, s.n_u);
   if (error_.vector.size() > 0)
     return;
   error_.change = VectorX::Zero(s.n_groups);
@@ -112,9 +113,10 @@ void ErrorGrowth::fade(Index g, double factor) {
     error_.piled[g] *= factor;
 }
 
-/// Of stiffness and damping, in the units of the unknowns, relative to the largest of each row and
-/// to its inertia (the directions of reactions turn in linear motions, too). Between looks that are
-/// too far apart errors would seem to grow that do not.
+/// In the units of the unknowns, relative to the largest of each row and to its inertia (the
+/// directions of reactions turn in linear motions, too). Between looks, of stiffness and damping:
+/// where they are too far apart errors would seem to grow that do not. Against the first look, of
+/// what frequencies come of: stiffness and the gyroscopic moments, not valves and friction.
 void ErrorGrowth::find_change(const VectorX& rate) {
   constexpr double much = 0.25, little = 0.05;
   const system::Pattern& p = e_.pattern;
@@ -124,25 +126,36 @@ void ErrorGrowth::find_change(const VectorX& rate) {
     for (Index c = 0; c < s_.z0; ++c)
       for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
         if (p.row[k] >= s_.u0 && p.row[k] < s_.z0)
-          visit(k, p.row[k], s_.scale[c]);
+          visit(k, p.row[k], c, s_.scale[c]);
   };
-  entries([&](Index k, Index row, double scale) {
+  entries([&](Index k, Index row, Index, double scale) {
     const double inertia =
         std::abs(e_.parts.by_yp[k]) * rate[s_.group[static_cast<std::size_t>(row)]];
     row_size_[row] =
         std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]), scale * std::abs(by_y_[k]),
                   scale * std::abs(first_by_y_[k]), scale * inertia});
   });
-  entries([&](Index k, Index row, double scale) {
+  const auto take = [&](Index row, double difference, double& change) {
+    if (difference > change * row_size_[row])
+      change = difference / row_size_[row];
+  };
+  entries([&](Index k, Index row, Index column, double scale) {
     const int group = s_.group[static_cast<std::size_t>(row)];
-    const auto take = [&](double before, double& change) {
-      const double difference = scale * std::abs(e_.parts.by_y[k] - before);
-      if (difference > change * row_size_[row])
-        change = difference / row_size_[row];
-    };
-    take(by_y_[k], change_[group]);
-    take(first_by_y_[k], error_.change[group]);
+    take(row, scale * std::abs(e_.parts.by_y[k] - by_y_[k]), change_[group]);
+    if (column < s_.u0)
+      take(row, scale * std::abs(e_.parts.by_y[k] - first_by_y_[k]), error_.change[group]);
   });
+  for (const system::BodyData& b : s_.bodies) {
+    if (b.rotation != system::BodyData::Rotation::free || b.group < 0)
+      continue;
+    const Index w = b.u0 + b.n_translations;
+    const Matrix3 change = (system::gyroscopic_matrix(b.inertia, y_.segment<3>(w)) -
+                            system::gyroscopic_matrix(b.inertia, first_u_.segment<3>(w - s_.u0)))
+                               .cwiseAbs();
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        take(w + i, s_.scale[w + k] * change(i, k), error_.change[b.group]);
+  }
   const double most = change_.size() > 0 ? change_.maxCoeff() : 0.0;
   if (most > much)
     every_ = std::max(fewest_, every_ / 2);

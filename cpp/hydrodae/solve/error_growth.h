@@ -58,13 +58,13 @@ public:
   /// Fades E where the equations changed too much between these looks to tell.
   void fade(Index group, double factor);
 
-  /// Largest change of the linearised equations against those of the start, by group, relative to
-  /// their own size (n_groups,): 0 of linear equations.
+  /// Largest change of stiffness and gyroscopic moments against those of the start, by group,
+  /// relative to their own size (n_groups,): 0 where frequencies do not depend on amplitudes.
   const VectorX& change() const { return error_.change; }
 
   void remember(Archive& a) {
-    a(error_, by_y_, by_rate_, first_by_y_, growth_, fade_, change_, since_, window_, every_,
-      steps_);
+    a(error_, by_y_, by_rate_, first_by_y_, first_u_, growth_, fade_, change_, since_, window_,
+      every_, steps_);
   }
 
 private:
@@ -80,6 +80,7 @@ private:
   Error error_;
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
   std::vector<double> first_by_y_;     ///< at the first
+  VectorX first_u_;                    ///< velocities there (n_u,)
   VectorX rhs_, y_, yp_, growth_, fade_, change_, row_size_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]

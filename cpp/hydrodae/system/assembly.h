@@ -108,6 +108,8 @@ template <class Sink> struct Assembly {
   template <int w, int n>
   void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,
            int n_states, Index z);
+  void law_of_points(const PortData& port, const double* load, const double* jacobian, int n_states,
+                     Index z);
   void elements();
 
   void run() {
@@ -236,8 +238,7 @@ template <class Sink> void Assembly<Sink>::body_rows() {
     Matrix6 mass = Matrix6::Zero(), gyroscopic = Matrix6::Zero();
     mass.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
     mass.bottomRightCorner<3, 3>() = b.inertia;
-    gyroscopic.bottomRightCorner<3, 3>() =
-        skew<double>(body.w) * b.inertia - skew<double>(b.inertia * body.w);
+    gyroscopic.bottomRightCorner<3, 3>() = gyroscopic_matrix(b.inertia, body.w);
     for (int k = 0; k < b.n_active; ++k) {
       acceleration_columns(b.u0 + k, i, mass.row(b.active[k]));
       if constexpr (whole)

@@ -46,6 +46,49 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
   }
 }
 
+/// The same of a law on points of bodies.
+template <class Sink>
+void Assembly<Sink>::law_of_points(const PortData& port, const double* load, const double* jacobian,
+                                   int n_states, Index z) {
+  using Matrix36 = Eigen::Matrix<double, 3, 6>;
+  const auto n = static_cast<Index>(port.points.size()), w = 3 * n;
+  const Eigen::Map<const MatrixX> J(jacobian, w + n_states, 2 * w + n_states);
+  for (Index k = 0; k < n_states; ++k) {
+    sink.by_yp(z + k, z + k, 1.0);
+    for (Index m = 0; m < n_states; ++m)
+      sink.by_y(z + k, z + m, -J(w + k, 2 * w + m));
+  }
+  for (Index a = 0; a < n; ++a) {
+    const joint::Marker& point = port.points[static_cast<std::size_t>(a)];
+    if (point.body < 0)
+      continue;
+    const PointGradient seen = point_gradient(state(point.body), point.point, load + 3 * a);
+    const Matrix36 &A = seen.A, &V = seen.V;
+    load_by_displacement(point.body, point.body, seen.turn);
+    for (Index b = 0; b < n; ++b) { // what the motion of this point does to the loads at all
+      const joint::Marker& other = port.points[static_cast<std::size_t>(b)];
+      if (other.body < 0)
+        continue;
+      const Matrix3 f_x = J.block<3, 3>(3 * b, 3 * a), f_v = J.block<3, 3>(3 * b, w + 3 * a);
+      const BodyState<double>& o = state(other.body);
+      Matrix36 arm;
+      arm << Matrix3::Identity(), -o.R * skew<double>(other.point);
+      load_by_displacement(other.body, point.body, arm.transpose() * (f_x * A + f_v * V));
+      load_by_velocity(other.body, point.body, arm.transpose() * (f_v * A));
+    }
+    const BodyData& body = s.bodies[point.body];
+    for (Index k = 0; k < n_states; ++k) {
+      const Eigen::Matrix<double, 1, 3> h_x = J.block<1, 3>(w + k, 3 * a),
+                                        h_v = J.block<1, 3>(w + k, w + 3 * a);
+      displacement_columns(z + k, point.body, -(h_x * A + h_v * V));
+      velocity_columns(z + k, point.body, -(h_v * A));
+      const Vector6 by_z = A.transpose() * J.block<3, 1>(3 * a, 2 * w + k);
+      for (int c = 0; c < body.n_active; ++c)
+        sink.by_y(body.u0 + c, z + k, -by_z[body.active[c]]);
+    }
+  }
+}
+
 template <class Sink> void Assembly<Sink>::elements() {
   using element::Port;
   for (std::size_t l = 0; l < s.elements.size(); ++l) {
@@ -61,7 +104,9 @@ template <class Sink> void Assembly<Sink>::elements() {
     const Vector12* rows = scratch.rows.data();
     Index z = list.z0;
     for (const PortData& port : list.ports) {
-      if (shape.port == Port::on_body) {
+      if (shape.port == Port::points) {
+        law_of_points(port, load, J, shape.n_states, z);
+      } else if (shape.port == Port::on_body) {
         PortGradient<6, 6> d;
         body_gradient(state(port.body), port, in, load, d);
         law<6, 6>(d, {port.body, -1}, J, shape.n_states, z);

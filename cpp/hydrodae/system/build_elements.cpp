@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -45,6 +46,12 @@ template <class F> void check_given(const F& force) {
                            " is a Python function, which nobody "
                            "gave; run the case as hydrodae.run(case, forces={\"" +
                            force.name + "\": function})");
+  if constexpr (std::is_base_of_v<element::LibraryLaw, F>)
+    if (!force.found)
+      throw ModelError("force." + force.name,
+                       "force " + in_quotes(force.name) + " is the law " + in_quotes(force.law) +
+                           " of a shared library, which nobody gave: hydrodae-solve --library "
+                           "FILE, or hydrodae.Case.read(path, libraries=[FILE])");
 }
 
 template <class F> PortData make_port(const model::Scene& scene, const F& force, System& s) {
@@ -53,12 +60,15 @@ template <class F> PortData make_port(const model::Scene& scene, const F& force,
   if constexpr (F::port == Port::on_body) {
     port.body = body_index(scene, force.body);
   } else if constexpr (F::port == Port::along_joint) {
-    port.motion = joint_motion(s, force.joint, {});
+    port.motion = joint_motion(s, force.joint, force.coordinate);
     port.joint = s.motions[static_cast<std::size_t>(port.motion)].joint;
   } else if constexpr (F::port == Port::along_distance) {
     const Matrix3 axes = Matrix3::Identity();
     join_markers(force.name, spring_type, make_marker(scene, force.body_a, force.point_a, axes),
                  make_marker(scene, force.body_b, force.point_b, axes), s, port);
+  } else if constexpr (F::port == Port::points) {
+    for (const auto& [body, point] : force.ends())
+      port.points.push_back(make_marker(scene, body, point, Matrix3::Identity()));
   } else {
     const Matrix3 axes = marker_axes(force.axis, force.axis_x);
     join_markers(force.name, bushing_type, make_marker(scene, force.body_a, force.point, axes),
@@ -84,16 +94,36 @@ void add_friction(const element::DryFriction& f, const PortData& port, std::size
   add_switch(f.name, friction, s);
 }
 
+/// Some forces of one type act on more points or have more states than others: lists of equal
+/// shape.
+template <class F> std::vector<std::vector<F>> alike(const std::vector<F>& forces) {
+  if constexpr (requires(const F& f) { f.shape(); }) {
+    std::map<std::size_t, std::vector<F>> by_number;
+    for (const F& force : forces)
+      by_number[force.shape()].push_back(force);
+    std::vector<std::vector<F>> out;
+    for (auto& [n, list] : by_number)
+      out.push_back(std::move(list));
+    return out;
+  } else {
+    return {forces};
+  }
+}
+
+template <class F>
+std::shared_ptr<const element::Elements> make_laws(const std::vector<F>& forces) {
+  if constexpr (requires { F::list(forces); })
+    return F::list(forces);
+  else
+    return std::make_shared<const element::Laws<F>>(forces);
+}
+
 template <class F>
 void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s) {
-  if (forces.empty())
-    return;
   ElementList list;
-  for (const F& force : forces) {
-    check_given(force);
+  for (const F& force : forces)
     list.ports.push_back(make_port(scene, force, s));
-  }
-  list.laws = std::make_shared<const element::Laws<F>>(forces);
+  list.laws = make_laws(forces);
   list.signals = list.laws->signals;
   s.elements.push_back(std::move(list));
   if constexpr (std::is_same_v<F, element::DryFriction>)
@@ -126,7 +156,14 @@ void turn(element::LinearWrench& law, PortData& port, const HydroBody& hb) {
 } // namespace
 
 void add_elements(const model::Scene& scene, System& s) {
-  std::apply([&](const auto&... list) { (add_list(scene, list, s), ...); }, scene.forces);
+  const auto add = [&](const auto& forces) {
+    for (const auto& force : forces)
+      check_given(force);
+    if (!forces.empty())
+      for (const auto& list : alike(forces))
+        add_list(scene, list, s);
+  };
+  std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces);
 }
 
 void set_hydrostatics(const model::Scene& scene, System& s) {

@@ -72,6 +72,32 @@ void see_markers(const System& s, const Workspace<S>& ws, const PortData& port, 
     v[i] = rows[i].cwiseProduct(u).sum();
 }
 
+/// Places and velocities of points: r + R p, v + R (w x p).
+template <class S> void see_points(const Workspace<S>& ws, const PortData& port, S* x, S* v) {
+  for (const joint::Marker& point : port.points) {
+    Eigen::Map<Vec3<S>> place(x), velocity(v);
+    place = point.point.template cast<S>();
+    velocity.setZero();
+    if (point.body >= 0) {
+      const BodyState<S>& b = ws.bodies[point.body];
+      velocity = b.v + b.R * b.w.cross(place);
+      place = b.r + b.R * place.eval();
+    }
+    x += 3;
+    v += 3;
+  }
+}
+
+/// A force at a point of a body: world force, body-axes moment p x R^T f.
+template <class S>
+Vec6<S> load_at(const BodyState<S>& b, const joint::Marker& point, const S* force) {
+  const Eigen::Map<const Vec3<S>> f(force);
+  const Vec3<S> own = b.R.transpose() * f;
+  Vec6<S> load;
+  load << f, point.point.template cast<S>().cross(own);
+  return load;
+}
+
 /// What all laws of one list see, into its scratch.
 template <class S>
 void gather(const System& s, const ElementList& list, const Workspace<S>& ws, const S* y,
@@ -88,6 +114,8 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
       const Vec6<S> velocity = twist<S>(state);
       std::copy(xi.data(), xi.data() + 6, x);
       std::copy(velocity.data(), velocity.data() + 6, v);
+    } else if (shape.port == element::Port::points) {
+      see_points<S>(ws, port, x, v);
     } else if (shape.port == element::Port::between) {
       see_markers<S>(s, ws, port, x, v, rows);
       rows += 6;
@@ -107,6 +135,12 @@ void add_load(const System& s, const element::Shape& shape, const PortData& port
   if (shape.port == element::Port::on_body) {
     const Eigen::Map<const Vec6<S>> wrench(load);
     ws.loads[port.body] += to_tangent<S>(ws.bodies[port.body], wrench);
+    return;
+  }
+  if (shape.port == element::Port::points) {
+    for (std::size_t i = 0; i < port.points.size(); ++i)
+      if (const int body = port.points[i].body; body >= 0)
+        ws.loads[body] += load_at<S>(ws.bodies[body], port.points[i], load + 3 * i);
     return;
   }
   joint::Vec12<S> sum = load[0] * rows[0];
@@ -131,7 +165,7 @@ void add_elements(const System& s, Workspace<S>& ws, const S* y, const S* yp, S*
       add_load<S>(s, shape, port, out, rows, ws);
       for (int k = 0; k < shape.n_states; ++k, ++z)
         residual[z] = yp[z] - out[shape.width + k];
-      rows += shape.port == element::Port::on_body ? 0 : shape.width;
+      rows += element::has_rows(shape.port) ? shape.width : 0;
       out += shape.n_out();
     }
   }

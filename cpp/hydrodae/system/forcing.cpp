@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/elements.h"
+#include "hydrodae/system/residual.h"
 
 namespace hydrodae::system {
 
@@ -51,6 +53,7 @@ Forcing::Forcing(const System& s, double end, double output_step)
   add_drives(s, end, output_step);
   add_waves(s);
   add_paths(s);
+  add_elements(s, end, output_step);
   for (std::size_t m = 0; m < s.motions.size(); ++m)
     if (s.motions[m].motion.is_angle())
       angles_.push_back(m);
@@ -152,6 +155,43 @@ void Forcing::add_paths(const System& s) {
       curve.backward = smooth_windows(values, length);
       curves_.push_back(std::move(curve));
     }
+  }
+}
+
+/// What laws tell of themselves; of those that follow the time otherwise the loads at the start
+/// pose, at rest.
+void Forcing::add_elements(const System& s, double end, double output_step) {
+  Workspace<double> ws(s);
+  const VectorX y = initial_state(s), yp = VectorX::Zero(s.n);
+  unpack<double>(s, y.data(), yp.data(), ws.bodies);
+  const auto samples = [&](double cell) { return cells(end, cell, 2048.0, 32768.0); };
+  const auto time = [&](std::size_t i, std::size_t count) {
+    return end * static_cast<double>(i) / static_cast<double>(count);
+  };
+  for (std::size_t l = 0; l < s.elements.size(); ++l) {
+    const ElementList& list = s.elements[l];
+    const element::Elements& laws = *list.laws;
+    for (const element::Schedule& schedule : laws.schedules) {
+      const std::size_t count = samples(schedule.finest);
+      std::vector<double> values;
+      for (std::size_t i = 0; i <= count; ++i)
+        values.push_back(schedule.at(time(i, count)));
+      tracks_.push_back({schedule.what, smooth_windows(values, end), 0});
+    }
+    if (!laws.timed)
+      continue;
+    ElementScratch<double>& scratch = ws.elements[l];
+    gather<double>(s, list, ws, y.data(), scratch);
+    const std::size_t count = samples(0.5 * output_step);
+    std::vector<std::vector<double>> values(scratch.out.size());
+    for (std::size_t i = 0; i <= count; ++i) {
+      laws.evaluate(time(i, count), scratch.in.data(), list.signals.data(), scratch.out.data());
+      for (std::size_t k = 0; k < values.size(); ++k)
+        values[k].push_back(scratch.out[k]);
+    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      tracks_.push_back({"the force " + in_quotes(laws.names[k * laws.size() / values.size()]),
+                         smooth_windows(values[k], end), 0});
   }
 }
 

@@ -2,6 +2,7 @@
 /// What is known of the loads and drives ahead of time. A step's error estimate knows the load at a
 /// few points only; while nothing moves, steps grow, and would pass over what comes later.
 
+#include <string>
 #include <vector>
 
 #include "hydrodae/math/windows.h"
@@ -12,8 +13,8 @@ namespace hydrodae::system {
 /// Limits of the steps by the functions of time that act on a scene.
 class Forcing {
 public:
-  /// Samples all drives from 0 to `end` [s]; those that are Python functions at half the
-  /// `output_step` [s] or finer.
+  /// Samples all drives and all laws that follow the time from 0 to `end` [s]; those that are
+  /// Python functions at half the `output_step` [s] or finer.
   Forcing(const System& system, double end, double output_step);
 
   /// The latest time that a step may reach [s], and what limits it, in words.
@@ -32,6 +33,7 @@ private:
   void add_drives(const System& s, double end, double output_step);
   void add_waves(const System& s);
   void add_paths(const System& s);
+  void add_elements(const System& s, double end, double output_step);
   void expect(const BodyData& body, bool turns, double motion);
 
   struct Track {

@@ -27,6 +27,11 @@ struct Turns {
   void remember(Archive& a) { a(time, known, value, rate); }
 };
 
+/// d (w x I w) / dw, of the moment that turns the spin of a body [kg m2/s]; I, w in body axes.
+inline Matrix3 gyroscopic_matrix(const Matrix3& inertia, const Vector3& w) {
+  return skew<double>(w) * inertia - skew<double>(inertia * w);
+}
+
 /// What the laws of one list see and answer; rows: gradients of what they see (widths other than
 /// those on a body).
 template <class S> struct ElementScratch {
@@ -36,9 +41,9 @@ template <class S> struct ElementScratch {
   explicit ElementScratch(const ElementList& list)
       : in(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_in())),
         out(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_out())),
-        rows(list.laws->shape.port == element::Port::on_body
-                 ? 0
-                 : list.laws->size() * static_cast<std::size_t>(list.laws->shape.width)) {}
+        rows(element::has_rows(list.laws->shape.port)
+                 ? list.laws->size() * static_cast<std::size_t>(list.laws->shape.width)
+                 : 0) {}
 };
 
 /// Scratch memory of one evaluation; sized once. All that it keeps between calls is `turns`, which

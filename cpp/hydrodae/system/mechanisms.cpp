@@ -61,10 +61,12 @@ const BodyData* moving_body(const System& s, const JointData& j) {
 }
 
 const BodyData* moving_body(const System& s, const PortData& port) {
-  if (port.joint >= 0)
-    return moving_body(s, s.joints[static_cast<std::size_t>(port.joint)]);
-  const BodyData& body = s.bodies[static_cast<std::size_t>(port.body)];
-  return body.n_active > 0 ? &body : nullptr;
+  const BodyData* last = nullptr;
+  for_each_body(s, port, [&](int body) {
+    if (body >= 0 && s.bodies[static_cast<std::size_t>(body)].n_active > 0)
+      last = &s.bodies[static_cast<std::size_t>(body)];
+  });
+  return last;
 }
 
 void find_mechanisms(System& s) {
@@ -87,8 +89,12 @@ void find_mechanisms(System& s) {
   }
   s.n_mechanisms = sets.number(s, &BodyData::mechanism);
   for_each_law(s, [&](const ElementList&, std::size_t, const PortData& port) {
-    if (port.joint >= 0)
-      sets.join(s.joints[static_cast<std::size_t>(port.joint)]);
+    int first = -1;
+    for_each_body(s, port, [&](int body) {
+      sets.join(first, body);
+      if (sets.moves(body))
+        first = body;
+    });
   });
   int wet = -1;
   for (const HydroBody& hb : s.hydro.bodies) {

@@ -18,7 +18,7 @@ const JointData& joint_of(const System& system, const CouplerData& coupler);
 /// Of the bodies that a joint joins one that moves, the second if both do; null if neither.
 const BodyData* moving_body(const System& system, const JointData& joint);
 
-/// The same of a port.
+/// The last body of a port that moves.
 const BodyData* moving_body(const System& system, const PortData& port);
 
 /// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its

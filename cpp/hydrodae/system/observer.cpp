@@ -27,10 +27,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
     plan("weight", i);
   for_each_law(s_, [&](const ElementList&, std::size_t, const PortData& port) {
-    if (port.joint < 0)
-      return plan(port.component, port.body);
-    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].A.body);
-    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].B.body);
+    for_each_body(s_, port, [&](int body) { plan(port.component, body); });
   });
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {

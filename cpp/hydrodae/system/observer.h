@@ -59,6 +59,8 @@ private:
   void observe_elements(const double* y);
   void observe_law(const ElementList& list, const PortData& port, const double* load,
                    const joint::Vec12<double>* rows);
+  double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
+                        const double* load, const joint::Vec12<double>* rows) const;
   void observe_memory(const double* y);
   void observe_hydrodynamics(const double* y);
   void observe_excitation(double t);

@@ -17,9 +17,6 @@ void add_port_channels(const System& s, const element::Elements& laws, const Por
     out.push_back({head + (angle ? "torque" : "force"), 1, angle ? "N m" : "N", "-",
                    distance ? "Load along the distance, positive pushes the points apart."
                             : "Load on the coordinate of the joint, on body B."});
-    if (laws.absorbs)
-      out.push_back({head + "power_absorbed", 1, "W", "-",
-                     "Power that it takes out of the motion: minus load times rate."});
   } else if (laws.shape.port == element::Port::between) {
     const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
     const std::string frame = "marker A of " + j.name;
@@ -28,6 +25,9 @@ void add_port_channels(const System& s, const element::Elements& laws, const Por
     out.push_back({head + "displacement", 3, "m", frame, "Place of B's point seen from A's."});
     out.push_back({head + "rotation", 3, "rad", frame, "Rotation vector of B against A."});
   }
+  if (laws.absorbs)
+    out.push_back({head + "power_absorbed", 1, "W", "-",
+                   "Power that it takes out of the motion: minus load times rate."});
 }
 
 } // namespace
@@ -58,6 +58,14 @@ void Observer::observe_law(const ElementList& list, const PortData& port, const 
                            const joint::Vec12<double>* rows) {
   if (list.laws->shape.port == element::Port::on_body)
     return add_load(Eigen::Map<const Vector6>(load));
+  if (list.laws->shape.port == element::Port::points) {
+    for (std::size_t i = 0; i < port.points.size(); ++i)
+      if (const int body = port.points[i].body; body >= 0) {
+        const BodyState<double>& b = ws_.bodies[static_cast<std::size_t>(body)];
+        add_load(to_world(b, load_at<double>(b, port.points[i], load + 3 * i)));
+      }
+    return;
+  }
   joint::Vector12 sum = joint::Vector12::Zero();
   for (int i = 0; i < list.laws->shape.width; ++i)
     sum += load[i] * rows[i];
@@ -66,6 +74,18 @@ void Observer::observe_law(const ElementList& list, const PortData& port, const 
     add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.A.body)], sum.head<6>()));
   if (j.B.body >= 0)
     add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.B.body)], sum.tail<6>()));
+}
+
+/// -load . v; a delayed law sees other rates than those that it works on.
+double Observer::power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
+                                const double* load, const joint::Vec12<double>* rows) const {
+  if (element::is_along(shape.port))
+    return -*load * rows->dot(joint_velocity<double>(
+                        s_.joints[static_cast<std::size_t>(port.joint)], ws_.bodies));
+  double power = 0.0;
+  for (int i = 0; i < shape.width; ++i)
+    power -= load[i] * in[shape.width + i];
+  return power;
 }
 
 void Observer::observe_elements(const double* y) {
@@ -88,17 +108,16 @@ void Observer::observe_elements(const double* y) {
       ++energy;
       if (element::is_along(laws.shape.port)) {
         *own++ = *load;
-        if (laws.absorbs)
-          *own++ = -*load * rows->dot(joint_velocity<double>(
-                                s_.joints[static_cast<std::size_t>(port.joint)], ws_.bodies));
       } else if (laws.shape.port == element::Port::between) {
         own = std::copy(load, load + 6, own);
         own = std::copy(in, in + 6, own);
       }
+      if (laws.absorbs)
+        *own++ = power_absorbed(laws.shape, port, in, load, rows);
       own = std::copy_n(in + 2 * laws.shape.width, laws.shape.n_states, own);
       own = std::copy_n(declared, laws.channels.size(), own);
       declared += laws.channels.size();
-      rows += laws.shape.port == element::Port::on_body ? 0 : laws.shape.width;
+      rows += element::has_rows(laws.shape.port) ? laws.shape.width : 0;
       in += laws.shape.n_in();
       load += laws.shape.n_out();
     }

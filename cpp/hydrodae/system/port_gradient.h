@@ -50,6 +50,23 @@ inline void body_gradient(const BodyState<double>& b, const PortData& port, cons
   out.turn.bottomRightCorner<3, 3>() = skew<double>(b.R.transpose() * moment);
 }
 
+/// A point p of a body: dr = A dxi, dv = A du + V dxi with A = [1, -R [p]x], V = [0, -R [w x p]x];
+/// its force f loads the body by A^T f, which turns by `turn` dxi.
+struct PointGradient {
+  Eigen::Matrix<double, 3, 6> A, V;
+  Matrix6 turn;
+};
+
+inline PointGradient point_gradient(const BodyState<double>& b, const Vector3& p, const double* f) {
+  const Eigen::Map<const Vector3> force(f);
+  PointGradient out;
+  out.A << Matrix3::Identity(), -b.R * skew<double>(p);
+  out.V << Matrix3::Zero(), -b.R * skew<double>(b.w.cross(p));
+  out.turn.setZero();
+  out.turn.bottomRightCorner<3, 3>() = skew<double>(p) * skew<double>(b.R.transpose() * force);
+  return out;
+}
+
 /// Marker B seen from marker A. Places are the rows `span` of joints. Of rotations, with a the axes
 /// of A, N = R_A^T R_B, dN = -[dphi_A]x N + N [dphi_B]x:
 ///   omega = a^T (N w_B - w_A),   d theta = J(-theta) a^T (N dphi_B - dphi_A)

@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/hydro/coverage.h"
+#include "hydrodae/system/elements.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 #include "hydrodae/system/sanity.h"
@@ -95,6 +96,15 @@ const hydro::DatabaseBody* wet_body(const model::Scene& scene, int body) {
   const hydro::DatabaseBody* found =
       name && scene.database ? hydro::find_body(*scene.database, *name) : nullptr;
   return found && found->hydrostatics ? found : nullptr;
+}
+
+/// A law on points where these are.
+element::AtRest rest_at_points(const element::Elements& laws, std::size_t law, const PortData& port,
+                               const Workspace<double>& ws) {
+  const Index w = laws.shape.width;
+  VectorX x(w), v(w);
+  see_points<double>(ws, port, x.data(), v.data());
+  return element::at_rest(laws, law, x);
 }
 
 std::string names(const System& s, const FloatingGroup& group) {
@@ -228,6 +238,15 @@ std::vector<FloatingGroup> floating_groups(const System& s) {
         index[static_cast<std::size_t>(of[static_cast<std::size_t>(body)])])];
   };
   for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
+    if (!port.points.empty()) {
+      const element::AtRest rest = rest_at_points(*list.laws, law, port, ws);
+      for (std::size_t i = 0; i < port.points.size(); ++i)
+        if (const int body = port.points[i].body; body >= 0) {
+          const auto z = static_cast<Index>(3 * i + 2);
+          group_of(body).load += rest.load[z];
+          group_of(body).mooring += rest.stiffness(z, z);
+        }
+    }
     if (port.body < 0)
       return;
     FloatingGroup& group = group_of(port.body);

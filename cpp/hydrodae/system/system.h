@@ -112,6 +112,7 @@ struct PortData {
   int body = -1;            ///< in System::bodies
   int joint = -1;           ///< in System::joints; of a motion: its own
   Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
+  std::vector<joint::Marker> points; ///< of Port::points
 };
 
 /// Laws of one type with their ports.
@@ -314,6 +315,20 @@ template <class Visitor> void for_each_law(const System& s, Visitor&& visit) {
   for (const ElementList& list : s.elements)
     for (std::size_t k = 0; k < list.ports.size(); ++k)
       visit(list, k, list.ports[k]);
+}
+
+/// Visits the bodies that a port joins, -1: the ground.
+template <class Visitor>
+void for_each_body(const System& s, const PortData& port, Visitor&& visit) {
+  if (port.joint >= 0) {
+    const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+    visit(j.A.body);
+    visit(j.B.body);
+  } else if (port.body >= 0) {
+    visit(port.body);
+  }
+  for (const joint::Marker& point : port.points)
+    visit(point.body);
 }
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -10,9 +12,13 @@ from hydrodae.case import Case, parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
 
 
-def given_case(arguments: argparse.Namespace) -> Case:
-    """Read the CASE of a command, with its values of --set."""
-    return Case(path=arguments.case, values=dict(map(parse_assignment, arguments.set)))
+def given_case(arguments: argparse.Namespace, values: Mapping[str, Any] | None = None) -> Case:
+    """Read the CASE of a command, with its values of --set, these, and its libraries."""
+    return Case(
+        path=arguments.case,
+        values={**dict(map(parse_assignment, arguments.set)), **(values or {})},
+        libraries=arguments.library,
+    )
 
 
 def parse_numbers(what: str, text: str, count: int) -> list[float]:

@@ -121,6 +121,7 @@ def _common(parser: argparse.ArgumentParser) -> None:
         "--time-limit", metavar="S", type=float, help="longest wall time of a run [s] (60)"
     )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
 
 
 def _options(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -15,6 +15,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
     parser.set_defaults(call=run)
 
 

@@ -23,6 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--repeat", metavar="N", type=int, default=3, help="time: best of N (3)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
 
 
 def run(arguments: argparse.Namespace) -> int:

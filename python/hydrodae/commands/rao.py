@@ -18,6 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `hydrodae rao`."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
     parser.add_argument(
         "--periods",
         metavar="T1,T2,...",

@@ -20,6 +20,13 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
     )
     parser.add_argument(
+        "--library",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="take force laws of types library_load and library_wrench from this shared library",
+    )
+    parser.add_argument(
         "--method", metavar="NAME", help="integrator: the same as --set solver.method"
     )
     parser.add_argument(
@@ -61,15 +68,15 @@ def run(arguments: argparse.Namespace) -> int:
     from pathlib import Path
 
     from hydrodae import simulate
-    from hydrodae.case import Case, parse_assignment
+    from hydrodae.commands.arguments import given_case
     from hydrodae.progress import ProgressLine
 
-    values = dict(map(parse_assignment, arguments.set))
+    values: dict[str, object] = {}
     if arguments.method:
         values["solver.method"] = arguments.method
     if arguments.force:
         values["solver.force"] = True
-    case = Case(path=arguments.case, values=values)
+    case = given_case(arguments, values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
     how = {name: getattr(arguments, name) for name in ("verify", "checkpoint", "resume")}
     if arguments.quiet:

@@ -27,6 +27,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--result", choices=("period", "rao", "power"), required=True)
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
     parser.add_argument("--periods", metavar="T1,T2,...", help="of --result rao [s]")
     parser.add_argument(
         "--channel",

@@ -1,0 +1,135 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hydrodae/core/field.h"
+#include "hydrodae/element/elements.h"
+
+namespace hydrodae::element {
+
+/// Compliant end stops along the free motion of a joint (Hunt, Crossley, J. Appl. Mech. 42 (1975)
+/// 440-445).
+///
+///   f = -max(0, k u^n (1 + d u') + c u') r(u)     [N], or [N m] if the motion is a rotation
+///
+/// u > 0: how far s is beyond `upper`, and likewise on the other side of `lower`. It never pulls.
+/// Within the first `width` it gets hard gradually, r = 3 x^2 - 2 x^3, x = u / width; else r = 1.
+/// With c = 0, struck at a low speed v, it gives back the part 1 - 2 d v / 3 of that. Both stops
+/// are the same.
+struct EndStop {
+  static constexpr std::string_view type = "end_stop";
+  static constexpr std::string_view doc =
+      "Compliant end stops along a joint: a hardening spring with Hunt-Crossley damping.";
+  static constexpr Port port = Port::along_joint;
+  std::string name;
+  std::string joint;
+  std::optional<std::string> coordinate;
+  std::optional<double> lower, upper, lower_angle, upper_angle;
+  double stiffness = 0.0;
+  double exponent = 1.5;
+  double damping = 0.0, viscous = 0.0;
+  double width = 0.0;
+
+  /// The law that the system evaluates.
+  struct Law {
+    double lower, upper, stiffness, exponent, damping, viscous, width;
+
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      *out.load = S(0);
+      if (*in.x > S(upper))
+        *out.load = -push(*in.x - S(upper), *in.v);
+      else if (*in.x < S(lower))
+        *out.load = push(S(lower) - *in.x, -*in.v);
+    }
+
+    /// Of the spring: int k u^n r(u) du.
+    double energy(const In<double>& in) const {
+      const double u = depth(*in.x), n = exponent;
+      const double from = std::min(u, width);
+      double sum = stiffness * (std::pow(u, n + 1.0) - std::pow(from, n + 1.0)) / (n + 1.0);
+      if (from > 0.0) {
+        const double x = from / width;
+        sum +=
+            stiffness * std::pow(from, n + 1.0) * x * x * (3.0 / (n + 3.0) - 2.0 * x / (n + 4.0));
+      }
+      return sum;
+    }
+
+    void observe(const In<double>& in, const Out<const double>&, double* values) const {
+      values[0] = depth(*in.x);
+    }
+
+  private:
+    double depth(double s) const { return std::max({s - upper, lower - s, 0.0}); }
+
+    template <class S> S push(const S& u, const S& rate) const {
+      using std::exp, std::log;
+      const S spring = S(stiffness) * (exponent == 1.0 ? u : exp(S(exponent) * log(u)));
+      S f = spring * (S(1) + S(damping) * rate) + S(viscous) * rate;
+      if (f < S(0))
+        return S(0);
+      if (u < S(width)) {
+        const S x = u / S(width);
+        f *= x * x * (S(3) - S(2) * x);
+      }
+      return f;
+    }
+  };
+  Law law() const {
+    return {lower ? *lower : lower_angle.value_or(-INFINITY),
+            upper ? *upper : upper_angle.value_or(INFINITY),
+            stiffness,
+            exponent,
+            damping,
+            viscous,
+            width};
+  }
+
+  static std::vector<Quantity> channels() {
+    return {{"penetration", "m or rad", "How far the joint is beyond the stop."}};
+  }
+
+  /// What is wrong with it, if anything.
+  std::optional<Fault> fault() const {
+    const Law own = law();
+    if (lower && lower_angle)
+      return Fault{"lower_deg", "write either 'lower' or 'lower_deg'"};
+    if (upper && upper_angle)
+      return Fault{"upper_deg", "write either 'upper' or 'upper_deg'"};
+    if (!std::isfinite(own.lower) && !std::isfinite(own.upper))
+      return Fault{"upper", "a stop needs 'lower' or 'upper' (of an angle lower_deg, upper_deg)"};
+    if (own.lower > own.upper)
+      return Fault{lower ? "lower" : "lower_deg", "the lower stop must be below the upper one"};
+    return {};
+  }
+
+  static Fields<EndStop> fields() {
+    using E = EndStop;
+    return {
+        {"name", &E::name, "-", "Name of this force in the results.", true},
+        {"joint", &E::joint, "-", "Joint along which it acts.", true},
+        {"coordinate", &E::coordinate, "-",
+         "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
+         "one."},
+        {"lower", &E::lower, "m", "Coordinate below which the stop pushes back."},
+        {"upper", &E::upper, "m", "Coordinate above which it does."},
+        {"lower_deg", &E::lower_angle, "deg", "The same of a joint that turns."},
+        {"upper_deg", &E::upper_angle, "deg", "The same of a joint that turns."},
+        {"stiffness", &E::stiffness, "N/m^n or N m/rad^n", "Stiffness k.", true, more_than(0)},
+        {"exponent", &E::exponent, "-", "Exponent n: 1 a spring, 1.5 round bodies that touch.",
+         false, between(1, 10)},
+        {"damping", &E::damping, "s/m or s/rad",
+         "Damping d: at a low speed v the part 1 - 2 d v / 3 of it is given back.", false,
+         at_least(0)},
+        {"viscous", &E::viscous, "N s/m or N m s/rad", "Damping c from the first touch on, linear.",
+         false, at_least(0)},
+        {"width", &E::width, "m or rad", "Depth over which the stop gets hard.", false,
+         at_least(0)},
+    };
+  }
+};
+
+} // namespace hydrodae::element
