@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hydrodae/element/excitation.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/history.h"
@@ -309,6 +310,12 @@ inline void turn_mean_axes(system::System& s) {
     hb.sin_yaw = std::sin(yaw);
     yaw -= 1.1;
   }
+  for (system::ElementList& list : s.elements)
+    if (const auto* waves = dynamic_cast<const element::Excitation*>(list.laws.get())) {
+      auto turned = std::make_shared<element::Excitation>(*waves);
+      turned->turn(s.hydro.bodies);
+      list.laws = std::move(turned);
+    }
 }
 
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.

@@ -12,7 +12,8 @@
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
 ///
-/// and F may say at_rest_only, why a linear model knows little of it
+/// and F may say at_rest_only, why a linear model knows little of it; lost, what it lacks of those
+/// that are lost_at_rest; and work, how its work counts.
 ///
 /// A force with states says n_states and unknowns(); one with numbers that a program may change
 /// while it runs, n_signals, inputs() and start_signals(). One header and one line in the list of
@@ -48,6 +49,10 @@ public:
     absorbs = type.starts_with("pto_");
     if constexpr (requires { F::at_rest_only; })
       at_rest_only = F::at_rest_only;
+    if constexpr (requires { F::lost; })
+      lost = F::lost;
+    if constexpr (requires { F::work; })
+      work = F::work;
     if constexpr (requires { F::channels(); })
       channels = F::channels();
     if constexpr (requires { F::inputs(); })

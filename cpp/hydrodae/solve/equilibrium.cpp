@@ -274,9 +274,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
 
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
-  s.hydro.excitation = sea::Signals();
-  s.hydro.drifting = sea::DriftingSignals();
-  s.water.terms.clear();
+  system::calm(s);
   VectorX y = system::initial_state(s);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "

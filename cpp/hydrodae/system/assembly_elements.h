@@ -46,22 +46,40 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
   }
 }
 
+/// Of a load in the water, whose Jacobian is by the tangent coordinates of its body.
+template <class Sink>
+void Assembly<Sink>::law_in_water(int body, const double* jacobian, bool feels_rates) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, 18>> J(jacobian);
+  if constexpr (whole)
+    load_by_displacement(body, body, J.template leftCols<6>());
+  if (!feels_rates)
+    return;
+  if constexpr (whole)
+    load_by_velocity(body, body, J.template middleCols<6>(6));
+  load_by_acceleration(body, body, J.template rightCols<6>());
+}
+
 template <class Sink> void Assembly<Sink>::elements() {
   using element::Port;
   for (std::size_t l = 0; l < s.elements.size(); ++l) {
     const ElementList& list = s.elements[l];
     const element::Shape& shape = list.laws->shape;
+    if (!whole && !(shape.in_water() && shape.feels_rates))
+      continue;
     ElementScratch<double>& scratch = ws.state.elements[l];
     gather<double>(s, list, ws.state, y, scratch);
     const double* in = scratch.in.data();
     const double* signals = list.signals.data();
-    list.laws->evaluate(t, in, signals, scratch.out.data());
+    if (!shape.in_water()) // whose Jacobian holds how the load turns
+      list.laws->evaluate(t, in, signals, scratch.out.data());
     list.laws->jacobian(t, in, signals, ws.element_jacobian.data());
     const double *load = scratch.out.data(), *J = ws.element_jacobian.data();
     const Vector12* rows = scratch.rows.data();
     Index z = list.z0;
     for (const PortData& port : list.ports) {
-      if (shape.port == Port::on_body) {
+      if (shape.in_water()) {
+        law_in_water(port.body, J, shape.feels_rates);
+      } else if (shape.port == Port::on_body) {
         PortGradient<6, 6> d;
         body_gradient(state(port.body), port, in, load, d);
         law<6, 6>(d, {port.body, -1}, J, shape.n_states, z);
@@ -81,7 +99,7 @@ template <class Sink> void Assembly<Sink>::elements() {
       }
       in += shape.n_in();
       load += shape.n_out();
-      J += shape.n_in() * shape.n_out();
+      J += shape.n_columns() * shape.n_out();
       z += shape.n_states;
     }
   }

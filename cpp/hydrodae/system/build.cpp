@@ -116,6 +116,17 @@ void set_state(System& s, SwitchData& element, SwitchData::State state) {
                                     : 0.0;
 }
 
+bool System::has_waves() const {
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const ElementList& list) { return list.laws->waves().omega.size() > 0; });
+}
+
+void calm(System& s) {
+  for (ElementList& list : s.elements)
+    if (auto without = list.laws->calm())
+      list.laws = std::move(without);
+}
+
 System build(const model::Scene& scene, bool with_excitation) {
   System s;
   s.gravity = scene.environment.gravity;
@@ -127,9 +138,9 @@ System build(const model::Scene& scene, bool with_excitation) {
   set_body_scales(scene, s);
   select_rows(s);
   add_hydro(scene, s);
-  add_morison(scene, s);
   add_constraints(scene, s);
   add_elements(scene, s);
+  add_morison(scene, s);
   for (const model::Marker& m : scene.markers)
     s.markers.push_back({m.name, body_index(scene, m.body),
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,

@@ -8,20 +8,6 @@
 
 namespace hydrodae::system {
 
-/// World force and body-axes moment of a wrench given in earth axes.
-template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
-  Vec6<S> load;
-  load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
-  return load;
-}
-
-/// Force and moment in world axes of a load given as world force and body-axes moment.
-inline Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
-  Vector6 load;
-  load << tangent.head<3>(), state.R * tangent.tail<3>();
-  return load;
-}
-
 /// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
 /// or where there is none the place where the motion stands, at rest.
 template <class S>
@@ -88,13 +74,15 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
       const Vec6<S> velocity = twist<S>(state);
       std::copy(xi.data(), xi.data() + 6, x);
       std::copy(velocity.data(), velocity.data() + 6, v);
+    } else if (shape.in_water()) {
+      element::write(ws.bodies[port.body], in);
     } else if (shape.port == element::Port::between) {
       see_markers<S>(s, ws, port, x, v, rows);
       rows += 6;
     } else {
       see_motion<S>(s, ws, port, x, v, *rows++);
     }
-    std::copy(z, z + shape.n_states, in + 2 * shape.width);
+    std::copy(z, z + shape.n_states, in + shape.n_in() - shape.n_states);
     z += shape.n_states;
     in += shape.n_in();
   }
@@ -104,9 +92,10 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
 template <class S>
 void add_load(const System& s, const element::Shape& shape, const PortData& port, const S* load,
               const joint::Vec12<S>* rows, Workspace<S>& ws) {
-  if (shape.port == element::Port::on_body) {
+  if (element::is_on_body(shape.port)) {
     const Eigen::Map<const Vec6<S>> wrench(load);
-    ws.loads[port.body] += to_tangent<S>(ws.bodies[port.body], wrench);
+    ws.loads[port.body] +=
+        shape.in_water() ? Vec6<S>(wrench) : to_tangent<S>(ws.bodies[port.body], wrench);
     return;
   }
   joint::Vec12<S> sum = load[0] * rows[0];
@@ -131,7 +120,7 @@ void add_elements(const System& s, Workspace<S>& ws, const S* y, const S* yp, S*
       add_load<S>(s, shape, port, out, rows, ws);
       for (int k = 0; k < shape.n_states; ++k, ++z)
         residual[z] = yp[z] - out[shape.width + k];
-      rows += shape.port == element::Port::on_body ? 0 : shape.width;
+      rows += element::is_on_body(shape.port) ? 0 : shape.width;
       out += shape.n_out();
     }
   }

@@ -20,38 +20,33 @@ int component_index(Observation& out, const std::string& name) {
 } // namespace
 
 Observer::Observer(const System& system) : s_(system), ws_(system) {
-  auto plan = [&](const std::string& component, int body, bool part = false) {
-    if (body >= 0)
-      out_.loads.push_back({component_index(out_, component), body, part});
+  using element::Work;
+  const auto plan = [&](const std::string& component, int body, Work work) {
+    if (body < 0)
+      return;
+    out_.loads.push_back({component_index(out_, component), body});
+    out_.works.resize(out_.components.size(), work);
   };
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
-    plan("weight", i);
-  for_each_law(s_, [&](const ElementList&, std::size_t, const PortData& port) {
-    if (port.joint < 0)
-      return plan(port.component, port.body);
-    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].A.body);
-    plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].B.body);
+    plan("weight", i, Work::lent);
+  for_each_law(s_, [&](const ElementList& list, std::size_t, const PortData& port) {
+    if (port.joint >= 0) {
+      plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].A.body, list.laws->work);
+      plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].B.body, list.laws->work);
+      return;
+    }
+    plan(port.component, port.body, list.laws->work);
+    for (std::string_view part : list.laws->parts)
+      plan(std::string(part), port.body, Work::part);
   });
   if (s_.hydro.n_moving > 0)
     for (const HydroBody& hb : s_.hydro.bodies) {
-      plan("added_mass_inf", hb.body);
+      plan("added_mass_inf", hb.body, Work::fluid);
       if (s_.hydro.radiates())
-        plan("radiation", hb.body);
+        plan("radiation", hb.body, Work::spent);
     }
-  if (s_.has_excitation())
-    for (const HydroBody& hb : s_.hydro.bodies) {
-      plan("excitation", hb.body);
-      if (s_.hydro.split) {
-        plan("froude_krylov", hb.body, true);
-        plan("diffraction", hb.body, true);
-      }
-    }
-  for (const MorisonData& m : s_.morison)
-    plan(m.name, m.body);
   out_.components.push_back("constraints");
-  out_.parts.assign(out_.components.size(), false);
-  for (const ComponentLoad& load : out_.loads)
-    out_.parts[load.component] = load.part;
+  out_.works.push_back(Work::lent);
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
     for (const RowData& row : s_.joints[j].rows) {
@@ -70,12 +65,16 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   for (const Channel& channel : element_channels(s_))
     own += static_cast<std::size_t>(channel.width);
   out_.elements.resize(own);
-  for (const ElementList& list : s_.elements)
-    element_values_.resize(
-        std::max(element_values_.size(), list.laws->size() * (1 + list.laws->channels.size())));
+  for (const ElementList& list : s_.elements) {
+    const element::Elements& laws = *list.laws;
+    const std::size_t each = std::max(1 + laws.channels.size(), 6 * (1 + laws.parts.size()));
+    element_values_.resize(std::max(element_values_.size(), laws.size() * each));
+    if (!in_waves_ && laws.waves().omega.size() > 0)
+      in_waves_ = &laws;
+  }
+  out_.in_waves = in_waves_ != nullptr;
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
-  excitation_ = VectorX::Zero(s_.hydro.excitation.size() + s_.hydro.drifting.size());
 }
 
 /// Takes the next planned load: into the list, the power of its component, and the balance.
@@ -85,7 +84,7 @@ void Observer::add_load(const Vector6& world_load) {
   entry.load = world_load;
   entry.power = world_load.dot(twist<double>(state));
   out_.powers[entry.component] += entry.power;
-  if (!entry.part)
+  if (out_.works[entry.component] != element::Work::part)
     totals_[entry.body] -= to_tangent<double>(state, world_load);
 }
 
@@ -142,49 +141,6 @@ void Observer::observe_hydrodynamics(const double* y) {
     const Vector6 radiation =
         hydro_load<double>(h.axes, hb, state, memory_.segment<6>(row), Vector6::Zero());
     add_load(-to_world(state, radiation));
-  }
-}
-
-void Observer::observe_excitation(double t) {
-  const HydroData& h = s_.hydro;
-  if (!s_.has_excitation())
-    return;
-  if (!h.excitation.empty())
-    h.excitation(t, excitation_);
-  const Eigen::Index last = excitation_.size() - 1,
-                     all = 6 * static_cast<Eigen::Index>(h.bodies.size());
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
-    const Eigen::Index row = h.n_moving + 6 * static_cast<Eigen::Index>(i);
-    if (!h.drifting.empty()) {
-      const Vector3 moved = state.r - s_.bodies[h.bodies[i].body].reference;
-      for (Eigen::Index first = row; first < last; first += all)
-        h.drifting(t, moved[0], moved[1], first, 6, excitation_.data() + first);
-    }
-    const auto add = [&](const Vector6& force) {
-      add_load(
-          to_world(state, hydro_load<double>(h.axes, h.bodies[i], state, force, Vector6::Zero())));
-    };
-    add(excitation_.segment<6>(row));
-    if (h.split) {
-      add(excitation_.segment<6>(row + all));
-      add(excitation_.segment<6>(row) - excitation_.segment<6>(row + all));
-    }
-  }
-  if (!h.drifting.empty())
-    h.drifting(t, 0.0, 0.0, last, 1, excitation_.data() + last);
-  out_.elevation = excitation_[last];
-}
-
-void Observer::observe_morison(double t) {
-  for (const MorisonData& m : s_.morison) {
-    const BodyState<double>& state = ws_.bodies[m.body];
-    add_load(to_world(state, morison_load<double>(s_.water, m, state, t, ws_.fluid)));
-  }
-  if (!s_.has_excitation() && !s_.water.terms.empty()) {
-    const Vector3 origin = Vector3::Zero();
-    sea::fluid_on_line<double>(s_.water, t, origin, origin, 1, ws_.fluid.data());
-    out_.elevation = ws_.fluid.front().elevation;
   }
 }
 
@@ -330,8 +286,8 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   observe_weight();
   observe_elements(y.data());
   observe_hydrodynamics(y.data());
-  observe_excitation(t);
-  observe_morison(t);
+  if (in_waves_)
+    out_.elevation = in_waves_->elevation(t);
   observe_joints(y.data());
   observe_energy();
   return out_;

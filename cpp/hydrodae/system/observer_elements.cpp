@@ -53,19 +53,33 @@ std::vector<Channel> element_channels(const System& s) {
   return out;
 }
 
-/// The load of one law on its bodies, in the order in which the constructor planned them.
-void Observer::observe_law(const ElementList& list, const PortData& port, const double* load,
-                           const joint::Vec12<double>* rows) {
-  if (list.laws->shape.port == element::Port::on_body)
-    return add_load(Eigen::Map<const Vector6>(load));
-  joint::Vector12 sum = joint::Vector12::Zero();
-  for (int i = 0; i < list.laws->shape.width; ++i)
-    sum += load[i] * rows[i];
-  const JointData& j = s_.joints[static_cast<std::size_t>(port.joint)];
-  if (j.A.body >= 0)
-    add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.A.body)], sum.head<6>()));
-  if (j.B.body >= 0)
-    add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.B.body)], sum.tail<6>()));
+/// The loads of a list on its bodies, in the order in which the constructor planned them.
+void Observer::observe_ports(const ElementList& list, const ElementScratch<double>& scratch) {
+  const element::Shape& shape = list.laws->shape;
+  const double* load = scratch.out.data();
+  if (element::is_on_body(shape.port)) {
+    list.laws->report(ws_.time, scratch.in.data(), load, element_values_.data());
+    load = element_values_.data();
+    for (const PortData& port : list.ports)
+      for (std::size_t part = 0; part <= list.laws->parts.size(); ++part, load += 6) {
+        const Eigen::Map<const Vector6> own(load);
+        add_load(shape.in_water() ? to_world(ws_.bodies[static_cast<std::size_t>(port.body)], own)
+                                  : Vector6(own));
+      }
+    return;
+  }
+  const joint::Vec12<double>* rows = scratch.rows.data();
+  for (const PortData& port : list.ports) {
+    joint::Vector12 sum = joint::Vector12::Zero();
+    for (int i = 0; i < shape.width; ++i)
+      sum += load[i] * *rows++;
+    const JointData& j = s_.joints[static_cast<std::size_t>(port.joint)];
+    if (j.A.body >= 0)
+      add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.A.body)], sum.head<6>()));
+    if (j.B.body >= 0)
+      add_load(to_world(ws_.bodies[static_cast<std::size_t>(j.B.body)], sum.tail<6>()));
+    load += shape.n_out();
+  }
 }
 
 void Observer::observe_elements(const double* y) {
@@ -77,12 +91,12 @@ void Observer::observe_elements(const double* y) {
     gather<double>(s_, list, ws_, y, scratch);
     const double *in = scratch.in.data(), *load = scratch.out.data();
     laws.evaluate(ws_.time, in, list.signals.data(), scratch.out.data());
+    observe_ports(list, scratch);
     double *energy = element_values_.data(), *declared = energy + laws.size();
     laws.energy(in, list.signals.data(), energy);
     laws.observe(ws_.time, in, list.signals.data(), load, declared);
     const joint::Vec12<double>* rows = scratch.rows.data();
     for (const PortData& port : list.ports) {
-      observe_law(list, port, load, rows);
       if (port.delay < 0) // a delayed spring gives back another energy than it took
         out_.potential += *energy;
       ++energy;
@@ -95,10 +109,10 @@ void Observer::observe_elements(const double* y) {
         own = std::copy(load, load + 6, own);
         own = std::copy(in, in + 6, own);
       }
-      own = std::copy_n(in + 2 * laws.shape.width, laws.shape.n_states, own);
+      own = std::copy_n(in + laws.shape.n_in() - laws.shape.n_states, laws.shape.n_states, own);
       own = std::copy_n(declared, laws.channels.size(), own);
       declared += laws.channels.size();
-      rows += laws.shape.port == element::Port::on_body ? 0 : laws.shape.width;
+      rows += element::is_on_body(laws.shape.port) ? 0 : laws.shape.width;
       in += laws.shape.n_in();
       load += laws.shape.n_out();
     }

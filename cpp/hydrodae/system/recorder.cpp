@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace hydrodae::system {
 
@@ -21,11 +20,6 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
   power_ = powers();
   work_.assign(power_.size(), 0.0);
   energy0_ = o.kinetic + o.kinetic_added_mass;
-  static const std::set<std::string> keep = {"weight",     "hydrostatic",   "added_mass_inf",
-                                             "excitation", "froude_krylov", "diffraction",
-                                             "constraints"};
-  for (const std::string& component : o.components)
-    gives_.push_back(!keep.contains(component));
   if (s_.n_mechanisms > 1)
     for (double kinetic : o.mechanism_kinetic)
       mechanisms_.push_back({0.0, 0.0, kinetic});
@@ -120,12 +114,13 @@ void Recorder::balance_mechanisms() {
   std::vector<double> given(mechanisms_.size());
   for (std::size_t k = 0; k < o.loads.size() && !mechanisms_.empty(); ++k) {
     const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism;
-    if (m < 0 || o.loads[k].part)
+    const element::Work of = o.works[static_cast<std::size_t>(o.loads[k].component)];
+    if (m < 0 || of == element::Work::part)
       continue;
     Balance& b = mechanisms_[static_cast<std::size_t>(m)];
     b.error -= end_work_[loads + k];
     b.exchanged = std::max(b.exchanged, std::abs(end_work_[loads + k]));
-    if (gives_[static_cast<std::size_t>(o.loads[k].component)])
+    if (of == element::Work::spent)
       given[static_cast<std::size_t>(m)] -= end_work_[loads + k];
   }
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
@@ -167,10 +162,10 @@ double Recorder::balance(const std::vector<double>& work) {
   double total_work = 0.0, exchanged = std::abs(moving), given = 0.0;
   for (std::size_t k = 0; k < o.powers.size(); ++k) {
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
-    if (o.components[k] != "added_mass_inf" && !o.parts[k])
+    if (o.works[k] != element::Work::fluid && o.works[k] != element::Work::part)
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
-    if (gives_[k])
+    if (o.works[k] == element::Work::spent)
       given -= work[k];
   }
   whole_.given = std::max(whole_.given, given);
@@ -296,7 +291,7 @@ void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
   }
   out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
                   out);
-  if (s_.has_waves())
+  if (observer_.observation().in_waves)
     *out++ = observer_.observation().elevation;
   fill_energy(out, work);
 }

@@ -126,7 +126,7 @@ void Recorder::make_channels() {
     width_ += static_cast<std::size_t>(channel.width);
     channels_.push_back(std::move(channel));
   }
-  if (s_.has_waves())
+  if (o.in_waves)
     add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");

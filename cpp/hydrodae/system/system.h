@@ -19,13 +19,14 @@
 #include <vector>
 
 #include "hydrodae/element/elements.h"
+#include "hydrodae/element/hydro_axes.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
-#include "hydrodae/sea/drifting.h"
-#include "hydrodae/sea/kinematics.h"
-#include "hydrodae/sea/signals.h"
 
 namespace hydrodae::system {
+
+using element::HydroAxes;
+using element::HydroBody;
 
 /// Coordinates of one body. Tangent components 0..2 are translations (world axes), 3..5 rotations
 /// (body axes); only the free ones are unknowns.
@@ -156,38 +157,6 @@ struct SwitchData {
   }
 };
 
-/// A Morison element: equal segments whose centres stand at equal steps on a straight line.
-struct MorisonData {
-  std::string name;
-  int body = 0;
-  element::MorisonSegment law;
-  int segments = 1;
-  Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
-  Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
-  Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
-  bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
-};
-
-/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes
-/// turned by the mean yaw of each, or those that turn with the body's yaw alone.
-enum class HydroAxes { body, mean, yaw };
-
-/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors, and
-/// its mean yaw, that of the start or equilibrium pose.
-struct HydroBody {
-  int body = 0;
-  double yaw = 0.0, cos_yaw = 1.0, sin_yaw = 0.0; ///< [rad], [-], [-]
-  bool turned = false;                            ///< yaw != 0
-  std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
-  bool moves = false;
-  int n_moving() const {
-    return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
-  }
-  int first_moving() const {
-    return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });
-  }
-};
-
 /// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
 /// pair of coordinates that feel each other.
 struct Convolution {
@@ -205,7 +174,7 @@ struct Convolution {
 };
 
 /// Added mass at infinite frequency and radiation memory of all bodies.
-///   loads on body-axes coordinates: -(A_inf U)' - C z - B U + f_ex(t),   z' = A_r z + B_r U
+///   loads along the coordinates of U: -(A_inf U)' - C z - B U,   z' = A_r z + B_r U
 /// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
 /// stands in place of C z.
 struct HydroData {
@@ -222,13 +191,8 @@ struct HydroData {
   MatrixX output;      ///< C (n_moving, n_states)
   MatrixX output_all;  ///< (6 n_bodies, n_states)
   bool damped = false; ///< constant damping; else the next two are empty
-  MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
-  Convolution convolution;      ///< empty on the other rungs
-  /// Functions of time: n_moving loads on U, 6 n_bodies loads on all coordinates, where `split` as
-  /// many of their Froude-Krylov parts, and the elevation [m]. One of the two is empty.
-  sea::Signals excitation;
-  sea::DriftingSignals drifting; ///< by the displacement of each body
-  bool split = false;
+  MatrixX damping, damping_all;       ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
+  Convolution convolution;            ///< empty on the other rungs
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
   int n_states = 0;
@@ -271,8 +235,6 @@ struct System {
   std::vector<ElementList> elements;
   std::vector<DelayData> delays;
   HydroData hydro;
-  std::vector<MorisonData> morison;
-  sea::WaveField water; ///< what the Morison elements feel; empty without them
 
   /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
   /// been at rest for ever.
@@ -296,8 +258,7 @@ struct System {
   std::vector<std::string> notes;     ///< what the build found worth telling
 
   bool is_algebraic(Index i) const { return i >= lambda0; }
-  bool has_excitation() const { return !hydro.excitation.empty() || !hydro.drifting.empty(); }
-  bool has_waves() const { return has_excitation() || !water.terms.empty(); }
+  bool has_waves() const; ///< that any of the elements feels
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
@@ -315,6 +276,9 @@ template <class Visitor> void for_each_law(const System& s, Visitor&& visit) {
     for (std::size_t k = 0; k < list.ports.size(); ++k)
       visit(list, k, list.ports[k]);
 }
+
+/// Takes the waves away.
+void calm(System& system);
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
