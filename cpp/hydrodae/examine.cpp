@@ -71,19 +71,10 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
     if (b.sigma >= 0)
       take(b.sigma, &ElementCost::unknowns);
   }
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t law, const system::PortData&) {
-        const Index n = list.laws->shape.n_states;
-        if (n == 0)
-          return;
-        elements.push_back({"force " + list.laws->names[law]});
-        for (Index k = 0; k < n; ++k)
-          take(list.z0 + n * static_cast<Index>(law) + k, &ElementCost::unknowns);
-      });
-  if (s.hydro.n_states > 0) {
-    elements.push_back({"radiation memory"});
-    for (Index k = 0; k < s.hydro.n_states; ++k)
-      take(s.hydro.z0 + k, &ElementCost::unknowns);
+  for (const system::StateBlock& block : s.states) {
+    elements.push_back({block.owner});
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      take(block.first + static_cast<Index>(k), &ElementCost::unknowns);
   }
   return owner;
 }
@@ -218,17 +209,16 @@ std::vector<ElementCost> element_costs(const System& s, const system::Pattern& p
   std::size_t joints = 0; // how many of the elements have multipliers
   while (joints < elements.size() && !elements[joints].name.starts_with("body "))
     ++joints;
+  const auto states = static_cast<int>(elements.size() - s.states.size()); // those of states follow
   Index between = 0;
   for (Index column = 0; column < s.n; ++column)
     for (Index k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
       const int a = owner[static_cast<std::size_t>(column)],
                 b = owner[static_cast<std::size_t>(pattern.row[k])];
       const bool of_joint = std::min(a, b) < static_cast<int>(joints);
-      const std::string& later = elements[static_cast<std::size_t>(std::max(a, b))].name;
-      const bool of_memory = later == "radiation memory" || later.starts_with("force ");
       if (of_joint || a == b)
         ++elements[static_cast<std::size_t>(std::min(a, b))].nonzeros;
-      else if (of_memory)
+      else if (std::max(a, b) >= states)
         ++elements[static_cast<std::size_t>(std::max(a, b))].nonzeros;
       else
         ++between;

@@ -322,7 +322,7 @@ inline void turn_mean_axes(system::System& s) {
 inline VectorX random_state(const system::System& s, Random& random) {
   VectorX y = system::initial_state(s);
   for (Index i = 0; i < s.n; ++i) {
-    const bool of_law = i >= s.z0 && i < s.hydro.z0; // a pressure stays positive
+    const bool of_law = i >= s.z0 && i < s.memory0; // a pressure stays positive
     y[i] += (of_law ? s.scale[i] : i < s.n_q ? 0.3 : 1.0) * random();
   }
   return y;

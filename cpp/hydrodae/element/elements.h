@@ -47,11 +47,14 @@ enum class Work {
   part   ///< is in that of another load
 };
 
-/// A state z of a law, z' = what the law answers.
+/// An unknown z of a law: a state, z' = what the law answers, or algebraic, 0 = what it answers.
 struct Unknown {
   std::string name, unit;
   double scale = 1.0; ///< what one unit of tolerance means, beside the relative one
   double start = 0.0;
+  double rate = 0.0; ///< size of what the law answers where it counts; 0: of a state the scale over
+                     ///< the time of the body, of an algebraic unknown the scale
+  bool algebraic = false;
 };
 
 /// What a law reports beside its load.
@@ -80,7 +83,7 @@ template <class S> struct In {
 /// What it answers.
 template <class S> struct Out {
   S* load;  ///< (width,)
-  S* z_dot; ///< (n_states,)
+  S* z_dot; ///< (n_states,) z', and what is to be zero
 };
 
 /// Numbers of one law of a list. Those in the water have no states; the columns of their Jacobian
@@ -89,6 +92,7 @@ template <class S> struct Out {
 struct Shape {
   Port port = Port::on_body;
   int width = 6, n_states = 0, n_signals = 0;
+  int n_algebraic = 0;     ///< of the n_states unknowns: the last ones
   bool feels_rates = true; ///< in the water: velocities and accelerations, else the pose alone
   bool in_water() const { return port == Port::in_water; }
   int n_in() const { return in_water() ? body_numbers : 2 * width + n_states; } ///< x, v, z

@@ -248,7 +248,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
   system::JacobianWorkspace ws(s);
   system::JacobianParts parts(pattern);
   system::jacobian(s, pattern, ws, 0.0, y.data(), rest.data(), parts);
-  const Index z0 = s.z0, n_z = s.hydro.z0 - z0;
+  const Index z0 = s.z0, n_z = s.memory0 - z0;
   MatrixX by_y = MatrixX::Zero(s.n, z0 + n_z), by_yp = by_y;
   for (Index c = 0; c < z0 + n_z; ++c)
     for (Index k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {

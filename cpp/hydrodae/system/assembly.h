@@ -102,7 +102,8 @@ template <class Sink> struct Assembly {
   void joints();
   void couplers();
   void body_rows();
-  void hydrodynamics();
+  void add(const ElementList& list);
+  void add(const HydroData& hydro);
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
   void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
@@ -110,15 +111,13 @@ template <class Sink> struct Assembly {
   void memory_rows();
   template <int w, int n>
   void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,
-           int n_states, Index z);
+           const element::Shape& shape, Index z);
   void law_in_water(int body, const double* jacobian, bool feels_rates);
-  void elements();
 
   void run() {
     joints();
     couplers();
-    elements();
-    hydrodynamics();
+    for_each_list(s, [&](const auto& list) { add(list); });
     body_rows();
   }
 };

@@ -134,10 +134,7 @@ template <class Sink> void Assembly<Sink>::hydro_masses() {
     }
 }
 
-template <class Sink> void Assembly<Sink>::hydrodynamics() {
-  const HydroData& h = s.hydro;
-  if (h.n_moving == 0)
-    return;
+template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
   if (!whole)
     return hydro_masses();
   Workspace<double>& w = ws.state;

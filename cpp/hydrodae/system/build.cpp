@@ -8,6 +8,7 @@
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/declare.h"
 #include "hydrodae/system/initial_pose.h"
 #include "hydrodae/system/mechanisms.h"
 
@@ -72,8 +73,9 @@ void set_offsets(System& s) {
     list.z0 = s.z0 + s.n_z;
     s.n_z += static_cast<Index>(list.laws->unknowns.size());
   }
-  s.hydro.z0 = s.z0 + s.n_z;
+  s.memory0 = s.hydro.z0 = s.z0 + s.n_z;
   s.n_z += s.hydro.n_states;
+  s.states = declare(s).states;
   s.lambda0 = s.z0 + s.n_z;
   for_each_row(s, [&](Index& lambda, Index&, bool) {
     if (lambda != redundant)
@@ -89,6 +91,11 @@ void set_offsets(System& s) {
   for (BodyData& b : s.bodies)
     if (b.rotation == BodyData::Rotation::free)
       b.sigma = s.n++;
+  s.algebraic.assign(static_cast<std::size_t>(s.n), true);
+  std::fill_n(s.algebraic.begin(), s.lambda0, false);
+  for (const StateBlock& block : s.states)
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      s.algebraic[static_cast<std::size_t>(block.first) + k] = block.unknowns[k].algebraic;
 }
 
 } // namespace
@@ -175,9 +182,9 @@ VectorX initial_state(const System& s) {
     if (b.rotation == BodyData::Rotation::free)
       y.segment<4>(q) = b.orientation;
   }
-  for (const ElementList& list : s.elements)
-    for (std::size_t k = 0; k < list.laws->unknowns.size(); ++k)
-      y[list.z0 + static_cast<Index>(k)] = list.laws->unknowns[k].start;
+  for (const StateBlock& block : s.states)
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      y[block.first + static_cast<Index>(k)] = block.unknowns[k].start;
   return y;
 }
 

@@ -8,6 +8,11 @@
 
 namespace hydrodae::system {
 
+/// Of a list in System::elements.
+inline std::size_t index_of(const System& s, const ElementList& list) {
+  return static_cast<std::size_t>(&list - s.elements.data());
+}
+
 /// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
 /// or where there is none the place where the motion stands, at rest.
 template <class S>
@@ -104,25 +109,25 @@ void add_load(const System& s, const element::Shape& shape, const PortData& port
   add_to_bodies<S>(s.joints[port.joint], sum, ws.loads);
 }
 
-/// Loads of all elements into `ws.loads`, and the rows z' - f(x, v, z) = 0 of their states.
+/// Loads of one list into `ws.loads`, and the rows z' - h(x, v, z) = 0 of its states, -h = 0 of its
+/// algebraic unknowns.
 template <class S>
-void add_elements(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
-  for (std::size_t l = 0; l < s.elements.size(); ++l) {
-    const ElementList& list = s.elements[l];
-    ElementScratch<S>& scratch = ws.elements[l];
-    const element::Shape& shape = list.laws->shape;
-    gather<S>(s, list, ws, y, scratch);
-    list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
-    const S* out = scratch.out.data();
-    const joint::Vec12<S>* rows = scratch.rows.data();
-    Index z = list.z0;
-    for (const PortData& port : list.ports) {
-      add_load<S>(s, shape, port, out, rows, ws);
-      for (int k = 0; k < shape.n_states; ++k, ++z)
-        residual[z] = yp[z] - out[shape.width + k];
-      rows += element::is_on_body(shape.port) ? 0 : shape.width;
-      out += shape.n_out();
-    }
+void add_loads(const System& s, const ElementList& list, Workspace<S>& ws, const S* y, const S* yp,
+               S* residual) {
+  ElementScratch<S>& scratch = ws.elements[index_of(s, list)];
+  const element::Shape& shape = list.laws->shape;
+  gather<S>(s, list, ws, y, scratch);
+  list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
+  const S* out = scratch.out.data();
+  const joint::Vec12<S>* rows = scratch.rows.data();
+  Index z = list.z0;
+  for (const PortData& port : list.ports) {
+    add_load<S>(s, shape, port, out, rows, ws);
+    const int rates = shape.n_states - shape.n_algebraic;
+    for (int k = 0; k < shape.n_states; ++k, ++z)
+      residual[z] = (k < rates ? yp[z] : S(0)) - out[shape.width + k];
+    rows += element::is_on_body(shape.port) ? 0 : shape.width;
+    out += shape.n_out();
   }
 }
 

@@ -70,10 +70,8 @@ template <class S> void hydro_loads(const System& s, Workspace<S>& ws, const S* 
 /// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
 /// z' - A_r z - B_r U = 0. Only coordinates that move are visited.
 template <class S>
-void add_hydrodynamics(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
-  const HydroData& h = s.hydro;
-  if (h.n_moving == 0)
-    return;
+void add_loads(const System& s, const HydroData& h, Workspace<S>& ws, const S* y, const S* yp,
+               S* residual) {
   const S* z = y + h.z0;
   hydro_loads<S>(s, ws, z);
   for (const HydroBody& hb : h.bodies) {

@@ -3,7 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "hydrodae/system/residual.h"
+#include "hydrodae/system/declare.h"
+#include "hydrodae/system/elements.h"
 
 namespace hydrodae::system {
 
@@ -20,33 +21,17 @@ int component_index(Observation& out, const std::string& name) {
 } // namespace
 
 Observer::Observer(const System& system) : s_(system), ws_(system) {
-  using element::Work;
-  const auto plan = [&](const std::string& component, int body, Work work) {
-    if (body < 0)
-      return;
+  const auto plan = [&](const std::string& component, int body, element::Work work) {
     out_.loads.push_back({component_index(out_, component), body});
     out_.works.resize(out_.components.size(), work);
   };
+  const Declaration declared = declare(s_);
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
-    plan("weight", i, Work::lent);
-  for_each_law(s_, [&](const ElementList& list, std::size_t, const PortData& port) {
-    if (port.joint >= 0) {
-      plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].A.body, list.laws->work);
-      plan(port.component, s_.joints[static_cast<std::size_t>(port.joint)].B.body, list.laws->work);
-      return;
-    }
-    plan(port.component, port.body, list.laws->work);
-    for (std::string_view part : list.laws->parts)
-      plan(std::string(part), port.body, Work::part);
-  });
-  if (s_.hydro.n_moving > 0)
-    for (const HydroBody& hb : s_.hydro.bodies) {
-      plan("added_mass_inf", hb.body, Work::fluid);
-      if (s_.hydro.radiates())
-        plan("radiation", hb.body, Work::spent);
-    }
+    plan("weight", i, element::Work::lent);
+  for (const Declaration::Load& load : declared.loads)
+    plan(load.component, load.body, load.work);
   out_.components.push_back("constraints");
-  out_.works.push_back(Work::lent);
+  out_.works.push_back(element::Work::lent);
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
     for (const RowData& row : s_.joints[j].rows) {
@@ -62,7 +47,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   out_.constraints.resize(s_.couplers.size());
   totals_.resize(s_.bodies.size());
   std::size_t own = 0;
-  for (const Channel& channel : element_channels(s_))
+  for (const Channel& channel : declared.channels)
     own += static_cast<std::size_t>(channel.width);
   out_.elements.resize(own);
   for (const ElementList& list : s_.elements) {
@@ -94,53 +79,6 @@ void Observer::observe_weight() {
     weight[2] = -b.mass * s_.gravity;
     add_load(weight);
     out_.potential += b.mass * s_.gravity * (ws_.bodies[&b - s_.bodies.data()].r - b.reference)[2];
-  }
-}
-
-/// What the radiation takes on all coordinates, locked ones too; needs U and U'.
-void Observer::observe_memory(const double* y) {
-  const HydroData& h = s_.hydro;
-  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
-  if (h.damped)
-    memory_.noalias() += h.damping_all * ws_.U;
-  if (h.convolution.empty() || !ws_.past)
-    return;
-  const Past& past = *ws_.past;
-  for (int u = 0; u < h.n_moving; ++u)
-    memory_[6 * h.coordinates[u].hydro_body + h.coordinates[u].component] +=
-        past.memory[u] + past.by_U.row(u).dot(ws_.U) + past.by_U_dot.row(u).dot(ws_.U_dot);
-  for (std::size_t k = 0; k < h.convolution.locked.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    memory_[h.convolution.locked[k]] += past.memory_locked[row] +
-                                        past.locked_by_U.row(row).dot(ws_.U) +
-                                        past.locked_by_U_dot.row(row).dot(ws_.U_dot);
-  }
-}
-
-void Observer::observe_hydrodynamics(const double* y) {
-  const HydroData& h = s_.hydro;
-  if (h.n_moving == 0)
-    return;
-  hydro_motion(s_, ws_);
-  momentum_.noalias() = h.added_mass_all * ws_.U;
-  rate_.noalias() = h.added_mass_all * ws_.U_dot;
-  observe_memory(y);
-  for (int u = 0; u < h.n_moving; ++u) {
-    const HydroData::Coordinate& k = h.coordinates[u];
-    out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
-  }
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const HydroBody& hb = h.bodies[i];
-    const BodyState<double>& state = ws_.bodies[hb.body];
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    const Vector6 added =
-        hydro_load<double>(h.axes, hb, state, rate_.segment<6>(row), momentum_.segment<6>(row));
-    add_load(-to_world(state, added));
-    if (!h.radiates())
-      continue;
-    const Vector6 radiation =
-        hydro_load<double>(h.axes, hb, state, memory_.segment<6>(row), Vector6::Zero());
-    add_load(-to_world(state, radiation));
   }
 }
 
@@ -284,8 +222,8 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
   next_load_ = 0;
   observe_weight();
-  observe_elements(y.data());
-  observe_hydrodynamics(y.data());
+  own_ = out_.elements.data();
+  for_each_list(s_, [&](const auto& list) { observe(list, y.data()); });
   if (in_waves_)
     out_.elevation = in_waves_->elevation(t);
   observe_joints(y.data());

@@ -30,15 +30,11 @@ struct Observation {
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
   std::vector<double> mechanism_kinetic;      ///< per mechanism: of its bodies [J]
   std::vector<double> mechanism_constraints;  ///< per mechanism: power of its rows [W]
-  std::vector<double> elements;               ///< own channels of all laws, see element_channels
+  std::vector<double> elements;               ///< own channels of all laws, as declared
   bool in_waves = false;                      ///< some element feels waves
   double elevation = 0.0;                     ///< of these at the origin [m]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
 };
-
-/// What laws report beside their loads on the bodies, in the order of Observation::elements: force
-/// or torque along a coordinate, power absorbed by power take-offs, states, and what they declare.
-std::vector<Channel> element_channels(const System& system);
 
 /// Evaluates observations; owns its scratch.
 class Observer {
@@ -56,10 +52,10 @@ public:
 private:
   void add_load(const Vector6& world_load);
   void observe_weight();
-  void observe_elements(const double* y);
+  void observe(const ElementList& list, const double* y);
+  void observe(const HydroData& hydro, const double* y);
   void observe_ports(const ElementList& list, const ElementScratch<double>& scratch);
-  void observe_memory(const double* y);
-  void observe_hydrodynamics(const double* y);
+  void observe_memory(const HydroData& hydro, const double* y);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
                        double lambda) const;
@@ -75,6 +71,7 @@ private:
   std::vector<double> element_values_; ///< of one list: energies and declared channels, or loads
   const element::Elements* in_waves_ = nullptr; ///< that tell the elevation
   std::size_t next_load_ = 0;
+  double* own_ = nullptr;             ///< next of Observation::elements
   std::vector<int> redundant_joints_; ///< joints with rows that follow from others
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant
 };

@@ -5,15 +5,6 @@
 
 namespace hydrodae::system {
 
-namespace {
-
-void put(double*& out, const Vector3& v) {
-  for (int k = 0; k < 3; ++k)
-    *out++ = v[k];
-}
-
-} // namespace
-
 Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
   const Observation& o = observer_.observe(t0, y, yp);
@@ -198,71 +189,6 @@ void Recorder::restart(const VectorX& y, const VectorX& yp, const std::optional<
     work_[o.powers.size() + o.loads.size() + m] += o.mechanism_kinetic[m] - end_kinetic_[m];
 }
 
-void Recorder::fill_bodies(double*& out) {
-  const auto& states = observer_.bodies();
-  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
-    const BodyData& b = s_.bodies[i];
-    const BodyState<double>& state = states[i];
-    put(out, state.r);
-    const Eigen::Quaterniond q(state.R);
-    for (double c : {q.w(), q.x(), q.y(), q.z()})
-      *out++ = c;
-    put(out, displacement<double>(b, state, y_.data()).tail<3>());
-    if (b.n_active > 0) {
-      put(out, state.v);
-      put(out, state.R * state.w);
-      put(out, state.v_dot);
-      put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
-    }
-    if (b.n_active < 6) {
-      put(out, observer_.observation().supports[i].head<3>());
-      put(out, observer_.observation().supports[i].tail<3>());
-    }
-  }
-}
-
-void Recorder::fill_joints(double*& out) {
-  const Observation& o = observer_.observation();
-  for (std::size_t j = 0; j < s_.joints.size(); ++j) {
-    const JointData& joint = s_.joints[j];
-    if (joint.hidden)
-      continue;
-    for (std::size_t m = 0; m < joint.type->motions.size(); ++m) {
-      const std::array<double, 2>& motion =
-          o.motions[static_cast<std::size_t>(joint.first_motion) + m];
-      *out++ = motion[0];
-      *out++ = motion[1];
-    }
-    put(out, o.reactions[j].head<3>());
-    put(out, o.reactions[j].tail<3>());
-  }
-  for (double multiplier : o.constraints)
-    *out++ = multiplier;
-}
-
-// r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
-void Recorder::fill_markers(double*& out) {
-  for (const MarkerData& m : s_.markers) {
-    const BodyState<double>& b = observer_.bodies()[m.body];
-    const Matrix3 axes = m.body_axes ? Matrix3(b.R.transpose()) : Matrix3(Matrix3::Identity());
-    const Vector3 speed = b.w.cross(m.point);
-    put(out, b.r + b.R * m.point);
-    put(out, axes * (b.v + b.R * speed));
-    put(out, axes * (b.v_dot + b.R * (b.w_dot.cross(m.point) + b.w.cross(speed))));
-  }
-}
-
-void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
-  const Observation& o = observer_.observation();
-  *out++ = o.kinetic;
-  *out++ = o.kinetic_added_mass;
-  *out++ = o.potential;
-  *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
-  for (std::size_t k = 0; k < o.powers.size(); ++k)
-    *out++ = work[k];
-  *out++ = balance(work);
-}
-
 void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   if (end_ > t_) // else the start of the run
     at(t, y_, yp_);
@@ -277,23 +203,6 @@ void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) 
   observer_.observe(t_, y_, yp_);
   fill(row, work_);
   whole_ = before;
-}
-
-/// From where the observer is.
-void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
-  double* out = row.data();
-  fill_bodies(out);
-  fill_joints(out);
-  fill_markers(out);
-  for (const ComponentLoad& load : observer_.observation().loads) {
-    put(out, load.load.head<3>());
-    put(out, load.load.tail<3>());
-  }
-  out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
-                  out);
-  if (observer_.observation().in_waves)
-    *out++ = observer_.observation().elevation;
-  fill_energy(out, work);
 }
 
 double Recorder::relative_balance_error() const {

@@ -151,8 +151,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   }
   add_joints<S>(s, ws, y, residual);
   add_couplers<S>(s, ws, t, y, residual);
-  add_elements<S>(s, ws, y, yp, residual);
-  add_hydrodynamics<S>(s, ws, y, yp, residual);
+  for_each_list(s, [&](const auto& list) { add_loads<S>(s, list, ws, y, yp, residual); });
   body_rows<S>(s, ws, y, yp, residual);
 }
 

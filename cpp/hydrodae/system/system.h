@@ -5,7 +5,7 @@
 ///   q' = E(q) (u + G^T mu) + sigma p            p.p = 1 for each quaternion
 ///   M(q) u' = f(t, q, u, z) + G^T lambda
 ///   0 = g(q)        0 = G(q) u
-///   z' = A_r z + B_r U(q, u)                    radiation memory
+///   z' = h(q, u, z)                             states of elements, radiation memory last
 ///
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
@@ -19,14 +19,11 @@
 #include <vector>
 
 #include "hydrodae/element/elements.h"
-#include "hydrodae/element/hydro_axes.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/system/hydro_data.h"
 
 namespace hydrodae::system {
-
-using element::HydroAxes;
-using element::HydroBody;
 
 /// Coordinates of one body. Tangent components 0..2 are translations (world axes), 3..5 rotations
 /// (body axes); only the free ones are unknowns.
@@ -157,58 +154,13 @@ struct SwitchData {
   }
 };
 
-/// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
-/// pair of coordinates that feel each other.
-struct Convolution {
-  struct Pair {
-    int row = 0;    ///< of U; from n_moving on, of `locked`
-    int column = 0; ///< of U
-  };
-  double step = 0.0, length = 0.0; ///< of the grid, and T, beyond which K = 0 [s]
-  double frequency = 0.0;          ///< root mean square of the kernels' spectra [rad/s]
-  std::vector<Pair> pairs;         ///< those whose row moves come first
-  int n_moving_pairs = 0;
-  std::vector<int> locked; ///< rows of the full loads (6 n_bodies) that do not move
-  MatrixX splines;         ///< coefficients (n_grid + 2, n_pairs)
-  bool empty() const { return pairs.empty(); }
-};
-
-/// Added mass at infinite frequency and radiation memory of all bodies.
-///   loads along the coordinates of U: -(A_inf U)' - C z - B U,   z' = A_r z + B_r U
-/// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
-/// stands in place of C z.
-struct HydroData {
-  HydroAxes axes = HydroAxes::mean;
-  std::vector<HydroBody> bodies;
-  struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
-    int hydro_body = 0, component = 0;
-  };
-  std::vector<Coordinate> coordinates; ///< (n_moving,)
-  int n_moving = 0;                    ///< length of U
-  MatrixX added_mass;                  ///< (n_moving, n_moving)
-  MatrixX
-      added_mass_all;  ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
-  MatrixX output;      ///< C (n_moving, n_states)
-  MatrixX output_all;  ///< (6 n_bodies, n_states)
-  bool damped = false; ///< constant damping; else the next two are empty
-  MatrixX damping, damping_all;       ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
-  Convolution convolution;            ///< empty on the other rungs
-  std::vector<std::string> uncovered; ///< labels whose load the fit does not give
-  Index z0 = 0;
-  int n_states = 0;
-  struct Block { ///< z' = a z + ..., or the pair (x + i y)' = (a + i b)(x + i y) + ...
-    int state = 0;
-    double a = 0.0, b = 0.0;
-    bool pair = false;
-  };
-  std::vector<Block> blocks;
-  struct Input { ///< one nonzero of B_r
-    int state = 0, coordinate = 0;
-    double value = 0.0;
-  };
-  std::vector<Input> inputs;
-
-  bool radiates() const { return n_states > 0 || damped || !convolution.empty(); }
+/// States of one element, one after the other in y.
+struct StateBlock {
+  std::string owner; ///< "force pto": in a list of costs
+  std::string path;  ///< "forces/pto": their names begin with it
+  Index first = 0;   ///< in y
+  int body = -1;     ///< that moves, whose group and time are theirs too; -1: none
+  std::vector<element::Unknown> unknowns;
 };
 
 /// Which equations the rows of the multipliers hold. In all but the first mu = 0.
@@ -241,11 +193,13 @@ struct System {
   const History* history = nullptr;
 
   Index n = 0;                     ///< unknowns
-  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states
+  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, states of elements
   Index n_lambda = 0, n_mu = 0;    ///< rows at velocity level, those also at position level
   Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
+  Index memory0 = 0; ///< states from there on are linear with constant coefficients, and condensed
+  std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
-  std::vector<int> group;             ///< (lambda0,) of each position, velocity and memory state
+  std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
   VectorX group_size;                 ///< (n_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
@@ -253,11 +207,13 @@ struct System {
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
   VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
+  std::vector<bool> algebraic;        ///< (n,) multipliers, and what elements declare so
   std::vector<std::string> names;     ///< (n,) of the unknowns, as channels
   std::vector<std::string> row_names; ///< (n,) of the equations
   std::vector<std::string> notes;     ///< what the build found worth telling
 
-  bool is_algebraic(Index i) const { return i >= lambda0; }
+  bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }
+  bool has_memory() const { return memory0 < lambda0; }
   bool has_waves() const; ///< that any of the elements feels
 };
 
@@ -268,6 +224,16 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
       visit(row.lambda, row.mu, false);
   for (auto& coupler : s.couplers)
     visit(coupler.lambda, coupler.mu, coupler.velocity_level);
+}
+
+/// Visits all that loads the bodies, weight apart, in the order of states and results:
+/// visit(list). Each type of list has a declaration (declare.h), loads and residuals (`add_loads`),
+/// derivatives (`Assembly::add`) and observations (`Observer::observe`).
+template <class Anysystem, class Visitor> void for_each_list(Anysystem& s, Visitor&& visit) {
+  for (auto& list : s.elements)
+    visit(list);
+  if (s.hydro.n_moving > 0)
+    visit(s.hydro);
 }
 
 /// Visits all laws: visit(list, its index, port).
@@ -295,7 +261,7 @@ void lay_out(System& system);
 /// the time in which a body moves, or speeds up by, its own length. The tolerances follow.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
-/// The start: y with positions, velocities, zero memory and zero multipliers.
+/// The start: y with positions, velocities, states as declared and zero multipliers.
 VectorX initial_state(const System& system);
 
 } // namespace hydrodae::system
