@@ -2,13 +2,13 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/hydro_axes_gradient.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
-#include "hydrodae/system/morison_gradient.h"
 #include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
 
@@ -58,7 +58,7 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const system::BodyData& b = s.bodies[body];
-    const auto d = system::hydro_motion_gradient(s.hydro.axes, hb, ws.bodies[body]);
+    const auto d = element::hydro_motion_gradient(s.hydro.axes, hb, ws.bodies[body]);
     Matrix6 by_velocity;
     by_velocity << d.U_v, d.U_w;
     for (std::size_t c = 0; c < 6; ++c) {
@@ -143,63 +143,47 @@ void add_reactions(const System& s, const VectorX& y, LinearModel& out) {
   }
 }
 
-/// What the waves do to the Morison elements, segment by segment. At rest the drag has no slope but
-/// that of the current.
-void add_water(const System& s, system::Workspace<double>& ws, LinearModel& out) {
-  std::vector<std::string> dragged;
-  for (const system::MorisonData& m : s.morison) {
-    const system::BodyData& b = s.bodies[static_cast<std::size_t>(m.body)];
-    const auto& state = ws.bodies[static_cast<std::size_t>(m.body)];
-    if (b.n_active == 0)
-      continue;
-    if (m.law.drag > 0.0 || m.law.drag_axial > 0.0)
-      dragged.push_back(m.name);
-    system::morison_fluid<double>(s.water, m, state, 0.0, ws.fluid);
-    for (int k = 0; k < m.segments; ++k) {
-      const auto d = system::segment_gradient(m, state, k, ws.fluid[static_cast<std::size_t>(k)]);
-      Eigen::Matrix<double, 6, 7> load;
-      load.topRows<3>() << d.wet * d.dry.by_velocity, d.wet * d.dry.by_fluid,
-          m.instantaneous ? Vector3(-d.by_height) : Vector3(Vector3::Zero());
-      load.bottomRows<3>() = skew<double>(d.arm) * state.R.transpose() * load.topRows<3>();
-      MatrixX on_all = MatrixX::Zero(s.n_u, 7);
-      for (int c = 0; c < b.n_active; ++c)
-        on_all.row(b.u0 - s.u0 + c) = load.row(b.active[static_cast<std::size_t>(c)]);
-      out.water_points.emplace_back(state.r + state.R * d.arm);
-      out.water_loads.push_back(on_all);
-    }
-  }
-  if (!dragged.empty())
-    out.notes.push_back(
-        "the quadratic drag of the Morison elements " + joined(dragged) +
-        (s.water.current.isZero(0.0)
-             ? " is zero in the linear model: it has no slope at rest"
-             : " has in the linear model only the slope that the current gives it"));
+/// What the motion of the water does, point by point.
+void add_water(const System& s, const system::Workspace<double>& ws, LinearModel& out) {
+  system::for_each_law(
+      s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
+        if (!list.laws->shape.in_water())
+          return;
+        const system::BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
+        std::array<double, element::body_numbers> in;
+        element::write(ws.bodies[static_cast<std::size_t>(port.body)], in.data());
+        for (const element::WaterLoad& at : list.laws->by_water(law, in.data())) {
+          MatrixX on_all = MatrixX::Zero(s.n_u, 7);
+          for (int c = 0; c < b.n_active; ++c)
+            on_all.row(b.u0 - s.u0 + c) = at.load.row(b.active[static_cast<std::size_t>(c)]);
+          out.water_points.push_back(at.point);
+          out.water_loads.push_back(on_all);
+        }
+      });
 }
 
 /// What limits or damps large motions has no part in a linear model.
 void note_nonlinear(const System& s, LinearModel& out) {
-  std::vector<std::string> stops, lost;
+  std::vector<std::string> stops;
   for (const system::SwitchData& element : s.switches)
     if (element.kind == system::SwitchData::Kind::stop && !element.holds())
       stops.push_back(s.couplers[static_cast<std::size_t>(element.coupler)].name);
   if (!stops.empty())
     out.notes.push_back("stops and one-sided joints are open in the linear model: " +
                         joined(stops));
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
-        if (list.laws->lost_at_rest(law) && list.laws->shape.port == element::Port::on_body)
-          lost.push_back(port.component);
-      });
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t, const system::PortData& port) {
-        if (!list.laws->at_rest_only.empty())
-          out.notes.push_back("the linear model has of " + in_quotes(port.component) +
-                              " the slope at rest only: " + std::string(list.laws->at_rest_only));
-      });
-  if (!lost.empty())
-    out.notes.push_back("quadratic viscous_damping is zero in the linear model (it has no slope at "
-                        "rest): " +
-                        joined(lost));
+  for (const system::ElementList& list : s.elements) {
+    const element::Elements& laws = *list.laws;
+    std::vector<std::string> lost;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      if (laws.lost_at_rest(k) && !laws.lost.empty())
+        lost.push_back(laws.names[k]);
+      if (!laws.at_rest_only.empty())
+        out.notes.push_back("the linear model has of " + in_quotes(laws.names[k]) +
+                            " the slope at rest only: " + std::string(laws.at_rest_only));
+    }
+    if (!lost.empty())
+      out.notes.push_back(laws.lost + ": " + joined(lost));
+  }
 }
 
 } // namespace

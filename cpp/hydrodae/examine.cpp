@@ -20,7 +20,6 @@ namespace {
 using system::System;
 
 constexpr double resting = 1e-9; ///< of the largest, measured by the scales of the bodies
-constexpr double noise = 1e-5;   ///< excitation that the symmetry of a body leaves in its tables
 constexpr std::size_t longest_list = 30;
 
 /// Drives that surely accelerate what they drive, from the same values.
@@ -72,59 +71,19 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
     if (b.sigma >= 0)
       take(b.sigma, &ElementCost::unknowns);
   }
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t law, const system::PortData&) {
-        const Index n = list.laws->shape.n_states;
-        if (n == 0)
-          return;
-        elements.push_back({"force " + list.laws->names[law]});
-        for (Index k = 0; k < n; ++k)
-          take(list.z0 + n * static_cast<Index>(law) + k, &ElementCost::unknowns);
-      });
-  if (s.hydro.n_states > 0) {
-    elements.push_back({"radiation memory"});
-    for (Index k = 0; k < s.hydro.n_states; ++k)
-      take(s.hydro.z0 + k, &ElementCost::unknowns);
+  for (const system::StateBlock& block : s.states) {
+    elements.push_back({block.owner});
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      take(block.first + static_cast<Index>(k), &ElementCost::unknowns);
   }
   return owner;
 }
 
-/// Least excitation of each signal that is no noise of the tables: by the largest force on the body
-/// and, of moments, its length or the largest moment.
-VectorX least_excitation(const System& s, const VectorX& largest) {
-  VectorX least = VectorX::Zero(largest.size());
-  for (const system::HydroBody& hb : s.hydro.bodies) {
-    double force = 0.0, moment = 0.0;
-    for (int c = 0; c < 6; ++c)
-      if (hb.moving[c] >= 0)
-        (c < 3 ? force : moment) = std::max(c < 3 ? force : moment, largest[hb.moving[c]]);
-    const double length = s.bodies[static_cast<std::size_t>(hb.body)].length_scale;
-    for (int c = 0; c < 6; ++c)
-      if (hb.moving[c] >= 0)
-        least[hb.moving[c]] =
-            noise * (c < 3 ? std::max(force, moment / length) : std::max(moment, force * length));
-  }
-  return least;
-}
-
 /// The waves as they are at some time after the ramp: every component at a phase of its own.
 template <class Draw> void stir_waves(const System& given, System& s, Draw&& draw) {
-  const auto phases = [&](Eigen::Index n) {
-    VectorX theta(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      theta[i] = pi * draw();
-    return theta;
-  };
-  const auto stir = [&](const auto& signals, auto& stirred) {
-    if (!signals.empty())
-      stirred =
-          signals.frozen(phases(signals.components()), least_excitation(given, signals.largest()));
-  };
-  stir(given.hydro.excitation, s.hydro.excitation);
-  stir(given.hydro.drifting, s.hydro.drifting);
-  s.water.ramp = 0.0;
-  for (sea::WaveField::Term& term : s.water.terms)
-    term.phase = pi * draw();
+  for (std::size_t k = 0; k < s.elements.size(); ++k)
+    if (auto stirred = given.elements[k].laws->stirred(draw))
+      s.elements[k].laws = std::move(stirred);
 }
 
 /// The first velocity coordinate of a body in vectors of length n_u.
@@ -250,17 +209,16 @@ std::vector<ElementCost> element_costs(const System& s, const system::Pattern& p
   std::size_t joints = 0; // how many of the elements have multipliers
   while (joints < elements.size() && !elements[joints].name.starts_with("body "))
     ++joints;
+  const auto states = static_cast<int>(elements.size() - s.states.size()); // those of states follow
   Index between = 0;
   for (Index column = 0; column < s.n; ++column)
     for (Index k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
       const int a = owner[static_cast<std::size_t>(column)],
                 b = owner[static_cast<std::size_t>(pattern.row[k])];
       const bool of_joint = std::min(a, b) < static_cast<int>(joints);
-      const std::string& later = elements[static_cast<std::size_t>(std::max(a, b))].name;
-      const bool of_memory = later == "radiation memory" || later.starts_with("force ");
       if (of_joint || a == b)
         ++elements[static_cast<std::size_t>(std::min(a, b))].nonzeros;
-      else if (of_memory)
+      else if (std::max(a, b) >= states)
         ++elements[static_cast<std::size_t>(std::max(a, b))].nonzeros;
       else
         ++between;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hydrodae/element/excitation.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/history.h"
@@ -343,13 +344,19 @@ inline void turn_mean_axes(system::System& s) {
     hb.sin_yaw = std::sin(yaw);
     yaw -= 1.1;
   }
+  for (system::ElementList& list : s.elements)
+    if (const auto* waves = dynamic_cast<const element::Excitation*>(list.laws.get())) {
+      auto turned = std::make_shared<element::Excitation>(*waves);
+      turned->turn(s.hydro.bodies);
+      list.laws = std::move(turned);
+    }
 }
 
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.
 inline VectorX random_state(const system::System& s, Random& random) {
   VectorX y = system::initial_state(s);
   for (Index i = 0; i < s.n; ++i) {
-    const bool of_law = i >= s.z0 && i < s.hydro.z0; // a pressure stays positive
+    const bool of_law = i >= s.z0 && i < s.memory0; // a pressure stays positive
     y[i] += (of_law ? s.scale[i] : i < s.n_q ? 0.3 : 1.0) * random();
   }
   return y;

@@ -1,5 +1,7 @@
 #include "hydrodae/element/elements.h"
 
+#include <algorithm>
+
 namespace hydrodae::element {
 
 std::string unit_along(std::string_view unit, bool angle) {
@@ -9,9 +11,16 @@ std::string unit_along(std::string_view unit, bool angle) {
   return std::string(angle ? unit.substr(either + 4) : unit.substr(0, either));
 }
 
+void Elements::report(double, const double*, const double* out, double* loads) const {
+  for (std::size_t k = 0; k < size(); ++k)
+    std::copy_n(out + k * static_cast<std::size_t>(shape.n_out()), 6, loads + 6 * k);
+}
+
 AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
   const auto n = list.size(), states = static_cast<std::size_t>(list.shape.n_states);
   const Index in_size = list.shape.n_in(), out_size = list.shape.n_out(), w = list.shape.width;
+  if (list.shape.in_water())
+    return {VectorX::Zero(w), MatrixX::Zero(w, w), MatrixX::Zero(w, w)};
   VectorX in = VectorX::Zero(in_size * static_cast<Index>(n)),
           out = VectorX::Zero(out_size * static_cast<Index>(n));
   for (std::size_t k = 0; k < n; ++k)

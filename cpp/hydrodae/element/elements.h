@@ -14,35 +14,53 @@
 ///                    from marker A, relative velocities (6 each)          its marker
 ///   points           places of n points of bodies or the ground, their    force on each (3 n) [N]
 ///                    velocities (3 n each, earth axes)
+///   in_water         pose, velocities and accelerations of a body         force (world axes),
+///   moment
+///                    (body_state.h)                                       (body axes) about the
+///                    same
 ///
-/// The power of a load is load . v in all of them.
+/// The power of a load is load . v in all but the last.
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hydrodae/core/types.h"
+#include "hydrodae/element/body_state.h"
 #include "hydrodae/math/dual.h"
 
 namespace hydrodae::element {
 
-enum class Port { along_joint, along_distance, on_body, between, points };
+enum class Port { along_joint, along_distance, on_body, between, points, in_water };
 
 constexpr bool is_along(Port p) { return p == Port::along_joint || p == Port::along_distance; }
+constexpr bool is_on_body(Port p) { return p == Port::on_body || p == Port::in_water; }
 /// Does the system keep the gradients of what such a port sees? Others are simple.
 constexpr bool has_rows(Port p) { return is_along(p) || p == Port::between; }
 constexpr int width(Port p, int n_points = 0) {
   return p == Port::points ? 3 * n_points : is_along(p) ? 1 : 6;
 }
 
-/// A state z of a law, z' = what the law answers.
+/// How the work of a load counts in the balance of energy.
+enum class Work {
+  spent, ///< may take energy out of the motion for good
+  lent,  ///< comes from outside, or comes back
+  fluid, ///< is in the kinetic energy of the fluid
+  part   ///< is in that of another load
+};
+
+/// An unknown z of a law: a state, z' = what the law answers, or algebraic, 0 = what it answers.
 struct Unknown {
   std::string name, unit;
   double scale = 1.0; ///< what one unit of tolerance means, beside the relative one
   double start = 0.0;
+  double rate = 0.0; ///< size of what the law answers where it counts; 0: of a state the scale over
+                     ///< the time of the body, of an algebraic unknown the scale
+  bool algebraic = false;
 };
 
 /// What a law reports beside its load.
@@ -78,15 +96,34 @@ template <class S> struct In {
 /// What it answers.
 template <class S> struct Out {
   S* load;  ///< (width,)
-  S* z_dot; ///< (n_states,)
+  S* z_dot; ///< (n_states,) z', and what is to be zero
 };
 
-/// Numbers of one law of a list.
+/// Numbers of one law of a list. Those in the water have no states; the columns of their Jacobian
+/// are virtual displacements (world axes; rotations in body axes), velocities and accelerations of
+/// the body, six each.
 struct Shape {
   Port port = Port::on_body;
   int width = 6, n_states = 0, n_signals = 0;
-  int n_in() const { return 2 * width + n_states; } ///< x, v, z
-  int n_out() const { return width + n_states; }    ///< load, z'
+  int n_algebraic = 0;     ///< of the n_states unknowns: the last ones
+  bool feels_rates = true; ///< in the water: velocities and accelerations, else the pose alone
+  bool in_water() const { return port == Port::in_water; }
+  int n_in() const { return in_water() ? body_numbers : 2 * width + n_states; } ///< x, v, z
+  int n_columns() const { return in_water() ? 18 : n_in(); }                    ///< of the Jacobian
+  int n_out() const { return width + n_states; }                                ///< load, z'
+};
+
+/// The waves that a list feels: their components, and what forces these put on each body.
+struct WavesFelt {
+  VectorX omega, amplitude;   ///< (n,) [rad/s], [m]
+  std::vector<MatrixX> loads; ///< of each law (6, n), amplitudes; empty: it moves with the water
+};
+
+/// A load by the motion of the water at one point, linear in it.
+struct WaterLoad {
+  Vector3 point;                    ///< world axes
+  Eigen::Matrix<double, 6, 7> load; ///< by velocity (3), acceleration (3) and elevation; on the
+                                    ///< body, as in Port::in_water
 };
 
 /// A list of laws of one type: one virtual call for all of them. Arrays hold one law after the
@@ -97,14 +134,17 @@ public:
 
   std::string_view type; ///< as in case files; "hydrostatic" and such for those of the water
   Shape shape;
-  bool absorbs = false;           ///< a power take-off: what it takes is a device's output
-  std::string_view at_rest_only;  ///< why its slope at rest tells little; empty: it does not
-  std::vector<std::string> names; ///< (n,)
-  std::vector<Unknown> unknowns;  ///< (n n_states,)
-  std::vector<Quantity> channels; ///< of each law
-  std::vector<Signal> inputs;     ///< of each law (n_signals,)
-  std::vector<double> signals;    ///< what they are at the start (n n_signals,)
-  bool timed = false;             ///< do loads depend on the time by themselves?
+  bool absorbs = false;          ///< a power take-off: what it takes is a device's output
+  Work work = Work::spent;       ///< of the loads
+  std::string_view at_rest_only; ///< why its slope at rest tells little; empty: it does not
+  std::string lost; ///< of laws that `lost_at_rest`: what a linear model lacks, in words
+  std::vector<std::string_view> parts; ///< of a load on a body, that are reported beside it
+  std::vector<std::string> names;      ///< (n,)
+  std::vector<Unknown> unknowns;       ///< (n n_states,)
+  std::vector<Quantity> channels;      ///< of each law
+  std::vector<Signal> inputs;          ///< of each law (n_signals,)
+  std::vector<double> signals;         ///< what they are at the start (n n_signals,)
+  bool timed = false;                  ///< do loads depend on the time by themselves?
   std::vector<Schedule> schedules;
 
   std::size_t size() const { return names.size(); }
@@ -117,7 +157,7 @@ public:
   /// The same on dual numbers: the oracle of tests.
   virtual void evaluate(double t, const Dual* in, const double* signals, Dual* out) const = 0;
 
-  /// @param jacobian  (n n_out n_in,) d out / d in of each law, column by column
+  /// @param jacobian  (n n_out n_columns,) d out / d in of each law, column by column
   virtual void jacobian(double t, const double* in, const double* signals,
                         double* jacobian) const = 0;
 
@@ -128,11 +168,28 @@ public:
   virtual void observe(double t, const double* in, const double* signals, const double* out,
                        double* values) const = 0;
 
+  /// Loads on bodies as they are reported, also along coordinates that do not move, and their
+  /// parts: (n, 1 + n_parts, 6); by default the load alone. `out`: of `evaluate`.
+  virtual void report(double t, const double* in, const double* out, double* loads) const;
+
   /// Does this law have a load that has no slope at rest (so that no linear model has it)?
   virtual bool lost_at_rest(std::size_t law) const = 0;
+
+  // Of what feels the waves:
+  virtual WavesFelt waves() const { return {}; }         ///< without any: nothing
+  virtual double elevation(double) const { return 0.0; } ///< at the origin, at time t [m]
+  /// What the water does to one law, seen as in `evaluate`, for the linear model.
+  virtual std::vector<WaterLoad> by_water(std::size_t, const double*) const { return {}; }
+  /// The same without waves; null: it is the same.
+  virtual std::shared_ptr<const Elements> calm() const { return nullptr; }
+  /// The same in fully grown waves, each component at a phase pi `draw()`; null: it is the same.
+  virtual std::shared_ptr<const Elements> stirred(const std::function<double()>&) const {
+    return nullptr;
+  }
 };
 
-/// A law about rest at x (zero where it is empty), z and signals at their starts.
+/// A law about rest at x (zero where it is empty), z and signals at their starts; in the water:
+/// zero.
 struct AtRest {
   VectorX load;               ///< (width,)
   MatrixX stiffness, damping; ///< (width, width) -d load / dx, -d load / dv

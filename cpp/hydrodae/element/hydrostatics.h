@@ -11,6 +11,7 @@ namespace hydrodae::element {
 struct Hydrostatics {
   static constexpr std::string_view type = "hydrostatic";
   static constexpr Port port = Port::on_body;
+  static constexpr Work work = Work::lent;
   std::string name;
   LinearWrench wrench;
 

@@ -13,12 +13,15 @@
 ///   lost_at_rest()                     optional
 ///
 /// One that acts on points says how many, n_points.
-/// and F may say at_rest_only, why a linear model knows little of it, and that it is timed: that
-/// its load depends on the time by itself
 ///
-/// A force with states says n_states and unknowns(); one with numbers that a program may change
-/// while it runs, n_signals, inputs() and start_signals(). One header and one line in the list of
-/// forces (model/scene.h) are all that a new kind takes.
+/// and F may say at_rest_only, why a linear model knows little of it; lost, what it lacks of those
+/// that are lost_at_rest; work, how its work counts; and that it is timed: that its load depends on
+/// the time by itself.
+///
+/// A force with states says n_states and unknowns(), and how many of these, the last ones, are
+/// algebraic (n_algebraic): its law answers what is to be zero in place of their rates. One with
+/// numbers that a program may change while it runs, n_signals, inputs() and start_signals(). One
+/// header and one line in the list of forces (model/scene.h) are all that a new kind takes.
 
 #include <type_traits>
 #include <utility>
@@ -30,6 +33,11 @@ namespace hydrodae::element {
 template <class F> constexpr int states_of() {
   if constexpr (requires { F::n_states; })
     return F::n_states;
+  return 0;
+}
+template <class F> constexpr int algebraic_of() {
+  if constexpr (requires { F::n_algebraic; })
+    return F::n_algebraic;
   return 0;
 }
 template <class F> constexpr int signals_of() {
@@ -52,12 +60,16 @@ public:
 
   Laws() {
     type = F::type;
-    shape = {F::port, w, nz, n_signals};
+    shape = {F::port, w, nz, n_signals, algebraic_of<F>()};
     if constexpr (requires { F::timed; })
       timed = F::timed;
     absorbs = type.starts_with("pto_");
     if constexpr (requires { F::at_rest_only; })
       at_rest_only = F::at_rest_only;
+    if constexpr (requires { F::lost; })
+      lost = F::lost;
+    if constexpr (requires { F::work; })
+      work = F::work;
     if constexpr (requires { F::channels(); })
       channels = F::channels();
     if constexpr (requires { F::inputs(); })
@@ -79,8 +91,10 @@ public:
     else
       signals.resize(signals.size() + n_signals, 0.0);
     if constexpr (nz > 0)
-      for (const Unknown& u : force.unknowns())
+      for (int k = 0; const Unknown& u : force.unknowns()) {
         unknowns.push_back(u);
+        unknowns.back().algebraic = k++ >= nz - algebraic_of<F>();
+      }
   }
 
   void evaluate(double t, const double* in, const double* held, double* out) const override {

@@ -12,7 +12,7 @@ public:
   LibraryList(Port port, std::string_view of_type, const std::vector<const LibraryLaw*>& laws) {
     const int states = laws.front()->found->n_states;
     type = of_type;
-    shape = {port, width(port), states, 0};
+    shape = {port, width(port), states};
     timed = true;
     for (const LibraryLaw* law : laws) {
       laws_.push_back({law->found, law->parameters});

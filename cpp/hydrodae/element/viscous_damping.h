@@ -17,6 +17,8 @@ namespace hydrodae::element {
 struct ViscousDamping {
   static constexpr std::string_view type = "viscous_damping";
   static constexpr Port port = Port::on_body;
+  static constexpr std::string_view lost =
+      "quadratic viscous_damping is zero in the linear model (it has no slope at rest)";
   static constexpr std::string_view doc =
       "Damping of one body about its centre of gravity, linear and quadratic: W = -C v - Q (v "
       "|v|).";

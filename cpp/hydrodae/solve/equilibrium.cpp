@@ -248,7 +248,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
   system::JacobianWorkspace ws(s);
   system::JacobianParts parts(pattern);
   system::jacobian(s, pattern, ws, 0.0, y.data(), rest.data(), parts);
-  const Index z0 = s.z0, n_z = s.hydro.z0 - z0;
+  const Index z0 = s.z0, n_z = s.memory0 - z0;
   MatrixX by_y = MatrixX::Zero(s.n, z0 + n_z), by_yp = by_y;
   for (Index c = 0; c < z0 + n_z; ++c)
     for (Index k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
@@ -274,9 +274,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
 
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
-  s.hydro.excitation = sea::Signals();
-  s.hydro.drifting = sea::DriftingSignals();
-  s.water.terms.clear();
+  system::calm(s);
   VectorX y = system::initial_state(s);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "

@@ -181,7 +181,7 @@ bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
       const Index row = p.row[k];
-      const bool of_force = c >= s_.z0 && c < s_.hydro.z0;
+      const bool of_force = c >= s_.z0 && c < s_.memory0;
       const bool moves = row < s_.z0, half = moves && c < s_.lambda0 && !of_force;
       const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
                    by_rate =

@@ -12,7 +12,7 @@ template <class Scalar>
 NewtonMatrix<Scalar>::NewtonMatrix(const system::System& s, const system::Pattern& pattern)
     : s_(s), lu_(pattern.column_start, pattern.row) {
   const HydroData& h = s.hydro;
-  if (h.n_states == 0)
+  if (!s.has_memory())
     return;
   input_ = MatrixX::Zero(h.n_states, h.n_moving);
   for (const HydroData::Input& in : h.inputs)
@@ -118,7 +118,7 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar 
   std::vector<Scalar>& values = lu_.values();
   for (std::size_t k = 0; k < values.size(); ++k)
     values[k] = parts.by_y[k] + alpha * parts.by_yp[k];
-  if (s_.hydro.n_states > 0) {
+  if (s_.has_memory()) {
     find_transfer(alpha);
     add_memory();
   }
@@ -127,7 +127,7 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar 
 
 template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
   const HydroData& h = s_.hydro;
-  if (h.n_states == 0)
+  if (!s_.has_memory())
     return lu_.solve(b);
   Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
   z_ = r_z;

@@ -56,7 +56,7 @@ private:
 
 /// `pattern` without the radiation memory: what a NewtonMatrix is made of.
 inline system::Pattern condensed(const system::System& s, const system::Pattern& pattern) {
-  return s.hydro.n_states > 0 ? system::find_pattern(s, system::Part::condensed) : pattern;
+  return s.has_memory() ? system::find_pattern(s, system::Part::condensed) : pattern;
 }
 
 extern template class NewtonMatrix<double>;

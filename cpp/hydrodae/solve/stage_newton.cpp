@@ -151,7 +151,7 @@ void StageNewton::make_full() {
     }
   // Unknown by unknown, all stages of each, in the order of the matrix of one stage: its fill, in
   // blocks of s x s.
-  const Elimination one = e_.system.hydro.n_states > 0
+  const Elimination one = e_.system.has_memory()
                               ? SparseLu<double>(p.column_start, p.row).elimination()
                               : real_->elimination();
   Elimination all;
@@ -175,7 +175,7 @@ bool StageNewton::factorise_full(double t, double h) {
     yp_ = rate_.col(i);
     e_.jacobian(t + rk_.c[i] * h, y_, yp_);
     e_.regularisation(alpha, regular);
-    if (e_.system.hydro.n_states > 0)
+    if (e_.system.has_memory())
       e_.jacobian(t + rk_.c[i] * h, y_, yp_, full_->pattern, full_->parts);
     else
       std::swap(e_.parts, full_->parts);

@@ -70,6 +70,11 @@ template <class Sink> struct Assembly {
     for (int k = 0; k < b.n_active; ++k)
       velocity_columns(b.u0 + k, other, -d.row(b.active[k]));
   }
+  void load_by_acceleration(int body, int other, const Matrix6& d) {
+    const BodyData& b = s.bodies[body];
+    for (int k = 0; k < b.n_active; ++k)
+      acceleration_columns(b.u0 + k, other, -d.row(b.active[k]));
+  }
 
   /// Position rows of `body` lose E(q) d for a change d of the tangent velocity, column by column:
   /// `emit(row, weights)` with weights (1, 6) of the tangent rows.
@@ -97,28 +102,25 @@ template <class Sink> struct Assembly {
   void joints();
   void couplers();
   void body_rows();
-  void hydrodynamics();
+  void add(const ElementList& list);
+  void add(const HydroData& hydro);
   void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
   void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const Matrix6& L);
-  void phase_columns(const HydroBody& i, const Matrix6& L);
   void memory_rows();
-  void morison();
   template <int w, int n>
   void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,
-           int n_states, Index z);
-  void law_of_points(const PortData& port, const double* load, const double* jacobian, int n_states,
-                     Index z);
-  void elements();
+           const element::Shape& shape, Index z);
+  void law_of_points(const PortData& port, const double* load, const double* jacobian,
+                     const element::Shape& shape, Index z);
+  void law_states(const double* jacobian, const element::Shape& shape, Index z);
+  void law_in_water(int body, const double* jacobian, bool feels_rates);
 
   void run() {
     joints();
     couplers();
-    if constexpr (whole)
-      elements();
-    hydrodynamics();
-    morison();
+    for_each_list(s, [&](const auto& list) { add(list); });
     body_rows();
   }
 };

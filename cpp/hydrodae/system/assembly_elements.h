@@ -10,7 +10,8 @@ namespace hydrodae::system {
 template <class Sink>
 template <int w, int n>
 void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
-                         const double* jacobian, int n_states, Index z) {
+                         const double* jacobian, const element::Shape& shape, Index z) {
+  const int n_states = shape.n_states;
   const Eigen::Map<const MatrixX> J(jacobian, w + n_states, 2 * w + n_states);
   const Eigen::Matrix<double, w, w> f_x = J.template topLeftCorner<w, w>(),
                                     f_v = J.template block<w, w>(0, w);
@@ -40,24 +41,32 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
       displacement_columns(z + k, bodies[a], rate_by_xi.template segment<6>(6 * a));
       velocity_columns(z + k, bodies[a], rate_by_u.template segment<6>(6 * a));
     }
-    sink.by_yp(z + k, z + k, 1.0);
-    for (int m = 0; m < n_states; ++m)
-      sink.by_y(z + k, z + m, -J(w + k, 2 * w + m));
+  }
+  law_states(jacobian, shape, z);
+}
+
+/// How the unknowns of a law act on their own rows.
+template <class Sink>
+void Assembly<Sink>::law_states(const double* jacobian, const element::Shape& shape, Index z) {
+  const int n = shape.n_states;
+  const Eigen::Map<const MatrixX> J(jacobian, shape.n_out(), shape.n_in());
+  for (int k = 0; k < n; ++k) {
+    if (k < n - shape.n_algebraic)
+      sink.by_yp(z + k, z + k, 1.0);
+    for (int m = 0; m < n; ++m)
+      sink.by_y(z + k, z + m, -J(shape.width + k, 2 * shape.width + m));
   }
 }
 
 /// The same of a law on points of bodies.
 template <class Sink>
 void Assembly<Sink>::law_of_points(const PortData& port, const double* load, const double* jacobian,
-                                   int n_states, Index z) {
+                                   const element::Shape& shape, Index z) {
   using Matrix36 = Eigen::Matrix<double, 3, 6>;
   const auto n = static_cast<Index>(port.points.size()), w = 3 * n;
+  const int n_states = shape.n_states;
   const Eigen::Map<const MatrixX> J(jacobian, w + n_states, 2 * w + n_states);
-  for (Index k = 0; k < n_states; ++k) {
-    sink.by_yp(z + k, z + k, 1.0);
-    for (Index m = 0; m < n_states; ++m)
-      sink.by_y(z + k, z + m, -J(w + k, 2 * w + m));
-  }
+  law_states(jacobian, shape, z);
   for (Index a = 0; a < n; ++a) {
     const joint::Marker& point = port.points[static_cast<std::size_t>(a)];
     if (point.body < 0)
@@ -89,46 +98,61 @@ void Assembly<Sink>::law_of_points(const PortData& port, const double* load, con
   }
 }
 
-template <class Sink> void Assembly<Sink>::elements() {
+/// Of a load in the water, whose Jacobian is by the tangent coordinates of its body.
+template <class Sink>
+void Assembly<Sink>::law_in_water(int body, const double* jacobian, bool feels_rates) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, 18>> J(jacobian);
+  if constexpr (whole)
+    load_by_displacement(body, body, J.template leftCols<6>());
+  if (!feels_rates)
+    return;
+  if constexpr (whole)
+    load_by_velocity(body, body, J.template middleCols<6>(6));
+  load_by_acceleration(body, body, J.template rightCols<6>());
+}
+
+template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
   using element::Port;
-  for (std::size_t l = 0; l < s.elements.size(); ++l) {
-    const ElementList& list = s.elements[l];
-    const element::Shape& shape = list.laws->shape;
-    ElementScratch<double>& scratch = ws.state.elements[l];
-    gather<double>(s, list, ws.state, y, scratch);
-    const double* in = scratch.in.data();
-    const double* signals = list.signals.data();
+  const element::Shape& shape = list.laws->shape;
+  if (!whole && !(shape.in_water() && shape.feels_rates))
+    return;
+  ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
+  gather<double>(s, list, ws.state, y, scratch);
+  const double* in = scratch.in.data();
+  const double* signals = list.signals.data();
+  if (!shape.in_water()) // whose Jacobian holds how the load turns
     list.laws->evaluate(t, in, signals, scratch.out.data());
-    list.laws->jacobian(t, in, signals, ws.element_jacobian.data());
-    const double *load = scratch.out.data(), *J = ws.element_jacobian.data();
-    const Vector12* rows = scratch.rows.data();
-    Index z = list.z0;
-    for (const PortData& port : list.ports) {
-      if (shape.port == Port::points) {
-        law_of_points(port, load, J, shape.n_states, z);
-      } else if (shape.port == Port::on_body) {
-        PortGradient<6, 6> d;
-        body_gradient(state(port.body), port, in, load, d);
-        law<6, 6>(d, {port.body, -1}, J, shape.n_states, z);
+  list.laws->jacobian(t, in, signals, ws.element_jacobian.data());
+  const double *load = scratch.out.data(), *J = ws.element_jacobian.data();
+  const Vector12* rows = scratch.rows.data();
+  Index z = list.z0;
+  for (const PortData& port : list.ports) {
+    if (shape.port == Port::points) {
+      law_of_points(port, load, J, shape, z);
+    } else if (shape.in_water()) {
+      law_in_water(port.body, J, shape.feels_rates);
+    } else if (shape.port == Port::on_body) {
+      PortGradient<6, 6> d;
+      body_gradient(state(port.body), port, in, load, d);
+      law<6, 6>(d, {port.body, -1}, J, shape, z);
+    } else {
+      const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+      const std::array<int, 2> bodies{j.A.body, j.B.body};
+      if (shape.port == Port::between) {
+        PortGradient<6, 12> d;
+        marker_gradient(s, ws.state, port, in, rows, load, d);
+        law<6, 12>(d, bodies, J, shape, z);
       } else {
-        const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
-        const std::array<int, 2> bodies{j.A.body, j.B.body};
-        if (shape.port == Port::between) {
-          PortGradient<6, 12> d;
-          marker_gradient(s, ws.state, port, in, rows, load, d);
-          law<6, 12>(d, bodies, J, shape.n_states, z);
-        } else {
-          PortGradient<1, 12> d;
-          motion_gradient(s, ws.state, port, *rows, *load, d);
-          law<1, 12>(d, bodies, J, shape.n_states, z);
-        }
-        rows += shape.width;
+        PortGradient<1, 12> d;
+        motion_gradient(s, ws.state, port, *rows, *load, d);
+        law<1, 12>(d, bodies, J, shape, z);
       }
-      in += shape.n_in();
-      load += shape.n_out();
-      J += shape.n_in() * shape.n_out();
-      z += shape.n_states;
+      rows += shape.width;
     }
+    in += shape.n_in();
+    load += shape.n_out();
+    J += shape.n_columns() * shape.n_out();
+    z += shape.n_states;
   }
 }
 

@@ -1,11 +1,26 @@
 #pragma once
-/// Of the assembly (assembly.h): hydrodynamics and Morison elements.
+/// Of the assembly (assembly.h): added mass and radiation.
 
+#include "hydrodae/element/hydro_axes_gradient.h"
 #include "hydrodae/system/assembly.h"
-#include "hydrodae/system/hydro_gradient.h"
-#include "hydrodae/system/morison_gradient.h"
+#include "hydrodae/system/hydrodynamics.h"
 
 namespace hydrodae::system {
+
+using element::HydroLoadGradient;
+using element::HydroMotionGradient;
+using element::Matrix63;
+
+/// The block of a matrix (n_moving, n_moving) between two hydrodynamic bodies, zero where a
+/// coordinate does not move.
+inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const HydroBody& j) {
+  Matrix6 block = Matrix6::Zero();
+  for (int m = 0; m < 6; ++m)
+    for (int n = 0; n < 6; ++n)
+      if (i.moving[m] >= 0 && j.moving[n] >= 0)
+        block(m, n) = matrix(i.moving[m], j.moving[n]);
+  return block;
+}
 
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
@@ -57,22 +72,11 @@ void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const V
     rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
     velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
-  if (!s.hydro.drifting.empty())
-    phase_columns(i, d.L);
   for (const HydroBody& j : s.hydro.bodies)
     if (j.moves)
       hydro_pair(i, j, d.L, d.Q);
   if constexpr (memory)
     memory_columns(i, d.L);
-}
-
-/// How the excitation changes with the horizontal displacement of its body.
-template <class Sink> void Assembly<Sink>::phase_columns(const HydroBody& i, const Matrix6& L) {
-  const BodyData& b = s.bodies[i.body];
-  const Eigen::Matrix<double, 6, 2> d = L * excitation_gradient(s, i, state(i.body), t);
-  for (int n = 0; n < b.n_translations && b.active[n] < 2; ++n)
-    for (int k = 0; k < b.n_active; ++k)
-      sink.by_y(b.u0 + k, b.q0 + n, -d(b.active[k], b.active[n]));
 }
 
 template <class Sink> void Assembly<Sink>::memory_rows() {
@@ -130,14 +134,11 @@ template <class Sink> void Assembly<Sink>::hydro_masses() {
     }
 }
 
-template <class Sink> void Assembly<Sink>::hydrodynamics() {
-  const HydroData& h = s.hydro;
-  if (h.n_moving == 0)
-    return;
+template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
   if (!whole)
     return hydro_masses();
   Workspace<double>& w = ws.state;
-  hydro_loads<double>(s, w, t, y + h.z0);
+  hydro_loads<double>(s, w, y + h.z0);
   for (const HydroBody& i : h.bodies) {
     if (!i.moves)
       continue;
@@ -151,21 +152,6 @@ template <class Sink> void Assembly<Sink>::hydrodynamics() {
     hydro_body(i, rate, momentum);
   }
   memory_rows();
-}
-
-template <class Sink> void Assembly<Sink>::morison() {
-  for (const MorisonData& m : s.morison) {
-    const BodyData& b = s.bodies[m.body];
-    if (b.n_active == 0)
-      continue;
-    const LoadGradient d = morison_gradient(s.water, m, state(m.body), t, ws.state.fluid, ws.fluid);
-    if constexpr (whole) {
-      load_by_displacement(m.body, m.body, d.by_displacement);
-      load_by_velocity(m.body, m.body, d.by_velocity);
-    }
-    for (int k = 0; k < b.n_active; ++k)
-      acceleration_columns(b.u0 + k, m.body, -d.by_acceleration.row(b.active[k]));
-  }
 }
 
 } // namespace hydrodae::system

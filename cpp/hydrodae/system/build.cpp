@@ -8,6 +8,7 @@
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/declare.h"
 #include "hydrodae/system/initial_pose.h"
 #include "hydrodae/system/mechanisms.h"
 
@@ -72,8 +73,9 @@ void set_offsets(System& s) {
     list.z0 = s.z0 + s.n_z;
     s.n_z += static_cast<Index>(list.laws->unknowns.size());
   }
-  s.hydro.z0 = s.z0 + s.n_z;
+  s.memory0 = s.hydro.z0 = s.z0 + s.n_z;
   s.n_z += s.hydro.n_states;
+  s.states = declare(s).states;
   s.lambda0 = s.z0 + s.n_z;
   for_each_row(s, [&](Index& lambda, Index&, bool) {
     if (lambda != redundant)
@@ -89,6 +91,11 @@ void set_offsets(System& s) {
   for (BodyData& b : s.bodies)
     if (b.rotation == BodyData::Rotation::free)
       b.sigma = s.n++;
+  s.algebraic.assign(static_cast<std::size_t>(s.n), true);
+  std::fill_n(s.algebraic.begin(), s.lambda0, false);
+  for (const StateBlock& block : s.states)
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      s.algebraic[static_cast<std::size_t>(block.first) + k] = block.unknowns[k].algebraic;
 }
 
 } // namespace
@@ -116,6 +123,17 @@ void set_state(System& s, SwitchData& element, SwitchData::State state) {
                                     : 0.0;
 }
 
+bool System::has_waves() const {
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const ElementList& list) { return list.laws->waves().omega.size() > 0; });
+}
+
+void calm(System& s) {
+  for (ElementList& list : s.elements)
+    if (auto without = list.laws->calm())
+      list.laws = std::move(without);
+}
+
 System build(const model::Scene& scene, bool with_excitation) {
   System s;
   s.gravity = scene.environment.gravity;
@@ -127,9 +145,9 @@ System build(const model::Scene& scene, bool with_excitation) {
   set_body_scales(scene, s);
   select_rows(s);
   add_hydro(scene, s);
-  add_morison(scene, s);
   add_constraints(scene, s);
   add_elements(scene, s);
+  add_morison(scene, s);
   for (const model::Marker& m : scene.markers)
     s.markers.push_back({m.name, body_index(scene, m.body),
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
@@ -164,9 +182,9 @@ VectorX initial_state(const System& s) {
     if (b.rotation == BodyData::Rotation::free)
       y.segment<4>(q) = b.orientation;
   }
-  for (const ElementList& list : s.elements)
-    for (std::size_t k = 0; k < list.laws->unknowns.size(); ++k)
-      y[list.z0 + static_cast<Index>(k)] = list.laws->unknowns[k].start;
+  for (const StateBlock& block : s.states)
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
+      y[block.first + static_cast<Index>(k)] = block.unknowns[k].start;
   return y;
 }
 

@@ -16,15 +16,6 @@ namespace hydrodae::system {
 
 namespace {
 
-int label_index(const std::vector<std::string>& labels, const std::string& label) {
-  const auto found = std::find(labels.begin(), labels.end(), label);
-  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
-}
-
-std::string label(const model::Scene& scene, const HydroBody& hb, int c) {
-  return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
-}
-
 /// U: which coordinates of which body.
 void number_coordinates(const model::Scene& scene, System& s) {
   HydroData& h = s.hydro;
@@ -52,12 +43,13 @@ MatrixX cut(const model::Scene& scene, const HydroData& h, const std::vector<std
   MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
   for (std::size_t i = 0; i < h.bodies.size(); ++i)
     for (int c = 0; c < 6; ++c) {
-      const int row = label_index(rows, label(scene, h.bodies[i], c));
+      const int row = label_index(rows, hydro_label(scene, h.bodies[i], c));
       if (row < 0)
         continue;
       for (int u = 0; u < h.n_moving; ++u) {
         const HydroData::Coordinate& k = h.coordinates[u];
-        const int column = label_index(columns, label(scene, h.bodies[k.hydro_body], k.component));
+        const int column =
+            label_index(columns, hydro_label(scene, h.bodies[k.hydro_body], k.component));
         out(6 * static_cast<Eigen::Index>(i) + c, u) = source(row, column);
       }
     }
@@ -76,8 +68,8 @@ MatrixX moving_rows(const HydroData& h, const MatrixX& all) {
 void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs, System& s) {
   for (const HydroBody& hb : s.hydro.bodies)
     for (int c = 0; c < 6; ++c)
-      if (label_index(outputs, label(scene, hb, c)) < 0)
-        s.hydro.uncovered.push_back(label(scene, hb, c));
+      if (label_index(outputs, hydro_label(scene, hb, c)) < 0)
+        s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
 }
 
 /// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
@@ -87,7 +79,7 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& 
   std::vector<int> input(h.n_moving);
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
-    input[u] = label_index(fit.inputs, label(scene, h.bodies[k.hydro_body], k.component));
+    input[u] = label_index(fit.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component));
   }
   std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
   for (int k = 0; k < fit.poles.size(); ++k) {
@@ -112,7 +104,7 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& 
   h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
   for (std::size_t i = 0; i < h.bodies.size(); ++i)
     for (int c = 0; c < 6; ++c) {
-      const int row = label_index(fit.outputs, label(scene, h.bodies[i], c));
+      const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
       if (row < 0)
         continue;
       for (const HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
@@ -126,85 +118,6 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& 
   h.output = moving_rows(h, h.output_all);
 }
 
-/// Samples of one kernel: over the last tenth of the memory it is let down to zero by a squared
-/// cosine, so that what leaves the memory does so smoothly.
-VectorX kernel_samples(const hydro::RadiationKernel& kernel, int row, int column, Eigen::Index n) {
-  VectorX samples(n);
-  const double end = static_cast<double>(n - 1);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double late = (static_cast<double>(k) / end - 0.9) / 0.1;
-    const double c = late > 0.0 ? std::cos(0.5 * pi * late) : 1.0;
-    samples[k] = c * c * kernel.values[static_cast<std::size_t>(k)](row, column);
-  }
-  samples[n - 1] = 0.0;
-  return samples;
-}
-
-/// Root mean square frequency of the kernels, of the fastest coordinate whose kernel matters beside
-/// its added mass [rad/s].
-double kernel_frequency(const HydroData& h) {
-  const Convolution& c = h.convolution;
-  VectorX size = VectorX::Zero(h.n_moving), frequency = size;
-  for (int p = 0; p < c.n_moving_pairs; ++p) {
-    const Convolution::Pair& pair = c.pairs[static_cast<std::size_t>(p)];
-    const double mass = h.added_mass(pair.column, pair.column);
-    if (pair.row != pair.column || !(mass > 0.0))
-      continue;
-    const auto K = c.splines.col(p);
-    const VectorX slope = (K.tail(K.size() - 1) - K.head(K.size() - 1)) / c.step;
-    size[pair.column] = K.cwiseAbs().maxCoeff() / mass;
-    frequency[pair.column] = slope.norm() / K.norm();
-  }
-  double fastest = 0.0;
-  for (int u = 0; u < h.n_moving; ++u)
-    if (size[u] > 1e-3 * size.maxCoeff())
-      fastest = std::max(fastest, frequency[u]);
-  return fastest;
-}
-
-/// Kernels of the pairs that feel each other, rows that move first.
-void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& kernel, System& s) {
-  HydroData& h = s.hydro;
-  Convolution& c = h.convolution;
-  c.step = kernel.step;
-  const double length = scene.hydro->memory_length.value_or(kernel.length());
-  const auto n = std::min<Eigen::Index>(static_cast<Eigen::Index>(length / c.step + 1e-9) + 1,
-                                        static_cast<Eigen::Index>(kernel.values.size()));
-  c.length = c.step * static_cast<double>(n - 1);
-  std::vector<VectorX> splines;
-  auto add_row = [&](int row, int from) { // `from`: of the kernel
-    for (int u = 0; u < h.n_moving; ++u) {
-      const HydroData::Coordinate& k = h.coordinates[static_cast<std::size_t>(u)];
-      const int column =
-          label_index(kernel.inputs, label(scene, h.bodies[k.hydro_body], k.component));
-      const VectorX samples = kernel_samples(kernel, from, column, n);
-      if (samples.isZero(0.0))
-        continue;
-      c.pairs.push_back({row, u});
-      splines.push_back(bspline_coefficients(samples));
-    }
-  };
-  for (int u = 0; u < h.n_moving; ++u) {
-    const HydroData::Coordinate& k = h.coordinates[static_cast<std::size_t>(u)];
-    add_row(u, label_index(kernel.outputs, label(scene, h.bodies[k.hydro_body], k.component)));
-  }
-  c.n_moving_pairs = static_cast<int>(c.pairs.size());
-  for (int i = 0; i < static_cast<int>(h.bodies.size()); ++i)
-    for (int d = 0; d < 6; ++d) {
-      const int from = label_index(kernel.outputs, label(scene, h.bodies[i], d));
-      if (h.bodies[i].moving[d] >= 0 || from < 0)
-        continue;
-      const std::size_t before = c.pairs.size();
-      add_row(h.n_moving + static_cast<int>(c.locked.size()), from);
-      if (c.pairs.size() > before)
-        c.locked.push_back(6 * i + d);
-    }
-  c.splines.resize(n + 2, static_cast<Eigen::Index>(splines.size()));
-  for (std::size_t p = 0; p < splines.size(); ++p)
-    c.splines.col(static_cast<Eigen::Index>(p)) = splines[p];
-  c.frequency = kernel_frequency(h);
-}
-
 /// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
 /// read.
 VectorX largest_damping(const model::Scene& scene, const HydroData& h) {
@@ -212,7 +125,8 @@ VectorX largest_damping(const model::Scene& scene, const HydroData& h) {
   const hydro::Database& db = *scene.database;
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
-    const int i = label_index(db.coordinates, label(scene, h.bodies[k.hydro_body], k.component));
+    const int i =
+        label_index(db.coordinates, hydro_label(scene, h.bodies[k.hydro_body], k.component));
     for (const MatrixX& B : db.damping)
       out[u] = i < 0 ? 0.0 : std::max(out[u], std::abs(B(i, i)));
   }
@@ -232,6 +146,15 @@ MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
 }
 
 } // namespace
+
+int label_index(const std::vector<std::string>& labels, const std::string& label) {
+  const auto found = std::find(labels.begin(), labels.end(), label);
+  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
+}
+
+std::string hydro_label(const model::Scene& scene, const HydroBody& hb, int c) {
+  return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
+}
 
 /// Mass and added mass together must be positive: else a push moves the body towards the hand.
 void check_mass(const System& s) {

@@ -1,6 +1,7 @@
 /// Morison elements cut into segments, and the waves and the current that they feel.
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/morison_list.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/initial_pose.h"
@@ -47,29 +48,35 @@ void add_morison(const model::Scene& scene, System& s) {
     return;
   const model::Water water = model::water(scene);
   const std::vector<sea::Component> all = model::wave_components(scene);
-  s.water = sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current);
+  auto list = std::make_shared<element::MorisonList>(
+      sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current));
+  std::vector<PortData> ports;
   Index pieces = 0;
   for (const element::Morison& m : scene.morison) {
-    MorisonData out;
-    out.name = m.name;
-    out.body = body_index(scene, m.body);
-    out.instantaneous = m.surface == "instantaneous";
-    const Vector3& origin = scene.bodies[static_cast<std::size_t>(out.body)].center_of_gravity;
+    PortData port;
+    port.component = m.name;
+    port.body = body_index(scene, m.body);
+    element::MorisonMember member;
+    member.instantaneous = m.surface == "instantaneous";
+    member.moves = s.bodies[static_cast<std::size_t>(port.body)].n_active > 0;
+    const Vector3& origin = scene.bodies[static_cast<std::size_t>(port.body)].center_of_gravity;
     if (m.point) {
-      out.law = point_law(m, water.density);
-      out.first = *m.point - origin;
+      member.law = point_law(m, water.density);
+      member.first = *m.point - origin;
     } else {
       const Vector3 along = *m.point_b - *m.point_a;
-      out.segments = m.segments;
-      out.step = along / m.segments;
-      out.first = *m.point_a - origin + 0.5 * out.step;
-      out.axis = along.normalized();
-      out.law = member_law(m, out.step.norm(), water.density);
+      member.segments = m.segments;
+      member.step = along / m.segments;
+      member.first = *m.point_a - origin + 0.5 * member.step;
+      member.axis = along.normalized();
+      member.law = member_law(m, member.step.norm(), water.density);
     }
-    if (s.bodies[static_cast<std::size_t>(out.body)].n_active > 0)
-      pieces += out.segments;
-    s.morison.push_back(std::move(out));
+    if (member.moves)
+      pieces += member.segments;
+    list->add(m.name, member);
+    ports.push_back(std::move(port));
   }
+  s.elements.push_back({std::move(list), std::move(ports), {}});
   if (pieces > 0 && !all.empty())
     s.notes.push_back(
         "Morison elements: every evaluation sums " + std::to_string(all.size()) +

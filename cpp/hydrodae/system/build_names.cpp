@@ -71,18 +71,13 @@ void set_names(System& s) {
     s.names[c.mu] = head + " position multiplier";
     s.row_names[c.mu] = head;
   }
-  for (const ElementList& list : s.elements) {
-    const element::Elements& laws = *list.laws;
-    for (std::size_t k = 0; k < laws.unknowns.size(); ++k) {
-      const std::string& owner = laws.names[k / static_cast<std::size_t>(laws.shape.n_states)];
-      const Index z = list.z0 + static_cast<Index>(k);
-      s.names[z] = "forces/" + owner + " " + laws.unknowns[k].name;
+  for (const StateBlock& block : s.states) {
+    Index z = block.first;
+    for (const element::Unknown& u : block.unknowns) {
+      s.names[z] = block.path + " " + u.name;
       s.row_names[z] = s.names[z] + " rate";
+      ++z;
     }
-  }
-  for (Index k = 0; k < s.hydro.n_states; ++k) {
-    s.names[s.hydro.z0 + k] = "radiation memory state " + std::to_string(k);
-    s.row_names[s.hydro.z0 + k] = s.names[s.hydro.z0 + k] + " rate";
   }
 }
 

@@ -21,6 +21,14 @@ void set_names(System& system);
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, System& system);
 
+/// "float.heave" of coordinate c of a body in the water, as in databases; and where a label stands,
+/// -1: nowhere (build_hydro.cpp).
+std::string hydro_label(const model::Scene& scene, const HydroBody& body, int c);
+int label_index(const std::vector<std::string>& labels, const std::string& label);
+
+/// Kernels of the pairs that feel each other, rows that move first (build_convolution.cpp).
+void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& kernel, System& s);
+
 /// Takes the mean yaws of the hydrodynamic bodies from where they start, and turns the hydrostatics
 /// with them (mean_yaw.cpp).
 /// @returns whether any of them changed by more than rounding

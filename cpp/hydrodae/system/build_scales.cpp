@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/declare.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
@@ -64,17 +65,6 @@ void set_row(System& s, const JointScale& scale, Index lambda, Index mu, bool an
   s.row_scale[mu] = size;
 }
 
-/// States of laws by their declaration; their rates over the time of the bodies.
-void set_states(System& s, const ElementList& list) {
-  const auto n = static_cast<std::size_t>(list.laws->shape.n_states);
-  for (std::size_t k = 0; k < list.laws->unknowns.size(); ++k) {
-    const BodyData* body = moving_body(s, list.ports[k / n]);
-    const Index z = list.z0 + static_cast<Index>(k);
-    s.scale[z] = list.laws->unknowns[k].scale;
-    s.row_scale[z] = s.scale[z] / (body ? body->time_scale : 1.0);
-  }
-}
-
 } // namespace
 
 void set_body_scales(const model::Scene& scene, System& s) {
@@ -105,6 +95,7 @@ void take_time_scales(System& s, const VectorX& y, const VectorX& yp) {
   for (BodyData& b : s.bodies)
     if (!b.time_scale_known)
       b.time_scale = shortest;
+  s.states = declare(s).states;
   set_scales(s);
 }
 
@@ -144,24 +135,15 @@ void set_scales(System& s) {
       set_row(s, joint_scale(s, s.joints[motion.joint]), c.lambda, c.velocity_level ? -1 : c.mu,
               motion.motion.is_angle());
   }
-  // A state z' = p z + B U follows U / |p|.
-  const HydroData& h = s.hydro;
-  VectorX drive = VectorX::Zero(h.n_states);
-  for (const HydroData::Input& in : h.inputs) {
-    const HydroData::Coordinate& u = h.coordinates[in.coordinate];
-    const BodyData& b = s.bodies[h.bodies[u.hydro_body].body];
-    const double velocity = b.length_scale / b.time_scale / (u.component < 3 ? 1.0 : b.lever);
-    drive[in.state] += std::abs(in.value) * velocity;
-  }
-  for (const HydroData::Block& b : h.blocks) {
-    const double both = b.pair ? drive[b.state] + drive[b.state + 1] : drive[b.state];
-    for (int k = 0; k < (b.pair ? 2 : 1); ++k) {
-      s.scale[h.z0 + b.state + k] = both / std::hypot(b.a, b.b);
-      s.row_scale[h.z0 + b.state + k] = both;
+  for (const StateBlock& block : s.states) {
+    const double time =
+        block.body < 0 ? 1.0 : s.bodies[static_cast<std::size_t>(block.body)].time_scale;
+    Index z = block.first;
+    for (const element::Unknown& u : block.unknowns) {
+      s.scale[z] = u.scale;
+      s.row_scale[z++] = u.rate > 0.0 ? u.rate : u.algebraic ? u.scale : u.scale / time;
     }
   }
-  for (const ElementList& list : s.elements)
-    set_states(s, list);
   for (Index i = 0; i < s.lambda0; ++i)
     s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
   for (const BodyData& b : s.bodies) {

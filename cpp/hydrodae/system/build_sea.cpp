@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/excitation.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
@@ -88,13 +89,23 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
   }
 }
 
+std::shared_ptr<element::Excitation> excitation_list(const System& s, bool split) {
+  std::vector<element::Excitation::Body> bodies;
+  for (const HydroBody& hb : s.hydro.bodies) {
+    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    bodies.push_back({b.name, hb, b.reference, b.length_scale});
+  }
+  return std::make_shared<element::Excitation>(s.hydro.axes, std::move(bodies), s.hydro.n_moving,
+                                               split);
+}
+
 } // namespace
 
 void add_sea(const model::Scene& scene, System& s) {
   if (scene.waves.empty() || !scene.database)
     return; // Morison elements feel the waves by themselves
   const hydro::Database& db = *scene.database;
-  HydroData& h = s.hydro;
+  const HydroData& h = s.hydro;
   const std::vector<Meeting> bodies = meetings(scene, s);
   std::vector<sea::Component> all;
   for (const sea::Wave& wave : scene.waves) {
@@ -109,14 +120,14 @@ void add_sea(const model::Scene& scene, System& s) {
   for (const HydroBody& hb : h.bodies)
     for (std::string_view dof : model::coordinate_names)
       labels.push_back(*scene.bodies[hb.body].hydro + "." + std::string(dof));
-  h.split = !db.froude_krylov.empty();
+  const bool split = !db.froude_krylov.empty();
   const hydro::Excitation excitation(db, db.excitation, labels);
   std::optional<hydro::Excitation> froude_krylov;
-  if (h.split)
+  if (split)
     froude_krylov.emplace(db, db.froude_krylov, labels);
   const auto n = static_cast<Eigen::Index>(all.size());
   const auto rows = static_cast<Eigen::Index>(labels.size());
-  const Eigen::Index last = h.n_moving + rows * (h.split ? 2 : 1);
+  const Eigen::Index last = h.n_moving + rows * (split ? 2 : 1);
   VectorX omega(n);
   Eigen::MatrixXcd coefficients(last + 1, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -127,21 +138,28 @@ void add_sea(const model::Scene& scene, System& s) {
     for (int u = 0; u < h.n_moving; ++u)
       coefficients(u, i) = force[6 * h.coordinates[u].hydro_body + h.coordinates[u].component];
     coefficients.col(i).segment(h.n_moving, rows) = force;
-    if (h.split)
+    if (split)
       coefficients.col(i).segment(h.n_moving + rows, rows) =
           elevation * meet(db, *froude_krylov, bodies, c);
     coefficients(last, i) = elevation;
   }
+  auto list = excitation_list(s, split);
   if (scene.sea.phase == "fixed") {
-    h.excitation = sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp);
-    return;
+    list->set(sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp));
+  } else {
+    const auto moving =
+        std::count_if(h.bodies.begin(), h.bodies.end(), [](const HydroBody& b) { return b.moves; });
+    s.notes.push_back("the phase of the waves follows the bodies: every evaluation sums " +
+                      std::to_string(all.size()) + " wave components for " +
+                      std::to_string(moving) + (moving == 1 ? " body" : " bodies"));
+    list->set(sea::DriftingSignals(std::move(all), std::move(coefficients), scene.sea.ramp));
   }
-  const auto moving =
-      std::count_if(h.bodies.begin(), h.bodies.end(), [](const HydroBody& b) { return b.moves; });
-  s.notes.push_back("the phase of the waves follows the bodies: every evaluation sums " +
-                    std::to_string(all.size()) + " wave components for " + std::to_string(moving) +
-                    (moving == 1 ? " body" : " bodies"));
-  h.drifting = sea::DriftingSignals(std::move(all), std::move(coefficients), scene.sea.ramp);
+  std::vector<PortData> ports(h.bodies.size());
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    ports[i].component = list->type;
+    ports[i].body = h.bodies[i].body;
+  }
+  s.elements.push_back({std::move(list), std::move(ports), {}});
 }
 
 } // namespace hydrodae::system

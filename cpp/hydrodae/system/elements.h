@@ -8,18 +8,9 @@
 
 namespace hydrodae::system {
 
-/// World force and body-axes moment of a wrench given in earth axes.
-template <class S> Vec6<S> to_tangent(const BodyState<S>& state, const Vec6<S>& wrench) {
-  Vec6<S> load;
-  load << wrench.template head<3>(), state.R.transpose() * wrench.template tail<3>();
-  return load;
-}
-
-/// Force and moment in world axes of a load given as world force and body-axes moment.
-inline Vector6 to_world(const BodyState<double>& state, const Vector6& tangent) {
-  Vector6 load;
-  load << tangent.head<3>(), state.R * tangent.tail<3>();
-  return load;
+/// Of a list in System::elements.
+inline std::size_t index_of(const System& s, const ElementList& list) {
+  return static_cast<std::size_t>(&list - s.elements.data());
 }
 
 /// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
@@ -116,13 +107,15 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
       std::copy(velocity.data(), velocity.data() + 6, v);
     } else if (shape.port == element::Port::points) {
       see_points<S>(ws, port, x, v);
+    } else if (shape.in_water()) {
+      element::write(ws.bodies[port.body], in);
     } else if (shape.port == element::Port::between) {
       see_markers<S>(s, ws, port, x, v, rows);
       rows += 6;
     } else {
       see_motion<S>(s, ws, port, x, v, *rows++);
     }
-    std::copy(z, z + shape.n_states, in + 2 * shape.width);
+    std::copy(z, z + shape.n_states, in + shape.n_in() - shape.n_states);
     z += shape.n_states;
     in += shape.n_in();
   }
@@ -132,9 +125,10 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
 template <class S>
 void add_load(const System& s, const element::Shape& shape, const PortData& port, const S* load,
               const joint::Vec12<S>* rows, Workspace<S>& ws) {
-  if (shape.port == element::Port::on_body) {
+  if (element::is_on_body(shape.port)) {
     const Eigen::Map<const Vec6<S>> wrench(load);
-    ws.loads[port.body] += to_tangent<S>(ws.bodies[port.body], wrench);
+    ws.loads[port.body] +=
+        shape.in_water() ? Vec6<S>(wrench) : to_tangent<S>(ws.bodies[port.body], wrench);
     return;
   }
   if (shape.port == element::Port::points) {
@@ -149,25 +143,25 @@ void add_load(const System& s, const element::Shape& shape, const PortData& port
   add_to_bodies<S>(s.joints[port.joint], sum, ws.loads);
 }
 
-/// Loads of all elements into `ws.loads`, and the rows z' - f(x, v, z) = 0 of their states.
+/// Loads of one list into `ws.loads`, and the rows z' - h(x, v, z) = 0 of its states, -h = 0 of its
+/// algebraic unknowns.
 template <class S>
-void add_elements(const System& s, Workspace<S>& ws, const S* y, const S* yp, S* residual) {
-  for (std::size_t l = 0; l < s.elements.size(); ++l) {
-    const ElementList& list = s.elements[l];
-    ElementScratch<S>& scratch = ws.elements[l];
-    const element::Shape& shape = list.laws->shape;
-    gather<S>(s, list, ws, y, scratch);
-    list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
-    const S* out = scratch.out.data();
-    const joint::Vec12<S>* rows = scratch.rows.data();
-    Index z = list.z0;
-    for (const PortData& port : list.ports) {
-      add_load<S>(s, shape, port, out, rows, ws);
-      for (int k = 0; k < shape.n_states; ++k, ++z)
-        residual[z] = yp[z] - out[shape.width + k];
-      rows += element::has_rows(shape.port) ? shape.width : 0;
-      out += shape.n_out();
-    }
+void add_loads(const System& s, const ElementList& list, Workspace<S>& ws, const S* y, const S* yp,
+               S* residual) {
+  ElementScratch<S>& scratch = ws.elements[index_of(s, list)];
+  const element::Shape& shape = list.laws->shape;
+  gather<S>(s, list, ws, y, scratch);
+  list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
+  const S* out = scratch.out.data();
+  const joint::Vec12<S>* rows = scratch.rows.data();
+  Index z = list.z0;
+  for (const PortData& port : list.ports) {
+    add_load<S>(s, shape, port, out, rows, ws);
+    const int rates = shape.n_states - shape.n_algebraic;
+    for (int k = 0; k < shape.n_states; ++k, ++z)
+      residual[z] = (k < rates ? yp[z] : S(0)) - out[shape.width + k];
+    rows += element::has_rows(shape.port) ? shape.width : 0;
+    out += shape.n_out();
   }
 }
 

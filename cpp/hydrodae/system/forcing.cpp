@@ -17,11 +17,11 @@ constexpr double kept = 0.999;          ///< of the variance of the waves: longe
 
 /// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
 /// each component: sqrt(2 sum |C|^2 / max(1/T, w)^4), twice the standard deviation.
-double response(const Eigen::VectorXcd& C, const VectorX& omega, double time_scale) {
+double response(const VectorX& C, const VectorX& omega, double time_scale) {
   double sum = 0.0;
   for (Index i = 0; i < C.size(); ++i) {
     const double rate = std::max(1.0 / time_scale, omega[i]);
-    sum += std::norm(C[i]) / std::pow(rate, 4.0);
+    sum += C[i] * C[i] / std::pow(rate, 4.0);
   }
   return std::sqrt(2.0 * sum);
 }
@@ -43,6 +43,17 @@ double highest(std::vector<std::pair<double, double>> parts) {
     if (below >= kept * total)
       return omega;
   }
+  return 0.0;
+}
+
+/// Mass and added mass of one coordinate of a body, zero where it does not move in the water [kg or
+/// kg m2].
+double mass_along(const System& s, const PortData& port, int c) {
+  const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
+  for (const HydroBody& hb : s.hydro.bodies)
+    if (hb.body == port.body && hb.moving[c] >= 0)
+      return s.hydro.added_mass(hb.moving[c], hb.moving[c]) +
+             (c < 3 ? b.mass : b.inertia(c - 3, c - 3));
   return 0.0;
 }
 
@@ -100,39 +111,21 @@ void Forcing::add_drives(const System& s, double end, double output_step) {
 
 void Forcing::add_waves(const System& s) {
   std::vector<std::pair<double, double>> parts; // frequency, variance
-  VectorX omega;
-  const Eigen::MatrixXcd* C = nullptr;
-  if (!s.hydro.excitation.empty()) {
-    omega = s.hydro.excitation.omega();
-    C = &s.hydro.excitation.coefficients();
-  } else if (!s.hydro.drifting.empty()) {
-    const std::vector<sea::Component>& components = s.hydro.drifting.waves();
-    omega.resize(static_cast<Index>(components.size()));
-    for (Index i = 0; i < omega.size(); ++i)
-      omega[i] = components[static_cast<std::size_t>(i)].omega;
-    C = &s.hydro.drifting.coefficients();
+  for (const ElementList& list : s.elements) {
+    const element::WavesFelt waves = list.laws->waves();
+    for (Index i = 0; i < waves.omega.size(); ++i)
+      parts.emplace_back(waves.omega[i], waves.amplitude[i] * waves.amplitude[i]);
+    for (std::size_t k = 0; k < list.ports.size() && waves.omega.size() > 0; ++k) {
+      const PortData& port = list.ports[k];
+      const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
+      if (waves.loads.empty())
+        expect(b, false, std::sqrt(2.0) * waves.amplitude.norm());
+      for (int c = 0; c < 6 && !waves.loads.empty(); ++c)
+        if (const double mass = mass_along(s, port, c); mass > 0.0)
+          expect(b, c >= 3,
+                 response(waves.loads[k].row(c).transpose(), waves.omega, b.time_scale) / mass);
+    }
   }
-  for (Index i = 0; C && i < omega.size(); ++i)
-    parts.emplace_back(omega[i], std::norm((*C)(C->rows() - 1, i)));
-  for (Index u = 0; C && u < s.hydro.n_moving; ++u) {
-    const HydroData::Coordinate& k = s.hydro.coordinates[static_cast<std::size_t>(u)];
-    const BodyData& b = s.bodies[static_cast<std::size_t>(
-        s.hydro.bodies[static_cast<std::size_t>(k.hydro_body)].body)];
-    const bool turns = k.component >= 3;
-    const double mass =
-        s.hydro.added_mass(u, u) + (turns ? b.inertia(k.component - 3, k.component - 3) : b.mass);
-    const Index row =
-        s.hydro.drifting.empty() ? u : s.hydro.n_moving + 6 * k.hydro_body + k.component;
-    if (mass > 0.0)
-      expect(b, turns, response(C->row(row).transpose(), omega, b.time_scale) / mass);
-  }
-  double variance = 0.0;
-  for (const sea::WaveField::Term& w : s.water.terms) {
-    parts.emplace_back(w.omega, w.amplitude * w.amplitude);
-    variance += w.amplitude * w.amplitude;
-  }
-  for (const MorisonData& m : s.morison)
-    expect(s.bodies[static_cast<std::size_t>(m.body)], false, std::sqrt(2.0 * variance));
   if (const double most = highest(parts); most > 0.0)
     wave_limit_ = share_of_period * 2.0 * pi / most;
 }

@@ -87,12 +87,12 @@ void fill_memory(const System& s, const JacobianWorkspace& ws, JacobianParts& ou
 } // namespace
 
 JacobianWorkspace::JacobianWorkspace(const System& system)
-    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
-      fluid(state.fluid.size()) {
+    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
-    most = std::max(most, list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_in() *
-                                                                       list.laws->shape.n_out()));
+    most =
+        std::max(most, list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_columns() *
+                                                                    list.laws->shape.n_out()));
   element_jacobian.resize(most);
 }
 

@@ -55,7 +55,6 @@ struct JacobianWorkspace {
   explicit JacobianWorkspace(const System& system);
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
-  std::vector<sea::FluidGradient> fluid;             ///< at the segments of one Morison element
   std::vector<double> element_jacobian;              ///< of the laws of one list
 };
 

@@ -10,12 +10,9 @@
 
 namespace hydrodae::system {
 
-/// Pose and motion of one body: r, v in world axes, w in body axes.
-template <class S> struct BodyState {
-  Vec3<S> r, v, w, v_dot, w_dot;
-  Vec4<S> p;
-  Mat3<S> R;
-};
+using element::BodyState;
+using element::to_tangent;
+using element::to_world;
 
 struct Past;
 
@@ -32,8 +29,7 @@ inline Matrix3 gyroscopic_matrix(const Matrix3& inertia, const Vector3& w) {
   return skew<double>(w) * inertia - skew<double>(inertia * w);
 }
 
-/// What the laws of one list see and answer; rows: gradients of what they see (widths other than
-/// those on a body).
+/// What the laws of one list see and answer; rows: gradients of what they see, where it has them.
 template <class S> struct ElementScratch {
   std::vector<S> in, out;
   std::vector<joint::Vec12<S>> rows;
@@ -53,10 +49,8 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VecX<S> memory;                        ///< scratch of the convolution
-  const Past* past = nullptr;            ///< at the time of this evaluation (history.h)
-  VectorX excitation;                    ///< on the coordinates of U
-  std::vector<sea::FluidPoint<S>> fluid; ///< at the segments of one Morison element
+  VecX<S> memory;             ///< scratch of the convolution
+  const Past* past = nullptr; ///< at the time of this evaluation (history.h)
   std::vector<ElementScratch<S>> elements;
   double time = 0.0; ///< of this evaluation [s]
   Turns turns;
@@ -65,12 +59,7 @@ template <class S> struct Workspace {
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
-        excitation(VectorX::Zero(s.hydro.excitation.empty() ? 0 : s.hydro.n_moving)),
         elements(s.elements.begin(), s.elements.end()) {
-    std::size_t segments = 0;
-    for (const MorisonData& m : s.morison)
-      segments = std::max(segments, static_cast<std::size_t>(m.segments));
-    fluid.resize(segments);
     turns.rate.assign(s.motions.size(), 0.0);
     for (const MotionData& m : s.motions)
       turns.value.push_back(m.start);

@@ -1,6 +1,9 @@
 #include "hydrodae/system/mechanisms.h"
 
+#include <algorithm>
 #include <numeric>
+
+#include "hydrodae/system/declare.h"
 
 namespace hydrodae::system {
 
@@ -88,21 +91,8 @@ void find_mechanisms(System& s) {
     }
   }
   s.n_mechanisms = sets.number(s, &BodyData::mechanism);
-  for_each_law(s, [&](const ElementList&, std::size_t, const PortData& port) {
-    int first = -1;
-    for_each_body(s, port, [&](int body) {
-      sets.join(first, body);
-      if (sets.moves(body))
-        first = body;
-    });
-  });
-  int wet = -1;
-  for (const HydroBody& hb : s.hydro.bodies) {
-    if (sets.moves(hb.body) && wet >= 0)
-      sets.join(wet, hb.body);
-    if (sets.moves(hb.body))
-      wet = hb.body;
-  }
+  for (const auto& [a, b] : declare(s).pairs)
+    sets.join(a, b);
   s.n_groups = sets.number(s, &BodyData::group);
   s.motion_scale = VectorX::Ones(s.n_groups);
   s.translation_scale = s.motion_scale;
@@ -110,24 +100,15 @@ void find_mechanisms(System& s) {
 
 void set_groups(System& s) {
   s.group.assign(static_cast<std::size_t>(s.lambda0), 0);
-  int wet = 0;
-  for (const HydroBody& hb : s.hydro.bodies)
-    if (const int group = s.bodies[static_cast<std::size_t>(hb.body)].group; group >= 0)
-      wet = group;
   for (const BodyData& b : s.bodies) {
     for (Index k = 0; k < b.n_position; ++k)
       s.group[static_cast<std::size_t>(b.q0 + k)] = b.group;
     for (Index k = 0; k < b.n_active; ++k)
       s.group[static_cast<std::size_t>(b.u0 + k)] = b.group;
   }
-  for_each_law(s, [&](const ElementList& list, std::size_t law, const PortData& port) {
-    const BodyData* body = moving_body(s, port);
-    const Index n = list.laws->shape.n_states, first = list.z0 + n * static_cast<Index>(law);
-    for (Index k = 0; k < n; ++k)
-      s.group[static_cast<std::size_t>(first + k)] = body ? body->group : 0;
-  });
-  for (Index z = s.hydro.z0; z < s.lambda0; ++z)
-    s.group[static_cast<std::size_t>(z)] = wet;
+  for (const StateBlock& block : s.states)
+    std::fill_n(s.group.begin() + block.first, block.unknowns.size(),
+                block.body < 0 ? 0 : s.bodies[static_cast<std::size_t>(block.body)].group);
   s.group_size = VectorX::Zero(s.n_groups);
   for (const int group : s.group)
     ++s.group_size[group];

@@ -3,7 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "hydrodae/system/residual.h"
+#include "hydrodae/system/declare.h"
+#include "hydrodae/system/elements.h"
 
 namespace hydrodae::system {
 
@@ -20,35 +21,17 @@ int component_index(Observation& out, const std::string& name) {
 } // namespace
 
 Observer::Observer(const System& system) : s_(system), ws_(system) {
-  auto plan = [&](const std::string& component, int body, bool part = false) {
-    if (body >= 0)
-      out_.loads.push_back({component_index(out_, component), body, part});
+  const auto plan = [&](const std::string& component, int body, element::Work work) {
+    out_.loads.push_back({component_index(out_, component), body});
+    out_.works.resize(out_.components.size(), work);
   };
+  const Declaration declared = declare(s_);
   for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i)
-    plan("weight", i);
-  for_each_law(s_, [&](const ElementList&, std::size_t, const PortData& port) {
-    for_each_body(s_, port, [&](int body) { plan(port.component, body); });
-  });
-  if (s_.hydro.n_moving > 0)
-    for (const HydroBody& hb : s_.hydro.bodies) {
-      plan("added_mass_inf", hb.body);
-      if (s_.hydro.radiates())
-        plan("radiation", hb.body);
-    }
-  if (s_.has_excitation())
-    for (const HydroBody& hb : s_.hydro.bodies) {
-      plan("excitation", hb.body);
-      if (s_.hydro.split) {
-        plan("froude_krylov", hb.body, true);
-        plan("diffraction", hb.body, true);
-      }
-    }
-  for (const MorisonData& m : s_.morison)
-    plan(m.name, m.body);
+    plan("weight", i, element::Work::lent);
+  for (const Declaration::Load& load : declared.loads)
+    plan(load.component, load.body, load.work);
   out_.components.push_back("constraints");
-  out_.parts.assign(out_.components.size(), false);
-  for (const ComponentLoad& load : out_.loads)
-    out_.parts[load.component] = load.part;
+  out_.works.push_back(element::Work::lent);
   Eigen::Index rows = 0;
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
     for (const RowData& row : s_.joints[j].rows) {
@@ -64,15 +47,19 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   out_.constraints.resize(s_.couplers.size());
   totals_.resize(s_.bodies.size());
   std::size_t own = 0;
-  for (const Channel& channel : element_channels(s_))
+  for (const Channel& channel : declared.channels)
     own += static_cast<std::size_t>(channel.width);
   out_.elements.resize(own);
-  for (const ElementList& list : s_.elements)
-    element_values_.resize(
-        std::max(element_values_.size(), list.laws->size() * (1 + list.laws->channels.size())));
+  for (const ElementList& list : s_.elements) {
+    const element::Elements& laws = *list.laws;
+    const std::size_t each = std::max(1 + laws.channels.size(), 6 * (1 + laws.parts.size()));
+    element_values_.resize(std::max(element_values_.size(), laws.size() * each));
+    if (!in_waves_ && laws.waves().omega.size() > 0)
+      in_waves_ = &laws;
+  }
+  out_.in_waves = in_waves_ != nullptr;
   const Eigen::Index loads = s_.hydro.added_mass_all.rows();
   rate_ = momentum_ = memory_ = VectorX::Zero(loads);
-  excitation_ = VectorX::Zero(s_.hydro.excitation.size() + s_.hydro.drifting.size());
 }
 
 /// Takes the next planned load: into the list, the power of its component, and the balance.
@@ -82,7 +69,7 @@ void Observer::add_load(const Vector6& world_load) {
   entry.load = world_load;
   entry.power = world_load.dot(twist<double>(state));
   out_.powers[entry.component] += entry.power;
-  if (!entry.part)
+  if (out_.works[entry.component] != element::Work::part)
     totals_[entry.body] -= to_tangent<double>(state, world_load);
 }
 
@@ -92,96 +79,6 @@ void Observer::observe_weight() {
     weight[2] = -b.mass * s_.gravity;
     add_load(weight);
     out_.potential += b.mass * s_.gravity * (ws_.bodies[&b - s_.bodies.data()].r - b.reference)[2];
-  }
-}
-
-/// What the radiation takes on all coordinates, locked ones too; needs U and U'.
-void Observer::observe_memory(const double* y) {
-  const HydroData& h = s_.hydro;
-  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
-  if (h.damped)
-    memory_.noalias() += h.damping_all * ws_.U;
-  if (h.convolution.empty() || !ws_.past)
-    return;
-  const Past& past = *ws_.past;
-  for (int u = 0; u < h.n_moving; ++u)
-    memory_[6 * h.coordinates[u].hydro_body + h.coordinates[u].component] +=
-        past.memory[u] + past.by_U.row(u).dot(ws_.U) + past.by_U_dot.row(u).dot(ws_.U_dot);
-  for (std::size_t k = 0; k < h.convolution.locked.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    memory_[h.convolution.locked[k]] += past.memory_locked[row] +
-                                        past.locked_by_U.row(row).dot(ws_.U) +
-                                        past.locked_by_U_dot.row(row).dot(ws_.U_dot);
-  }
-}
-
-void Observer::observe_hydrodynamics(const double* y) {
-  const HydroData& h = s_.hydro;
-  if (h.n_moving == 0)
-    return;
-  hydro_motion(s_, ws_);
-  momentum_.noalias() = h.added_mass_all * ws_.U;
-  rate_.noalias() = h.added_mass_all * ws_.U_dot;
-  observe_memory(y);
-  for (int u = 0; u < h.n_moving; ++u) {
-    const HydroData::Coordinate& k = h.coordinates[u];
-    out_.kinetic_added_mass += 0.5 * ws_.U[u] * momentum_[6 * k.hydro_body + k.component];
-  }
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const HydroBody& hb = h.bodies[i];
-    const BodyState<double>& state = ws_.bodies[hb.body];
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    const Vector6 added =
-        hydro_load<double>(h.axes, hb, state, rate_.segment<6>(row), momentum_.segment<6>(row));
-    add_load(-to_world(state, added));
-    if (!h.radiates())
-      continue;
-    const Vector6 radiation =
-        hydro_load<double>(h.axes, hb, state, memory_.segment<6>(row), Vector6::Zero());
-    add_load(-to_world(state, radiation));
-  }
-}
-
-void Observer::observe_excitation(double t) {
-  const HydroData& h = s_.hydro;
-  if (!s_.has_excitation())
-    return;
-  if (!h.excitation.empty())
-    h.excitation(t, excitation_);
-  const Eigen::Index last = excitation_.size() - 1,
-                     all = 6 * static_cast<Eigen::Index>(h.bodies.size());
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const BodyState<double>& state = ws_.bodies[h.bodies[i].body];
-    const Eigen::Index row = h.n_moving + 6 * static_cast<Eigen::Index>(i);
-    if (!h.drifting.empty()) {
-      const Vector3 moved = state.r - s_.bodies[h.bodies[i].body].reference;
-      for (Eigen::Index first = row; first < last; first += all)
-        h.drifting(t, moved[0], moved[1], first, 6, excitation_.data() + first);
-    }
-    const auto add = [&](const Vector6& force) {
-      add_load(
-          to_world(state, hydro_load<double>(h.axes, h.bodies[i], state, force, Vector6::Zero())));
-    };
-    add(excitation_.segment<6>(row));
-    if (h.split) {
-      add(excitation_.segment<6>(row + all));
-      add(excitation_.segment<6>(row) - excitation_.segment<6>(row + all));
-    }
-  }
-  if (!h.drifting.empty())
-    h.drifting(t, 0.0, 0.0, last, 1, excitation_.data() + last);
-  out_.elevation = excitation_[last];
-}
-
-void Observer::observe_morison(double t) {
-  for (const MorisonData& m : s_.morison) {
-    const BodyState<double>& state = ws_.bodies[m.body];
-    add_load(to_world(state, morison_load<double>(s_.water, m, state, t, ws_.fluid)));
-  }
-  if (!s_.has_excitation() && !s_.water.terms.empty()) {
-    const Vector3 origin = Vector3::Zero();
-    sea::fluid_on_line<double>(s_.water, t, origin, origin, 1, ws_.fluid.data());
-    out_.elevation = ws_.fluid.front().elevation;
   }
 }
 
@@ -325,10 +222,10 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
   next_load_ = 0;
   observe_weight();
-  observe_elements(y.data());
-  observe_hydrodynamics(y.data());
-  observe_excitation(t);
-  observe_morison(t);
+  own_ = out_.elements.data();
+  for_each_list(s_, [&](const auto& list) { observe(list, y.data()); });
+  if (in_waves_)
+    out_.elevation = in_waves_->elevation(t);
   observe_joints(y.data());
   observe_energy();
   return out_;

@@ -12,7 +12,6 @@ namespace hydrodae::system {
 struct ComponentLoad {
   int component = 0; ///< index into Observation::components
   int body = 0;
-  bool part = false;  ///< of another component: not in the balance by itself
   double power = 0.0; ///< [W]
   Vector6 load = Vector6::Zero();
 };
@@ -20,7 +19,7 @@ struct ComponentLoad {
 /// The state of the scene at one instant, taken apart.
 struct Observation {
   std::vector<std::string> components; ///< names: weight, hydrostatic, radiation, ..., constraints
-  std::vector<bool> parts;             ///< per component: part of another one
+  std::vector<element::Work> works;    ///< per component: how its power counts
   std::vector<ComponentLoad> loads;    ///< all components but the reactions
   std::vector<Vector6> reactions;      ///< per joint: force and moment on B, axes of A's marker
   std::vector<Vector6> supports;       ///< per body: load of its locked coordinates on it, world
@@ -31,14 +30,11 @@ struct Observation {
   double kinetic_added_mass = 0.0;            ///< of the fluid: U . A_inf U / 2 [J]
   std::vector<double> mechanism_kinetic;      ///< per mechanism: of its bodies [J]
   std::vector<double> mechanism_constraints;  ///< per mechanism: power of its rows [W]
-  std::vector<double> elements;               ///< own channels of all laws, see element_channels
-  double elevation = 0.0;                     ///< of the waves at the origin [m]
+  std::vector<double> elements;               ///< own channels of all laws, as declared
+  bool in_waves = false;                      ///< some element feels waves
+  double elevation = 0.0;                     ///< of these at the origin [m]
   double potential = 0.0; ///< weight, hydrostatics, springs; zero in the reference pose [J]
 };
-
-/// What laws report beside their loads on the bodies, in the order of Observation::elements: force
-/// or torque along a coordinate, power absorbed by power take-offs, states, and what they declare.
-std::vector<Channel> element_channels(const System& system);
 
 /// Evaluates observations; owns its scratch.
 class Observer {
@@ -56,15 +52,12 @@ public:
 private:
   void add_load(const Vector6& world_load);
   void observe_weight();
-  void observe_elements(const double* y);
-  void observe_law(const ElementList& list, const PortData& port, const double* load,
-                   const joint::Vec12<double>* rows);
+  void observe(const ElementList& list, const double* y);
+  void observe(const HydroData& hydro, const double* y);
+  void observe_ports(const ElementList& list, const ElementScratch<double>& scratch);
   double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                         const double* load, const joint::Vec12<double>* rows) const;
-  void observe_memory(const double* y);
-  void observe_hydrodynamics(const double* y);
-  void observe_excitation(double t);
-  void observe_morison(double t);
+  void observe_memory(const HydroData& hydro, const double* y);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,
                        double lambda) const;
@@ -76,12 +69,13 @@ private:
   Workspace<double> ws_;
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
-  VectorX rate_, momentum_, memory_, excitation_;
-  std::vector<double> element_values_; ///< energies, then declared channels, of one list
+  VectorX rate_, momentum_, memory_;
+  std::vector<double> element_values_; ///< of one list: energies and declared channels, or loads
+  const element::Elements* in_waves_ = nullptr; ///< that tell the elevation
   std::size_t next_load_ = 0;
+  double* own_ = nullptr;             ///< next of Observation::elements
   std::vector<int> redundant_joints_; ///< joints with rows that follow from others
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant
-  int weight_ = -1, added_mass_ = -1, radiation_ = -1;
 };
 
 } // namespace hydrodae::system

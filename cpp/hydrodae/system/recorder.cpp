@@ -2,18 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace hydrodae::system {
-
-namespace {
-
-void put(double*& out, const Vector3& v) {
-  for (int k = 0; k < 3; ++k)
-    *out++ = v[k];
-}
-
-} // namespace
 
 Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
@@ -21,11 +11,6 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
   power_ = powers();
   work_.assign(power_.size(), 0.0);
   energy0_ = o.kinetic + o.kinetic_added_mass;
-  static const std::set<std::string> keep = {"weight",     "hydrostatic",   "added_mass_inf",
-                                             "excitation", "froude_krylov", "diffraction",
-                                             "constraints"};
-  for (const std::string& component : o.components)
-    gives_.push_back(!keep.contains(component));
   if (s_.n_mechanisms > 1)
     for (double kinetic : o.mechanism_kinetic)
       mechanisms_.push_back({0.0, 0.0, kinetic});
@@ -120,12 +105,13 @@ void Recorder::balance_mechanisms() {
   std::vector<double> given(mechanisms_.size());
   for (std::size_t k = 0; k < o.loads.size() && !mechanisms_.empty(); ++k) {
     const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism;
-    if (m < 0 || o.loads[k].part)
+    const element::Work of = o.works[static_cast<std::size_t>(o.loads[k].component)];
+    if (m < 0 || of == element::Work::part)
       continue;
     Balance& b = mechanisms_[static_cast<std::size_t>(m)];
     b.error -= end_work_[loads + k];
     b.exchanged = std::max(b.exchanged, std::abs(end_work_[loads + k]));
-    if (gives_[static_cast<std::size_t>(o.loads[k].component)])
+    if (of == element::Work::spent)
       given[static_cast<std::size_t>(m)] -= end_work_[loads + k];
   }
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
@@ -167,10 +153,10 @@ double Recorder::balance(const std::vector<double>& work) {
   double total_work = 0.0, exchanged = std::abs(moving), given = 0.0;
   for (std::size_t k = 0; k < o.powers.size(); ++k) {
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
-    if (o.components[k] != "added_mass_inf" && !o.parts[k])
+    if (o.works[k] != element::Work::fluid && o.works[k] != element::Work::part)
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
-    if (gives_[k])
+    if (o.works[k] == element::Work::spent)
       given -= work[k];
   }
   whole_.given = std::max(whole_.given, given);
@@ -203,71 +189,6 @@ void Recorder::restart(const VectorX& y, const VectorX& yp, const std::optional<
     work_[o.powers.size() + o.loads.size() + m] += o.mechanism_kinetic[m] - end_kinetic_[m];
 }
 
-void Recorder::fill_bodies(double*& out) {
-  const auto& states = observer_.bodies();
-  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
-    const BodyData& b = s_.bodies[i];
-    const BodyState<double>& state = states[i];
-    put(out, state.r);
-    const Eigen::Quaterniond q(state.R);
-    for (double c : {q.w(), q.x(), q.y(), q.z()})
-      *out++ = c;
-    put(out, displacement<double>(b, state, y_.data()).tail<3>());
-    if (b.n_active > 0) {
-      put(out, state.v);
-      put(out, state.R * state.w);
-      put(out, state.v_dot);
-      put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
-    }
-    if (b.n_active < 6) {
-      put(out, observer_.observation().supports[i].head<3>());
-      put(out, observer_.observation().supports[i].tail<3>());
-    }
-  }
-}
-
-void Recorder::fill_joints(double*& out) {
-  const Observation& o = observer_.observation();
-  for (std::size_t j = 0; j < s_.joints.size(); ++j) {
-    const JointData& joint = s_.joints[j];
-    if (joint.hidden)
-      continue;
-    for (std::size_t m = 0; m < joint.type->motions.size(); ++m) {
-      const std::array<double, 2>& motion =
-          o.motions[static_cast<std::size_t>(joint.first_motion) + m];
-      *out++ = motion[0];
-      *out++ = motion[1];
-    }
-    put(out, o.reactions[j].head<3>());
-    put(out, o.reactions[j].tail<3>());
-  }
-  for (double multiplier : o.constraints)
-    *out++ = multiplier;
-}
-
-// r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
-void Recorder::fill_markers(double*& out) {
-  for (const MarkerData& m : s_.markers) {
-    const BodyState<double>& b = observer_.bodies()[m.body];
-    const Matrix3 axes = m.body_axes ? Matrix3(b.R.transpose()) : Matrix3(Matrix3::Identity());
-    const Vector3 speed = b.w.cross(m.point);
-    put(out, b.r + b.R * m.point);
-    put(out, axes * (b.v + b.R * speed));
-    put(out, axes * (b.v_dot + b.R * (b.w_dot.cross(m.point) + b.w.cross(speed))));
-  }
-}
-
-void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
-  const Observation& o = observer_.observation();
-  *out++ = o.kinetic;
-  *out++ = o.kinetic_added_mass;
-  *out++ = o.potential;
-  *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
-  for (std::size_t k = 0; k < o.powers.size(); ++k)
-    *out++ = work[k];
-  *out++ = balance(work);
-}
-
 void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   if (end_ > t_) // else the start of the run
     at(t, y_, yp_);
@@ -282,23 +203,6 @@ void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) 
   observer_.observe(t_, y_, yp_);
   fill(row, work_);
   whole_ = before;
-}
-
-/// From where the observer is.
-void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
-  double* out = row.data();
-  fill_bodies(out);
-  fill_joints(out);
-  fill_markers(out);
-  for (const ComponentLoad& load : observer_.observation().loads) {
-    put(out, load.load.head<3>());
-    put(out, load.load.tail<3>());
-  }
-  out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
-                  out);
-  if (s_.has_waves())
-    *out++ = observer_.observation().elevation;
-  fill_energy(out, work);
 }
 
 double Recorder::relative_balance_error() const {

@@ -135,7 +135,6 @@ private:
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
   double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
   Whole whole_;
-  std::vector<bool> gives_; ///< by component: may take energy out of the motion for good
   Quadrature rule_;
   VectorX y_, yp_;
 };

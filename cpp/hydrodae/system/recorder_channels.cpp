@@ -1,12 +1,22 @@
-/// Of the recorder: names, units and frames of all channels.
+/// Of the recorder: names, units and frames of all channels, and in the same order their values.
 
 #include <set>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/declare.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae::system {
+
+namespace {
+
+void put(double*& out, const Vector3& v) {
+  for (int k = 0; k < 3; ++k)
+    *out++ = v[k];
+}
+
+} // namespace
 
 void Recorder::add_channel(std::string path, int width, std::string unit, std::string frame,
                            std::string description) {
@@ -122,11 +132,11 @@ void Recorder::make_channels() {
     add_channel(head + "moment", 3, "N m", "world",
                 "Moment on the body about its centre of gravity.");
   }
-  for (Channel& channel : element_channels(s_)) {
+  for (const Channel& channel : declare(s_).channels) {
     width_ += static_cast<std::size_t>(channel.width);
-    channels_.push_back(std::move(channel));
+    channels_.push_back(channel);
   }
-  if (s_.has_waves())
+  if (o.in_waves)
     add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
@@ -139,6 +149,88 @@ void Recorder::make_channels() {
               "Change of the kinetic energies minus the work of all forces: zero but for the "
               "solver's error.");
   check_paths();
+}
+
+void Recorder::fill_bodies(double*& out) {
+  const auto& states = observer_.bodies();
+  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
+    const BodyData& b = s_.bodies[i];
+    const BodyState<double>& state = states[i];
+    put(out, state.r);
+    const Eigen::Quaterniond q(state.R);
+    for (double c : {q.w(), q.x(), q.y(), q.z()})
+      *out++ = c;
+    put(out, displacement<double>(b, state, y_.data()).tail<3>());
+    if (b.n_active > 0) {
+      put(out, state.v);
+      put(out, state.R * state.w);
+      put(out, state.v_dot);
+      put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
+    }
+    if (b.n_active < 6) {
+      put(out, observer_.observation().supports[i].head<3>());
+      put(out, observer_.observation().supports[i].tail<3>());
+    }
+  }
+}
+
+void Recorder::fill_joints(double*& out) {
+  const Observation& o = observer_.observation();
+  for (std::size_t j = 0; j < s_.joints.size(); ++j) {
+    const JointData& joint = s_.joints[j];
+    if (joint.hidden)
+      continue;
+    for (std::size_t m = 0; m < joint.type->motions.size(); ++m) {
+      const std::array<double, 2>& motion =
+          o.motions[static_cast<std::size_t>(joint.first_motion) + m];
+      *out++ = motion[0];
+      *out++ = motion[1];
+    }
+    put(out, o.reactions[j].head<3>());
+    put(out, o.reactions[j].tail<3>());
+  }
+  for (double multiplier : o.constraints)
+    *out++ = multiplier;
+}
+
+// r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
+void Recorder::fill_markers(double*& out) {
+  for (const MarkerData& m : s_.markers) {
+    const BodyState<double>& b = observer_.bodies()[m.body];
+    const Matrix3 axes = m.body_axes ? Matrix3(b.R.transpose()) : Matrix3(Matrix3::Identity());
+    const Vector3 speed = b.w.cross(m.point);
+    put(out, b.r + b.R * m.point);
+    put(out, axes * (b.v + b.R * speed));
+    put(out, axes * (b.v_dot + b.R * (b.w_dot.cross(m.point) + b.w.cross(speed))));
+  }
+}
+
+void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
+  const Observation& o = observer_.observation();
+  *out++ = o.kinetic;
+  *out++ = o.kinetic_added_mass;
+  *out++ = o.potential;
+  *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
+  for (std::size_t k = 0; k < o.powers.size(); ++k)
+    *out++ = work[k];
+  *out++ = balance(work);
+}
+
+/// From where the observer is.
+void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
+  double* out = row.data();
+  fill_bodies(out);
+  fill_joints(out);
+  fill_markers(out);
+  for (const ComponentLoad& load : observer_.observation().loads) {
+    put(out, load.load.head<3>());
+    put(out, load.load.tail<3>());
+  }
+  out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
+                  out);
+  if (observer_.observation().in_waves)
+    *out++ = observer_.observation().elevation;
+  fill_energy(out, work);
 }
 
 } // namespace hydrodae::system

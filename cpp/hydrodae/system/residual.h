@@ -5,7 +5,6 @@
 
 #include "hydrodae/system/elements.h"
 #include "hydrodae/system/hydrodynamics.h"
-#include "hydrodae/system/morison.h"
 
 namespace hydrodae::system {
 
@@ -152,9 +151,7 @@ void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* 
   }
   add_joints<S>(s, ws, y, residual);
   add_couplers<S>(s, ws, t, y, residual);
-  add_elements<S>(s, ws, y, yp, residual);
-  add_hydrodynamics<S>(s, ws, t, y, yp, residual);
-  add_morison<S>(s, ws, t);
+  for_each_list(s, [&](const auto& list) { add_loads<S>(s, list, ws, y, yp, residual); });
   body_rows<S>(s, ws, y, yp, residual);
 }
 

@@ -5,7 +5,7 @@
 ///   q' = E(q) (u + G^T mu) + sigma p            p.p = 1 for each quaternion
 ///   M(q) u' = f(t, q, u, z) + G^T lambda
 ///   0 = g(q)        0 = G(q) u
-///   z' = A_r z + B_r U(q, u)                    radiation memory
+///   z' = h(q, u, z)                             states of elements, radiation memory last
 ///
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
@@ -21,9 +21,7 @@
 #include "hydrodae/element/elements.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
-#include "hydrodae/sea/drifting.h"
-#include "hydrodae/sea/kinematics.h"
-#include "hydrodae/sea/signals.h"
+#include "hydrodae/system/hydro_data.h"
 
 namespace hydrodae::system {
 
@@ -157,95 +155,13 @@ struct SwitchData {
   }
 };
 
-/// A Morison element: equal segments whose centres stand at equal steps on a straight line.
-struct MorisonData {
-  std::string name;
-  int body = 0;
-  element::MorisonSegment law;
-  int segments = 1;
-  Vector3 first = Vector3::Zero(); ///< centre of the first, from the centre of gravity, body axes
-  Vector3 step = Vector3::Zero();  ///< from centre to centre [m]
-  Vector3 axis = Vector3::Zero();  ///< body axes; zero: a point element
-  bool instantaneous = false;      ///< wet up to the elevation, else up to z = 0
-};
-
-/// Axes in which added mass, radiation and excitation act: carried by each body, the earth axes
-/// turned by the mean yaw of each, or those that turn with the body's yaw alone.
-enum class HydroAxes { body, mean, yaw };
-
-/// A hydrodynamic body: where its six coordinates stand in the full and in the moving vectors, and
-/// its mean yaw, that of the start or equilibrium pose.
-struct HydroBody {
-  int body = 0;
-  double yaw = 0.0, cos_yaw = 1.0, sin_yaw = 0.0; ///< [rad], [-], [-]
-  bool turned = false;                            ///< yaw != 0
-  std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
-  bool moves = false;
-  int n_moving() const {
-    return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
-  }
-  int first_moving() const {
-    return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });
-  }
-};
-
-/// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
-/// pair of coordinates that feel each other.
-struct Convolution {
-  struct Pair {
-    int row = 0;    ///< of U; from n_moving on, of `locked`
-    int column = 0; ///< of U
-  };
-  double step = 0.0, length = 0.0; ///< of the grid, and T, beyond which K = 0 [s]
-  double frequency = 0.0;          ///< root mean square of the kernels' spectra [rad/s]
-  std::vector<Pair> pairs;         ///< those whose row moves come first
-  int n_moving_pairs = 0;
-  std::vector<int> locked; ///< rows of the full loads (6 n_bodies) that do not move
-  MatrixX splines;         ///< coefficients (n_grid + 2, n_pairs)
-  bool empty() const { return pairs.empty(); }
-};
-
-/// Added mass at infinite frequency and radiation memory of all bodies.
-///   loads on body-axes coordinates: -(A_inf U)' - C z - B U + f_ex(t),   z' = A_r z + B_r U
-/// B is the damping of the constant rung; then A(w) stands in place of A_inf. The convolution
-/// stands in place of C z.
-struct HydroData {
-  HydroAxes axes = HydroAxes::mean;
-  std::vector<HydroBody> bodies;
-  struct Coordinate { ///< which entry of which hydrodynamic body an entry of U is
-    int hydro_body = 0, component = 0;
-  };
-  std::vector<Coordinate> coordinates; ///< (n_moving,)
-  int n_moving = 0;                    ///< length of U
-  MatrixX added_mass;                  ///< (n_moving, n_moving)
-  MatrixX
-      added_mass_all;  ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
-  MatrixX output;      ///< C (n_moving, n_states)
-  MatrixX output_all;  ///< (6 n_bodies, n_states)
-  bool damped = false; ///< constant damping; else the next two are empty
-  MatrixX damping, damping_all; ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
-  Convolution convolution;      ///< empty on the other rungs
-  /// Functions of time: n_moving loads on U, 6 n_bodies loads on all coordinates, where `split` as
-  /// many of their Froude-Krylov parts, and the elevation [m]. One of the two is empty.
-  sea::Signals excitation;
-  sea::DriftingSignals drifting; ///< by the displacement of each body
-  bool split = false;
-  std::vector<std::string> uncovered; ///< labels whose load the fit does not give
-  Index z0 = 0;
-  int n_states = 0;
-  struct Block { ///< z' = a z + ..., or the pair (x + i y)' = (a + i b)(x + i y) + ...
-    int state = 0;
-    double a = 0.0, b = 0.0;
-    bool pair = false;
-  };
-  std::vector<Block> blocks;
-  struct Input { ///< one nonzero of B_r
-    int state = 0, coordinate = 0;
-    double value = 0.0;
-  };
-  std::vector<Input> inputs;
-
-  bool radiates() const { return n_states > 0 || damped || !convolution.empty(); }
+/// States of one element, one after the other in y.
+struct StateBlock {
+  std::string owner; ///< "force pto": in a list of costs
+  std::string path;  ///< "forces/pto": their names begin with it
+  Index first = 0;   ///< in y
+  int body = -1;     ///< that moves, whose group and time are theirs too; -1: none
+  std::vector<element::Unknown> unknowns;
 };
 
 /// Which equations the rows of the multipliers hold. In all but the first mu = 0.
@@ -272,19 +188,19 @@ struct System {
   std::vector<ElementList> elements;
   std::vector<DelayData> delays;
   HydroData hydro;
-  std::vector<MorisonData> morison;
-  sea::WaveField water; ///< what the Morison elements feel; empty without them
 
   /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
   /// been at rest for ever.
   const History* history = nullptr;
 
   Index n = 0;                     ///< unknowns
-  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, memory states
+  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, states of elements
   Index n_lambda = 0, n_mu = 0;    ///< rows at velocity level, those also at position level
   Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
+  Index memory0 = 0; ///< states from there on are linear with constant coefficients, and condensed
+  std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
-  std::vector<int> group;             ///< (lambda0,) of each position, velocity and memory state
+  std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
   VectorX group_size;                 ///< (n_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
@@ -292,13 +208,14 @@ struct System {
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
   VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
+  std::vector<bool> algebraic;        ///< (n,) multipliers, and what elements declare so
   std::vector<std::string> names;     ///< (n,) of the unknowns, as channels
   std::vector<std::string> row_names; ///< (n,) of the equations
   std::vector<std::string> notes;     ///< what the build found worth telling
 
-  bool is_algebraic(Index i) const { return i >= lambda0; }
-  bool has_excitation() const { return !hydro.excitation.empty() || !hydro.drifting.empty(); }
-  bool has_waves() const { return has_excitation() || !water.terms.empty(); }
+  bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }
+  bool has_memory() const { return memory0 < lambda0; }
+  bool has_waves() const; ///< that any of the elements feels
 };
 
 /// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
@@ -308,6 +225,16 @@ template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visito
       visit(row.lambda, row.mu, false);
   for (auto& coupler : s.couplers)
     visit(coupler.lambda, coupler.mu, coupler.velocity_level);
+}
+
+/// Visits all that loads the bodies, weight apart, in the order of states and results:
+/// visit(list). Each type of list has a declaration (declare.h), loads and residuals (`add_loads`),
+/// derivatives (`Assembly::add`) and observations (`Observer::observe`).
+template <class Anysystem, class Visitor> void for_each_list(Anysystem& s, Visitor&& visit) {
+  for (auto& list : s.elements)
+    visit(list);
+  if (s.hydro.n_moving > 0)
+    visit(s.hydro);
 }
 
 /// Visits all laws: visit(list, its index, port).
@@ -330,6 +257,8 @@ void for_each_body(const System& s, const PortData& port, Visitor&& visit) {
   for (const joint::Marker& point : port.points)
     visit(point.body);
 }
+/// Takes the waves away.
+void calm(System& system);
 
 /// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
 /// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
@@ -346,7 +275,7 @@ void lay_out(System& system);
 /// the time in which a body moves, or speeds up by, its own length. The tolerances follow.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
-/// The start: y with positions, velocities, zero memory and zero multipliers.
+/// The start: y with positions, velocities, states as declared and zero multipliers.
 VectorX initial_state(const System& system);
 
 } // namespace hydrodae::system

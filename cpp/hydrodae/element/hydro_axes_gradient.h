@@ -1,22 +1,11 @@
 #pragma once
-/// Derivatives of the hydrodynamic velocities and accelerations (hydrodynamics.h) for the Jacobian.
+/// Derivatives of the hydrodynamic velocities, accelerations and loads (hydro_axes.h).
 
-#include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/element/hydro_axes.h"
 
-namespace hydrodae::system {
+namespace hydrodae::element {
 
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
-
-/// The block of a matrix (n_moving, n_moving) between two hydrodynamic bodies, zero where a
-/// coordinate does not move.
-inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const HydroBody& j) {
-  Matrix6 block = Matrix6::Zero();
-  for (int m = 0; m < 6; ++m)
-    for (int n = 0; n < 6; ++n)
-      if (i.moving[m] >= 0 && j.moving[n] >= 0)
-        block(m, n) = matrix(i.moving[m], j.moving[n]);
-  return block;
-}
 
 /// Yaw with the derivative of s by dphi: s = (0, g_y, g_z)/(g_y^2 + g_z^2), g = R^T e_z,
 /// dg = [g] dphi.
@@ -110,20 +99,6 @@ inline HydroMotionGradient hydro_motion_gradient(HydroAxes axes, const HydroBody
   return d;
 }
 
-/// Of an excitation whose phase moves with the body: its derivative by x and y of the body.
-inline Eigen::Matrix<double, 6, 2> excitation_gradient(const System& s, const HydroBody& i,
-                                                       const BodyState<double>& b, double t) {
-  const Vector3 moved = b.r - s.bodies[i.body].reference;
-  Vector6 f, by_x, by_y; // of the coordinates that move
-  s.hydro.drifting(t, moved[0], moved[1], i.first_moving(), i.n_moving(), f.data(), by_x.data(),
-                   by_y.data());
-  Eigen::Matrix<double, 6, 2> d = Eigen::Matrix<double, 6, 2>::Zero();
-  for (int c = 0; c < 6; ++c)
-    if (i.moving[c] >= 0)
-      d.row(c) << by_x[i.moving[c] - i.first_moving()], by_y[i.moving[c] - i.first_moving()];
-  return d;
-}
-
 /// load = L rate + Q momentum of `hydro_load`: L, Q, and the derivatives by the rotation of the
 /// body (body axes) and by its velocities (v, w), with rate and momentum held.
 struct HydroLoadGradient {
@@ -170,4 +145,4 @@ inline HydroLoadGradient hydro_load_gradient(HydroAxes axes, const HydroBody& hb
   return d;
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::element
