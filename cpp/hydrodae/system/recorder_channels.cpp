@@ -143,8 +143,10 @@ void Recorder::make_channels() {
   add_channel("energy/potential", 1, "J", "-",
               "Weight, hydrostatics and springs; zero in the reference pose.");
   add_channel("energy/total", 1, "J", "-", "Kinetic energies and potential.");
-  for (const std::string& component : o.components)
-    add_channel("energy/work/" + component, 1, "J", "-", "Work on the bodies since the start.");
+  for (std::size_t k = 0; k < o.components.size(); ++k)
+    add_channel("energy/work/" + o.components[k], 1, "J", "-",
+                o.works[k] == element::Work::part ? "Part of the work of another load."
+                                                  : "Work on the bodies since the start.");
   add_channel("energy/balance_error", 1, "J", "-",
               "Change of the kinetic energies minus the work of all forces: zero but for the "
               "solver's error.");

@@ -29,6 +29,7 @@ def summary(results: Recording) -> str:
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
     lines += _power(results)
     lines += _impacts(results)
+    lines += _work(results)
     lines += [f"  note: {note}" for note in results.notes]
     lines += [f"  {line}" for line in (_energy_balance(results), *_errors(results)) if line]
     return "\n".join(lines)
@@ -85,6 +86,31 @@ def _power(results: Recording) -> list[str]:
         parts.append(f"in all {known['mean_power_absorbed']:,.4g} W")
     since = known.get("mean_power_from", 0.0)
     return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
+
+
+def _work(results: Recording) -> list[str]:
+    """What each load has done over the run, largest first, and what the bodies have of it."""
+    head, least = "energy/work/", 1e-3
+    done = {
+        name.removeprefix(head): float(results[name].to_numpy()[-1])
+        for name in results.channels(f"{head}*")
+        if len(results.time)
+        and not str(results[name].attrs.get("description", "")).startswith("Part of")
+    }
+    largest = max(map(abs, done.values()), default=0.0)
+    if not largest > 0.0:
+        return []
+    scale, unit = next((s, u) for s, u in _JOULES if largest >= s)
+    told = sorted(
+        ((name, work) for name, work in done.items() if abs(work) >= least * largest),
+        key=lambda item: -abs(item[1]),
+    )
+    parts = [f"{name} {work / scale:+.4g}" for name, work in told]
+    moving = sum(done.values())
+    return [f"  work in {unit}: {', '.join(parts)}; together {moving / scale:+.3g}, now kinetic"]
+
+
+_JOULES = [(1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ"), (1.0, "J"), (1e-3, "mJ"), (0.0, "J")]
 
 
 def _impacts(results: Recording) -> list[str]:
