@@ -1,5 +1,6 @@
 #include "hydrodae/element/elements.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace hydrodae::element {
@@ -33,7 +34,14 @@ AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
   list.jacobian(0.0, in.data(), list.signals.data(), all.data());
   const auto k = static_cast<Index>(law);
   const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
-  return {out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};
+  AtRest rest{out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};
+  if (const Index a = list.shape.n_algebraic; a > 0) { // these follow x and v
+    const MatrixX by_z = J.bottomRightCorner(a, a), f_z = J.topRightCorner(w, a);
+    const MatrixX follow = by_z.partialPivLu().solve(MatrixX(J.bottomLeftCorner(a, 2 * w)));
+    rest.stiffness += f_z * follow.leftCols(w);
+    rest.damping += f_z * follow.rightCols(w);
+  }
+  return rest;
 }
 
 } // namespace hydrodae::element

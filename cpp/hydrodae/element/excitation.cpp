@@ -19,10 +19,17 @@ VectorX& functions_memory(Index n) {
   return memory;
 }
 
-/// f along the hydrodynamic axes as a load on the body.
+/// f along the hydrodynamic axes as a load on the body. In mean axes R is all that it takes.
 template <class S> Vec6<S> on_body(HydroAxes axes, const HydroBody& hb, const S* in, Vec6<S> f) {
-  const Vec6<S> no_momentum = Vec6<S>::Zero();
-  return hydro_load<S>(axes, hb, read_body(in), f, no_momentum);
+  if (axes != HydroAxes::mean) {
+    const Vec6<S> no_momentum = Vec6<S>::Zero();
+    return hydro_load<S>(axes, hb, read_body(in), f, no_momentum);
+  }
+  if (hb.turned)
+    turn_by_mean_yaw<S>(hb, false, f);
+  const Vec3<S> moment = f.template tail<3>();
+  f.template tail<3>() = Eigen::Map<const Mat3<S>>(in + 3).transpose() * moment;
+  return f;
 }
 
 } // namespace
@@ -156,9 +163,9 @@ WavesFelt Excitation::waves() const {
     for (Index i = 0; i < C.cols(); ++i)
       out.omega[i] = drifting_.waves()[static_cast<std::size_t>(i)].omega;
   }
-  out.amplitude = C.row(C.rows() - 1).cwiseAbs().transpose();
+  out.amplitude = C.row(C.rows() - 1).cwiseAbs2().cwiseSqrt().transpose();
   for (Index k = 0; k < static_cast<Index>(bodies_.size()); ++k)
-    out.loads.emplace_back(C.middleRows<6>(n_moving_ + 6 * k).cwiseAbs());
+    out.loads.emplace_back(C.middleRows<6>(n_moving_ + 6 * k).cwiseAbs2().cwiseSqrt());
   return out;
 }
 

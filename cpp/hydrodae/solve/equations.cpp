@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/algebraic.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae::solve {
@@ -76,6 +77,10 @@ bool Equations::residual(double t, const VectorX& y, const VectorX& yp, VectorX&
   ++statistics.residual_calls;
   system::residual<double>(system, workspace_, t, y.data(), yp.data(), r.data());
   return std::isfinite(r.sum());
+}
+
+bool Equations::solve_algebraic(double t, VectorX& y) {
+  return system::solve_algebraic(system, jacobian_workspace_, t, y);
 }
 
 void Equations::jacobian(double t, const VectorX& y, const VectorX& yp) {

@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/system/algebraic.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/residual.h"
@@ -153,8 +154,12 @@ LinearMatrices balance(const System& s, VectorX& y) {
   const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
   const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
   system::Workspace<double> ws(s);
+  system::JacobianWorkspace laws(s);
   VectorX r(s.n);
   for (int step = 0;; ++step) {
+    if (!system::solve_algebraic(s, laws, 0.0, y))
+      throw ModelError("solver.start", "no static equilibrium near the start: an algebraic unknown "
+                                       "of a force has no solution there");
     system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
     const LinearMatrices m = linear_matrices(s, pattern, y);
     const VectorX gaps = gaps_of(s, r);
@@ -241,6 +246,27 @@ void note_switches(System& s) {
   }
 }
 
+/// Takes the algebraic unknowns out of the states, z_a = -A_aa^-1 (A_ad z_d + B_a xi + D_a xi'), so
+/// that stiffness, damping and the loads of the others hold what they carry.
+void take_out_algebraic(const System& s, LinearMatrices& m) {
+  std::vector<Index> a, d;
+  for (Index z = s.z0; z < s.memory0; ++z)
+    (s.is_algebraic(z) ? a : d).push_back(z - s.z0);
+  if (a.empty())
+    return;
+  const auto all = Eigen::all;
+  const MatrixX A = m.state_by_state, B = m.state_by_xi, D = m.state_by_rate, F = m.load_by_state;
+  const Eigen::PartialPivLU<MatrixX> lu(MatrixX(A(a, a)));
+  const MatrixX by_state = -lu.solve(MatrixX(A(a, d))), by_xi = -lu.solve(MatrixX(B(a, all))),
+                by_rate = -lu.solve(MatrixX(D(a, all)));
+  m.stiffness -= F(all, a) * by_xi;
+  m.damping -= F(all, a) * by_rate;
+  m.load_by_state = F(all, d) + F(all, a) * by_state;
+  m.state_by_state = A(d, d) + A(d, a) * by_state;
+  m.state_by_xi = B(d, all) + A(d, a) * by_xi;
+  m.state_by_rate = D(d, all) + A(d, a) * by_rate;
+}
+
 } // namespace
 
 LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, const VectorX& y) {
@@ -265,6 +291,7 @@ LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, 
   out.state_by_state = -by_y.block(z0, z0, n_z, n_z);
   out.state_by_xi = -by_y.block(z0, 0, n_z, s.n_q) * E;
   out.state_by_rate = -by_y.block(z0, s.u0, n_z, s.n_u);
+  take_out_algebraic(s, out);
   system::Workspace<double> state(s);
   VectorX r(s.n);
   system::residual<double>(s, state, 0.0, y.data(), rest.data(), r.data());

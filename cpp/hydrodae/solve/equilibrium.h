@@ -11,7 +11,8 @@ namespace hydrodae::solve {
 ///   M xi'' + C xi' + K xi - G^T dlambda = 0,   G xi = 0
 ///
 /// K holds the geometric stiffness of the reactions in `y`. Memory states of the radiation are left
-/// out; states z of forces add F_z z to the loads, z' = A z + B xi + D xi'.
+/// out; states z of forces add F_z z to the loads, z' = A z + B xi + D xi'. Algebraic unknowns are
+/// eliminated.
 struct LinearMatrices {
   MatrixX mass, damping, stiffness;                   ///< M, C, K (n_u, n_u)
   MatrixX constraints;                                ///< G (n_lambda, n_u)

@@ -118,12 +118,15 @@ void SaddlePoint::solve(VectorX& x) {
 
 bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   y.tail(s_.n - s_.lambda0).setZero();
-  if (!e_.residual(t, y, yp0_, residual_))
+  if (!e_.solve_algebraic(t, y) || !e_.residual(t, y, yp0_, residual_))
     return false;
   // Rows of q and z are y' = (explicit): with y' = 0 the residual is minus the rate.
   yp.setZero();
   yp.head(s_.n_q) = -residual_.head(s_.n_q);
   yp.segment(s_.z0, s_.n_z) = -residual_.segment(s_.z0, s_.n_z);
+  for (Index z = s_.z0; z < s_.memory0; ++z)
+    if (s_.is_algebraic(z))
+      yp[z] = 0.0;
   e_.jacobian(t, y, yp0_, pattern_, parts_);
   for (const Entry& entry : entries_) {
     const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];

@@ -1,0 +1,69 @@
+#include "hydrodae/system/algebraic.h"
+
+#include <Eigen/LU>
+
+#include "hydrodae/system/elements.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+constexpr int most_steps = 50;
+constexpr double solved = 1e-11; ///< last change, beside the size of the unknown and its scale
+
+/// One step of Newton's method for all laws of a list; the largest change, relative.
+double newton_step(const System& s, const ElementList& list, JacobianWorkspace& ws, double t,
+                   VectorX& y) {
+  const element::Elements& laws = *list.laws;
+  const element::Shape& shape = laws.shape;
+  const Index n = shape.n_algebraic, rates = shape.n_states - n;
+  ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
+  gather<double>(s, list, ws.state, y.data(), scratch);
+  laws.evaluate(t, scratch.in.data(), list.signals.data(), scratch.out.data());
+  laws.jacobian(t, scratch.in.data(), list.signals.data(), ws.element_jacobian.data());
+  double largest = 0.0;
+  for (std::size_t law = 0; law < laws.size(); ++law) {
+    const auto k = static_cast<Index>(law);
+    const Eigen::Map<const MatrixX> J(ws.element_jacobian.data() +
+                                          k * shape.n_out() * shape.n_columns(),
+                                      shape.n_out(), shape.n_columns());
+    const Eigen::Map<const VectorX> out(scratch.out.data() + k * shape.n_out(), shape.n_out());
+    const MatrixX by_z = J.bottomRightCorner(n, n);
+    const VectorX change = by_z.partialPivLu().solve(-out.tail(n));
+    for (Index i = 0; i < n; ++i) {
+      const Index z = k * shape.n_states + rates + i;
+      double& value = y[list.z0 + z];
+      value += change[i];
+      const double size = std::abs(value) + laws.unknowns[static_cast<std::size_t>(z)].scale;
+      largest = std::isfinite(change[i]) ? std::max(largest, std::abs(change[i]) / size) : INFINITY;
+    }
+  }
+  return largest;
+}
+
+} // namespace
+
+bool solve_algebraic(const System& s, JacobianWorkspace& ws, double t, VectorX& y) {
+  bool known = false;
+  for (const ElementList& list : s.elements) {
+    if (list.laws->shape.n_algebraic == 0)
+      continue;
+    if (!known) { // laws with unknowns of their own see no accelerations
+      unpack<double>(s, y.data(), y.data(), ws.state.bodies);
+      ws.state.time = t;
+      ws.state.past = past_at(s, t);
+      known = true;
+    }
+    double change = INFINITY;
+    for (int step = 0; step < most_steps && change > solved; ++step) {
+      change = newton_step(s, list, ws, t, y);
+      if (std::isinf(change))
+        return false;
+    }
+    if (change > solved)
+      return false;
+  }
+  return true;
+}
+
+} // namespace hydrodae::system
