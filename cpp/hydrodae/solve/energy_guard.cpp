@@ -95,6 +95,16 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
     look(static_cast<int>(m), mechanisms[m].error, mechanisms[m].exchanged);
 }
 
+bool EnergyGuard::was_sound(const system::Recorder& recorder) const {
+  constexpr double clean = 0.1; // of the least that is not allowed
+  const double part = clean * std::min(part_, at_singular_);
+  const auto sound = [&](const system::Recorder::Balance& b) {
+    return std::abs(b.error) <= part * b.exchanged;
+  };
+  const std::vector<system::Recorder::Balance>& mechanisms = recorder.mechanisms_before();
+  return sound(recorder.whole_before()) && std::all_of(mechanisms.begin(), mechanisms.end(), sound);
+}
+
 void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)

@@ -24,6 +24,10 @@ public:
              const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
+  /// Was all that `check` looks at beyond doubt at the start of the last step? Energy that is
+  /// missing then went missing in that step alone.
+  bool was_sound(const system::Recorder& recorder) const;
+
   /// The same at the end of the run, with next to no energy too little to tell.
   void finish(double t, const system::Recorder& recorder) const;
 
