@@ -5,6 +5,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/element/constant_load.h"
 #include "hydrodae/solve/stiffness.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::run {
 
@@ -23,15 +24,26 @@ std::string core_of(const std::string& message) {
   return colon == std::string::npos ? line : line.substr(colon + 2);
 }
 
-/// Is there anything but joints, weights and constant loads?
+/// Is there anything but joints, weights and constant loads in each group of bodies?
 bool may_damp(const system::System& s) {
-  bool laws = false;
-  system::for_each_law(s,
-                       [&](const system::ElementList& list, std::size_t, const system::PortData&) {
-                         laws = laws || list.laws->type != element::ConstantLoad::type;
-                       });
-  return laws || s.hydro.n_states > 0 || !s.hydro.convolution.empty() || !s.morison.empty() ||
-         !s.switches.empty();
+  std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
+  const auto mark = [&](const system::BodyData* body) {
+    if (body && body->group >= 0)
+      damped[static_cast<std::size_t>(body->group)] = true;
+  };
+  const auto body = [&](int i) { return &s.bodies[static_cast<std::size_t>(i)]; };
+  system::for_each_law(
+      s, [&](const system::ElementList& list, std::size_t, const system::PortData& port) {
+        if (list.laws->type != element::ConstantLoad::type)
+          mark(system::moving_body(s, port));
+      });
+  for (const system::HydroBody& b : s.hydro.bodies)
+    mark(body(b.body));
+  for (const system::MorisonData& m : s.morison)
+    mark(body(m.body));
+  for (const system::SwitchData& w : s.switches)
+    mark(system::moving_body(s, system::joint_of(s, w.motion)));
+  return std::all_of(damped.begin(), damped.end(), [](bool d) { return d; });
 }
 
 std::string find_costly(const system::System& s) {
@@ -42,11 +54,11 @@ std::string find_costly(const system::System& s) {
     if (j.A.path || j.B.path)
       return "a path";
   std::string law;
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t, const system::PortData&) {
-        if (list.laws->type.starts_with("python_"))
-          law = "a force of Python";
-      });
+  system::for_each_law(s,
+                       [&](const system::ElementList& list, std::size_t, const system::PortData&) {
+                         if (list.laws->type.starts_with("python_"))
+                           law = "a force of Python";
+                       });
   return law;
 }
 
@@ -108,8 +120,8 @@ bool MethodChoice::labours() const {
 }
 
 SolverError MethodChoice::labour(double t) const {
-  return {t, "stiff: " + number_text(many) + " steps in a row were shorter than " +
-                 number_text(short_step) + " rad of the motion"};
+  return {t, number_text(many) + " steps in a row were shorter than " + number_text(short_step) +
+                 " rad of the motion"};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {
@@ -144,7 +156,7 @@ std::string in_words(const MethodChoice& choice) {
   std::string text = "auto: " + parts.front().method + " (" + parts.front().reason + ")";
   for (std::size_t k = 1; k < parts.size(); ++k)
     text += ", " + parts[k].method + " from t = " + number_text(parts[k].from) + " s because " +
-            parts[k - 1].method + " stopped: " + parts[k].reason;
+            parts[k - 1].method + " gave up: " + parts[k].reason;
   return text;
 }
 

@@ -17,7 +17,7 @@ struct SceneTraits {
   double fastest_rate = 0.0; ///< of the equations linearised at the start [1/s]
   double motion_rate = 0.0;  ///< at which the bodies move there [1/s]
   double end_time = 0.0;     ///< [s]
-  bool damped = false;       ///< something may take energy out of the motion
+  bool damped = false;       ///< energy may be taken out of the motion of every group of bodies
   std::string costly;        ///< what is dear to evaluate, in words; empty: nothing
 };
 

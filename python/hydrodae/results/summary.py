@@ -64,7 +64,7 @@ def _methods(results: Recording) -> list[str]:
     texts = [str(results.statistics.get(key, "")).splitlines() for key in columns]
     parts, before = [], ""
     for name, start, reason in zip(*texts, strict=True):
-        since = f"{name} from t = {start} s because {before} stopped: {reason}"
+        since = f"{name} from t = {start} s because {before} gave up: {reason}"
         parts.append(since if before else f"{name} ({reason})")
         before = name
     return ["  method auto: " + ", ".join(parts)] if parts else []

@@ -70,7 +70,7 @@ TEST_CASE("methods follow one another, each with the reason of the last") {
   choice.next(SolverError(1.5, "stopped at t = 1.5 s: the step has become too short\n  worst"));
   CHECK(choice.method() == "radau");
   CHECK(in_words(choice) == "auto: explicit_rk (nothing is stiff), radau from t = 1.5 s because "
-                            "explicit_rk stopped: the step has become too short");
+                            "explicit_rk gave up: the step has become too short");
   choice.next(SolverError(2.0, "no finite accelerations"));
   CHECK(choice.method() == "ida");
   CHECK_FALSE(choice.more());
