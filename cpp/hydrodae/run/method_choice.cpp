@@ -16,12 +16,15 @@ constexpr double long_run = 2000.0; ///< [rad]
 constexpr double short_step = 0.02; ///< [rad]
 constexpr int many = 40;            ///< short steps
 
-/// "stopped at t = 1.2 s: the step ..., last step 1e-9 s\n  worst ..." without its ends.
+/// "stopped at t = 1.2 s: the step ... (solver...): what may help\n  worst ..." without its ends.
 std::string core_of(const std::string& message) {
   const std::string line = message.substr(0, message.find('\n'));
   const std::size_t colon =
       line.starts_with("stopped at t = ") ? line.find(": ") : std::string::npos;
-  return colon == std::string::npos ? line : line.substr(colon + 2);
+  std::string core = colon == std::string::npos ? line : line.substr(colon + 2);
+  for (const char* advice : {" (solver.", ": solver.method"})
+    core = core.substr(0, core.find(advice));
+  return core;
 }
 
 /// Is there anything but joints, weights and constant loads in each group of bodies?

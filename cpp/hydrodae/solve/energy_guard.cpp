@@ -95,14 +95,18 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
     look(static_cast<int>(m), mechanisms[m].error, mechanisms[m].exchanged);
 }
 
-bool EnergyGuard::was_sound(const system::Recorder& recorder) const {
-  constexpr double clean = 0.1; // of the least that is not allowed
-  const double part = clean * std::min(part_, at_singular_);
-  const auto sound = [&](const system::Recorder::Balance& b) {
-    return std::abs(b.error) <= part * b.exchanged;
+bool EnergyGuard::lies_in_last_step(const system::Recorder& recorder) const {
+  using Balance = system::Recorder::Balance;
+  constexpr double less = 0.5; // of what is missing now
+  const double part = std::min(part_, at_singular_);
+  const auto good = [&](const Balance& b) { return std::abs(b.error) <= part * b.exchanged; };
+  const auto sound = [&](const Balance& before, const Balance& now) {
+    return good(before) && (good(now) || std::abs(before.error) <= less * std::abs(now.error));
   };
-  const std::vector<system::Recorder::Balance>& mechanisms = recorder.mechanisms_before();
-  return sound(recorder.whole_before()) && std::all_of(mechanisms.begin(), mechanisms.end(), sound);
+  const std::vector<Balance>&mechanisms = recorder.mechanisms(),
+        &before = recorder.mechanisms_before();
+  return sound(recorder.whole_before(), recorder.whole()) &&
+         std::equal(before.begin(), before.end(), mechanisms.begin(), sound);
 }
 
 void EnergyGuard::finish(double t, const system::Recorder& recorder) const {

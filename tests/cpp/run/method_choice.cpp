@@ -78,7 +78,7 @@ TEST_CASE("methods follow one another, each with the reason of the last") {
 
 TEST_CASE("where no method is left, the error tells of all") {
   MethodChoice choice = chosen();
-  choice.next(SolverError(1.5, "stopped at t = 1.5 s: first reason\n  of no use"));
+  choice.next(SolverError(1.5, "stopped at t = 1.5 s: first reason (solver.x): advice\n  no use"));
   choice.next(SolverError(1.6, "stopped at t = 1.6 s: second reason"));
   std::string told;
   try {
