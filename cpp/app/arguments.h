@@ -22,7 +22,7 @@ inline constexpr const char* usage =
                    is written beside it (RESULTS.partial.h5 for RESULTS.h5)
   --set KEY=VALUE  replace a value of the case, for example --set solver.rtol=1e-8 or
                    --set joint.hinge1.initial.angle_deg=5
-  --method NAME    the same as --set solver.method="NAME": ida, radau, explicit_rk, ...
+  --method NAME    the same as --set solver.method="NAME": auto, radau, ...
   --force          run a pair of method and formulation that is known to fail
   --verify         run a second time with a tenth of the tolerance, or half the step, and compare
   --checkpoint SECONDS

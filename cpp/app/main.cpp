@@ -87,6 +87,8 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   if (statistics.verified_error >= 0.0)
     std::printf("verified %.1g, ", statistics.verified_error);
   std::printf("results in %s\n", arguments.output.c_str());
+  if (statistics.method.starts_with("auto"))
+    std::printf("method %s\n", statistics.method.c_str());
   print_power(statistics);
   return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
 }

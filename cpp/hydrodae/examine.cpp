@@ -307,6 +307,7 @@ std::string examine(const model::Scene& scene) {
   out << "; " << pattern.nonzeros() << " nonzeros in the Jacobian\n"
       << "  mobility: " << system::mobility(s) << " degrees of freedom left by " << s.n_lambda
       << " constraint rows\n";
+  write_method(out, scene);
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(s, pattern));
   advise_joints(out, scene);

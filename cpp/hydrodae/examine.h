@@ -30,6 +30,10 @@ std::vector<ElementCost> element_costs(const system::System& system,
 /// Empty where the accelerations cannot be determined.
 std::vector<bool> never_excited(const system::System& system, const system::Pattern& pattern);
 
+/// With which method "auto" begins, why, and which follow; nothing where a method is named, or a
+/// run could not start.
+void write_method(std::ostream& out, const model::Scene& scene);
+
 /// Weight and buoyancy of what floats, where it rests in still water, and what looks wrong with the
 /// scene, line by line (examine_sanity.cpp).
 void write_sanity(std::ostream& out, const model::Scene& scene, const system::System& system);

@@ -1,4 +1,4 @@
-/// The part of `examine` that says what looks wrong.
+/// The parts of `examine` that say how the scene would be run, and what looks wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/examine.h"
 #include "hydrodae/math/rotation.h"
+#include "hydrodae/run/simulation.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/sanity.h"
 
@@ -72,6 +73,20 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
 }
 
 } // namespace
+
+void write_method(std::ostream& out, const model::Scene& scene) {
+  if (scene.solver.method != "auto")
+    return;
+  try {
+    const run::Simulation start(scene);
+    const run::MethodOrder& order = start.methods().order();
+    out << "  method: auto begins with " << order.methods.front() << ", as " << order.reason;
+    for (std::size_t k = 1; k < order.methods.size(); ++k)
+      out << (k == 1 ? "; where that cannot go on follows " : ", then ") << order.methods[k];
+    out << '\n';
+  } catch (const Error&) { // a run tells it
+  }
+}
 
 void write_sanity(std::ostream& out, const model::Scene& scene, const System& s) {
   for (const system::FloatingGroup& group : system::floating_groups(s))

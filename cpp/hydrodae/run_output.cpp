@@ -1,5 +1,7 @@
 #include "hydrodae/run_output.h"
 
+#include "hydrodae/core/text.h"
+
 namespace hydrodae {
 
 std::string lines_of(const std::vector<std::string>& lines) {
@@ -54,6 +56,21 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
     out["mean_power_from"] = s.mean_power_from;
   }
   return out;
+}
+
+void write_methods(const run::MethodChoice& choice, io::Attributes& out) {
+  std::vector<std::string> methods, from, reasons;
+  for (const run::MethodChoice::Part& part : choice.parts()) {
+    methods.push_back(part.method);
+    from.push_back(number_text(part.from));
+    reasons.push_back(part.reason);
+  }
+  out["method_in_use"] = choice.method();
+  if (!choice.chosen())
+    return;
+  out["methods"] = lines_of(methods);
+  out["method_from"] = lines_of(from);
+  out["method_reason"] = lines_of(reasons);
 }
 
 void write_impacts(const run::Simulation& simulation, io::ResultsFile& file) {

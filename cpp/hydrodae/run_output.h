@@ -20,6 +20,10 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
 io::Attributes attributes(const RunStatistics& statistics, const model::Scene& scene,
                           double balance_error);
 
+/// Which methods made the steps from when on, and why: a line each of `methods`, `method_from` [s]
+/// and `method_reason`; the last of them as `method_in_use`.
+void write_methods(const run::MethodChoice& choice, io::Attributes& out);
+
 /// What the stops have taken, impact by impact.
 void write_impacts(const run::Simulation& simulation, io::ResultsFile& file);
 

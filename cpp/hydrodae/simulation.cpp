@@ -187,6 +187,7 @@ private:
 
   void count() {
     const solve::Statistics s = simulation_.statistics();
+    statistics_.method = in_words(simulation_.methods());
     statistics_.steps = s.steps;
     statistics_.residual_calls = s.residual_calls;
     statistics_.jacobian_calls = s.jacobian_calls;
@@ -216,6 +217,7 @@ private:
     io::Attributes all =
         attributes(statistics_, scene(), simulation_.recorder().relative_balance_error());
     all["beyond_linear_theory"] = lines_of(limits);
+    write_methods(simulation_.methods(), all);
     write_impacts(simulation_, *file_);
     file_->close(statistics_.status, message, all);
   }

@@ -19,6 +19,7 @@ using Progress = std::function<bool(double time, double end_time)>;
 
 struct RunStatistics {
   std::string status; ///< "completed" or "interrupted"
+  std::string method; ///< that was named, or which "auto" took when and why
   long steps = 0;
   long residual_calls = 0;
   long jacobian_calls = 0;

@@ -53,6 +53,7 @@ _MorisonSurface = Literal[
     "instantaneous",
 ]
 _SolverMethod = Literal[
+    "auto",
     "ida",
     "radau",
     "gauss",
@@ -1875,10 +1876,12 @@ class Scene(SceneBase):
 
         Parameters
         ----------
-        method : text, default "ida"
+        method : text, default "auto"
             Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic),
-            generalised alpha on the Lie group, or projected explicit Runge-Kutta. Allowed: ida,
-            radau, gauss, lobatto_iiic, generalized_alpha, explicit_rk.
+            generalised alpha on the Lie group, or projected explicit Runge-Kutta; auto:
+            explicit_rk, radau or ida as suits the scene, and another of them where the one at
+            work cannot go on. Allowed: auto, ida, radau, gauss, lobatto_iiic,
+            generalized_alpha, explicit_rk.
         formulation : text, default "stabilised"
             Equations of the constraints: stabilised index 2 (Gear, Gupta, Leimkuhler), plain
             index 2, index 3, or index 1; the last three for comparisons. Allowed: stabilised,

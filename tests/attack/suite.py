@@ -31,7 +31,7 @@ from hydrodae.study.stability.grid import PASS, WRONG
 FLOOR = 1e-9
 #: Default settings; `rtol` is the default of the solver, given here for the allowance.
 DEFAULTS = tuple(
-    Method(name, {"method": name, "rtol": 1e-6}) for name in ("ida", "radau", "explicit_rk")
+    Method(name, {"method": name, "rtol": 1e-6}) for name in ("auto", "ida", "radau", "explicit_rk")
 )
 RANDOM = tuple(
     f"{name}:random"

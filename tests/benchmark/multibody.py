@@ -24,7 +24,7 @@ TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11)
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Errors and times over a ladder of tolerances.")
-    parser.add_argument("--method", default="ida")
+    parser.add_argument("--method", default="auto")
     parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
     for name in arguments.names or PROBLEMS:

@@ -50,7 +50,10 @@ def main() -> None:
         seconds: list[float] = []
         for end_time in END_TIMES:
             case = hydrodae.Case.from_text(four_bar(int(n), end_time, end_time))
-            runs = [hydrodae.run(case).statistics for _ in range(arguments.repeats)]
+            runs = [
+                hydrodae.run(case, set={"solver.method": "ida"}).statistics
+                for _ in range(arguments.repeats)
+            ]
             steps.append(int(runs[0]["steps"]))
             seconds.append(min(float(run["solver_time"]) for run in runs))
         per_step.append((seconds[1] - seconds[0]) / (steps[1] - steps[0]))

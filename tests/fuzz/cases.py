@@ -193,6 +193,8 @@ def _exchange_single(tables: Tables, corpus: Corpus, random: Random) -> None:
 
 
 METHODS: tuple[dict[str, Any], ...] = (
+    {"method": "auto"},
+    {"method": "auto", "max_step": 0.05},
     {"method": "ida"},
     {"method": "radau"},
     {"method": "radau", "order": 9, "step": 0.01},
@@ -299,7 +301,7 @@ def words(text: str, corpus: Corpus, random: Random) -> list[str]:
         elif how < 9:
             found += ["--set", f"{_dotted(tables, corpus, random)}={_given(random)}"]
         elif how == 9:
-            found += ["--method", random.choice(("ida", "radau", "explicit_rk", *TEXTS))]
+            found += ["--method", random.choice(("auto", "ida", "radau", "explicit_rk", *TEXTS))]
         elif how == 10:
             found += [random.choice(("--set", "--force", "--quiet", "--check", "-o", "--method"))]
         else:

@@ -206,7 +206,7 @@ def test_command_recommends_lines_to_paste(pendulum, capsys):
     [
         (["--methods", "rado"], "did you mean 'radau'?"),
         (["--methods", "radau:4"], "radau has no order '4'; it has 1, 3"),
-        (["--methods", "generalized_alpha:2"], "one order only"),
+        (["--methods", "generalized_alpha:2"], "no choice of order"),
         (["--tolerances", "1e-3,x"], "--tolerances 1e-3,x"),
         (["--tolerances", "2"], "tolerances: 2 is not between"),
         (["--steps", "-1"], "steps: -1 is not between"),

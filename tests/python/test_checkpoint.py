@@ -44,7 +44,7 @@ max_step = 0.02
 [output]
 step = 0.01
 """
-METHODS = ("ida", "radau", "explicit_rk")
+METHODS = ("auto", "ida", "radau", "explicit_rk")
 
 
 @pytest.fixture

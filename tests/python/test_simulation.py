@@ -43,6 +43,7 @@ rtol = 1e-9
 step = 0.05
 """
 METHODS: dict[str, dict[str, Any]] = {
+    "auto": {},
     "ida": {},
     "radau": {},
     "explicit_rk": {},

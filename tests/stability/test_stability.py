@@ -24,12 +24,20 @@ from hydrodae.study.stability import (
     show,
     stability_map,
 )
-from hydrodae.study.stability.grid import REFUSED, WRONG
+from hydrodae.study.stability.grid import PASS, REFUSED, WRONG
 from hydrodae.study.stability.methods import Method
 from hydrodae.study.stability.truths import BRICARD_STEP, LIGHT_JOINT_STEP
 
 SCENES, METHODS = all_scenes(), all_methods()
-SHORT = ("ida:1e-6", "ida:1e-3", "radau:1e-6", "radau:1e-3", "explicit_rk:1e-6")
+SHORT = (
+    "auto:1e-6",
+    "auto:1e-3",
+    "ida:1e-6",
+    "ida:1e-3",
+    "radau:1e-6",
+    "radau:1e-3",
+    "explicit_rk:1e-6",
+)
 REST = tuple(name for name in METHODS if name not in SHORT)
 
 # File of the same motion in tests/verification/truths, and its columns in our axes.
@@ -61,6 +69,23 @@ def test_no_run_returns_success_with_a_wrong_motion(name: str) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_nor_does_any_other_method(name: str, method: str) -> None:
     assert not wrong(stability_map([SCENES[name]], [METHODS[method]], time_limit=10.0))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_auto_passes_what_any_method_passes(name: str) -> None:
+    """At default tolerance; radau passes all that any method passes, fixed steps included."""
+    cells = stability_map([SCENES[name]], [METHODS["auto:1e-6"], METHODS["radau:1e-6"]])
+    auto, radau = (cell.outcome for cell in cells)
+    assert auto == radau
+    assert auto in (PASS, REFUSED)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", SCENES)
+def test_radau_passes_what_any_method_passes(name: str) -> None:
+    cells = stability_map([SCENES[name]], METHODS.values(), time_limit=10.0)
+    passed = {cell.method for cell in cells if cell.outcome == PASS}
+    assert not passed or {"auto:1e-6", "radau:1e-6"} <= passed
 
 
 @pytest.mark.parametrize("name", [n for n, s in SCENES.items() if not s.impossible])

@@ -64,7 +64,7 @@ def cases(repository: Path) -> Path:
 
 
 def errors(
-    cases: Path, name: str, rtol: float | None = None, method: str = "ida"
+    cases: Path, name: str, rtol: float | None = None, method: str = "auto"
 ) -> dict[str, float]:
     """Errors of one run; without `rtol` at the default tolerance."""
     document = truths.read(name) if name in truths.PROBLEMS else {}  # the others are solved here

@@ -13,6 +13,7 @@ import hydrodae
 from hydrodae import Simulation
 
 METHODS = {
+    "auto": {},
     "ida": {},
     "radau": {},
     "explicit_rk": {},
@@ -124,8 +125,8 @@ def follow(simulation: Simulation, steps: int) -> list[tuple[float, bytes]]:
 
 
 def combinations() -> list[tuple[str, str]]:
-    """Scenes and methods; two methods have a formulation of their own."""
-    own = {"generalized_alpha", "explicit_rk"}
+    """Scenes and methods; three methods have a formulation of their own."""
+    own = {"auto", "generalized_alpha", "explicit_rk"}
     return [(n, m) for n in SCENES for m in METHODS if n != "drift" or m not in own]
 
 

@@ -24,6 +24,7 @@ struct CatenaryLine {
       "Quasi-static elastic mooring line of one or more parts, with seabed, clumps and buoys.";
   static constexpr Port port = Port::points;
   static constexpr int n_points = 2;
+  static constexpr Work work = Work::lent;
   std::string name;
   std::string body_a = "ground", body_b;
   Vector3 point_a = Vector3::Zero(), point_b = Vector3::Zero();

@@ -13,6 +13,7 @@ namespace hydrodae::element {
 struct ConstantLoad {
   static constexpr std::string_view type = "constant_load";
   static constexpr Port port = Port::on_body;
+  static constexpr Work work = Work::lent;
   static constexpr int n_signals = 6;
   static constexpr std::string_view doc =
       "Constant force at the centre of gravity and constant moment, world axes.";

@@ -52,6 +52,9 @@ struct Orders {
 void check_order(const SolverOptions& o) {
   if (o.order == 0)
     return;
+  if (o.method == "auto")
+    refuse_solver("order", "\"auto\" takes methods at orders of their own; name the method whose "
+                           "order it is, such as method = \"radau\"");
   if (o.method == "ida")
     refuse_solver("order", "ida varies its order; solver.max_order limits it");
   if (o.method == "generalized_alpha")
@@ -72,6 +75,11 @@ void check_step(const SolverOptions& o) {
       o.method == "gauss" || o.method == "lobatto_iiic" || o.method == "generalized_alpha";
   if (fixed && o.step == 0.0)
     refuse_solver("step", o.method + " has a fixed step: give solver.step [s]");
+  if (o.method == "auto" && o.step > 0.0)
+    refuse_solver("step",
+                  "\"auto\" takes methods that choose their steps by rtol; for a fixed step "
+                  "name the method, such as method = \"generalized_alpha\"; "
+                  "solver.max_step limits them");
   if (o.method == "ida" && o.step > 0.0)
     refuse_solver("step", "ida chooses its steps by rtol; solver.max_step limits them");
   if (o.step > 0.0 && o.max_step > 0.0)
@@ -84,6 +92,9 @@ void check_step(const SolverOptions& o) {
 
 void check_formulation(const SolverOptions& o) {
   const bool stabilised = o.formulation == "stabilised";
+  if (!stabilised && o.method == "auto")
+    refuse_solver("formulation", "\"auto\" keeps to \"stabilised\", as all its methods do; for "
+                                 "comparisons name the method, \"ida\" or \"radau\"");
   if (!stabilised && (o.method == "generalized_alpha" || o.method == "explicit_rk"))
     refuse_solver("formulation", o.method + " has its own: only \"stabilised\" here");
   if (o.baumgarte_time > 0.0 && o.formulation != "index_1")
@@ -108,7 +119,9 @@ void check_solver(const Scene& scene) {
   check_formulation(o);
   check_counts(scene);
   if (o.method != "ida" && o.max_order != 5)
-    refuse_solver("max_order", "belongs to ida; " + o.method + " takes solver.order");
+    refuse_solver("max_order",
+                  "belongs to ida; " +
+                      (o.method == "auto" ? "name the method" : o.method + " takes solver.order"));
 }
 
 } // namespace hydrodae::model

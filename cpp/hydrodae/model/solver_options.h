@@ -11,7 +11,7 @@ namespace hydrodae::model {
 struct SolverOptions {
   static constexpr std::string_view doc =
       "Which method integrates the scene, how exactly, and what ends a run that goes wrong.";
-  std::string method = "ida";
+  std::string method = "auto";
   std::string formulation = "stabilised";
   std::string start = "given";
   double end_time = 0.0;
@@ -38,10 +38,11 @@ struct SolverOptions {
          &O::method,
          "-",
          "Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic), generalised "
-         "alpha on the Lie group, or projected explicit Runge-Kutta.",
+         "alpha on the Lie group, or projected explicit Runge-Kutta; auto: explicit_rk, radau or "
+         "ida as suits the scene, and another of them where the one at work cannot go on.",
          false,
          any_value,
-         {"ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
+         {"auto", "ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
         {"formulation",
          &O::formulation,
          "-",

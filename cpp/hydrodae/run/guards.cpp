@@ -27,6 +27,9 @@ public:
         step.end, step.recorder, [&] { return watch_.near_singular(step); },
         [&] { return reactions(s_, step.y); });
   }
+  bool lies_in_step(const Step& step) const override {
+    return guard_.lies_in_last_step(step.recorder);
+  }
   void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
 
 private:

@@ -31,6 +31,10 @@ public:
   /// Throws SolverError where the motion is not to be trusted any more.
   virtual void check(const Step& step) = 0;
 
+  /// Does what `check` has just complained of lie in that step alone, so that the state at its
+  /// start is as good as that of any run? Then another method may take the step.
+  virtual bool lies_in_step(const Step&) const { return false; }
+
   /// Other rows hold from the end of the step on.
   virtual void restart(const Step&) {}
 
@@ -57,6 +61,9 @@ public:
   /// What to do about a step that cannot be made next to a singular pose, behind the first line of
   /// `text`.
   std::string with_remedy(std::string text, double t, const VectorX& y, const VectorX& yp);
+
+  /// The steps are those of this method from now on.
+  void use(const std::string& method) { method_ = method; }
 
   void restart(const VectorX& y);
   void remember(Archive& a);

@@ -33,10 +33,9 @@ constexpr double step_edge = 0.02;
 } // namespace
 
 Simulation::Simulation(model::Scene scene)
-    : scene_(std::move(scene)), options_(scene_.solver),
-      approaches_events_(options_.method == "radau" && options_.step == 0.0),
-      system_(solve::starting_system(scene_)), pattern_(system::find_pattern(system_)),
-      y_(system::initial_state(system_)), inputs_(find_inputs(system_)) {
+    : scene_(std::move(scene)), options_(scene_.solver), system_(solve::starting_system(scene_)),
+      pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)),
+      inputs_(find_inputs(system_)) {
   solve::consistent_start(system_, pattern_, y_, yp_);
   system::take_time_scales(system_, y_, yp_);
   forcing_ = std::make_unique<system::Forcing>(system_, options_.end_time, scene_.output.step);
@@ -48,6 +47,7 @@ Simulation::Simulation(model::Scene scene)
   }
   formulate();
   begin_history();
+  choose_method();
   make_integrator();
   trust_ = std::make_unique<solve::Trust>(system_, pattern_, options_, y_, yp_);
   recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
@@ -91,10 +91,6 @@ void Simulation::make_channels() {
   width_ = recorder_->width() + solver_channels.size() + impacts_.width();
 }
 
-void Simulation::make_integrator() {
-  integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
-}
-
 solve::Statistics Simulation::statistics() const {
   solve::Statistics all = before_start_;
   const solve::Statistics now = integrator_->statistics();
@@ -111,20 +107,17 @@ void Simulation::advance(double limit, const Inside& inside) {
   take_inputs();
   now_.clear();
   failed_ = true; // until the step is accepted by all
-  const Clock::time_point before = Clock::now();
-  const bool event = make_step(std::min(limit, options_.end_time));
-  solver_time_ += seconds_since(before);
-  choose_quadrature();
-  recorder_->begin(t_, at_);
+  const double end = std::min(limit, options_.end_time);
+  const bool event = take_step(end);
   if (inside)
     inside();
   recorder_->accept();
-  at_(t_, y_, yp_);
   const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->check(step);
   if (history_)
     history_->append(t_, y_, yp_);
+  watch_steps(event, end);
   if (event)
     restart();
   failed_ = false;
@@ -136,20 +129,41 @@ void Simulation::require_going() const {
                               " s; it goes on from a state that is restored only");
 }
 
+/// One step, and what the recorder makes of it.
+/// @returns whether it ends in an event
+bool Simulation::take_step(double end) {
+  for (;;) {
+    const Clock::time_point before = Clock::now();
+    const bool event = make_step(end);
+    solver_time_ += seconds_since(before);
+    choose_quadrature();
+    recorder_->begin(t_, at_);
+    at_(t_, y_, yp_);
+    if (!take_back(event))
+      return event;
+  }
+}
+
 /// One step, cut short where a stop or dry friction changes.
 /// @returns whether it ends in such an event
 bool Simulation::make_step(double end) {
+  if (methods_.labours())
+    fall_back(methods_.labour(t_));
   for (;;) {
     last_start_ = step_start_;
     step_start_ = t_;
-    if (switching_ && approaches_events_)
+    if ((switching_ && approaches_events_) || methods_.more())
       at_(t_, y_start_, yp_start_);
-    const double bound = find_bound();
+    bound_ = find_bound();
     try {
-      t_ = integrator_->step(end, bound);
+      t_ = integrator_->step(end, bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
-      throw SolverError(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));
+      const SolverError told(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));
+      if (!methods_.chosen())
+        throw told;
+      fall_back(told);
+      continue;
     }
     std::optional<double> event;
     if (switching_)
@@ -189,7 +203,7 @@ void Simulation::approach(double event) {
   before_start_ += integrator_->statistics();
   t_ = step_start_;
   event_near_ = event;
-  switching_->follow(recorder_->turns());
+  follow_turns();
   y_ = y_start_;
   yp_ = yp_start_;
   make_integrator();

@@ -12,6 +12,7 @@
 #include "hydrodae/run/guards.h"
 #include "hydrodae/run/impacts.h"
 #include "hydrodae/run/inputs.h"
+#include "hydrodae/run/method_choice.h"
 #include "hydrodae/run/state.h"
 #include "hydrodae/solve/switching.h"
 #include "hydrodae/system/forcing.h"
@@ -80,6 +81,7 @@ public:
   const system::System& system() const { return system_; }
   const system::Recorder& recorder() const { return *recorder_; }
   const ImpactOutput& impacts() const { return impacts_; }
+  const MethodChoice& methods() const { return methods_; }
   const solve::Switching* switching() const { return switching_.get(); }
   solve::Statistics statistics() const;
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
@@ -98,7 +100,13 @@ private:
   bool inside_of_step(double t) const;
   void approach(double event);
   void choose_quadrature();
+  void choose_method();
+  void use_method();
   void make_integrator();
+  void fall_back(const SolverError& error);
+  bool take_step(double end);
+  bool take_back(bool event);
+  void watch_steps(bool event, double end);
   void restart();
   void follow_turns();
   void restart_guards();
@@ -108,9 +116,10 @@ private:
   void remember(Archive& a);
 
   model::Scene scene_;
-  model::SolverOptions options_; ///< of the scene, steps limited to what a history carries
-  bool approaches_events_;       ///< with steps that end there
-  std::string fingerprint_;      ///< empty: not asked for yet
+  model::SolverOptions options_; ///< of the method at work; steps as a history carries them
+  MethodChoice methods_{options_.method};
+  bool approaches_events_ = false; ///< with steps that end there
+  std::string fingerprint_;        ///< empty: not asked for yet
   system::System system_;
   system::Pattern pattern_;
   VectorX y_, yp_; ///< at the end of the last step
@@ -134,6 +143,7 @@ private:
   double solver_time_ = 0.0;       ///< wall time inside the method [s]
   double t_ = 0.0, step_start_ = 0.0, last_start_ = 0.0;
   double event_near_ = INFINITY; ///< where the next steps end [s]
+  double bound_ = INFINITY;      ///< beyond which the last step was not to go [s]
   VectorX y_start_, yp_start_;   ///< at the start of the step
   int quadrature_nodes_ = 3;
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {

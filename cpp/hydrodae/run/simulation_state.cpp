@@ -19,7 +19,7 @@ void Simulation::remember(Archive& a) {
   std::vector<system::SwitchData::State> modes;
   for (const system::SwitchData& element : system_.switches)
     modes.push_back(element.state);
-  a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes);
+  a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes, methods_);
   for (const Input& input : inputs_)
     a(*input.value);
   if (modes.size() != system_.switches.size())
@@ -66,6 +66,7 @@ void Simulation::restore(const State& state) {
   y_ = state.y;
   yp_ = state.yp;
   restore(memory, "run", *this); // the modes of the switches with it
+  use_method();
   restore(memory, "recorder", *recorder_);
   if (switching_) {
     system::lay_out(system_);

@@ -95,6 +95,20 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
     look(static_cast<int>(m), mechanisms[m].error, mechanisms[m].exchanged);
 }
 
+bool EnergyGuard::lies_in_last_step(const system::Recorder& recorder) const {
+  using Balance = system::Recorder::Balance;
+  constexpr double less = 0.5; // of what is missing now
+  const double part = std::min(part_, at_singular_);
+  const auto good = [&](const Balance& b) { return std::abs(b.error) <= part * b.exchanged; };
+  const auto sound = [&](const Balance& before, const Balance& now) {
+    return good(before) && (good(now) || std::abs(before.error) <= less * std::abs(now.error));
+  };
+  const std::vector<Balance>&mechanisms = recorder.mechanisms(),
+        &before = recorder.mechanisms_before();
+  return sound(recorder.whole_before(), recorder.whole()) &&
+         std::equal(before.begin(), before.end(), mechanisms.begin(), sound);
+}
+
 void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)

@@ -24,6 +24,10 @@ public:
              const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
+  /// Does what is missing go back to the last step alone? At its start nothing was missing that
+  /// is not allowed even at a singular pose, and less than half of what is missing now.
+  bool lies_in_last_step(const system::Recorder& recorder) const;
+
   /// The same at the end of the run, with next to no energy too little to tell.
   void finish(double t, const system::Recorder& recorder) const;
 

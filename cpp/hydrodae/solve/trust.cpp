@@ -221,6 +221,12 @@ void Trust::find_guided() {
 
 void Trust::strike(int mechanism) { energies_[static_cast<std::size_t>(mechanism)].struck = true; }
 
+/// What the methods before have left inside their steps stays.
+void Trust::use(const model::SolverOptions& options) {
+  every_ = steps_between_looks(options.method);
+  least_ = std::max(least_, least_error(options));
+}
+
 void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp) {
   find_guided();
   ErrorGrowth::Error error = growth_->error();
@@ -230,7 +236,7 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
 
 void Trust::remember(Archive& a) {
   a(*growth_, unit_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_, energies_,
-    looked_);
+    looked_, least_);
 }
 
 Trust::Estimate Trust::estimate(const VectorX& reached) const {

@@ -31,6 +31,9 @@ public:
   void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
               bool event, const system::Recorder& recorder);
 
+  /// From the next `restart` on the steps are those of another method.
+  void use(const model::SolverOptions& options);
+
   /// A stop of a mechanism was struck.
   void strike(int mechanism);
 

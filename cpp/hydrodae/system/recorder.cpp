@@ -22,6 +22,11 @@ Recorder::Recorder(const System& system, double t0, const VectorX& y, const Vect
 /// Powers at the nodes of the step from t_ to t, on the solver's interpolant, and the work over it.
 /// Leaves the observer at t.
 void Recorder::begin(double t, const Interpolant& at) {
+  before_.whole = whole_;
+  before_.mechanisms = mechanisms_;
+  before_.turns = turns_;
+  before_.mean_work = mean_work_;
+  before_.kinetic = end_kinetic_;
   end_ = t;
   const double h = end_ - t_;
   const std::size_t last = rule_.nodes.size() - 1;
@@ -173,6 +178,15 @@ void Recorder::accept() {
   work_ = end_work_;
   power_ = powers_.back();
   observer_.follow(turns_);
+}
+
+void Recorder::take_back() {
+  end_ = t_;
+  whole_ = before_.whole;
+  mechanisms_ = before_.mechanisms;
+  turns_ = before_.turns;
+  mean_work_ = before_.mean_work;
+  end_kinetic_ = before_.kinetic;
 }
 
 void Recorder::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {

@@ -45,6 +45,9 @@ public:
   /// Closes the step: work and turns are carried over.
   void accept();
 
+  /// Forgets the step begun instead: balances, turns and means are those of its start again.
+  void take_back();
+
   /// Rows of the system came or went at the end of the last accepted step; y, y' from there on.
   /// What the kinetic energy changed by otherwise is left as an error of the balance.
   /// @param work of all rows through their impulses, where something struck [J]
@@ -72,14 +75,15 @@ public:
     double given = 0.0; ///< the most that dampers, springs and radiation have taken in all [J]
     void remember(Archive& a) { a(error, exchanged, start, kinetic, now, given); }
   };
-  Balance whole() const {
-    return {whole_.balance_error,   whole_.largest_energy, energy0_,
-            whole_.largest_kinetic, whole_.kinetic,        whole_.given};
-  }
+  Balance whole() const { return balance_of(whole_); }
 
   /// The same for each mechanism by itself, with all that acts on it from outside; none where there
   /// is but one.
   const std::vector<Balance>& mechanisms() const { return mechanisms_; }
+
+  /// Both at the start of the step begun.
+  Balance whole_before() const { return balance_of(before_.whole); }
+  const std::vector<Balance>& mechanisms_before() const { return before_.mechanisms; }
 
   /// From `time` [s] on means are taken, see `absorbed`; by default from the start.
   void average_from(double time) { mean_from_ = time; }
@@ -103,6 +107,15 @@ private:
       a(largest_kinetic, kinetic, given, largest_energy, largest_error, balance_error);
     }
   };
+  struct Before { ///< what `begin` changes, as it was
+    Whole whole;
+    std::vector<Balance> mechanisms;
+    Turns turns;
+    std::vector<double> mean_work, kinetic;
+  };
+  Balance balance_of(const Whole& w) const {
+    return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic, w.kinetic, w.given};
+  }
   void fill(std::span<double> row, const std::vector<double>& work);
   void make_channels();
   void check_paths() const;
@@ -135,6 +148,7 @@ private:
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
   double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
   Whole whole_;
+  Before before_;
   Quadrature rule_;
   VectorX y_, yp_;
 };

@@ -104,7 +104,9 @@ def _common(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--methods", metavar="A,B,...", help="names, or name:order such as radau:13"
     )
-    parser.add_argument("--tolerances", metavar="A,B,...", help="rtol of ida, radau, explicit_rk")
+    parser.add_argument(
+        "--tolerances", metavar="A,B,...", help="rtol of auto, ida, radau, explicit_rk"
+    )
     parser.add_argument(
         "--channels",
         metavar="A,B,...",

@@ -24,6 +24,7 @@ def summary(results: Recording) -> str:
     cost = _cost(results)
     if cost:
         lines.append(f"  {cost}")
+    lines += _methods(results)
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
@@ -56,6 +57,18 @@ def _cost(results: Recording) -> str:
         speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""
         parts.append(f"wall time {wall:.3g} s{speed}")
     return ", ".join(parts)
+
+
+def _methods(results: Recording) -> list[str]:
+    """The methods that "auto" has taken, when and why."""
+    columns = ("methods", "method_from", "method_reason")
+    texts = [str(results.statistics.get(key, "")).splitlines() for key in columns]
+    parts, before = [], ""
+    for name, start, reason in zip(*texts, strict=True):
+        since = f"{name} from t = {start} s because {before} gave up: {reason}"
+        parts.append(since if before else f"{name} ({reason})")
+        before = name
+    return ["  method auto: " + ", ".join(parts)] if parts else []
 
 
 def _errors(results: Recording) -> list[str]:

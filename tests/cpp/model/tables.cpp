@@ -87,7 +87,7 @@ TEST_CASE("defaults are those of the structs, and none where a value means that 
     return named(named(all, table).fields, key).default_value;
   };
   CHECK(value("solver", "rtol") == "1e-06");
-  CHECK(value("solver", "method") == "\"ida\"");
+  CHECK(value("solver", "method") == "\"auto\"");
   CHECK(value("solver", "branch_guard") == "true");
   CHECK(value("solver", "end_time").empty()); // required
   CHECK(value("solver", "length_scale").empty());

@@ -46,7 +46,7 @@ def chart(
     methods : sequence of str
         "name" or "name:order", such as "radau:13".
     tolerances : sequence of float, -
-        `rtol` of ida, radau and explicit_rk.
+        `rtol` of auto, ida, radau and explicit_rk.
     steps : sequence of float, s, optional
         Of generalized_alpha, gauss and lobatto_iiic. By default seven, each half the one before,
         from about four times the mean step of ida (else radau, explicit_rk) at rtol 1e-4.

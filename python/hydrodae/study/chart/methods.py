@@ -11,6 +11,7 @@ from hydrodae.errors import CaseError
 
 #: Orders that each method has, (lowest, highest, increment) or a set; none: no choice of order.
 _ORDERS: dict[str, tuple[int, ...]] = {
+    "auto": (),
     "ida": tuple(range(1, 6)),
     "radau": tuple(range(1, 20, 2)),
     "explicit_rk": (5, 8),
@@ -19,12 +20,13 @@ _ORDERS: dict[str, tuple[int, ...]] = {
     "lobatto_iiic": tuple(range(2, 19, 2)),
 }
 #: Methods that choose their step by a tolerance; the others have a fixed step.
-_ADAPTIVE = ("ida", "radau", "explicit_rk")
+_ADAPTIVE = ("auto", "ida", "radau", "explicit_rk")
 #: Tolerance of Newton's iteration in the fixed-step Runge-Kutta methods, below any useful error.
 _NEWTON = 1e-10
 
 #: What a chart compares unless told otherwise.
 METHODS = (
+    "auto",
     "ida",
     "radau",
     "radau:5",
@@ -108,7 +110,7 @@ def parse_method(spec: str) -> Method:
         return Method(name)
     orders = _ORDERS[name]
     if not orders:
-        raise CaseError(f"{spec!r}: {name} has one order only; leave out ':{order}'")
+        raise CaseError(f"{spec!r}: {name} has no choice of order; leave out ':{order}'")
     if not order.isdecimal() or int(order) not in orders:
         known = ", ".join(map(str, orders))
         raise CaseError(f"{spec!r}: {name} has no order {order!r}; it has {known}")

@@ -52,6 +52,8 @@ def _formulation(method: str, formulation: str) -> Method:
 
 
 METHODS: tuple[Method, ...] = (
+    _tolerance("auto", 1e-6),
+    _tolerance("auto", 1e-3),
     _tolerance("ida", 1e-6),
     _tolerance("ida", 1e-4),
     _tolerance("ida", 1e-3),

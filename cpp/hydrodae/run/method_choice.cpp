@@ -1,0 +1,159 @@
+#include "hydrodae/run/method_choice.h"
+
+#include <algorithm>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/solve/stiffness.h"
+#include "hydrodae/system/declare.h"
+#include "hydrodae/system/mechanisms.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+constexpr double stiff = 50.0;      ///< fastest rate over that of the motion
+constexpr double long_run = 2000.0; ///< [rad]
+constexpr double short_step = 0.02; ///< [rad]
+constexpr int many = 40;            ///< short steps
+
+/// "stopped at t = 1.2 s: the step ... (solver...): what may help\n  worst ..." without its ends.
+std::string core_of(const std::string& message) {
+  const std::string line = message.substr(0, message.find('\n'));
+  const std::size_t colon =
+      line.starts_with("stopped at t = ") ? line.find(": ") : std::string::npos;
+  std::string core = colon == std::string::npos ? line : line.substr(colon + 2);
+  for (const char* advice : {" (solver.", ": solver.method"})
+    core = core.substr(0, core.find(advice));
+  return core;
+}
+
+/// Is there anything but joints, weights and constant loads in each group of bodies?
+bool may_damp(const system::System& s) {
+  std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
+  const auto mark = [&](const system::BodyData* body) {
+    if (body && body->group >= 0)
+      damped[static_cast<std::size_t>(body->group)] = true;
+  };
+  for (const system::Declaration::Load& load : system::declare(s).loads)
+    if (load.work == element::Work::spent)
+      mark(&s.bodies[static_cast<std::size_t>(load.body)]);
+  for (const system::SwitchData& w : s.switches)
+    mark(system::moving_body(s, system::joint_of(s, w.motion)));
+  return std::all_of(damped.begin(), damped.end(), [](bool d) { return d; });
+}
+
+std::string find_costly(const system::System& s) {
+  for (const system::CouplerData& c : s.couplers)
+    if (c.drive.python)
+      return "a drive of Python";
+  for (const system::JointData& j : s.joints)
+    if (j.A.path || j.B.path)
+      return "a path";
+  std::string law;
+  system::for_each_law(s,
+                       [&](const system::ElementList& list, std::size_t, const system::PortData&) {
+                         if (list.laws->type.starts_with("python_"))
+                           law = "a force of Python";
+                       });
+  return law;
+}
+
+} // namespace
+
+MethodOrder order_methods(const SceneTraits& traits) {
+  if (!(traits.fastest_rate <= stiff * traits.motion_rate))
+    return {{"radau", "ida"},
+            "it is stiff: the fastest rate is " + rounded_text(traits.fastest_rate) +
+                " 1/s, the motion's " + rounded_text(traits.motion_rate) + " 1/s"};
+  const std::vector<std::string> implicit_first = {"radau", "explicit_rk", "ida"};
+  if (!traits.costly.empty())
+    return {implicit_first, traits.costly + " is dear to evaluate"};
+  if (!traits.damped && traits.end_time * traits.motion_rate > long_run)
+    return {implicit_first, "errors pile up: nothing damps the motion, which goes on for some " +
+                                rounded_text(traits.end_time * traits.motion_rate) + " rad"};
+  return {{"explicit_rk", "radau", "ida"}, "nothing is stiff"};
+}
+
+SceneTraits find_traits(const system::System& s, const system::Pattern& pattern,
+                        const model::SolverOptions& options, const VectorX& y, const VectorX& yp) {
+  SceneTraits out;
+  out.fastest_rate = solve::fastest_rate(s, pattern, 0.0, y, yp);
+  out.motion_rate = solve::motion_rate(s, y);
+  out.end_time = options.end_time;
+  out.damped = may_damp(s);
+  out.costly = find_costly(s);
+  return out;
+}
+
+MethodChoice::MethodChoice(std::string method) { order_.methods.push_back(std::move(method)); }
+
+MethodChoice::MethodChoice(MethodOrder order) : order_(std::move(order)) {}
+
+void MethodChoice::next(const SolverError& error) {
+  left_.push_back({error.time, core_of(error.what())});
+  if (more()) {
+    ++at_;
+    short_steps_ = 0;
+    return;
+  }
+  const std::string last = error.what();
+  std::string text =
+      "stopped at t = " + number_text(error.time) + " s: no method of \"auto\" goes on: ";
+  for (std::size_t k = 0; k < left_.size(); ++k)
+    text += (k > 0 ? "; " : "") + order_.methods[k] + " at t = " + number_text(left_[k].time) +
+            " s: " + left_[k].reason;
+  const std::size_t details = last.find('\n');
+  throw SolverError(error.time, details == std::string::npos ? text : text + last.substr(details));
+}
+
+void MethodChoice::accept(double h, double rate, bool own) {
+  if (own)
+    short_steps_ = h * rate < short_step ? short_steps_ + 1 : 0;
+}
+
+bool MethodChoice::labours() const {
+  return more() && method() == "explicit_rk" && short_steps_ >= many;
+}
+
+SolverError MethodChoice::labour(double t) const {
+  return {t, number_text(many) + " steps in a row were shorter than " + number_text(short_step) +
+                 " rad of the motion"};
+}
+
+std::vector<MethodChoice::Part> MethodChoice::parts() const {
+  std::vector<Part> out{{order_.methods[0], 0.0, order_.reason}};
+  for (std::size_t k = 1; k <= at_; ++k)
+    out.push_back({order_.methods[k], left_[k - 1].time, left_[k - 1].reason});
+  return out;
+}
+
+void MethodChoice::remember(Archive& a) {
+  a(at_, left_, short_steps_);
+  if (at_ >= order_.methods.size() || left_.size() < at_)
+    throw Error("the state is of a run with other methods");
+}
+
+void MethodChoice::Left::remember(Archive& a) {
+  std::vector<double> letters; // of UTF-8
+  for (const char c : reason)
+    letters.push_back(static_cast<unsigned char>(c));
+  a(time, letters);
+  if (a.saves())
+    return;
+  reason.clear();
+  for (const double letter : letters)
+    reason += static_cast<char>(static_cast<unsigned char>(letter));
+}
+
+std::string in_words(const MethodChoice& choice) {
+  const std::vector<MethodChoice::Part> parts = choice.parts();
+  if (!choice.chosen())
+    return parts.front().method;
+  std::string text = "auto: " + parts.front().method + " (" + parts.front().reason + ")";
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    text += ", " + parts[k].method + " from t = " + number_text(parts[k].from) + " s because " +
+            parts[k - 1].method + " gave up: " + parts[k].reason;
+  return text;
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,109 @@
+#pragma once
+/// `solver.method = "auto"`: with which method a scene begins, and which follow where that one
+/// cannot go on.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/model/solver_options.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::run {
+
+/// What decides about the method of a scene.
+struct SceneTraits {
+  double fastest_rate = 0.0; ///< of the equations linearised at the start [1/s]
+  double motion_rate = 0.0;  ///< at which the bodies move there [1/s]
+  double end_time = 0.0;     ///< [s]
+  bool damped = false;       ///< energy may be taken out of the motion of every group of bodies
+  std::string costly;        ///< what is dear to evaluate, in words; empty: nothing
+};
+
+/// Methods in the order in which they are tried, and why the first is the first.
+struct MethodOrder {
+  std::vector<std::string> methods;
+  std::string reason;
+};
+
+/// The choice, by what the stability map, the attack suite and the charts of tests/ tell. radau
+/// takes every scene there that any method takes; it is not always the cheapest:
+///
+/// - Where nothing is stiff, explicit_rk has the cheapest digits, up to four times as cheap; after
+///   it comes radau, then ida.
+/// - Stiff is what is 50 times as fast as the motion: an explicit step, about 6 over the fastest
+///   rate, is then shorter than a tenth of a radian of the motion, and one of radau takes less.
+///   There explicit_rk also spends energy on what hardly moves. After radau comes ida only.
+/// - What a scene calls at every evaluation (Python, the nearest point of a path) counts more than
+///   the algebra: radau evaluates half as often as explicit_rk, or less.
+/// - Without damping the errors of all steps pile up. At the same tolerance those of radau are 10
+///   to 100 times smaller, so that it lasts through runs of more than 2000 radians.
+MethodOrder order_methods(const SceneTraits& traits);
+
+/// Of a scene at its start, where y, y' are consistent.
+SceneTraits find_traits(const system::System& system, const system::Pattern& pattern,
+                        const model::SolverOptions& options, const VectorX& y, const VectorX& yp);
+
+/// The method at work in a run, those before it and those that are left. Each method is given up
+/// once at most: what it could not pass may come again.
+class MethodChoice {
+public:
+  /// The one of that name; none is left.
+  explicit MethodChoice(std::string method);
+
+  /// Those of an order, from the first on.
+  explicit MethodChoice(MethodOrder order);
+
+  const std::string& method() const { return order_.methods[at_]; }
+  const MethodOrder& order() const { return order_; }
+
+  /// Was it chosen, rather than named?
+  bool chosen() const { return order_.methods.size() > 1; }
+
+  /// Is there another method to go on with?
+  bool more() const { return at_ + 1 < order_.methods.size(); }
+
+  /// Goes on with the next method, as the one at work has met `error`. Throws SolverError where
+  /// none is left, which tells of all that were tried.
+  void next(const SolverError& error);
+
+  /// Takes an accepted step of the length h [s] at the rate of the motion [1/s].
+  /// @param own the method chose its end; else it tells nothing
+  void accept(double h, double rate, bool own);
+
+  /// Were so many of the last steps of explicit_rk so short against the motion that it must be
+  /// stability that limits them, and is there a method to make longer ones?
+  bool labours() const;
+
+  /// That as an error at time t [s].
+  SolverError labour(double t) const;
+
+  /// A method from a time on, and why.
+  struct Part {
+    std::string method;
+    double from = 0.0; ///< [s]
+    std::string reason;
+  };
+  std::vector<Part> parts() const;
+
+  void remember(Archive& a);
+
+private:
+  struct Left { ///< why and when a method was given up
+    double time = 0.0;
+    std::string reason;
+    void remember(Archive& a);
+  };
+
+  MethodOrder order_;
+  std::size_t at_ = 0;
+  std::vector<Left> left_; ///< of the methods before
+  int short_steps_ = 0;    ///< in a row
+};
+
+/// "auto: explicit_rk (nothing is stiff), radau from t = 1.2 s because ..."; a method that was
+/// named by its name alone.
+std::string in_words(const MethodChoice& choice);
+
+} // namespace hydrodae::run

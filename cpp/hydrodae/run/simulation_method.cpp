@@ -1,0 +1,88 @@
+/// Which method makes the steps of a Simulation, and how another takes over.
+
+#include <algorithm>
+
+#include "hydrodae/run/simulation.h"
+#include "hydrodae/solve/stiffness.h"
+
+namespace hydrodae::run {
+
+/// By the start, where the method is "auto".
+void Simulation::choose_method() {
+  if (options_.method == "auto")
+    methods_ = MethodChoice(order_methods(find_traits(system_, pattern_, options_, y_, yp_)));
+  use_method();
+}
+
+/// Whatever depends on the method is that of the one at work.
+void Simulation::use_method() {
+  options_.method = methods_.method();
+  approaches_events_ = options_.method == "radau" && options_.step == 0.0;
+  if (poses_)
+    poses_->use(options_.method);
+  if (trust_)
+    trust_->use(options_);
+}
+
+/// At the last accepted instant; of the next method where this one cannot start there.
+void Simulation::make_integrator() {
+  for (;;) {
+    try {
+      integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
+      return;
+    } catch (const SolverError& error) {
+      if (!methods_.chosen())
+        throw;
+      methods_.next(error);
+      use_method();
+    }
+  }
+}
+
+/// The next method goes on from the last accepted instant, as this one has met an error there. What
+/// the guards have seen stays. Throws SolverError where none is left.
+void Simulation::fall_back(const SolverError& error) {
+  methods_.next(error);
+  before_start_ += integrator_->statistics();
+  event_near_ = INFINITY;
+  follow_turns();
+  use_method();
+  make_integrator();
+  trust_->restart(pattern_, t_, y_, yp_);
+}
+
+/// Takes the last step back, for the next method to make it, where a guard complains of that step
+/// alone: the state at its start is as good as that of any run. What has gone wrong over more than
+/// one step is not tried again.
+/// @returns whether it has
+bool Simulation::take_back(bool event) {
+  if (!methods_.more())
+    return false;
+  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
+  Guard& guard = *guards_.front();
+  try {
+    guard.check(step);
+    return false;
+  } catch (const SolverError& error) {
+    if (!guard.lies_in_step(step))
+      return false;
+    recorder_->take_back();
+    t_ = step_start_;
+    y_ = y_start_;
+    yp_ = yp_start_;
+    fall_back(error);
+    return true;
+  }
+}
+
+/// Steps that end where something made them end tell nothing of the method.
+void Simulation::watch_steps(bool event, double end) {
+  if (!methods_.more())
+    return;
+  const double h = t_ - step_start_,
+               longest = options_.max_step > 0.0 ? 0.9 * options_.max_step : INFINITY;
+  const bool own = !event && t_ < end && t_ < bound_ && h < longest;
+  methods_.accept(h, solve::motion_rate(system_, y_), own);
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,126 @@
+#include "hydrodae/run/method_choice.h"
+
+#include <doctest/doctest.h>
+
+#include "support.h"
+
+using hydrodae::Archive;
+using hydrodae::SolverError;
+using hydrodae::run::in_words;
+using hydrodae::run::MethodChoice;
+using hydrodae::run::MethodOrder;
+using hydrodae::run::order_methods;
+using hydrodae::run::SceneTraits;
+
+namespace {
+
+const std::vector<std::string> explicit_first = {"explicit_rk", "radau", "ida"};
+const std::vector<std::string> radau_first = {"radau", "explicit_rk", "ida"};
+const std::vector<std::string> of_stiff = {"radau", "ida"};
+
+/// Ten seconds of something that moves by a radian a second, ten times as slow as its equations.
+SceneTraits plain() {
+  SceneTraits out;
+  out.fastest_rate = 10.0;
+  out.motion_rate = 1.0;
+  out.end_time = 10.0;
+  return out;
+}
+
+MethodChoice chosen() { return MethodChoice(MethodOrder{explicit_first, "nothing is stiff"}); }
+
+} // namespace
+
+TEST_CASE("a scene without stiff parts begins with explicit_rk") {
+  CHECK(order_methods(plain()).methods == explicit_first);
+  CHECK(order_methods(plain()).reason == "nothing is stiff");
+}
+
+TEST_CASE("what is much faster than the motion takes an implicit method") {
+  SceneTraits traits = plain();
+  traits.fastest_rate = 60.0;
+  CHECK(order_methods(traits).methods == of_stiff);
+  traits.motion_rate = 2.0; // it moves as fast itself
+  CHECK(order_methods(traits).methods == explicit_first);
+  traits.fastest_rate = INFINITY; // no accelerations
+  CHECK(order_methods(traits).methods == of_stiff);
+  traits.fastest_rate = NAN;
+  CHECK(order_methods(traits).methods == of_stiff);
+}
+
+TEST_CASE("where an evaluation is dear, radau evaluates least") {
+  SceneTraits traits = plain();
+  traits.costly = "a drive of Python";
+  CHECK(order_methods(traits).methods == radau_first);
+  CHECK(order_methods(traits).reason == "a drive of Python is dear to evaluate");
+}
+
+TEST_CASE("a long run without damping takes the method whose errors are smallest") {
+  SceneTraits traits = plain();
+  traits.end_time = 3000.0;
+  CHECK(order_methods(traits).methods == radau_first);
+  traits.damped = true;
+  CHECK(order_methods(traits).methods == explicit_first);
+}
+
+TEST_CASE("methods follow one another, each with the reason of the last") {
+  MethodChoice choice = chosen();
+  CHECK(choice.chosen());
+  CHECK(in_words(choice) == "auto: explicit_rk (nothing is stiff)");
+  choice.next(SolverError(1.5, "stopped at t = 1.5 s: the step has become too short\n  worst"));
+  CHECK(choice.method() == "radau");
+  CHECK(in_words(choice) == "auto: explicit_rk (nothing is stiff), radau from t = 1.5 s because "
+                            "explicit_rk gave up: the step has become too short");
+  choice.next(SolverError(2.0, "no finite accelerations"));
+  CHECK(choice.method() == "ida");
+  CHECK_FALSE(choice.more());
+}
+
+TEST_CASE("where no method is left, the error tells of all") {
+  MethodChoice choice = chosen();
+  choice.next(SolverError(1.5, "stopped at t = 1.5 s: first reason (solver.x): advice\n  no use"));
+  choice.next(SolverError(1.6, "stopped at t = 1.6 s: second reason"));
+  std::string told;
+  try {
+    choice.next(SolverError(1.7, "stopped at t = 1.7 s: third reason\n  worst equations"));
+  } catch (const SolverError& error) {
+    told = error.what();
+    CHECK(error.time == 1.7);
+  }
+  CHECK(told == "stopped at t = 1.7 s: no method of \"auto\" goes on: explicit_rk at t = 1.5 s: "
+                "first reason; radau at t = 1.6 s: second reason; ida at t = 1.7 s: third reason\n"
+                "  worst equations");
+}
+
+TEST_CASE("many steps in a row that are short against the motion call for another method") {
+  MethodChoice choice = chosen();
+  for (int k = 0; k < 39; ++k)
+    choice.accept(1e-3, 10.0, true);
+  CHECK_FALSE(choice.labours());
+  choice.accept(1e-9, 10.0, false); // cut short: tells nothing
+  CHECK_FALSE(choice.labours());
+  choice.accept(1e-3, 10.0, true);
+  CHECK(choice.labours());
+  choice.next(choice.labour(3.0));
+  CHECK_FALSE(choice.labours());
+  choice = chosen();
+  for (int k = 0; k < 200; ++k)
+    choice.accept(k % 39 == 38 ? 0.1 : 1e-3, 10.0, true); // now and then a long one
+  CHECK_FALSE(choice.labours());
+}
+
+TEST_CASE("a choice is saved and restored") {
+  MethodChoice choice = chosen(), other = chosen();
+  choice.next(SolverError(1.5, "stopped at t = 1.5 s: Größe"));
+  choice.accept(1e-3, 10.0, true);
+  std::vector<double> numbers;
+  Archive out(numbers);
+  out(choice);
+  Archive in(static_cast<const std::vector<double>&>(numbers));
+  in(other);
+  in.finish();
+  CHECK(in_words(other) == in_words(choice));
+  MethodChoice named("radau");
+  Archive wrong(static_cast<const std::vector<double>&>(numbers));
+  CHECK_THROWS_AS(wrong(named), hydrodae::Error);
+}

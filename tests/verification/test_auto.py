@@ -1,0 +1,207 @@
+"""`method = "auto"`: where it begins, when another method takes over, what is never retried."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.attack import suite
+
+import hydrodae
+from hydrodae import Simulation
+from hydrodae.study.stability import Method, Scene, grid
+from hydrodae.study.stability.grid import PASS, STOPPED, run_cell
+
+ROOT = Path(__file__).resolve().parents[2]
+MAP, ATTACK = grid.all_scenes(), suite.all_scenes()
+CART = """
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { displacement = [0.5, 0.0, 0.0] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+stiffness = 200.0
+[solver]
+end_time = 2.0
+[output]
+step = 0.05
+"""
+
+
+def outcome(scene: Scene, method: str, folder: Path, **solver: Any) -> grid.Cell:
+    keys = {"method": method, "rtol": 1e-6, **solver}
+    return run_cell(scene, Method(method, keys), folder, 20.0)
+
+
+def short_of(name: str, end: float, folder: Path) -> hydrodae.Case:
+    """Return a scene of the map for another time, at a loose tolerance."""
+    tables = {**MAP[name].tables, "solver": {"end_time": end}}
+    return replace(MAP[name], tables=tables).case({"rtol": 1e-3}, folder)
+
+
+def methods_of(case: hydrodae.Case) -> list[str]:
+    return str(hydrodae.run(case).statistics["methods"]).split()
+
+
+@pytest.mark.parametrize(
+    ("name", "first"),
+    [
+        ("pendulum", "explicit_rk"),  # nothing is stiff
+        ("four_bar", "explicit_rk"),
+        ("heavy_top", "explicit_rk"),  # fast, but so is its motion
+        ("memory", "explicit_rk"),
+        ("stiff_1e9", "radau"),
+        ("stiff_1e12", "radau"),
+        ("light_joint", "radau"),
+        ("long_pendulum", "radau"),  # errors pile up
+    ],
+)
+def test_the_first_method_suits_the_scene(name: str, first: str, tmp_path: Path) -> None:
+    case = MAP[name].case({"method": "auto"}, tmp_path)
+    assert f"auto begins with {first}, as " in case.examine()
+    assert methods_of(case)[0] == first
+
+
+def test_what_is_dear_to_evaluate_is_evaluated_seldom(tmp_path: Path) -> None:
+    text = CART.replace("pto_linear", "python_load").replace("stiffness = 200.0\n", "")
+    told = hydrodae.check(hydrodae.Case.from_text(text), forces={"pto": lambda t, x, v: -x})
+    assert "auto begins with radau, as a force of Python is dear to evaluate" in told
+    told = ATTACK["path_bump_1"].case({}, tmp_path).examine()
+    assert "auto begins with radau, as a path is dear to evaluate" in told
+
+
+@pytest.mark.parametrize("name", ["door", "memory", "snap", "stick_slip", "late_damper"])
+def test_where_nothing_fails_the_run_is_that_of_the_method(name: str, tmp_path: Path) -> None:
+    """Bit for bit: the choice costs nothing, and changes nothing."""
+    scene = MAP[name]
+    runs = [hydrodae.run(scene.case({"method": m}, tmp_path)) for m in ("auto", "explicit_rk")]
+    auto, named = runs
+    assert auto.statistics["steps"] == named.statistics["steps"]
+    assert auto.statistics["method"] == "auto"
+    assert auto.statistics["method_in_use"] == named.statistics["method_in_use"] == "explicit_rk"
+    for channel in named.channels("*"):
+        np.testing.assert_array_equal(auto[channel].values, named[channel].values, channel)
+
+
+def test_a_stiff_scene_that_explicit_steps_cannot_pass(tmp_path: Path) -> None:
+    scene = MAP["stiff_1e9"]
+    assert outcome(scene, "explicit_rk", tmp_path).outcome == STOPPED
+    assert outcome(scene, "auto", tmp_path).outcome == PASS
+
+
+def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> None:
+    """At a singular pose; the motion is the right one, and the summary says what happened."""
+    scene = ATTACK["hard_beside_6"]
+    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path).reason
+    assert outcome(scene, "auto", tmp_path).outcome == PASS
+    results = hydrodae.run(scene.case({"method": "auto"}, tmp_path))
+    assert str(results.statistics["methods"]).split() == ["explicit_rk", "radau"]
+    start, since = map(float, str(results.statistics["method_from"]).split())
+    assert start == 0.0 < since < results.end_time
+    assert results.statistics["method_in_use"] == "radau"
+    line = next(row for row in results.summary().splitlines() if "method auto" in row)
+    assert f"explicit_rk (nothing is stiff), radau from t = {since:.9g} s because" in line
+    assert "energy balance" in line
+
+
+def labouring() -> Simulation:
+    """A cart whose damper becomes stiff at t = 0.5 s."""
+    simulation = Simulation(hydrodae.Case.from_text(CART))
+    while simulation.time < 0.5:
+        simulation.advance(0.5)
+    simulation.write("forces/pto/damping", 1e6)
+    return simulation
+
+
+def test_a_scene_that_becomes_stiff_is_left_to_radau() -> None:
+    """The cart stops, and creeps by exp(-k t / c)."""
+    simulation, steps = labouring(), 0
+    x = float(simulation.read("joints/slide/displacement"))
+    while not simulation.finished:
+        simulation.advance()
+        steps += 1
+    assert steps < 500  # 1.2e5 of explicit_rk
+    slow = np.exp(-200.0 / 1e6 * 1.5)
+    assert simulation.read("joints/slide/displacement") == pytest.approx(x * slow, abs=2e-4)
+    assert simulation.read("solver/order") in (5.0, 9.0, 13.0)
+
+
+def test_states_before_and_after_a_change_of_method(tmp_path: Path) -> None:
+    """Going back over the change and on again is the same run, also in another process."""
+    simulation = labouring()
+    before = simulation.state()
+    ways = []
+    for _ in range(2):
+        times = [simulation.advance() for _ in range(70)]
+        ways.append((times, simulation.state()))
+        simulation.restore(pickle.loads(pickle.dumps(before)))
+    assert ways[0] == ways[1]
+    after = ways[0][1]
+    other = Simulation(hydrodae.Case.from_text(CART))
+    other.restore(after)
+    simulation.restore(after)
+    assert [other.advance() for _ in range(20)] == [simulation.advance() for _ in range(20)]
+    assert other.state() == simulation.state()
+    other.restore(before)
+    assert [other.advance() for _ in range(70)] == ways[0][0]
+
+
+def test_a_lock_stops_every_method_and_the_message_names_them(tmp_path: Path) -> None:
+    """Without the guards that would end the run before any method gives up."""
+    unguarded = {"branch_guard": False, "energy_guard": 0.0}
+    with pytest.raises(hydrodae.SolverError, match="no method") as caught:
+        hydrodae.run(MAP["lock"].case({"method": "auto", **unguarded}, tmp_path))
+    line = str(caught.value).splitlines()[0]
+    for name in ("explicit_rk", "radau", "ida"):
+        assert line.count(f"{name} at t = 0.523") == 1
+    assert caught.value.results is not None
+    assert caught.value.results.statistics["method_in_use"] == "ida"
+
+
+def test_what_went_wrong_over_many_steps_is_not_tried_again(tmp_path: Path) -> None:
+    """The same stop, at the same time, as of the method by itself."""
+    told = []
+    for method in ("auto", "radau"):
+        with pytest.raises(hydrodae.SolverError, match="error_guard") as caught:
+            hydrodae.run(MAP["long_pendulum"].case({"rtol": 1e-3, "method": method}, tmp_path))
+        told.append(str(caught.value))
+        assert caught.value.results is not None
+        assert caught.value.results.statistics["method_in_use"] == "radau"
+    assert told[0] == told[1]
+    with pytest.raises(hydrodae.SolverError, match="error_guard") as caught:
+        hydrodae.run(short_of("pendulum", 400.0, tmp_path))
+    assert caught.value.results is not None
+    assert str(caught.value.results.statistics["methods"]).split() == ["explicit_rk"]
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"order": 8}, '"auto" takes methods at orders of their own; name the method'),
+        ({"step": 0.01}, '"auto" takes methods that choose their steps by rtol; for a fixed step'),
+        ({"formulation": "index_2"}, '"auto" keeps to "stabilised"'),
+        ({"max_order": 3}, "belongs to ida; name the method"),
+        ({"step_guard": 0.1}, "belongs to fixed steps"),
+    ],
+)
+def test_keys_that_ask_for_a_method_by_name(values: dict[str, Any], message: str) -> None:
+    case = hydrodae.Case.from_text(CART)
+    with pytest.raises(hydrodae.CaseError, match=message):
+        hydrodae.run(case, set={f"solver.{key}": value for key, value in values.items()})
