@@ -113,7 +113,7 @@ inline model::Scene two_bodies(const joint::JointType& type, const std::vector<s
     joint.body_a = a;
     joint.body_b = b;
     joint.point = p;
-    if (type.has_row(joint::BasicRow::Kind::distance))
+    if (type.has_two_points())
       joint.point_b = p + Vector3(0.3, 0.0, 0.4);
     joint.pitch = 0.3;
     if (type.has_row(joint::BasicRow::Kind::across))

@@ -253,6 +253,44 @@ damping = 3.0
         run_text(text.replace("COORDINATE", 'coordinate = "angel"'), 1.0)
 
 
+def test_a_power_take_off_along_a_distance() -> None:
+    """Between a ball joint and the ground a telescope turns and gets longer: c s' along it."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "mass"
+motion = ["surge", "sway", "heave"]
+mass = 2.0
+center_of_gravity = [3.0, 0.0, 4.0]
+initial = { velocity = [1.0, 2.0, 0.5] }
+[[joint]]
+name = "ram"
+type = "telescope"
+body_a = "ground"
+body_b = "mass"
+point = [0.0, 0.0, 0.0]
+point_b = [3.0, 0.0, 4.0]
+[[force]]
+type = "pto_linear"
+name = "pto"
+joint = "ram"
+damping = 4.0
+stiffness = 3.0
+neutral = 5.0
+"""
+    run = run_text(text, 5.0)
+    place, velocity = run["bodies/mass/position"].values, run["bodies/mass/velocity"].values
+    distance = np.linalg.norm(place, axis=1)
+    rate = np.sum(place * velocity, axis=1) / distance
+    assert run["joints/ram/displacement"].values == pytest.approx(distance, abs=1e-9)
+    force = run["forces/pto/force"].values
+    assert force == pytest.approx(-3.0 * (distance - 5.0) - 4.0 * rate, abs=1e-6)
+    assert run["forces/pto/power_absorbed"].values == pytest.approx(-force * rate, abs=1e-6)
+    momentum = 2.0 * np.cross(place, velocity)
+    assert np.ptp(momentum, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-7)
+
+
 # End stops
 
 STOP = """

@@ -59,6 +59,13 @@ struct JointType {
 
   bool turns() const { return has(true); }
   bool slides() const { return has(false); }
+  /// Does it join a point of A to another of B?
+  bool has_two_points() const {
+    for (const FreeMotion& motion : motions)
+      if (motion.kind == FreeMotion::Kind::stretches)
+        return true;
+    return has_row(BasicRow::Kind::distance);
+  }
   bool has_row(BasicRow::Kind kind) const {
     for (const BasicRow& row : rows)
       if (row.kind == kind)
@@ -128,6 +135,11 @@ inline const std::vector<JointType>& joint_types() {
        {},
        false,
        "Massless rod between two points; `one_sided`: an inextensible rope."},
+      {"telescope",
+       {},
+       {stretches()},
+       false,
+       "Two points whose distance is free: holds nothing, but forces act along the distance."},
       {"path",
        {across(0), across(1)},
        {travels()},

@@ -31,15 +31,16 @@ void check_axes(const Joint& joint, const joint::JointType& type) {
 /// Keys that belong to the rows `distance`, `screw` and `across`.
 void check_parameters(const Joint& joint, const joint::JointType& type) {
   const std::string kind = "a " + joint.type + " joint ";
-  if (type.has_row(Row::distance)) {
+  if (type.has_two_points()) {
     if (!joint.point_b)
       refuse(joint, "", kind + "needs the key 'point_b', the point on body B");
     if (coincide(joint.point, *joint.point_b))
       refuse(joint, "point_b", "point and point_b coincide: their distance has no direction");
-  } else if (joint.point_b || joint.length) {
-    const std::string key = joint.point_b ? "point_b" : "length";
-    refuse(joint, key, kind + "has no " + in_quotes(key) + "; only a distance joint has");
+  } else if (joint.point_b) {
+    refuse(joint, "point_b", kind + "has no 'point_b'; only distance and telescope joints have");
   }
+  if (joint.length && !type.has_row(Row::distance))
+    refuse(joint, "length", kind + "has no 'length'; only a distance joint has");
   if (joint.one_sided && !type.has_row(Row::distance))
     refuse(joint, "one_sided", kind + "cannot be one-sided; only a distance joint can");
   if (joint.restitution && !joint.one_sided)

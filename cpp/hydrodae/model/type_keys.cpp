@@ -21,8 +21,10 @@ Keys joint_keys(const std::string& name) {
   Keys keys = {"name", "type", "body_a", "body_b", "point"};
   if (type->needs_axis || type->has_row(RowKind::perp))
     add(keys, {"axis", "axis_x"});
+  if (type->has_two_points())
+    add(keys, {"point_b"});
   if (type->has_row(RowKind::distance))
-    add(keys, {"point_b", "length", "one_sided", "restitution"});
+    add(keys, {"length", "one_sided", "restitution"});
   if (type->has_row(RowKind::screw))
     add(keys, {"pitch"});
   if (type->has_row(RowKind::across))
@@ -49,7 +51,7 @@ Keys needed_joint_keys(const std::string& name) {
     return keys;
   if (type->needs_axis)
     add(keys, {"axis"});
-  if (type->has_row(RowKind::distance))
+  if (type->has_two_points())
     add(keys, {"point_b"});
   if (type->has_row(RowKind::screw))
     add(keys, {"pitch"});

@@ -157,7 +157,7 @@ void select_rows(System& s) {
                                                 std::to_string(gap) +
                                                 " along a direction in which nothing can move");
     }
-    if (j.rows.empty() && j.type != &rope_type)
+    if (j.rows.empty() && !j.type->rows.empty())
       s.notes.push_back("joint '" + j.name + "' restricts no free coordinate");
   }
 }
