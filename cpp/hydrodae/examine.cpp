@@ -12,6 +12,7 @@
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
 
@@ -298,6 +299,7 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
 std::string examine(const model::Scene& scene) {
   const System s = system::build(scene);
   const system::Pattern pattern = system::find_pattern(s);
+  const system::Recorder named(s, 0.0, system::initial_state(s), VectorX::Zero(s.n)); // or refuses
   std::ostringstream out;
   out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
       << s.n_u << " velocities + " << s.n_z << " states + " << s.n_lambda << " + " << s.n_mu

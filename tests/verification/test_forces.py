@@ -552,3 +552,14 @@ def test_a_late_pulse_of_a_python_load_is_not_stepped_over(method: str) -> None:
     rate = run["joints/slide/displacement_rate"].values
     assert rate[-1] == pytest.approx(impulse / 2.0, rel=1e-4)
     assert abs(rate[: int(78.0 / 0.1)]).max() < 1e-9
+
+
+def test_a_body_may_not_have_the_name_of_a_channel() -> None:
+    """`check` refuses it as `run` does, since forces/kick/force is taken."""
+    text = BLOCK.replace("MASS", "2.0").replace("START", "0.0").replace("SPEED", "0.0")
+    text = text.replace('"block"', '"force"')
+    text += '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "slide"\ndamping = 1.0\n'
+    case = hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n")
+    for look in (hydrodae.run, hydrodae.check):
+        with pytest.raises(CaseError, match="name of a channel"):
+            look(case)
