@@ -28,8 +28,7 @@ public:
   void set(sea::Signals functions) { fixed_ = std::move(functions); }
   void set(sea::DriftingSignals functions) { drifting_ = std::move(functions); }
 
-  const std::vector<Body>& bodies() const { return bodies_; }
-  /// As they are turned now.
+  /// Takes the axes of the bodies, as they are turned now.
   void turn(const std::vector<HydroBody>& bodies);
 
   void evaluate(double t, const double* in, const double*, double* out) const override;
