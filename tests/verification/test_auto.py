@@ -121,6 +121,13 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     assert "energy balance" in line
 
 
+def test_a_step_over_a_stroke_is_made_by_another_method(tmp_path: Path) -> None:
+    """What has been at rest has exchanged no energy that an error could be compared with."""
+    scene = suite.all_scenes((301,))["table_stroke_s301"]
+    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path).reason
+    assert outcome(scene, "auto", tmp_path).outcome == PASS
+
+
 def labouring() -> Simulation:
     """A cart whose damper becomes stiff at t = 0.5 s."""
     simulation = Simulation(hydrodae.Case.from_text(CART))
