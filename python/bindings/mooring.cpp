@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "hydrodae/core/error.h"
 #include "hydrodae/element/catenary_line.h"
 
 namespace py = pybind11;
@@ -10,7 +11,7 @@ namespace hydrodae::bindings {
 
 namespace {
 
-/// The line of a force of type `catenary` with these values. Throws ModelError.
+/// The line of a force of type `catenary` with these values. Throws CaseError.
 element::CatenaryLine make_line(const std::vector<double>& length,
                                 const std::vector<double>& weight,
                                 const std::vector<double>& stiffness,
@@ -25,19 +26,17 @@ element::CatenaryLine make_line(const std::vector<double>& length,
   line.seabed = seabed;
   line.friction = friction;
   line.point_b = Vector3(X, 0.0, Z);
-  const auto refuse = [](const std::string& key, const std::string& message) {
-    throw ModelError("catenary." + key, "catenary: " + message);
-  };
+  const auto refuse = [](const std::string& message) { throw CaseError("catenary: " + message); };
   if (const std::optional<Fault> fault = line.fault())
-    refuse(fault->key, fault->message);
+    refuse(fault->message);
   for (const double value : length)
     if (!(value > 0.0))
-      refuse("length", "'length' must be above 0");
+      refuse("'length' must be above 0");
   for (const double value : stiffness)
     if (!(value > 0.0))
-      refuse("stiffness", "'stiffness' must be above 0");
+      refuse("'stiffness' must be above 0");
   if (!(X >= 0.0))
-    refuse("x", "'x' must not be below 0");
+    refuse("'x' must not be below 0");
   return line;
 }
 

@@ -68,12 +68,12 @@ def test_a_law_with_a_state(method: str, brake: Path, repository: Path) -> None:
     assert run["forces/buffer/stretch"].values == pytest.approx(motion[1], abs=1e-6)
 
 
-def test_the_executable_takes_libraries(brake: Path, repository: Path, tmp_path: Path) -> None:
-    program = shutil.which("hydrodae-solve")
-    assert program
+def test_the_executable_takes_libraries(
+    brake: Path, repository: Path, tmp_path: Path, executable: Path
+) -> None:
     case = repository / "cases" / "plugin" / "case.toml"
     output = tmp_path / "out.h5"
-    command = [program, str(case), "-o", str(output), "--library", str(brake), "--quiet"]
+    command = [str(executable), str(case), "-o", str(output), "--library", str(brake), "--quiet"]
     subprocess.run(command, check=True)
     assert hydrodae.Results.read(output)["forces/buffer/stretch"].values.max() > 0.1
     missing = subprocess.run([*command[:4], "--quiet"], capture_output=True, text=True)
@@ -87,8 +87,8 @@ def test_the_executable_takes_libraries(brake: Path, repository: Path, tmp_path:
         ('law = "brake"', 'law = "break"', r"no library has a law .break.*did you mean .brake"),
         (
             "parameters = [1.5]",
-            "parameters = []",
-            r"takes 1 parameters \(damping\), the case gives 0",
+            "parameters = [1.5, 2.0]",
+            r"takes 1 parameters \(damping\), the case gives 2",
         ),
         (
             'type = "library_load"\nname = "brake"\njoint = "slide"',

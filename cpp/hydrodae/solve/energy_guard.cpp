@@ -13,6 +13,13 @@ namespace {
 
 constexpr double usual = 1e-2; ///< part of the energy exchanged
 
+/// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
+/// times ten, or what moves at its end [J].
+double believed(const system::Recorder::Balance& before, const system::Recorder::Balance& now) {
+  constexpr double more = 10.0;
+  return std::min(now.exchanged, std::max(more * before.exchanged, now.kinetic));
+}
+
 /// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy and
 /// motion are lost together; of the motion, relative to its size, measured ten times (slider crank
 /// with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are errors of
@@ -90,9 +97,10 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
              "step, or another method may help" +
              (singular ? " (radau and explicit_rk pass singular poses)" : "") + reactions());
   };
-  look(-1, recorder.balance_error(), recorder.largest_energy());
+  look(-1, recorder.balance_error(), believed(recorder.whole_before(), recorder.whole()));
   for (std::size_t m = 0; m < mechanisms.size(); ++m)
-    look(static_cast<int>(m), mechanisms[m].error, mechanisms[m].exchanged);
+    look(static_cast<int>(m), mechanisms[m].error,
+         believed(recorder.mechanisms_before()[m], mechanisms[m]));
 }
 
 bool EnergyGuard::lies_in_last_step(const system::Recorder& recorder) const {

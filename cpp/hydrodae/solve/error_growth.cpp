@@ -25,6 +25,8 @@ ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern
   error_.change = VectorX::Zero(s.n_groups);
   error_.vector = error_.fresh = error_.gathered = VectorX::Zero(s.lambda0);
   error_.added = error_.piled = error_.plain = error_.level = VectorX::Zero(s.n_groups);
+  error_.rough_level = VectorX::Zero(s.n_groups);
+  error_.since_rough = VectorX::Constant(s.n_groups, INFINITY);
 }
 
 /// Root of the sum of squares over the positions and velocities of each group.
@@ -103,9 +105,25 @@ void ErrorGrowth::follow(Index g, double phase) {
   double now = level > 0.0 ? std::max(0.0, level - doubt) : std::min(0.0, level + doubt);
   if (error_.change[g] > rough)
     now = std::max(now, deepest);
+  now = std::min(now, between_rough(g, now));
   error_.piled[g] *= std::exp(now - before);
   error_.level[g] = std::max(now, deepest);
   fade_[g] = std::exp(std::min(0.0, now - error_.level[g]));
+}
+
+/// While something is struck, displacements become velocities, by the stiffness of the contact, and
+/// displacements again as it lets go: half of this happens within looks that see too great a change
+/// to follow it. So growth from one such look to the next is not believed, either.
+double ErrorGrowth::between_rough(Index g, double level) {
+  constexpr double together = 6.0; // looks
+  ++error_.since_rough[g];
+  if (change_[g] <= rough)
+    return level;
+  if (error_.since_rough[g] <= together)
+    level = std::min(level, error_.rough_level[g]);
+  error_.since_rough[g] = 0.0;
+  error_.rough_level[g] = level;
+  return level;
 }
 
 void ErrorGrowth::fade(Index g, double factor) {

@@ -27,7 +27,11 @@ public:
     VectorX piled, plain; ///< E and the sum without growth, by group (n_groups,)
     VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_groups,)
     VectorX change;       ///< of the equations, the largest so far (n_groups,)
-    void remember(Archive& a) { a(vector, fresh, gathered, added, piled, plain, level, change); }
+    VectorX rough_level;  ///< `level` where the equations changed much last (n_groups,)
+    VectorX since_rough;  ///< looks since then (n_groups,)
+    void remember(Archive& a) {
+      a(vector, fresh, gathered, added, piled, plain, level, change, rough_level, since_rough);
+    }
   };
 
   /// @param y, yp state at t, from which on these rows hold
@@ -72,6 +76,7 @@ private:
   void linearise(double t);
   void find_change(const VectorX& rate);
   void follow(Index group, double phase);
+  double between_rough(Index group, double level);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
 
   const system::System& s_;

@@ -47,7 +47,7 @@ public:
   const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
   void remember(Archive& a) override {
-    a(h_, last_error_, e_.statistics.last_step, e_.statistics.last_order, guard_);
+    a(h_, last_error_, usual_jump_, e_.statistics.last_step, e_.statistics.last_order, guard_);
   }
 
 private:
@@ -55,6 +55,7 @@ private:
   bool try_step(double h);
   void combine(double h, std::span<const double> weights);
   double error(double h);
+  bool is_smooth(double h);
   void estimate(double h);
   void extend();
   [[noreturn]] void fail(const std::string& reason);
@@ -72,8 +73,9 @@ private:
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
   double last_error_ = 1e-4;
-  VectorX step_error_;  ///< (lambda0,)
-  VectorX local_error_; ///< (n_bodies,), of fixed steps
+  double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
+  VectorX step_error_;      ///< (lambda0,)
+  VectorX local_error_;     ///< (n_bodies,), of fixed steps
 };
 
 void ExplicitRk::fail(const std::string& reason) {
@@ -162,6 +164,25 @@ void ExplicitRk::estimate(double h) {
     local_error_ = sizes(tableaux::rk8_e5).binaryExpr(sizes(tableaux::rk8_e3), &of_order_8);
 }
 
+/// Do the accelerations at the end of the step agree with those of the last stage, which lies there
+/// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
+/// hits would not be seen. They differ by little more than in the steps before where all is smooth;
+/// what is allowed was found on pendulums, linkages and floating bodies: 34 times the usual at
+/// most.
+bool ExplicitRk::is_smooth(double h) {
+  constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
+  if (pair_.order == 5)
+    return true; // its estimate knows the end
+  stage_.setZero();
+  stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
+  const double jump = std::max(e_.norm(w_, stage_), least);
+  const double usual = std::max(usual_jump_, least);
+  if (!(jump <= allowed * usual))
+    return false;
+  usual_jump_ = std::pow(usual, memory) * std::pow(jump, 1.0 - memory);
+  return true;
+}
+
 double ExplicitRk::step(double end, double bound) {
   constexpr double safety = 0.9, least = 0.2, most = 6.0;
   const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
@@ -187,6 +208,12 @@ double ExplicitRk::step(double end, double bound) {
     if (fixed_)
       estimate(h);
     bool good = err <= 1.0 && std::isfinite(err);
+    if (good && !fixed_ && !is_smooth(h)) {
+      ++e_.statistics.error_test_failures;
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
     if (good && !saddle_.project(t_ + h, trial_)) {
       if (fixed_)
         fail("the constraints cannot be met at the end of the step");
