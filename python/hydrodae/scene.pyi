@@ -128,6 +128,12 @@ class ScrewInitial(TypedDict, total=False):
     displacement: float
     displacement_rate: float
 
+class TelescopeInitial(TypedDict, total=False):
+    """Table `initial` of `telescope`."""
+
+    displacement: float
+    displacement_rate: float
+
 class PathInitial(TypedDict, total=False):
     """Table `initial` of `path`."""
 
@@ -970,6 +976,46 @@ class JointTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def telescope(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        point: _Numbers,
+        point_b: _Numbers,
+        initial: TelescopeInitial = ...,
+    ) -> str:
+        """Add `[[joint]]` with the type "telescope".
+
+        Two points whose distance is free: holds nothing, but forces act along the distance.
+
+        Parameters
+        ----------
+        name : text
+            Name of the joint.
+        body_a : text
+            Body that carries the first marker, or ground.
+        body_b : text
+            Body that carries the second marker, or ground.
+        point : 3 numbers, m
+            Where the joint is in the reference pose, world axes.
+        point_b : 3 numbers, m
+            Point on body B in the reference pose, world axes; distance joint only.
+        initial : dict, optional
+            Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
+            Keys: displacement [m], displacement_rate [m/s].
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
     def path(
         self,
         name: str,
@@ -1191,6 +1237,7 @@ class ForceTypes(TypedList):
         name: str,
         *,
         joint: str,
+        coordinate: str = ...,
         damping: float = ...,
         stiffness: float = ...,
         neutral: float = ...,
@@ -1205,7 +1252,10 @@ class ForceTypes(TypedList):
         name : text
             Name of this force in the results.
         joint : text
-            Joint with one free motion (revolute or prismatic).
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
         damping : number, N s/m or N m s/rad, default 0
             Damping c. Allowed: >= 0.
         stiffness : number, N/m or N m/rad, default 0
@@ -1238,6 +1288,9 @@ class ForceTypes(TypedList):
         damping: float = ...,
         force: float = ...,
         length: float = ...,
+        hardening: _Numbers = ...,
+        curve_at: _Numbers = ...,
+        curve_force: _Numbers = ...,
     ) -> str:
         """Add `[[force]]` with the type "spring_damper".
 
@@ -1257,7 +1310,7 @@ class ForceTypes(TypedList):
         point_b : 3 numbers, m
             Point of the second body in the reference pose, world axes.
         stiffness : number, N/m, default 0
-            Stiffness k. Allowed: >= 0.
+            Stiffness k; negative: it pushes away from `length`.
         damping : number, N s/m, default 0
             Damping c. Allowed: >= 0.
         force : number, N, default 0
@@ -1265,6 +1318,12 @@ class ForceTypes(TypedList):
         length : number, m, optional
             Length s0 at which the spring is slack; default: distance of the points in the
             reference pose. Allowed: >= 0.
+        hardening : list of numbers, N/m2, N/m3, ..., optional
+            k2, k3, ... of the powers of s - s0.
+        curve_at : list of numbers, m, optional
+            Places s - s0, ascending, of `curve_force`.
+        curve_force : list of numbers, N, optional
+            Forces F there, together for > 0.
 
         Returns
         -------
@@ -1349,6 +1408,7 @@ class ForceTypes(TypedList):
         *,
         joint: str,
         static: float,
+        coordinate: str = ...,
         kinetic: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "dry_friction".
@@ -1360,7 +1420,10 @@ class ForceTypes(TypedList):
         name : text
             Name of this force in the results.
         joint : text
-            Joint with one free motion (revolute or prismatic).
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
         static : number, N or N m
             Largest load that sticking holds. Allowed: > 0.
         kinetic : number, N or N m, optional
@@ -1388,6 +1451,7 @@ class ForceTypes(TypedList):
         volume_high: float,
         volume_low: float,
         valve_rate: float,
+        coordinate: str = ...,
         polytropic: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "pto_hydraulic".
@@ -1400,7 +1464,10 @@ class ForceTypes(TypedList):
         name : text
             Name of this force in the results.
         joint : text
-            Joint with one free motion (revolute or prismatic).
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
         area : number, m2 or m3/rad
             Area A of the piston; on a rotation times its lever. Allowed: > 0.
         motor_conductance : number, m3/(s Pa)
@@ -1437,6 +1504,7 @@ class ForceTypes(TypedList):
         stribeck_rate: float,
         bristle_stiffness: float,
         bristle_damping: float,
+        coordinate: str = ...,
         kinetic: float = ...,
         viscous: float = ...,
     ) -> str:
@@ -1450,7 +1518,10 @@ class ForceTypes(TypedList):
         name : text
             Name of this force in the results.
         joint : text
-            Joint with one free motion (revolute or prismatic).
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
         static : number, N or N m
             Largest load F_s that sticking holds. Allowed: > 0.
         kinetic : number, N or N m, optional
@@ -1529,6 +1600,7 @@ class ForceTypes(TypedList):
         name: str,
         *,
         joint: str,
+        coordinate: str = ...,
     ) -> str:
         """Add `[[force]]` with the type "python_load".
 
@@ -1540,7 +1612,10 @@ class ForceTypes(TypedList):
             Name of this force in the results; its function f(t, s, s') is given to
             hydrodae.run(..., forces={name: function}).
         joint : text
-            Joint with one free motion (revolute or prismatic).
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
 
         Returns
         -------
@@ -1569,6 +1644,411 @@ class ForceTypes(TypedList):
             to hydrodae.run(..., forces={name: function}).
         body : text
             Body that is loaded.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def pto_general(
+        self,
+        name: str,
+        *,
+        joint: str,
+        coordinate: str = ...,
+        stiffness: float = ...,
+        neutral: float = ...,
+        damping: float = ...,
+        exponent: float = ...,
+        constant: float = ...,
+        reversal_rate: float = ...,
+        spring_at: _Numbers = ...,
+        spring_load: _Numbers = ...,
+        damper_at: _Numbers = ...,
+        damper_load: _Numbers = ...,
+        load_limit: float = ...,
+        power_limit: float = ...,
+        efficiency: float = ...,
+        motor_efficiency: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "pto_general".
+
+        Power take-off along a joint: springs and dampers linear, by a power or by measured
+        points, constant load, limits of load and power, efficiencies.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        stiffness : number, N/m or N m/rad, default 0
+            Stiffness k; negative: it pushes away from `neutral`.
+        neutral : number, m or rad, default 0
+            Joint coordinate s0 at which this spring is slack.
+        damping : number, N (s/m)^n or N m (s/rad)^n, default 0
+            Damping c. Allowed: >= 0.
+        exponent : number, default 1
+            Exponent n of the damping: 1 linear, 2 quadratic. Allowed: 1 to 10.
+        constant : number, N or N m, default 0
+            Load F_0 against the motion, whatever its rate. Allowed: >= 0.
+        reversal_rate : number, m/s or rad/s, optional
+            Rate s'_0 over which `constant` changes its sign. Allowed: > 0.
+        spring_at : list of numbers, m or rad, optional
+            Joint coordinates, ascending, of `spring_load`.
+        spring_load : list of numbers, N or N m, optional
+            Loads F_k of a spring there, back for > 0.
+        damper_at : list of numbers, m/s or rad/s, optional
+            Rates, ascending, of `damper_load`.
+        damper_load : list of numbers, N or N m, optional
+            Loads F_c of a damper there, back for > 0.
+        load_limit : number, N or N m, optional
+            Largest load F_max of all together. Allowed: > 0.
+        power_limit : number, W, optional
+            Largest power P_max, either way. Allowed: > 0.
+        efficiency : number, default 1
+            eta of absorbed power. Allowed: 0 to 1.
+        motor_efficiency : number, default 1
+            eta_m of power given to the device. Allowed: > 0, <= 1.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def pto_rotary(
+        self,
+        name: str,
+        *,
+        body_a: str,
+        body_b: str,
+        axis: _Numbers = ...,
+        axis_x: _Numbers = ...,
+        stiffness: _Numbers = ...,
+        damping: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "pto_rotary".
+
+        Linear power take-off on relative roll, pitch and yaw of two bodies: m = -K theta - C
+        omega.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body_a : text
+            First body, or ground: it carries the axes.
+        body_b : text
+            Second body, or ground: the moment acts on it.
+        axis : 3 numbers, optional
+            Its z axis in the reference pose; default: that of the world.
+        axis_x : 3 numbers, optional
+            Its x axis in the reference pose, across `axis`.
+        stiffness : 3 numbers, N m/rad, default [0, 0, 0]
+            K about x, y and z: roll, pitch, yaw. Allowed: >= 0.
+        damping : 3 numbers, N m s/rad, default [0, 0, 0]
+            C about x, y and z. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def friction_stribeck(
+        self,
+        name: str,
+        *,
+        joint: str,
+        static: float,
+        creep_rate: float,
+        coordinate: str = ...,
+        kinetic: float = ...,
+        stribeck_rate: float = ...,
+        viscous: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "friction_stribeck".
+
+        Smooth friction along a joint (Coulomb, Stribeck and viscous); creeps where it ought to
+        stick.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        static : number, N or N m
+            Largest load F_s without the viscous part. Allowed: > 0.
+        creep_rate : number, m/s or rad/s
+            Rate s'_0 below which it is viscous: some thousandth of the rates at work. Allowed:
+            > 0.
+        kinetic : number, N or N m, optional
+            Load F_c of fast slip, without the viscous part; default: as `static`. Allowed: >=
+            0.
+        stribeck_rate : number, m/s or rad/s, optional
+            Rate s'_s over which the load falls from `static` to `kinetic`; default: ten times
+            `creep_rate`. Allowed: > 0.
+        viscous : number, N s/m or N m s/rad, default 0
+            Viscous damping sigma. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def end_stop(
+        self,
+        name: str,
+        *,
+        joint: str,
+        stiffness: float,
+        coordinate: str = ...,
+        lower: float = ...,
+        upper: float = ...,
+        lower_deg: float = ...,
+        upper_deg: float = ...,
+        exponent: float = ...,
+        damping: float = ...,
+        viscous: float = ...,
+        width: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "end_stop".
+
+        Compliant end stops along a joint: a hardening spring with Hunt-Crossley damping.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        lower : number, m, optional
+            Coordinate below which the stop pushes back.
+        upper : number, m, optional
+            Coordinate above which it does.
+        lower_deg : number, deg, optional
+            The same of a joint that turns.
+        upper_deg : number, deg, optional
+            The same of a joint that turns.
+        stiffness : number, N/m^n or N m/rad^n
+            Stiffness k. Allowed: > 0.
+        exponent : number, default 1.5
+            Exponent n: 1 a spring, 1.5 round bodies that touch. Allowed: 1 to 10.
+        damping : number, s/m or s/rad, default 0
+            Damping d: at a low speed v the part 1 - 2 d v / 3 of it is given back. Allowed: >=
+            0.
+        viscous : number, N s/m or N m s/rad, default 0
+            Damping c from the first touch on, linear. Allowed: >= 0.
+        width : number, m or rad, default 0
+            Depth over which the stop gets hard. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def rope(
+        self,
+        name: str,
+        *,
+        bodies: str | Sequence[str],
+        points: _Rows,
+        stiffness: float,
+        damping: float = ...,
+        length: float = ...,
+        pretension: float = ...,
+        winch_time: _Numbers = ...,
+        winch_length: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "rope".
+
+        Elastic rope without mass over points of bodies, which pulls only; with a winch if
+        wanted.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        bodies : text or list of texts
+            Bodies, or ground, that the points belong to, one each.
+        points : list of points, m
+            Points along the rope in the reference pose, world axes; it runs freely over those
+            between the ends.
+        stiffness : number, N
+            Axial stiffness EA. Allowed: > 0.
+        damping : number, N s, default 0
+            Axial damping D. Allowed: >= 0.
+        length : number, m, optional
+            Unstretched length L0; default: the rope is just straight in the reference pose.
+            Allowed: > 0.
+        pretension : number, N, optional
+            Tension in the reference pose, in place of `length`. Allowed: > 0.
+        winch_time : list of numbers, s, optional
+            Times, ascending, of `winch_length`.
+        winch_length : list of numbers, m, optional
+            Unstretched lengths at these times. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def catenary(
+        self,
+        name: str,
+        *,
+        body_b: str,
+        point_a: _Numbers,
+        point_b: _Numbers,
+        length: _Numbers,
+        weight: _Numbers,
+        stiffness: _Numbers,
+        body_a: str = ...,
+        loads: _Numbers = ...,
+        pretension: float = ...,
+        seabed: bool = ...,
+        friction: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "catenary".
+
+        Quasi-static elastic mooring line of one or more parts, with seabed, clumps and buoys.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body_a : text, default "ground"
+            Body of end A, or ground: the anchor.
+        body_b : text
+            Body of end B: the fairlead.
+        point_a : 3 numbers, m
+            End A in the reference pose, world axes.
+        point_b : 3 numbers, m
+            End B in the reference pose, world axes.
+        length : list of numbers, m
+            Unstretched lengths of the parts, from A to B. Allowed: > 0.
+        weight : list of numbers, N/m
+            Weights in water per unstretched length of the parts.
+        stiffness : list of numbers, N
+            Axial stiffnesses EA of the parts. Allowed: > 0.
+        loads : list of numbers, N, optional
+            Weights in water of what hangs between the parts: clumps; negative: buoys.
+        pretension : number, N, optional
+            Tension at B in the reference pose; the length of the first part follows from it.
+            Allowed: > 0.
+        seabed : true or false, default true
+            Does a flat seabed at the height of A carry the line?
+        friction : number, default 0
+            Friction coefficient of the seabed. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def library_load(
+        self,
+        name: str,
+        *,
+        joint: str,
+        law: str,
+        coordinate: str = ...,
+        parameters: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "library_load".
+
+        Load along a joint by a law of a shared library, which is given to the run.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        law : text
+            Name of the law in its library.
+        parameters : list of numbers, as the law says, optional
+            Numbers that the law takes.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def library_wrench(
+        self,
+        name: str,
+        *,
+        body: str,
+        law: str,
+        parameters: _Numbers = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "library_wrench".
+
+        Force and moment on a body by a law of a shared library, which is given to the run.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body : text
+            Body that is loaded.
+        law : text
+            Name of the law in its library.
+        parameters : list of numbers, as the law says, optional
+            Numbers that the law takes.
 
         Returns
         -------

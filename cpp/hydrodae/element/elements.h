@@ -3,21 +3,16 @@
 /// what it sees of their motion and what its loads act on; the system gathers that motion into
 /// numbers, and the list answers with loads and with the rates of the states that its laws have.
 ///
-///   port             x, v: what is seen                                   load
-///   along_joint      coordinate s of a joint with one motion, s'          f on s [N, N m]
-///   along_distance   distance of two points, its rate                     f, pushes apart [N]
-///   on_body          displacement from the reference pose, twist          force and moment about
-///   the
-///                    (6 each, earth axes)                                 centre of gravity
-///   between          displacement and rotation vector of marker B seen    force and moment on B
-///   about
-///                    from marker A, relative velocities (6 each)          its marker
-///   points           places of n points of bodies or the ground, their    force on each (3 n) [N]
-///                    velocities (3 n each, earth axes)
-///   in_water         pose, velocities and accelerations of a body         force (world axes),
-///   moment
-///                    (body_state.h)                                       (body axes) about the
-///                    same
+/// - along_joint: the coordinate s of a joint with one motion, s'; f on s [N, N m]
+/// - along_distance: the distance of two points, its rate; f pushes them apart [N]
+/// - on_body: displacement from the reference pose, twist (6 each, earth axes); force and moment
+///   about the centre of gravity
+/// - between: displacement and rotation vector of marker B seen from marker A, relative velocities
+///   (6 each); force and moment on B about its marker
+/// - points: places of n points of bodies or the ground, their velocities (3 n each, earth axes);
+///   a force on each [N]
+/// - in_water: pose, velocities and accelerations of a body (body_state.h); force in world axes and
+///   moment in body axes about the centre of gravity
 ///
 /// The power of a load is load . v in all but the last.
 
