@@ -142,6 +142,7 @@ struct CatenaryLine {
     for (const double w : weight)
       if (w == 0.0)
         return Fault{"weight", "a line without weight is a rope: use type 'rope'"};
+    const Vector3 d = point_b - point_a;
     if (!seabed)
       return {};
     if (body_a != "ground")
@@ -154,6 +155,10 @@ struct CatenaryLine {
                      "line does not touch it"};
     if (point_b[2] < point_a[2])
       return Fault{"point_b", "end B is below the seabed, which is at the height of end A"};
+    if (std::isnan(hydrodae::hold(law().line, std::hypot(d[0], d[1]), d[2]).vertical))
+      return Fault{"loads", "in the reference pose a buoy between the parts is down on the seabed, "
+                            "which this type does not know; make it hold the line up, or leave it "
+                            "out"};
     return {};
   }
 

@@ -102,7 +102,7 @@ def _power(results: Recording) -> list[str]:
 
 
 def _work(results: Recording) -> list[str]:
-    """What each load has done over the run, largest first, and what the bodies have of it."""
+    """The work of each load over the run, largest first, and the kinetic energy that came of it."""
     head, least = "energy/work/", 1e-3
     done = {
         name.removeprefix(head): float(results[name].to_numpy()[-1])
@@ -120,7 +120,7 @@ def _work(results: Recording) -> list[str]:
     )
     parts = [f"{name} {work / scale:+.4g}" for name, work in told]
     moving = sum(done.values())
-    return [f"  work in {unit}: {', '.join(parts)}; together {moving / scale:+.3g}, now kinetic"]
+    return [f"  work in {unit}: {', '.join(parts)}; gain of kinetic energy {moving / scale:+.3g}"]
 
 
 _JOULES = [(1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ"), (1.0, "J"), (1e-3, "mJ"), (0.0, "J")]
