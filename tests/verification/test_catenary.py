@@ -13,7 +13,10 @@ import hydrodae
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel
 
-CHAIN = {"length": 400.0, "weight": 1200.0, "stiffness": 5e7}
+
+def chain(x: float, z: float) -> hydrodae.Catenary:
+    """400 m of chain of 1200 N/m, EA = 5e7 N, on the seabed."""
+    return hydrodae.catenary(x, z, 400.0, 1200.0, 5e7)
 
 
 def test_reference_lines(reference: Path) -> None:
@@ -101,7 +104,7 @@ damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
         angle = 2.0 * math.pi * k / 3.0
         c, s = math.cos(angle), math.sin(angle)
         text += LINE.format(name=f"line{k}", x=radius * c, y=radius * s, fx=0.0, fy=0.0)
-    held = hydrodae.catenary(radius, 50.0, **CHAIN)
+    held = chain(radius, 50.0)
     lift = 2e5 * 9.81 + 3.0 * held.vertical
     return text.replace("LIFT", repr(lift)) + extra
 
@@ -109,7 +112,7 @@ damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 def test_three_lines_hold_a_buoy_with_the_stiffness_of_the_closed_form() -> None:
     """K_x = 3/2 (k + H / X), K_z = 3 k_zz + hydrostatics: the linear model's frequencies."""
     case = hydrodae.Case.from_text(moored().replace("INITIAL", "") + "[solver]\nend_time = 1.0\n")
-    line = hydrodae.catenary(385.0, 50.0, **CHAIN)
+    line = chain(385.0, 50.0)
     horizontal = 1.5 * (line.stiffness[0, 0] + line.out_of_plane)
     vertical = 3.0 * line.stiffness[1, 1] + 5e5
     expected = sorted([math.sqrt(horizontal / 2e5), math.sqrt(vertical / 2e5)])
@@ -129,7 +132,7 @@ def test_a_moored_buoy_keeps_its_energy(method: str) -> None:
     place = run["bodies/buoy/position"].values
     for k in (0, 150, 300, 600):
         d = place[k] - np.array([385.0, 0.0, -50.0])
-        line = hydrodae.catenary(float(np.hypot(d[0], d[1])), float(d[2]), **CHAIN)
+        line = chain(float(np.hypot(d[0], d[1])), float(d[2]))
         assert tension[k] == pytest.approx(line.tension, rel=1e-9)
         assert run["forces/line0/length_on_seabed"].values[k] == pytest.approx(
             line.on_seabed, abs=1e-6
@@ -137,7 +140,7 @@ def test_a_moored_buoy_keeps_its_energy(method: str) -> None:
 
 
 def test_pretension_gives_the_length() -> None:
-    line = hydrodae.catenary(385.0, 50.0, **CHAIN)
+    line = chain(385.0, 50.0)
     text = moored().replace("INITIAL", "").replace("length = [400.0]", "length = [430.0]")
     text = text.replace("stiffness = [5e7]", f"stiffness = [5e7]\npretension = {line.tension!r}")
     simulation = hydrodae.Simulation(hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n"))

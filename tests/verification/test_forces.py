@@ -74,8 +74,8 @@ def run_text(
 
 def height_of(run: hydrodae.Results, body: str) -> np.ndarray:
     """How far a body has risen."""
-    z = run[f"bodies/{body}/position"].values[:, 2]
-    return z - z[0]
+    z = np.asarray(run[f"bodies/{body}/position"].values[:, 2], dtype=float)
+    return z - float(z[0])
 
 
 # Springs
