@@ -26,6 +26,7 @@ struct Rope {
   static constexpr std::string_view doc =
       "Elastic rope without mass over points of bodies, which pulls only; with a winch if wanted.";
   static constexpr Port port = Port::points;
+  static constexpr std::size_t most_points = 100;
   std::string name;
   std::vector<std::string> bodies;
   std::vector<Vector3> points;
@@ -59,6 +60,8 @@ struct Rope {
   std::optional<Fault> fault() const {
     if (points.size() < 2)
       return Fault{"points", "a rope needs two points or more"};
+    if (points.size() > most_points)
+      return Fault{"points", "a rope takes 100 points at most: each feels all others"};
     if (bodies.size() != points.size())
       return Fault{"bodies", "a rope needs as many names in 'bodies' as 'points'"};
     for (std::size_t i = 1; i < points.size(); ++i)
