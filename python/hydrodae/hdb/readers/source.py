@@ -23,6 +23,25 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+#: Taken where nothing tells: sea water, and the mean over the globe.
+SEA_WATER, USUAL_GRAVITY = 1025.0, 9.81
+
+
+@dataclass(frozen=True)
+class Water:
+    """What the user states of the water, where a source leaves it out.
+
+    Attributes
+    ----------
+    density, depth, gravity : float or None
+        [kg/m3], [m] (may be infinite), [m/s2].
+    """
+
+    density: float | None = None
+    depth: float | None = None
+    gravity: float | None = None
+
+
 @dataclass
 class SourceData:
     """Tables as a reader understood them: project convention, but neither complete nor symmetric.
