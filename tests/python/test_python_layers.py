@@ -17,6 +17,7 @@ LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "tables"},
+    {"infinity"},
     {"memory", "results", "schema"},
     {"panels", "post"},
     {"plot"},

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import irf
+from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.database import HydroDatabase
@@ -254,11 +254,25 @@ def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> F
     )
 
 
+def _mesh_doubt(a: Array) -> Array:
+    """Uncertainty (n, n) of A that its asymmetry shows: half of it, at all frequencies alike.
+
+    A coordinate is as uncertain as its worst coupling, scaled by the roots of the diagonals:
+    errors of a mesh too coarse for a gap or a plate do not break Ogilvie's relation.
+    """
+    size = np.sqrt(np.abs(np.einsum("wii->wi", a)).max(axis=0))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    half = 0.5 * np.median(np.abs(a - a.transpose(0, 2, 1)), axis=0) / scale
+    worst = np.sqrt(half.max(axis=1)) * size
+    return np.asarray(np.outer(worst, worst))
+
+
 def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
-    value, std = irf.added_mass_inf(data.omega, a, b)
-    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    value, std = infinity.added_mass_inf(data.omega, a, b)
+    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T) + _mesh_doubt(data.added_mass)
     if data.added_mass_inf is None:
-        return value, std, "least squares on Ogilvie's relation, weight w^2, w > 0.3 w_max"
+        return value, std, "Ogilvie's relation at low frequencies"
     given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)
     size = np.sqrt(np.abs(np.diag(given)))
     scale = np.outer(size, size)
