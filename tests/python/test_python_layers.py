@@ -23,7 +23,8 @@ LAYERS = [
     {"plot"},
     # one database
     {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
-    {"hdb.hydrostatics", "hdb.convolution"},
+    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes"},
+    {"hdb.mesh_statics"},
     {"hdb.tables"},
     {"hdb.scales", "hdb.files", "hdb.summary"},
     {"hdb.kernels"},
