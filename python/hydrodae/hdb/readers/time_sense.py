@@ -2,9 +2,9 @@ r"""Files of one format by programs with other signs, told by physics.
 
 In x(t) = Re(X e^{+iwt}) a body that is small against the waves feels, about its own place,
 
-    F_1 = + i |F_1| sign(cos beta),   F_3 = c (K_33 - w^2 (M + A_33) + i w B_33),  c near 1,
+    F_1 = + i |F_1| sign(cos beta),   F_3 = K_33 - w^2 (rho V + A_33) + i w B_33,
 
-so that conjugate phases (the other time convention) turn the signs of both F_1 and Im F_3 / Re F_3;
+so that conjugate phases (the other time convention) turn the signs of both F_1 and Im F_3;
 headings from where the waves come turn that of F_1 only. Normals out of the water instead of out of
 the body turn the Froude-Krylov force alone: F_1 -> - F_1, F_3 -> - F_3.
 """
@@ -20,8 +20,8 @@ from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
 
 Complex = NDArray[np.complex128]
-#: Frequencies where w B33 exceeds this share of |F3| tell the sense.
-LEAST_DAMPING = 0.03
+#: So many of the lowest frequencies are looked at.
+LONGEST = 10
 
 
 def correct_time_sense(data: SourceData) -> None:
@@ -111,7 +111,7 @@ def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
 
 
 def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
-    """Mean of sign(Im F3 / Re F3) over the long waves; None if B is too small.
+    """Sign of Im F3 / (w B33) in the longest waves, where its size is 1; None if it is not.
 
     Only of one body: waves that others scatter hide it.
     """
@@ -119,12 +119,11 @@ def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
     if label not in data.coordinates or len(bodies_of(data.coordinates)) > 1:
         return None
     i = data.coordinates.index(label)
-    value = _local(data, force, body, 0)[:, i]
-    waves = data.omega * data.radiation_damping[:, i, i]
-    with np.errstate(invalid="ignore"):
-        tells = (waves > LEAST_DAMPING * np.abs(value)) & np.isfinite(value)
-        # long waves only: up to where the phase first leaves those of the stiffness
-        tells &= np.logical_and.accumulate(np.abs(value.imag) < np.abs(value.real))
-    if tells.sum() < 3:
+    value = _local(data, force, body, 0)[:LONGEST, i].imag
+    waves = (data.omega * data.radiation_damping[:, i, i])[:LONGEST]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = value / waves
+    ratio = ratio[np.isfinite(ratio)]
+    if ratio.size == 0 or np.abs(np.abs(ratio) - 1.0).min() > 0.2:
         return None
-    return float(np.mean(np.sign(value.imag[tells] * value.real[tells])))
+    return float(np.sign(ratio[np.abs(np.abs(ratio) - 1.0).argmin()]))
