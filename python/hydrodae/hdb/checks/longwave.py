@@ -114,9 +114,14 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
         return []
     k33 = db.rho * db.gravity * hs.waterplane_area
     inertia = wave.omega**2 * (db.rho * hs.displaced_volume + _total_mass(db, body, "heave"))
-    if k33 < 2.0 * inertia or wave.k * np.sqrt(hs.waterplane_area) > 0.5:
+    area = max(hs.waterplane_area, 0.0)
+    if k33 < 2.0 * inertia or wave.k * np.sqrt(area) > 0.5:
         return []
-    error = abs(force - (k33 - inertia)) / k33
+    # the water's vertical acceleration falls towards the keel, in shallow water to nothing
+    keel = 2.0 * float(hs.center_of_buoyancy[2])
+    least = k33 - inertia
+    most = k33 - inertia * _vertical_decay(wave.k, keel, db.water_depth)
+    error = abs(force - np.clip(force.real, least, most)) / k33
     return [
         Finding(
             "error" if error > 0.15 else "warning" if error > 0.05 else "info",
@@ -129,6 +134,13 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     ]
 
 
+def _vertical_decay(k: float, z: float, depth: float) -> float:
+    """Vertical acceleration of the water at height z over that at the surface."""
+    if not np.isfinite(depth):
+        return float(np.exp(k * z))
+    return float(np.sinh(k * max(z + depth, 0.0)) / np.sinh(k * depth))
+
+
 def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     hs = body.hydrostatics
     dof, factor = ("surge", wave.cosine) if abs(wave.cosine) > 0.5 else ("sway", wave.sine)
@@ -137,7 +149,7 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     if hs is None or force is None:
         return []
     depth, z = db.water_depth, float(hs.center_of_buoyancy[2])
-    if wave.k * max(abs(z) * 2.0, np.sqrt(hs.waterplane_area)) > 0.3:
+    if wave.k * max(abs(z) * 2.0, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.3:
         return []
     added = 0.0 if split else _total_mass(db, body, dof)
 
@@ -176,7 +188,7 @@ def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     lever = hs.center_of_buoyancy[2] - body.reference_point[2]
     parts = hs.waterplane_moments[2] + abs(hs.displaced_volume * lever)
     size = max(abs(body.reference_point[2]), 2.0 * abs(hs.center_of_buoyancy[2]))
-    if force is None or parts <= 0.0 or wave.k * max(size, np.sqrt(hs.waterplane_area)) > 0.1:
+    if force is None or parts <= 0.0 or wave.k * max(size, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.1:
         return []
     k55 = db.hydrostatic_stiffness(body.name)[4, 4]
     found = force.imag / (wave.k * wave.cosine)
