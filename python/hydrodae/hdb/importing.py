@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.checks.check import check
-from hydrodae.hdb.coordinates import bodies_of, check_body
+from hydrodae.hdb.coordinates import bodies_of, check_body, expand
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.mesh_statics import mesh_statics
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.source import SourceData, Water, finish
 from hydrodae.hdb.readers.wamit import read_wamit
+
+#: Tables of excitation that a source may hold.
+FORCES = ("froude_krylov", "diffraction", "excitation")
 
 
 def read_source(
@@ -114,9 +120,13 @@ def import_database(
     reference_points: Mapping[str, ArrayLike] | None = None,
     source_points: Mapping[str, ArrayLike] | None = None,
     hydrostatics: Mapping[str, Hydrostatics] | None = None,
+    meshes: Mapping[str, str | Path] | None = None,
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
+    keep: str | None = None,
+    cut: float | None = None,
+    band: Band | Callable[[HydroDatabase], Band] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Read a source, check it, rename its bodies and move it to the scene's reference points.
 
@@ -133,8 +143,17 @@ def import_database(
         Points about which the moments of the source are, where the source does not say [m].
     hydrostatics : dict of Hydrostatics, optional
         Where the source has none, or wrong ones; waterplane moments about `reference_points`.
+    meshes : dict of path, optional
+        Mesh files of the wetted hulls (STL, GDF, Nemoh, GMSH), from which the hydrostatics of a
+        body follow, where the source has none or wrong ones.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    keep : str, optional
+        Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
+    cut : float, optional
+        Leave out the frequencies above [rad/s], before anything is estimated.
+    band : (low, high) or function of the database, optional
+        Frequencies [rad/s] that the device feels; see `hydrodae.hdb.check`.
 
     Returns
     -------
@@ -148,10 +167,14 @@ def import_database(
         Missing or wrong files, unknown bodies, points that cannot be moved.
     """
     if kind(source) == "hydro":
+        if cut is not None:
+            raise DatabaseError(f"{source}: frequencies are cut where a source is imported (cut)")
         database = read(source, rho=rho, depth=depth, gravity=gravity)
         noticed = list[Finding]()
     else:
         data = read_source(source, rho=rho, depth=depth, gravity=gravity)
+        if cut is not None:
+            _cut(data, cut)
         new = {name: name for name in bodies_of(data.coordinates)}
         new.update(_renaming(list(new), names))
         _state_points(data, {v: k for k, v in new.items()}, source_points or {})
@@ -164,7 +187,37 @@ def import_database(
         database = database.with_hydrostatics(hydrostatics)
         if set(hydrostatics) == set(database.bodies):  # what the source lacks does not matter
             noticed = [f for f in noticed if f.check != "hydrostatics"]
-    return database, CheckReport([*noticed, *check(database).findings])
+    for name, file in (meshes or {}).items():
+        check_body(name, database.bodies)
+        try:
+            statics = mesh_statics(read_mesh(file), database.reference_point(name))
+        except DatabaseError as error:
+            raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
+        database = database.with_hydrostatics({name: statics})
+        noticed = [f for f in noticed if f.check != "hydrostatics"]
+    if keep is not None:
+        database = database.select(expand(keep, database.coordinates))
+    judged = band(database) if callable(band) else band
+    return database, CheckReport([*noticed, *check(database, judged).findings])
+
+
+def _cut(data: SourceData, highest: float) -> None:
+    """Leave out the frequencies above `highest` [rad/s]."""
+    kept = data.omega <= highest * (1.0 + 1e-9)
+    if kept.sum() < 4:
+        raise DatabaseError(
+            f"{data.name}: only {kept.sum()} of its frequencies ({data.omega[0]:.4g} to "
+            f"{data.omega[-1]:.4g} rad/s) are not above {highest:g} rad/s; 4 are needed"
+        )
+    if kept.all():
+        return
+    text = f"{(~kept).sum()} frequencies above {highest:g} rad/s left out, as asked"
+    data.findings.append(Finding("info", "cut", text))
+    data.omega = data.omega[kept]
+    for name in ("added_mass", "radiation_damping", *FORCES):
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, value[kept])
 
 
 def _renaming(

@@ -50,9 +50,7 @@ def felt_band(database: HydroDatabase) -> Band:
     # spikes of irregular frequencies are no motion: the median over neighbours within 12 %
     low = np.searchsorted(w, w / NEIGHBOURS)
     high = np.searchsorted(w, w * NEIGHBOURS, side="right")
-    felt = np.array(
-        [np.median(motion[a:b], axis=0).max() for a, b in zip(low, high, strict=True)]
-    )
+    felt = np.array([np.median(motion[a:b], axis=0).max() for a, b in zip(low, high, strict=True)])
     half = np.flatnonzero(felt > HALF)
     if not half.size:
         return float(w[0]), float(w[-1])
@@ -88,7 +86,7 @@ def _motion(db: HydroDatabase) -> Array:
         hs = db.bodies[body].hydrostatics
         known = hs is not None and dof < 3
         mass = db.rho * hs.displaced_volume if known and hs is not None else added[i]
-        stiffness = 0.0
+        stiffness = float(force[0, i]) if dof == 2 else 0.0  # K33 is its long-wave limit
         if known and hs is not None and dof == 2:
             stiffness = db.rho * db.gravity * max(hs.waterplane_area, 0.0)
         length = 1.0
@@ -99,5 +97,7 @@ def _motion(db: HydroDatabase) -> Array:
                 if split_label(other)[0] == body and split_label(other)[1] < 3
             ]
             length = float(np.sqrt(added[i] / max(moving))) if moving and max(moving) > 0 else 1.0
-        columns.append(length * force[:, i] / np.maximum(stiffness, db.omega**2 * (mass + added[i])))
+        motion = length * force[:, i] / np.maximum(stiffness, db.omega**2 * (mass + added[i]))
+        # a body follows long waves: what exceeds them there is a mass taken too small
+        columns.append(motion / (max(1.0, motion[0]) if dof < 3 else 1.0))
     return np.stack(columns, axis=1) if columns else np.zeros((db.omega.size, 0))

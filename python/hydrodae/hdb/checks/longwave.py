@@ -188,7 +188,11 @@ def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     lever = hs.center_of_buoyancy[2] - body.reference_point[2]
     parts = hs.waterplane_moments[2] + abs(hs.displaced_volume * lever)
     size = max(abs(body.reference_point[2]), 2.0 * abs(hs.center_of_buoyancy[2]))
-    if force is None or parts <= 0.0 or wave.k * max(size, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.1:
+    if (
+        force is None
+        or parts <= 0.0
+        or wave.k * max(size, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.1
+    ):
         return []
     k55 = db.hydrostatic_stiffness(body.name)[4, 4]
     found = force.imag / (wave.k * wave.cosine)

@@ -127,7 +127,11 @@ class _Ah1:
             if len(grids[-1]) != nw:
                 raise DatabaseError(f"{self.path}: its head is cut short: {nw} frequencies stated")
             values = values[3 + nh + nw :]
-        if not grids or any(g != grids[0] for g in grids) or any(h != headings[0] for h in headings):
+        if (
+            not grids
+            or any(g != grids[0] for g in grids)
+            or any(h != headings[0] for h in headings)
+        ):
             raise DatabaseError(f"{self.path}: structures with different frequencies or headings")
         self.count = len(grids)
         self.omega, self.heading_deg = np.array(grids[0]), np.array(headings[0])
@@ -158,8 +162,8 @@ class _Ah1:
         depth, rho, gravity = general[:3]
         centers = list(self.block("COG", 1, 3, n))
         force = self.block("FORCERAO", 3, 12, n * nh * nw).reshape(n, nh, nw, 2, 6)
-        complex_force = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
-        flat = complex_force.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
+        turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
+        flat = turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
         names = [f"structure{i + 1}" if n > 1 else self.path.stem for i in range(n)]
         heading, kept = unique_headings(self.heading_deg)
         k = wavenumber(self.omega, depth, gravity)
@@ -176,7 +180,7 @@ class _Ah1:
             centers,
             (float(rho), float(gravity), float(depth)),
         )
-        data.excitation = to_world(flat[:, kept], k, heading, centers)
+        data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
         buoyancy = self.block("COB", 1, 3, n)
         volume = self.block("DISPLACEMENT", 1, 1, n)[:, 0]
         stiffness = self.block("HYDSTIFFNESS", 1, 36, n).reshape(n, 6, 6)

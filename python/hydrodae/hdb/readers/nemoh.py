@@ -241,9 +241,7 @@ def _compare_grid(data: SourceData, cal: NemohCal) -> None:
         )
 
 
-def _attach_hydrostatics(
-    data: SourceData, root: Path, names: list[str], meshes: list[str]
-) -> None:
+def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:
     found = nh.read_all(root, len(names), data.rho, data.gravity)
     data.files += [file for f in found if f is not None for file in f.files]
     missing = [name for name, f in zip(names, found, strict=True) if f is None]

@@ -107,7 +107,8 @@ def total_of_all_bodies(
     return Finding(
         "warning",
         "hydrostatics",
-        f"{text}, {reason}; hydrostatics are left out; give each body by its mesh (--mesh NAME=FILE)",
+        f"{text}, {reason}; hydrostatics are left out, give those of each body by its "
+        f"mesh (--mesh NAME=FILE)",
         value=float(volume[0]),
     )
 

@@ -249,7 +249,9 @@ class _Vessel:
         heading = np.array([block["RAODirection"] for block in blocks], dtype=float)
         result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
         for h, block in enumerate(blocks):
-            rows = next((v for key, v in block.items() if key.startswith("RAOPeriod")), [])
+            rows: list[Any] = next(
+                (v for key, v in block.items() if key.startswith("RAOPeriod")), []
+            )
             table = np.array([[self._omega(row[0]), *row[1:]] for row in rows], dtype=float)
             table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
             table = table[np.argsort(table[:, 0])]

@@ -16,9 +16,10 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.source import SEA_WATER, USUAL_GRAVITY, SourceData, Water
+from hydrodae.hdb.readers.source import SourceData, Water
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
+from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -73,19 +74,19 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
     control = read_control(stem)
     findings: list[Finding] = []
-    rho, depth, gravity, length = _constants(stem, control, water or Water(), findings)
-    radiation = beside(stem, ".1")
+    rho, depth, gravity, length = settled(stem, control, water or Water(), findings)
+    numeric, listed = beside(stem, ".1"), beside(stem, ".out")
+    radiation = numeric or listed
+    assert radiation is not None  # that is what makes a stem
     listing = None
-    if radiation is None:
-        radiation = stem.with_suffix(".out") if beside(stem, ".out") is None else beside(stem, ".out")
-        assert radiation is not None
+    if numeric is None:
         listing = read_listing(radiation)
         rows, lines, option = listing.radiation, listing.radiation_lines, 1
         text = f"read from {radiation.name}, whose phases are whole degrees: there is no .1 file"
         findings.append(Finding("info", "excitation", text))
     else:
         rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
-        option = _first_column(stem, control, findings)
+        option = first_column(stem, control, findings)
     modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
     rows, lines = _of_modes(rows, lines, (1, 2), modes)
     omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)
@@ -129,7 +130,6 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         if heading.size and not np.array_equal(heading, read[1]):
             raise DatabaseError(f"{file}: headings differ from those of the other force files")
         heading = read[1]
-    at_infinity = a[np.isinf(at)]
     if control.frequencies is not None and control.frequencies != at.size:
         text = f"{stem.name}.pot asks for {control.frequencies}, {radiation.name} holds {at.size}"
         findings.append(Finding("warning", "frequency grid", text))
@@ -148,59 +148,15 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         water_depth=depth,
         name=radiation.name,
         title=f"WAMIT {stem.name}",
-        added_mass_inf=scale * at_infinity[0] if len(at_infinity) else None,
+        added_mass_inf=None,
         files=files,
         findings=findings,
     )
+    limit = at_infinity(at, a, b, findings)
+    data.added_mass_inf = None if limit is None else scale * limit
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length)
     return data
-
-
-def _constants(
-    stem: Path, control: Control, water: Water, findings: list[Finding]
-) -> tuple[float, float, float, float]:
-    """Density, depth, gravity and length scale; what no file says is asked for or assumed."""
-    for what, stated, given, unit in (
-        ("density", control.rho, water.density, "kg/m3"),
-        ("depth", control.depth, water.depth, "m"),
-        ("gravity", control.gravity, water.gravity, "m/s2"),
-    ):
-        same = stated is None or given is None or stated == given
-        if not same and not np.isclose(given, stated, rtol=1e-3):  # type: ignore[arg-type]
-            raise DatabaseError(f"{stem}: its files say {what} {stated:g} {unit}, not {given:g}")
-    depth = control.depth if water.depth is None else water.depth
-    if depth is None:
-        raise DatabaseError(
-            f"{stem}: the water depth is in {stem.name}.pot or .out, or in ControlFile.in of HAMS: "
-            f"there is none; state it (depth=, --depth 70, or --depth inf)"
-        )
-    assumed = []
-    rho = control.rho if water.density is None else water.density
-    if rho is None:
-        rho = SEA_WATER
-        assumed.append(f"density {rho:g} kg/m3, to which A, B and F are proportional (--rho)")
-    gravity = control.gravity if water.gravity is None else water.gravity
-    if gravity is None:
-        gravity = USUAL_GRAVITY
-        assumed.append(f"gravity {gravity:g} m/s2 (--gravity)")
-    length = control.length
-    if length is None:
-        length = 1.0
-        assumed.append("length scale (ULEN) 1 m")
-    if assumed:
-        text = f"no file says it, taken: {'; '.join(assumed)}"
-        findings.append(Finding("warning", "assumption", text))
-    return float(rho), float(depth), float(gravity), float(length)
-
-
-def _first_column(stem: Path, control: Control, findings: list[Finding]) -> int:
-    """IPEROUT: what the first column of the tables holds."""
-    if control.first_column is None:
-        text = f"no {stem.name}.cfg: first column taken as the period (IPEROUT 1)"
-        findings.append(Finding("info", "assumption", text))
-        return 1
-    return control.first_column
 
 
 def _modes(
@@ -306,4 +262,5 @@ def _stiffness(path: Path | None, control: Control, bodies: int) -> Array:
     rows, lines = _of_modes(rows, lines, (0, 1), modes)
     flat = np.column_stack([np.zeros(len(rows)), rows])
     axes = (np.zeros(1), modes, modes)
-    return np.real(tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2]))[0]
+    table = tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2])
+    return np.asarray(np.real(table)[0])
