@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.aqwa import aqwa_data, to_world, unique_headings
+from hydrodae.hdb.readers.aqwa_common import aqwa_data, to_world, unique_headings
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]
