@@ -117,7 +117,7 @@ def test_estimates_of_bemio_are_not_taken_for_data(array, bemio_file, tmp_path):
         f["bem_data/code"] = np.bytes_("NEMOH")
         f["body1/hydro_coeffs/added_mass/inf_freq"][0, 0] *= 2.0
     db, report = hdb.import_database(path)
-    assert db.added_mass_inf_origin.startswith("least squares")
+    assert db.added_mass_inf_origin.startswith("Ogilvie")
     assert db.added_mass_inf[0, 0] == pytest.approx(array.added_mass_inf[0, 0], rel=0.05)
     assert "BEMIO's own estimate" in report.find("added_mass_inf of the source")[0].message
 

@@ -243,6 +243,9 @@ def _state_points(
         check_body(name, old_names)
         old, point = old_names[name], np.asarray(value, dtype=float)
         known = data.reference_points.get(old)
+        if old in data.assumed_points:
+            known = None
+            data.findings = [f for f in data.findings if not f.message.startswith(f"{old}: the f")]
         if known is not None and not np.allclose(known, point, atol=1e-6):
             raise DatabaseError(
                 f"the source says the moments of {name!r} are about {known.tolist()}, "

@@ -240,6 +240,7 @@ def _attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path)
             )
             if point is None:
                 data.reference_points[name] = reference_by_statics(data, name, near)
+                data.assumed_points.add(name)
         else:
             data.findings.append(
                 Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")

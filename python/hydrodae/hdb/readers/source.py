@@ -63,6 +63,8 @@ class SourceData:
         What was read; hashed for `source_sha256`.
     findings : list of Finding
         What the reader noticed.
+    assumed_points : set of str
+        Bodies whose reference point the source does not state: the user may state another.
     """
 
     coordinates: tuple[str, ...]
@@ -83,6 +85,7 @@ class SourceData:
     added_mass_inf: Array | None = None
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    assumed_points: set[str] = field(default_factory=set)
 
 
 def sha256(files: Iterable[Path]) -> str:
@@ -254,6 +257,20 @@ def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> F
     )
 
 
+def _coupling_doubt(value: Array, std: Array) -> Array:
+    """Uncertainty (n, n) whose couplings share the doubt of their diagonals.
+
+    What is wrong with the motion of one coordinate is wrong with its coupling too:
+    u_ij >= |r_ij| sqrt(u_ii u_jj) with the correlation r_ij = A_ij / sqrt(A_ii A_jj), at most 1.
+    """
+    size = np.sqrt(np.abs(np.diag(value)))
+    scale = np.outer(size, size)
+    scale[scale <= 0.0] = np.inf
+    correlation = np.minimum(np.abs(value) / scale, 1.0)
+    own = np.sqrt(np.diag(std))
+    return np.asarray(np.maximum(std, correlation * np.outer(own, own)))
+
+
 def _mesh_doubt(a: Array) -> Array:
     """Uncertainty (n, n) of A that its asymmetry shows: half of it, at all frequencies alike.
 
@@ -270,7 +287,8 @@ def _mesh_doubt(a: Array) -> Array:
 
 def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
     value, std = infinity.added_mass_inf(data.omega, a, b)
-    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T) + _mesh_doubt(data.added_mass)
+    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    std = _coupling_doubt(value, std) + _mesh_doubt(data.added_mass)
     if data.added_mass_inf is None:
         return value, std, "Ogilvie's relation at low frequencies"
     given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)

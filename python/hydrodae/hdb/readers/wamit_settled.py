@@ -91,14 +91,22 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     if not tells.any():
         return limit
 
-    def is_low(row: Array) -> NDArray[np.bool_]:
-        value = np.diag(row)[tells]
-        to_low = np.abs(value - diagonal[0][tells])
-        return np.asarray(to_low < 0.5 * np.abs(value - estimate[tells]))
+    room = (3.0 * doubt + 0.05 * np.abs(estimate))[tells]
 
-    low_at_infinity = bool(len(high)) and bool(is_low(high[0]).all())
-    high_at_zero = bool(len(zero)) and not is_low(zero[0]).any()
-    if not low_at_infinity and not (limit is None and high_at_zero):
+    def is_high(row: Array) -> NDArray[np.bool_]:
+        return np.asarray(np.abs(np.diag(row) - estimate)[tells] < room)
+
+    wrong_high = bool(len(high)) and not is_high(high[0]).any()
+    zero_is_high = bool(len(zero)) and bool(is_high(zero[0]).all())
+    if len(high) and len(zero):
+        exchanged = wrong_high and zero_is_high
+    elif len(zero):
+        exchanged = zero_is_high
+    else:
+        exchanged = wrong_high and np.allclose(
+            np.diag(high[0])[tells], diagonal[0][tells], rtol=0.02
+        )
+    if not exchanged:
         return limit
     text = "the rows of w = 0 and w = inf are exchanged (Capytaine before 3.0 wrote them so)"
     findings.append(Finding("warning", "added_mass_inf of the source", f"{text}; put right"))
