@@ -122,7 +122,9 @@ def test_orcawave_obeys_statics_and_its_own_limit(reference):
     for check in ("phase convention", "heave force", "displacement", "Ogilvie"):
         assert report.find(check)[0].severity == "info", check
     box = 7.0 * 7.0 * 10.0
-    assert database.bodies["Body1"].hydrostatics.displaced_volume == pytest.approx(box)
+    statics = database.bodies["Body1"].hydrostatics
+    assert statics is not None
+    assert statics.displaced_volume == pytest.approx(box)
     inf = np.diag(database.added_mass_inf)
     estimate = hdb.import_database(reference / "hdb" / "multibody_orcawave", cut=2.4)[0]
     np.testing.assert_allclose(np.diag(estimate.added_mass_inf), inf)

@@ -56,6 +56,8 @@ def test_nemoh_3_gets_the_hydrostatics_of_nemoh_2_from_its_meshes(reference):
     old = hdb.read(reference / "hdb" / "oswec_nemoh_v2.3")
     for name in old.bodies:
         ours, theirs = new.bodies[name].hydrostatics, old.bodies[name].hydrostatics
+        assert ours is not None
+        assert theirs is not None
         assert ours.displaced_volume == pytest.approx(theirs.displaced_volume, rel=1e-5)
         np.testing.assert_allclose(ours.center_of_buoyancy, theirs.center_of_buoyancy, atol=1e-3)
         assert ours.waterplane_area == pytest.approx(theirs.waterplane_area, rel=1e-5, abs=1e-4)
@@ -69,6 +71,8 @@ def test_a_mesh_can_be_named_where_the_source_has_no_hydrostatics(reference):
     mesh = folder / "Mesh" / "flap.dat"
     database, _ = hdb.import_database(folder, meshes={"flap": mesh})
     volume = mesh_statics(read_mesh(mesh), (0, 0, 0)).displaced_volume
-    assert database.bodies["flap"].hydrostatics.displaced_volume == pytest.approx(volume)
+    statics = database.bodies["flap"].hydrostatics
+    assert statics is not None
+    assert statics.displaced_volume == pytest.approx(volume)
     with pytest.raises(DatabaseError, match="no body 'flop'"):
         hdb.import_database(folder, meshes={"flop": mesh})

@@ -80,7 +80,10 @@ def _local(db: HydroDatabase, body: Body, wave: _Wave, dof: str, *, fk: bool) ->
     if label not in db.coordinates:
         return None
     table = db.froude_krylov if fk else db.excitation
+    # forces have the phase of where the water pushes, moments that of their point
     point = np.zeros(3) if body.reference_point is None else body.reference_point
+    if body.hydrostatics is not None and dof not in ("roll", "pitch", "yaw"):
+        point = body.hydrostatics.center_of_buoyancy
     shift = np.exp(1j * wave.k * (point[0] * wave.cosine + point[1] * wave.sine))
     return complex(table[0, wave.heading, db.coordinates.index(label)] * shift)
 
