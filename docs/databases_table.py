@@ -138,7 +138,7 @@ def twins(one: HydroDatabase, other: HydroDatabase) -> bool:
                 (other, other.index(f"{theirs}.heave")[0]),
             )
         )
-        if not 0.8 < a / b < 1.25:
+        if not 0.6 < a / b < 1.6:
             return False
     return True
 

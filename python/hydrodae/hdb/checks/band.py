@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 Band = tuple[float, float]
 #: Motion in a wind sea, over that of a float in long waves, below which nothing is felt.
 LEAST_MOTION = 0.05
+#: Wind makes no waves longer than 30 s [rad/s].
+LONGEST = 0.2
 #: A sea that peaks where the device moves by this share of the wave is the shortest one.
 HALF = 0.5
 #: Ratio of frequencies that count as neighbours.
@@ -45,17 +47,18 @@ def felt_band(database: HydroDatabase) -> Band:
     """
     w = database.omega
     motion = _motion(database)
+    start = float(w[0]) if w[-1] < 2.0 * LONGEST else max(float(w[0]), LONGEST)
     if motion.shape[1] == 0:
-        return float(w[0]), float(w[-1])
+        return start, float(w[-1])
     # spikes of irregular frequencies are no motion: the median over neighbours within 12 %
     low = np.searchsorted(w, w / NEIGHBOURS)
     high = np.searchsorted(w, w * NEIGHBOURS, side="right")
     felt = np.array([np.median(motion[a:b], axis=0).max() for a, b in zip(low, high, strict=True)])
     half = np.flatnonzero(felt > HALF)
     if not half.size:
-        return float(w[0]), float(w[-1])
+        return start, float(w[-1])
     fall = np.minimum(1.0, (w[half[-1]] / w) ** 2.5)
-    return float(w[0]), float(w[np.flatnonzero(felt * fall > LEAST_MOTION)[-1]])
+    return start, float(w[np.flatnonzero(felt * fall > LEAST_MOTION)[-1]])
 
 
 def inside(omega: Array, band: Band) -> NDArray[np.bool_]:

@@ -48,7 +48,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *_causality(database),
             *irregular_findings(database, judged),
             *fit_findings(database),
-            *long_wave_findings(database),
+            *long_wave_findings(database, judged),
         ]
     )
 

@@ -166,7 +166,7 @@ def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen = 0
     known = bool(control.points)
-    for line in path.read_text(errors="replace").splitlines():
+    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
         if line.strip().startswith("Gravity:"):
             found = _numbers(line.split("Gravity:")[1])
             control.gravity = found[0]
@@ -183,7 +183,9 @@ def _listing(path: Path, control: Control) -> None:
         if place and not known:
             found = _numbers(line)
             if len(found) != 4 or found[3] != 0.0:
-                raise DatabaseError(f"{path}: body axes turned: {line.strip()!r}; run it with 0")
+                raise DatabaseError(
+                    f"{path}:{count}: body axes turned: {line.strip()!r}; run it with 0"
+                )
             control.points.append(np.array(found[:3]))
         row = re.match(r"\s*C\((\d),\d\)[C(),\d]*:(.*)", line)
         if seen and row and path.suffix.lower() == ".out":
@@ -192,11 +194,11 @@ def _listing(path: Path, control: Control) -> None:
             seen += 1
             if len(control.statics) < seen:
                 control.statics.append(Statics())
-            control.statics[seen - 1].volume = float(np.median(_after(path, line)))
+            control.statics[seen - 1].volume = float(np.median(_after(path, count, line)))
         elif seen and "Center of Buoyancy" in line:
-            control.statics[seen - 1].center_of_buoyancy = _after(path, line)
+            control.statics[seen - 1].center_of_buoyancy = _after(path, count, line)
         elif seen and "Center of Gravity" in line:
-            control.statics[seen - 1].center_of_gravity = _after(path, line)
+            control.statics[seen - 1].center_of_gravity = _after(path, count, line)
         elif seen and re.match(r"\s*3\s+3\s+\S+\s*$", line) and path.suffix.lower() == ".mmx":
             control.statics[seen - 1].mass_over_rho = _numbers(line)[2]
 
@@ -259,11 +261,11 @@ def _hams(path: Path, control: Control) -> None:
         control.first_column = forms[kind[1]]
 
 
-def _after(path: Path, line: str) -> Array:
+def _after(path: Path, count: int, line: str) -> Array:
     """Three numbers behind the brackets and the colon."""
     found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
     if len(found) != 3:
-        raise DatabaseError(f"{path}: expected 3 numbers in {line.strip()!r}")
+        raise DatabaseError(f"{path}:{count}: expected 3 numbers in {line.strip()!r}")
     return np.array(found)
 
 
