@@ -13,6 +13,7 @@ coordinate s that acts tau late enters exactly, as (k + iw c) e^{-iw tau} s.
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -22,10 +23,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh, null_space
 
-from hydrodae.case import CaseLike, read_case
+from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
+
+#: What the messages of the kernel say where a database lacks a fit or a radiation kernel.
+MISSING_MEMORY = ("holds no exponential fit", "holds no radiation kernel")
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -113,7 +117,7 @@ class LinearModel:
         from hydrodae import _core
 
         self._given_database: HydroDatabase | None = None
-        self.case = read_case(case)
+        self.case, self.memory_missing = without_memory(case)
         model: dict[str, Any] = _core.linearize(self.case.scene)
         self.coordinates: list[str] = model["coordinates"]
         self.mass: Array = model["mass"]
@@ -288,6 +292,12 @@ class LinearModel:
             A frequency or the heading is outside the database, or nothing in the case feels waves.
         """
         w = np.asarray(omega, dtype=float)
+        if self.database is not None and self.database.heading.size == 0:
+            raise DatabaseError(
+                f"the database of the case, {self.database.source or 'no source stated'}, holds no "
+                f"excitation, because its source has none: import one with the forces of waves "
+                f"(.3 of WAMIT, ExcitationForce.tec of Nemoh); natural modes need none"
+            )
         if self.database is None and not self._model["water_points"]:
             raise DatabaseError("the case has neither a hydrodynamic database nor Morison elements")
         force = self._morison_excitation(w, heading)
@@ -497,6 +507,38 @@ class LinearModel:
             for name, per_square in response.power.items():
                 power[name] = power.get(name, 0.0) + float(mine[:, 2] ** 2 @ per_square)
         return {name: float(np.sqrt(value)) for name, value in variance.items()}, power
+
+
+def without_memory(
+    case: CaseLike, values: Mapping[str, Any] | None = None
+) -> tuple[Case, CaseError | None]:
+    """Read a case for the frequency domain, which needs no memory fit and no kernel.
+
+    Parameters
+    ----------
+    case : Case, Scene or path
+    values : dict, optional
+        By dotted key, as in `read_case`.
+
+    Returns
+    -------
+    case : Case
+        As it is, or with `hydro.radiation` "none" where its database lacks what its radiation in
+        the time domain needs.
+    missing : CaseError or None
+        What is missing for a run.
+
+    Raises
+    ------
+    CaseError
+        The case cannot be used for another reason.
+    """
+    try:
+        return read_case(case, values), None
+    except CaseError as error:
+        if not any(words in str(error) for words in MISSING_MEMORY):
+            raise
+        return read_case(case, {**(values or {}), "hydro.radiation": "none"}), error
 
 
 def _power_factor(omega: Array, k: float, c: float, tau: float) -> Array:

@@ -203,15 +203,21 @@ def test_own_array_has_headings_and_four_bodies(reference):
     assert report.ok
 
 
-def test_capytaine_2_sphere_needs_its_point(reference, tmp_path):
+def test_capytaine_2_sphere_takes_its_point_from_beside(reference, tmp_path):
     path = reference / "hdb" / "sphere_capytaine" / "sphere_hydrodynamics.nc"
     db, report = hdb.import_database(path)
     assert 3 == round(report.find("NaN")[0].value * 420)
     assert db.omega[0] == pytest.approx(0.08)
+    # the centre of gravity of the files beside it is taken, because the moments are about it
+    np.testing.assert_allclose(db.reference_point("floating_sphere"), (0, 0, -2))
+    assert "long-wave pitch moment" in report.find("assumption")[0].message
+    alone = tmp_path / path.name
+    alone.write_bytes(path.read_bytes())
+    bare = hdb.read(alone)
     with pytest.raises(DatabaseError, match="--origin floating_sphere"):
-        db.write(tmp_path / "x.h5")
+        bare.write(tmp_path / "x.h5")
     with pytest.raises(DatabaseError, match="does not say about which point"):
-        db.moved_to({"floating_sphere": (0, 0, 0)})
+        bare.moved_to({"floating_sphere": (0, 0, 0)})
     db, report = hdb.import_database(path, names=["buoy"], source_points={"buoy": (0, 0, -2)})
     assert hydrostatics(db, "buoy").displaced_volume == pytest.approx(261.364)
     assert report.find("pitch moment")[0].severity == "info"

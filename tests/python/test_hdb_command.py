@@ -12,6 +12,7 @@ from hydrodae import hdb
 from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb import files
+from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.memory import ExponentialMemory
 
 
@@ -68,11 +69,45 @@ def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
 def test_import_with_an_error_writes_nothing_unless_accepted(reference, tmp_path, capsys):
     source = reference / "hdb" / "rm3_nemoh_v2.3"
     out = tmp_path / "hydro.h5"
-    assert call("import", source, "-o", out) == 2
+    # irregular frequencies near 2.2 rad/s: what the device does not feel is a note
+    assert call("import", source, "-o", out) == 0
+    out.unlink()
+    whole = ("import", source, "-o", out, "--band", "0.02,5.2")
+    assert call(*whole) == 2
     assert not out.exists()
-    assert "--accept" in capsys.readouterr().out
-    assert call("import", source, "-o", out, "--accept") == 0
+    text = capsys.readouterr().out
+    assert "--accept b-positive-semidefinite --accept irregular-frequencies" in text
+    assert call(*whole, "--accept", "b-positive-semidefinite") == 2
+    assert not out.exists()
+    named = ("--accept", "b-positive-semidefinite", "--accept", "irregular-frequencies")
+    assert call(*whole, *named) == 0
     assert list(hdb.read(out).bodies) == ["float", "spar"]
+
+
+def test_cut_leaves_out_what_is_above(reference, tmp_path, capsys):
+    out = tmp_path / "hydro.h5"
+    source = reference / "hdb" / "sphere_nemoh_v2.3"
+    assert call("import", source, "-o", out, "--cut", "4.0") == 0
+    assert hdb.read(out).omega[-1] == pytest.approx(4.0)
+    assert "220 frequencies above 4 rad/s left out, as asked" in capsys.readouterr().out
+    with pytest.raises(DatabaseError, match="4 are needed"):
+        call("import", source, "-o", out, "--cut", "0.05")
+
+
+def test_keep_limits_the_checks_to_what_is_kept(reference, tmp_path):
+    # the coupling of base and flap in heave is noise; a flap on a hinge does not feel it
+    source, out = reference / "hdb" / "oswec_nemoh_v3.0.2", tmp_path / "hydro.h5"
+    assert call("import", source, "-o", out) == 2
+    assert call("import", source, "-o", out, "--keep", "flap.pitch") == 0
+    assert hdb.read(out).coordinates == ("flap.pitch",)
+
+
+def test_accept_names_an_error():
+    report = CheckReport([Finding("error", "sign of B", "negative"), Finding("info", "tail", "")])
+    assert report.left([]) == report.of("error")
+    assert report.left(["sign-of-b"]) == []
+    with pytest.raises(DatabaseError, match=r"'tail': no error of that name \(errors: sign-of-b\)"):
+        report.left(["tail"])
 
 
 def test_fits_at_import_and_later(reference, tmp_path, fits, capsys):

@@ -10,7 +10,8 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.importing import kind, read_source
+from hydrodae.hdb.importing import read_source
+from hydrodae.hdb.readers.kinds import kind
 
 POT = """two floats
 {depth}  HBOT
@@ -123,24 +124,35 @@ def test_errors_name_file_and_line(tmp_path, file, line, text, message):
         hdb.read(path, rho=1000.0)
 
 
-@pytest.mark.parametrize(
-    ("gone", "message"),
-    [("run.pot", "water depth is in run.pot"), ("A.GDF", "gravity and the length scale")],
-)
-def test_what_the_tables_leave_out_is_not_guessed(tmp_path, gone, message):
+def test_the_depth_is_not_guessed(tmp_path):
     path = write_run(tmp_path)
-    (tmp_path / gone).unlink()
-    with pytest.raises(DatabaseError, match=message):
+    (tmp_path / "run.pot").unlink()
+    with pytest.raises(DatabaseError, match=r"water depth is in run.pot .* --depth 70"):
         hdb.read(path, rho=1000.0)
+    assert read_source(path, depth=np.inf).water_depth == np.inf
+
+
+def test_gravity_and_length_are_assumed_and_told(tmp_path):
+    path = write_run(tmp_path)
+    (tmp_path / "A.GDF").unlink()
+    data = read_source(path, rho=1000.0)
+    assert data.gravity == 9.81
+    (told,) = [f for f in data.findings if "no file says it" in f.message]
+    assert told.severity == "warning"
+    assert "gravity 9.81 m/s2 (--gravity); length scale (ULEN) 1 m" in told.message
+    assert read_source(path, rho=1000.0, gravity=10.0).gravity == 10.0
 
 
 def test_density_is_stated_once(tmp_path):
     path = write_run(tmp_path)
-    with pytest.raises(DatabaseError, match=r"--rho 1025"):
-        hdb.read(path)
+    data = read_source(path)
+    assert data.rho == 1025.0
+    assert any("density 1025 kg/m3" in f.message and "--rho" in f.message for f in data.findings)
+    double = read_source(path, rho=2050.0)
+    np.testing.assert_allclose(double.added_mass, 2.0 * data.added_mass)
     (tmp_path / "run.out").write_text(" Water depth: infinite    Water density:   1025.0\n")
     assert read_source(path).rho == 1025.0
-    with pytest.raises(DatabaseError, match="is 1025 kg/m3, not 1000"):
+    with pytest.raises(DatabaseError, match="density 1025 kg/m3, not 1000"):
         hdb.read(path, rho=1000.0)
 
 

@@ -17,12 +17,14 @@ LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "mooring", "tables"},
+    {"infinity"},
     {"memory", "results", "schema"},
     {"panels", "post"},
     {"plot"},
     # one database
     {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
-    {"hdb.hydrostatics", "hdb.convolution"},
+    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes"},
+    {"hdb.mesh_statics"},
     {"hdb.tables"},
     {"hdb.scales", "hdb.files", "hdb.summary"},
     {"hdb.kernels"},

@@ -40,6 +40,14 @@ def parse_point(option: str, text: str) -> tuple[str, list[float]]:
     return name.strip(), parse_numbers(option, values, 3)
 
 
+def parse_file(option: str, text: str) -> tuple[str, str]:
+    """Read NAME=FILE; raise CaseError if it is something else."""
+    name, equals, file = text.partition("=")
+    if not equals or not file.strip():
+        raise CaseError(f"{option} {text!r}: expected NAME=FILE")
+    return name.strip(), file.strip()
+
+
 def parse_band(text: str) -> tuple[float, float]:
     """Read LO,HI of --band [rad/s]; raise DatabaseError if it is no range of frequencies."""
     low, high = parse_numbers("--band", text, 2)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hydrodae.commands.arguments import given_case
+from hydrodae.case import Case, parse_assignment
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.plot import save
 from hydrodae.study.rao import output, rao, text
 
@@ -53,7 +53,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print natural periods, responses and, if the case has waves, those in its sea."""
-    model = LinearModel(given_case(arguments))
+    values = dict(map(parse_assignment, arguments.set))
+    if arguments.time_domain:
+        model = LinearModel(Case(path=arguments.case, values=values))
+    else:
+        model = LinearModel(without_memory(arguments.case, values)[0])
     opening = text.opening(model.notes, model.modes())
     if opening:
         print(opening)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+
+from hydrodae.errors import DatabaseError
 
 SEVERITIES = ("error", "warning", "info")
 
@@ -32,6 +35,11 @@ class Finding:
     message: str
     value: float = math.nan
     omega: float | None = None
+
+    @property
+    def name(self) -> str:
+        """The check as one word for a command line: `b-positive-semidefinite`."""
+        return "-".join(re.findall(r"[a-z0-9]+", self.check.lower()))
 
     def __str__(self) -> str:
         """One line: severity, check, message, frequency."""
@@ -61,6 +69,21 @@ class CheckReport:
     def ok(self) -> bool:
         """True if there is no error."""
         return not self.of("error")
+
+    def left(self, accepted: Sequence[str]) -> list[Finding]:
+        """Errors that `accepted`, a list of names of checks, does not name.
+
+        Raises
+        ------
+        DatabaseError
+            A name that no error of the report has.
+        """
+        names = [f.name for f in self.of("error")]
+        for word in accepted:
+            if word not in names:
+                found = ", ".join(dict.fromkeys(names)) or "none"
+                raise DatabaseError(f"--accept {word!r}: no error of that name (errors: {found})")
+        return [f for f in self.of("error") if f.name not in accepted]
 
     def __str__(self) -> str:
         """All findings, worst first, and a count."""

@@ -1,121 +1,99 @@
-"""Tell what a source is by its content, read it and check it."""
+"""Read any source and check it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-import h5py
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import files
+from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.checks.check import check
-from hydrodae.hdb.coordinates import bodies_of, check_body, nearest
+from hydrodae.hdb.coordinates import bodies_of, check_body, expand
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.bemio import is_bemio_file, read_bemio
-from hydrodae.hdb.readers.nemoh_hydrostatics import find
-from hydrodae.hdb.readers.source import SourceData, finish
-from hydrodae.hdb.readers.wamit import read_wamit, wamit_stem
+from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.readers.bemio import read_bemio
+from hydrodae.hdb.readers.kinds import kind, resolve
+from hydrodae.hdb.readers.source import SourceData, Water, finish
+from hydrodae.hdb.readers.wamit import read_wamit
+
+#: Tables of excitation that a source may hold.
+FORCES = ("froude_krylov", "diffraction", "excitation")
 
 
-def kind(source: str | Path) -> str:
-    """Return "hydro", "nemoh", "capytaine", "bemio" or "wamit" for a source, by its content.
-
-    Raises
-    ------
-    DatabaseError
-        No such file, or nothing that can be read.
-    """
-    path = Path(source)
-    if path.is_dir():
-        if find(path, "Nemoh.cal") is not None:
-            return "nemoh"
-        if wamit_stem(path) is not None:
-            return "wamit"
-        inside = sorted(p.name for e in ("*.nc", "*.h5", "*.1") for p in path.glob(e))
-        hint = f"; did you mean {path / inside[0]}?" if inside else ""
-        raise DatabaseError(f"{path}: a folder without Nemoh.cal or one WAMIT run{hint}")
-    if not path.is_file():
-        near = _similar(path)
-        raise DatabaseError(f"{path}: no such file or folder{near}")
-    if path.suffix.lower() == ".cal":
-        return "nemoh"
-    with open(path, "rb") as f:
-        magic = f.read(8)
-    if magic[:3] == b"CDF":
-        return "capytaine"
-    if h5py.is_hdf5(path):
-        if files.is_hydro_file(path):
-            return "hydro"
-        with opened(path, DatabaseError, "not a readable HDF5 file") as f:
-            if "added_mass" in f and "radiating_dof" in f:
-                return "capytaine"
-            if is_bemio_file(f):
-                return "bemio"
-            holds = ", ".join(sorted(f)[:6]) or "nothing"
-        raise DatabaseError(f"{path}: an HDF5 file of another kind (it holds {holds})")
-    if wamit_stem(path) is not None:
-        return "wamit"
-    raise DatabaseError(
-        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or a "
-        f"hydro.h5 of hydrodae"
-    )
-
-
-def read_source(source: str | Path, *, rho: float | None = None) -> SourceData:
-    """Read a Nemoh folder, or files of Capytaine, BEMIO or WAMIT, as they are.
+def read_source(
+    source: str | Path,
+    *,
+    rho: float | None = None,
+    depth: float | None = None,
+    gravity: float | None = None,
+) -> SourceData:
+    """Read files of Nemoh, Capytaine, BEMIO, WAMIT, HAMS, AQWA or OrcaWave, as they are.
 
     Parameters
     ----------
     source : path
         File or folder.
-    rho : float, optional
-        Density of the water [kg/m3], where the source does not say (WAMIT).
+    rho, depth, gravity : float, optional
+        Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
 
     Raises
     ------
     DatabaseError
-        Missing or wrong files, or `rho` contradicts the source; the message names file and line.
+        Missing or wrong files, or an argument contradicts the source; the message names file and
+        line.
     """
-    path = Path(source)
-    what = kind(path)
+    path, what = resolve(source)
     if what == "wamit":
-        return read_wamit(path, rho)
+        return read_wamit(path, Water(rho, depth, gravity))
     if what == "nemoh":
-        from hydrodae.hdb.readers.nemoh import read_nemoh
-
-        data = read_nemoh(path)
+        from hydrodae.hdb.readers.nemoh import read_nemoh as reader
     elif what == "bemio":
-        data = read_bemio(path)
+        reader = read_bemio
     elif what == "capytaine":
-        from hydrodae.hdb.readers.capytaine import read_capytaine
-
-        data = read_capytaine(path)
+        from hydrodae.hdb.readers.capytaine import read_capytaine as reader
+    elif what == "aqwa":
+        from hydrodae.hdb.readers.aqwa import read_aqwa as reader
+    elif what == "orcawave":
+        from hydrodae.hdb.readers.orcawave import read_orcawave as reader
     else:
         raise DatabaseError(f"{path}: a finished hydro.h5, not a source")
-    _check_density(path, data.rho, rho)
+    data = reader(path)
+    _check_water(path, data, Water(rho, depth, gravity))
     return data
 
 
-def _check_density(path: Path, stated: float, given: float | None) -> None:
-    if given is not None and not np.isclose(given, stated, rtol=1e-3):
-        raise DatabaseError(f"{path}: the density there is {stated:g} kg/m3, not {given:g}")
+def _check_water(path: Path, stated: SourceData | HydroDatabase, given: Water) -> None:
+    """Refuse a statement about the water that contradicts the source."""
+    for what, known, value, unit in (
+        ("density", stated.rho, given.density, "kg/m3"),
+        ("depth", stated.water_depth, given.depth, "m"),
+        ("gravity", stated.gravity, given.gravity, "m/s2"),
+    ):
+        if value is not None and value != known and not np.isclose(value, known, rtol=1e-3):
+            raise DatabaseError(f"{path}: the {what} there is {known:g} {unit}, not {value:g}")
 
 
-def read(source: str | Path, *, rho: float | None = None) -> HydroDatabase:
-    """Read any supported source: `hydro.h5`, Nemoh folder, Capytaine, BEMIO or WAMIT files.
+def read(
+    source: str | Path,
+    *,
+    rho: float | None = None,
+    depth: float | None = None,
+    gravity: float | None = None,
+) -> HydroDatabase:
+    """Read any supported source: `hydro.h5`, or what `read_source` reads.
 
     Parameters
     ----------
     source : path
         File or folder.
-    rho : float, optional
-        Density of the water [kg/m3], where the source does not say (WAMIT).
+    rho, depth, gravity : float, optional
+        Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
 
     Returns
     -------
@@ -127,11 +105,12 @@ def read(source: str | Path, *, rho: float | None = None) -> HydroDatabase:
     DatabaseError
         Missing or wrong files.
     """
-    if kind(source) == "hydro":
-        database = HydroDatabase.read(source)
-        _check_density(Path(source), database.rho, rho)
+    path, what = resolve(source)
+    if what == "hydro":
+        database = HydroDatabase.read(path)
+        _check_water(path, database, Water(rho, depth, gravity))
         return database
-    return finish(read_source(source, rho=rho))
+    return finish(read_source(path, rho=rho, depth=depth, gravity=gravity))
 
 
 def import_database(
@@ -141,7 +120,13 @@ def import_database(
     reference_points: Mapping[str, ArrayLike] | None = None,
     source_points: Mapping[str, ArrayLike] | None = None,
     hydrostatics: Mapping[str, Hydrostatics] | None = None,
+    meshes: Mapping[str, str | Path] | None = None,
     rho: float | None = None,
+    depth: float | None = None,
+    gravity: float | None = None,
+    keep: str | None = None,
+    cut: float | None = None,
+    band: Band | Callable[[HydroDatabase], Band] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Read a source, check it, rename its bodies and move it to the scene's reference points.
 
@@ -158,8 +143,17 @@ def import_database(
         Points about which the moments of the source are, where the source does not say [m].
     hydrostatics : dict of Hydrostatics, optional
         Where the source has none, or wrong ones; waterplane moments about `reference_points`.
-    rho : float, optional
-        Density of the water [kg/m3], where the source does not say (WAMIT).
+    meshes : dict of path, optional
+        Mesh files of the wetted hulls (STL, GDF, Nemoh, GMSH), from which the hydrostatics of a
+        body follow, where the source has none or wrong ones.
+    rho, depth, gravity : float, optional
+        Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    keep : str, optional
+        Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
+    cut : float, optional
+        Leave out the frequencies above [rad/s], before anything is estimated.
+    band : (low, high) or function of the database, optional
+        Frequencies [rad/s] that the device feels; see `hydrodae.hdb.check`.
 
     Returns
     -------
@@ -173,9 +167,14 @@ def import_database(
         Missing or wrong files, unknown bodies, points that cannot be moved.
     """
     if kind(source) == "hydro":
-        database, noticed = read(source, rho=rho), list[Finding]()
+        if cut is not None:
+            raise DatabaseError(f"{source}: frequencies are cut where a source is imported (cut)")
+        database = read(source, rho=rho, depth=depth, gravity=gravity)
+        noticed = list[Finding]()
     else:
-        data = read_source(source, rho=rho)
+        data = read_source(source, rho=rho, depth=depth, gravity=gravity)
+        if cut is not None:
+            _cut(data, cut)
         new = {name: name for name in bodies_of(data.coordinates)}
         new.update(_renaming(list(new), names))
         _state_points(data, {v: k for k, v in new.items()}, source_points or {})
@@ -188,7 +187,37 @@ def import_database(
         database = database.with_hydrostatics(hydrostatics)
         if set(hydrostatics) == set(database.bodies):  # what the source lacks does not matter
             noticed = [f for f in noticed if f.check != "hydrostatics"]
-    return database, CheckReport([*noticed, *check(database).findings])
+    for name, file in (meshes or {}).items():
+        check_body(name, database.bodies)
+        try:
+            statics = mesh_statics(read_mesh(file), database.reference_point(name))
+        except DatabaseError as error:
+            raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
+        database = database.with_hydrostatics({name: statics})
+        noticed = [f for f in noticed if f.check != "hydrostatics"]
+    if keep is not None:
+        database = database.select(expand(keep, database.coordinates))
+    judged = band(database) if callable(band) else band
+    return database, CheckReport([*noticed, *check(database, judged).findings])
+
+
+def _cut(data: SourceData, highest: float) -> None:
+    """Leave out the frequencies above `highest` [rad/s]."""
+    kept = data.omega <= highest * (1.0 + 1e-9)
+    if kept.sum() < 4:
+        raise DatabaseError(
+            f"{data.name}: only {kept.sum()} of its frequencies ({data.omega[0]:.4g} to "
+            f"{data.omega[-1]:.4g} rad/s) are not above {highest:g} rad/s; 4 are needed"
+        )
+    if kept.all():
+        return
+    text = f"{(~kept).sum()} frequencies above {highest:g} rad/s left out, as asked"
+    data.findings.append(Finding("info", "cut", text))
+    data.omega = data.omega[kept]
+    for name in ("added_mass", "radiation_damping", *FORCES):
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, value[kept])
 
 
 def _renaming(
@@ -214,15 +243,12 @@ def _state_points(
         check_body(name, old_names)
         old, point = old_names[name], np.asarray(value, dtype=float)
         known = data.reference_points.get(old)
+        if old in data.assumed_points:
+            known = None
+            data.findings = [f for f in data.findings if not f.message.startswith(f"{old}: the f")]
         if known is not None and not np.allclose(known, point, atol=1e-6):
             raise DatabaseError(
                 f"the source says the moments of {name!r} are about {known.tolist()}, "
                 f"not {point.tolist()}"
             )
         data.reference_points[old] = point
-
-
-def _similar(path: Path) -> str:
-    if not path.parent.is_dir():
-        return ""
-    return nearest(path.name, sorted(p.name for p in path.parent.iterdir()))

@@ -28,11 +28,19 @@ def scales(database: Tables) -> Array:
     return size
 
 
-def scaled_damping_eigenvalues(database: Tables) -> Array:
-    """Smallest eigenvalue of B(w)_ij / (s_i s_j) at every frequency, s = `scales`; (nw,) [-]."""
-    s = scales(database)
-    used = s > 0.0
+def scaled_damping_eigenvalues(database: Tables, sizes: Array | None = None) -> Array:
+    """Smallest eigenvalue of B(w)_ij / (s_i s_j) at every frequency; (nw,) [-].
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    sizes : (nw, n) array, optional
+        s^2; coordinates with zeros are left out. Default: that of `scales`.
+    """
+    square = scales(database)[None] ** 2 if sizes is None else sizes
+    used = np.all(square > 0.0, axis=0)
     if not used.any():
         return np.zeros(database.omega.size)
-    b = database.radiation_damping[:, used][:, :, used] / np.outer(s[used], s[used])
+    s = np.sqrt(square[:, used])
+    b = database.radiation_damping[:, used][:, :, used] / (s[:, :, None] * s[:, None, :])
     return np.asarray(np.linalg.eigvalsh(b)[:, 0], dtype=float)

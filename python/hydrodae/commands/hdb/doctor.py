@@ -6,7 +6,8 @@ import argparse
 import textwrap
 from pathlib import Path
 
-from hydrodae.commands.arguments import parse_point
+from hydrodae.commands.arguments import parse_band, parse_point
+from hydrodae.commands.hdb.options import add_water_options, water_of
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.checks.examination import examination
@@ -43,7 +44,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "applied in the order given; needs -o",
     )
     doctor.add_argument("-o", "--output", metavar="FILE", help="hydro.h5 for the repaired database")
-    doctor.add_argument("--rho", metavar="R", type=float, help="density [kg/m3], if not in FILE")
+    add_water_options(doctor)
+    doctor.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that the device feels")
     doctor.add_argument(
         "--origin", metavar="NAME=X,Y,Z", action="append", default=[], help="as in import"
     )
@@ -66,8 +68,11 @@ def run(args: argparse.Namespace) -> int:
         raise CaseError("--repair and -o belong together: what to repair, and where to write it")
     if args.report and args.no_report:
         raise CaseError("--report and --no-report exclude each other")
+    band = None if args.band is None else parse_band(args.band)
     origins = dict(parse_point("--origin", text) for text in args.origin)
-    database, report = import_database(args.database, source_points=origins, rho=args.rho)
+    database, report = import_database(
+        args.database, source_points=origins, band=band, **water_of(args)
+    )
     print(database.summary())
     print()
     print(examination(report))

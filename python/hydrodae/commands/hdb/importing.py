@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
-from hydrodae.commands.arguments import parse_point
+from hydrodae.commands.arguments import parse_band, parse_file, parse_point
 from hydrodae.commands.hdb.options import (
-    add_density_option,
     add_fit_options,
     add_length_option,
+    add_water_options,
+    water_of,
     with_fits,
     with_kernel,
 )
-from hydrodae.hdb.coordinates import expand
+from hydrodae.hdb.checks.band import Band
+from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.importing import import_database
+from hydrodae.study.band import working_band
 
 DONE, BAD_DATA = 0, 2
 
@@ -23,15 +27,17 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the subcommand import."""
     add = actions.add_parser(
         "import",
-        help="read files of Nemoh, Capytaine, WAMIT or BEMIO, check them, write hydro.h5",
-        description="Read a Nemoh folder, a netCDF file of Capytaine, the output of WAMIT or a "
-        "BEMIO file, print what the checks found, and write hydro.h5. Nothing is written if a "
-        "check finds an error.",
+        help="read files of Nemoh, Capytaine, WAMIT, AQWA ..., check them, write hydro.h5",
+        description="Read the files of a boundary-element code (Nemoh, Capytaine, WAMIT, HAMS, "
+        "AQWA, OrcaWave, BEMIO), print what was assumed and what the checks found, and write "
+        "hydro.h5. Nothing is written if a check finds an error in the band that the device feels: "
+        "that of --band, or of --case, or what the excitation tells.",
     )
     add.add_argument(
         "source",
         metavar="SOURCE",
-        help="folder with Nemoh.cal, Capytaine .nc, WAMIT .1, BEMIO .h5",
+        help="folder of a run, or Nemoh.cal, Capytaine .nc, WAMIT .1 or .out, AQWA .AH1 or .LIS, "
+        "OrcaWave .yml, BEMIO .h5",
     )
     add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
     add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
@@ -49,9 +55,11 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=[],
         help="the point [m] of the moments in the source, where it does not say",
     )
-    add_density_option(add)
+    add_water_options(add)
     add.add_argument(
-        "--keep", metavar="SPEC", help="coordinates to keep, e.g. base.planar,flap1.pitch"
+        "--keep",
+        metavar="SPEC",
+        help="coordinates to keep, e.g. base.planar,flap1.pitch; the checks see these only",
     )
     add.add_argument(
         "--no-coupling",
@@ -75,8 +83,32 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_length_option(add)
     add.add_argument("--single", action="store_true", help="tables in single precision")
     add.add_argument(
-        "--accept", action="store_true", help="write the file although a check found an error"
+        "--cut", metavar="W", type=float, help="leave out the frequencies above W [rad/s]"
     )
+    add.add_argument(
+        "--mesh",
+        metavar="NAME=FILE",
+        action="append",
+        default=[],
+        help="hydrostatics of a body from the mesh of its wetted hull, where the source has none; "
+        "may be repeated",
+    )
+    add.add_argument(
+        "--accept",
+        metavar="CHECK",
+        action="append",
+        default=[],
+        help="write the file although this check found an error; may be repeated",
+    )
+
+
+def _band(args: argparse.Namespace) -> Band | Callable[[HydroDatabase], Band] | None:
+    """Frequencies that the device feels: those of --band, else of --case, else by excitation."""
+    if args.band is not None:
+        return parse_band(args.band)
+    if args.case is not None:
+        return lambda database: working_band(args.case, database)
+    return None
 
 
 def run(args: argparse.Namespace) -> int:
@@ -87,16 +119,20 @@ def run(args: argparse.Namespace) -> int:
         names=names,
         reference_points=dict(parse_point("--cog", text) for text in args.cog),
         source_points=dict(parse_point("--origin", text) for text in args.origin),
-        rho=args.rho,
+        meshes=dict(parse_file("--mesh", text) for text in args.mesh),
+        **water_of(args),
+        keep=args.keep,
+        cut=args.cut,
+        band=_band(args),
     )
-    if args.keep:
-        database = database.select(expand(args.keep, database.coordinates))
     if args.no_coupling:
         database = database.without_coupling()
     print(database.summary())
     print(report)
-    if not report.ok and not args.accept:
-        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+    left = report.left(args.accept)
+    if left:
+        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
+        print(f"{args.output} not written: a check found an error ({words} writes it anyway)")
         return BAD_DATA
     if args.kernel is not None:
         database = with_kernel(database, args.kernel, args)

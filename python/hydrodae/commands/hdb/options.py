@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import TypedDict
 
 from hydrodae.commands.arguments import parse_band
 from hydrodae.errors import CaseError
@@ -12,11 +13,33 @@ from hydrodae.hdb.summary import fit_summary, kernel_summary
 from hydrodae.study.band import working_band
 
 
-def add_density_option(parser: argparse.ArgumentParser) -> None:
-    """Add --rho."""
+def add_water_options(parser: argparse.ArgumentParser) -> None:
+    """Add --rho, --depth and --gravity."""
     parser.add_argument(
         "--rho", metavar="R", type=float, help="density [kg/m3], where the source does not say"
     )
+    parser.add_argument(
+        "--depth",
+        metavar="H",
+        type=float,
+        help="water depth [m], or inf, where the source does not say",
+    )
+    parser.add_argument(
+        "--gravity", metavar="G", type=float, help="[m/s2], where the source does not say"
+    )
+
+
+class WaterWords(TypedDict):
+    """What the user states of the water, as keywords of `hydrodae.hdb.read`."""
+
+    rho: float | None
+    depth: float | None
+    gravity: float | None
+
+
+def water_of(args: argparse.Namespace) -> WaterWords:
+    """Return what these options state, as keywords of `hydrodae.hdb.read`."""
+    return {"rho": args.rho, "depth": args.depth, "gravity": args.gravity}
 
 
 def add_length_option(parser: argparse.ArgumentParser) -> None:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hydrodae.commands.hdb.options import add_density_option
+from hydrodae.commands.hdb.options import add_water_options, water_of
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.importing import import_database, kind, read
+from hydrodae.hdb.importing import import_database, read
+from hydrodae.hdb.readers.kinds import kind
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -17,7 +18,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     show = actions.add_parser("show", help="say what is in a database")
     show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
     show.add_argument("--check", action="store_true", help="also run the checks")
-    add_density_option(show)
+    add_water_options(show)
 
     export = actions.add_parser(
         "export",
@@ -27,15 +28,15 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     export.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
     export.add_argument("-o", "--output", metavar="FILE", required=True, help="ends in .h5 or .nc")
-    add_density_option(export)
+    add_water_options(export)
 
 
 def run_show(args: argparse.Namespace) -> int:
     """Print what is in a database; returns 0."""
     if args.check and kind(args.database) != "hydro":
-        database, report = import_database(args.database, rho=args.rho)
+        database, report = import_database(args.database, **water_of(args))
     else:
-        database = read(args.database, rho=args.rho)
+        database = read(args.database, **water_of(args))
         report = check(database) if args.check else CheckReport()
     print(database.summary())
     if args.check:
@@ -49,6 +50,6 @@ def run_export(args: argparse.Namespace) -> int:
 
     if Path(args.output).suffix.lower() not in WRITERS:
         raise CaseError(f"-o {args.output!r}: expected a name that ends in .h5 (BEMIO) or .nc")
-    export(read(args.database, rho=args.rho), args.output)
+    export(read(args.database, **water_of(args)), args.output)
     print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
     return 0

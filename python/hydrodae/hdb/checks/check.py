@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae import irf
+from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
@@ -20,31 +21,42 @@ from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_tim
 from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
 
 
-def check(database: HydroDatabase) -> CheckReport:
+def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     """Run all checks on a database.
 
     Parameters
     ----------
     database : HydroDatabase
+    band : (low, high), optional
+        Frequencies [rad/s] that the device feels; default: `hydrodae.hdb.checks.band.felt_band`.
+        Noise and irregular frequencies outside of it are notes.
 
     Returns
     -------
     CheckReport
         In the order grid, memory, symmetry, energy, causality, fits, long waves.
     """
+    judged = band or felt_band(database)
     return CheckReport(
         [
+            _judged(database, judged, given=band is not None),
             *_grid(database),
             *_memory(database),
             *_symmetry(database),
-            *_energy(database),
-            *energy_findings(database),
+            *_energy(database, judged),
+            *energy_findings(database, judged),
             *_causality(database),
-            *irregular_findings(database),
+            *irregular_findings(database, judged),
             *fit_findings(database),
-            *long_wave_findings(database),
+            *long_wave_findings(database, judged),
         ]
     )
+
+
+def _judged(db: HydroDatabase, band: Band, *, given: bool) -> Finding:
+    how = "as given" if given else "what the device feels of a wind sea"
+    text = f"errors of A, B and F count in {band[0]:.3g}..{band[1]:.3g} rad/s, {how} (--band)"
+    return Finding("info", "band", text, value=band[1])
 
 
 def _grid(db: HydroDatabase) -> list[Finding]:
@@ -163,20 +175,59 @@ def _symmetry(db: HydroDatabase) -> list[Finding]:
     return found
 
 
-def _energy(db: HydroDatabase) -> list[Finding]:
-    lowest = scaled_damping_eigenvalues(db)
-    at = int(lowest.argmin())
+def _worst_pair(db: HydroDatabase, at: int) -> str:
+    """The two coordinates that weigh most in the most negative direction of the scaled B."""
+    sizes = damping_sizes(db)[at]
+    used = np.flatnonzero(sizes > 0.0)
+    s = np.sqrt(sizes[used])
+    scaled = db.radiation_damping[at][np.ix_(used, used)] / np.outer(s, s)
+    weight = np.abs(np.linalg.eigh(scaled)[1][:, 0])
+    first, second = (db.coordinates[used[i]] for i in np.argsort(weight)[[-1, -2]])
+    return f"mostly {first} with {second}"
+
+
+def _negative(db: HydroDatabase) -> list[Finding]:
+    """Coordinates whose damping has the wrong sign altogether."""
+    diagonal = np.einsum("wii->wi", db.radiation_damping)
+    floor = LEAST_DAMPING * np.outer(db.omega, np.abs(np.diag(db.added_mass_inf)))
+    wrong = [
+        i
+        for i in range(diagonal.shape[1])
+        if -diagonal[:, i].min() > 2.0 * abs(diagonal[:, i].max())
+        and np.any(-diagonal[:, i] > floor[:, i])
+    ]
+    if not wrong:
+        return []
+    names = ", ".join(db.coordinates[i] for i in wrong)
+    at = int(diagonal[:, wrong[0]].argmin())
+    text = f"B of {names} is negative throughout: waves would drive the body that makes them"
+    return [Finding("error", "sign of B", text, float(len(wrong)), float(db.omega[at]))]
+
+
+def _energy(db: HydroDatabase, band: Band) -> list[Finding]:
+    lowest = scaled_damping_eigenvalues(db, damping_sizes(db))
+    judged = np.flatnonzero(inside(db.omega, band))
+    if not judged.size:
+        judged = np.arange(db.omega.size)
+    at = int(judged[lowest[judged].argmin()])
     value = float(lowest[at])
-    bad = np.flatnonzero(lowest < -0.02)
+    bad = judged[lowest[judged] < -0.02]
+    beyond = np.flatnonzero(lowest < -0.02)
+    beyond = beyond[~np.isin(beyond, judged)]
     text = f"smallest eigenvalue of the scaled B is {value:.2g} (of a peak of 1)"
     if bad.size:
         text += (
-            f"; below -0.02 at {bad.size} of {lowest.size} frequencies, "
+            f"; below -0.02 at {bad.size} of {judged.size} frequencies, "
             f"from {db.omega[bad[0]]:.4g} to {db.omega[bad[-1]]:.4g} rad/s: "
             f"the waves would feed energy into the body there"
         )
     level = "error" if value < -0.5 else "warning" if bad.size else "info"
+    if level == "error":
+        text += f" ({_worst_pair(db, at)}; --keep what moves)"
+    if beyond.size:
+        text += f"; {lowest[beyond].min():.2g} outside the band, at {beyond.size} frequencies"
     found = [Finding(level, "B positive semidefinite", text, value, float(db.omega[at]))]
+    found += _negative(db)
     diagonal = np.sqrt(np.abs(np.diag(db.added_mass_inf)))
     s = scales(db)
     used = (s > 0.0) & (diagonal > 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hydrodae import irf
+from hydrodae import infinity, irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
@@ -166,7 +166,7 @@ def grid_sensitivity(database: HydroDatabase) -> list[tuple[str, float, float]]:
 
 def _infinity(database: HydroDatabase, used: NDArray[np.intp]) -> Array:
     a, b = (t[:, used, used] for t in (database.added_mass, database.radiation_damping))
-    return irf.added_mass_inf(database.omega, a, b)[0]
+    return infinity.added_mass_inf(database.omega, a, b)[0]
 
 
 def _matrix(name: str, error: Array, labels: list[str], w: Array | None) -> Difference:

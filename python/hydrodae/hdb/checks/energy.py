@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
@@ -23,6 +24,8 @@ from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scales
 
 Array = NDArray[np.float64]
+#: Fewest frequencies with enough damping that a verdict rests on.
+FEWEST = 3
 #: Largest step between headings that the integral over them bears.
 LARGEST_STEP = np.radians(50.0)
 
@@ -113,17 +116,20 @@ def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
     return EnergyIdentity(np.array(columns), np.stack(terms, axis=1), valid, "body of revolution")
 
 
-def energy_findings(database: HydroDatabase) -> list[Finding]:
+def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[Finding]:
     """Compare the damping with what the excitation implies; the worst coordinate is reported.
 
     Parameters
     ----------
     database : HydroDatabase
+    band : (low, high), optional
+        Frequencies [rad/s] that count; default: all.
 
     Returns
     -------
     list of Finding
-        One; "error" beyond 50 % (median over the frequencies where B exceeds a tenth of its peak).
+        One; "error" beyond 50 % (median over the frequencies where B exceeds a tenth of its peak
+        in the band, and 2 % of w A_inf).
     """
     found = energy_identity(database)
     if found is None:
@@ -138,11 +144,15 @@ def energy_findings(database: HydroDatabase) -> list[Finding]:
     worst: tuple[float, float, str, float, float] | None = None
     clean = ~suspect_rows(database)
     usable = found.valid & clean
+    least = LEAST_DAMPING * database.omega
+    if band is not None:
+        usable &= inside(database.omega, band)
     off = 0
     for column, implied in zip(found.columns, found.damping.T, strict=True):
         b = database.radiation_damping[:, column, column]
-        matters = usable & (b > 0.1 * b[clean].max(initial=0.0))
-        if not active[column] or not matters.any():
+        matters = usable & (b > 0.1 * b[usable].max(initial=0.0))
+        matters &= b > least * abs(database.added_mass_inf[column, column])
+        if not active[column] or matters.sum() < FEWEST:
             continue
         ratio = implied[matters] / b[matters]
         middle = float(np.median(ratio))

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, median_filter
 
 from hydrodae import irf
+from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
@@ -16,6 +17,8 @@ Array = NDArray[np.float64]
 SPREADS = 5.0
 #: ... and more than this share of the added mass.
 LEAST = 0.01
+#: What A may be off by in the band, over its size.
+GROSS = 0.5
 #: Eigenvalue of the scaled damping below which a row is bad whatever its neighbours say.
 NEGATIVE = -0.1
 #: Width of the running median that the residual is compared with [frequencies].
@@ -77,12 +80,15 @@ def bands(omega: Array, mask: NDArray[np.bool_]) -> list[tuple[float, float]]:
     ]
 
 
-def irregular_findings(database: HydroDatabase) -> list[Finding]:
+def irregular_findings(database: HydroDatabase, band: Band | None = None) -> list[Finding]:
     """Name the bands of suspect frequencies.
 
     Parameters
     ----------
     database : HydroDatabase
+    band : (low, high), optional
+        Frequencies [rad/s] that the device feels: those outside are notes, those inside an error
+        where A is off by half of its size, else a warning. Default: all.
 
     Returns
     -------
@@ -99,4 +105,13 @@ def irregular_findings(database: HydroDatabase) -> list[Finding]:
         f"{' ...' if len(found) > 6 else ''} rad/s (irregular frequencies or gap resonances; "
         f"a lid removes the former at the source)"
     )
-    return [Finding("warning", "irregular frequencies", text, float(mask.mean()), found[0][0])]
+    judged = mask if band is None else mask & inside(database.omega, band)
+    if not judged.any():
+        text += "; the device does not feel them"
+        return [Finding("info", "irregular frequencies", text, float(mask.mean()), found[0][0])]
+    residual = ogilvie_residual(database).max(axis=1, initial=0.0)[judged].max()
+    first = float(database.omega[judged][0])
+    severity = "error" if residual > GROSS else "warning"
+    if severity == "error":
+        text += "; leave them out (hdb doctor --repair irregular), or --cut below them"
+    return [Finding(severity, "irregular frequencies", text, float(mask.mean()), first)]

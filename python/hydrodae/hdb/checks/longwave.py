@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
@@ -22,8 +23,9 @@ from hydrodae.hdb.tables import Body
 
 @dataclass(frozen=True)
 class _Wave:
-    """The longest wave of the database: number [rad/m], frequency [rad/s], heading."""
+    """A long wave of the database: its row, number [rad/m], frequency [rad/s], heading."""
 
+    row: int
     k: float
     omega: float
     heading: int
@@ -31,12 +33,14 @@ class _Wave:
     sine: float
 
 
-def long_wave_findings(db: HydroDatabase) -> list[Finding]:
+def long_wave_findings(db: HydroDatabase, band: Band | None = None) -> list[Finding]:
     """Compare the excitation at the lowest frequency with its long-wave limits, body by body.
 
     Parameters
     ----------
     db : HydroDatabase
+    band : (low, high), optional
+        Frequencies [rad/s] that the device feels. What is wrong below them only is a warning.
 
     Returns
     -------
@@ -46,19 +50,37 @@ def long_wave_findings(db: HydroDatabase) -> list[Finding]:
     """
     if db.heading.size == 0:
         return []
-    k = float(wavenumber(db.omega[:1], db.water_depth, db.gravity)[0])
+    found = _merged(_at_row(db, 0))
+    first = 0 if band is None else int(np.searchsorted(db.omega, band[0] - 1e-9))
+    if not 0 < first < db.omega.size or all(f.severity != "error" for f in found):
+        return found
+    later = _at_row(db, first)
+    right = {f.check for f in later} - {f.check for f in later if f.severity == "error"}
+    text = f"; not so from {db.omega[first]:.3g} rad/s on, longer waves are not felt"
+    return [
+        replace(f, severity="warning", message=f.message + text)
+        if f.severity == "error" and f.check in right
+        else f
+        for f in found
+    ]
+
+
+def _at_row(db: HydroDatabase, row: int) -> list[Finding]:
+    """All checks at one frequency, body by body."""
+    omega = db.omega[row : row + 1]
+    k = float(wavenumber(omega, db.water_depth, db.gravity)[0])
     found: list[Finding] = []
     for body in db.bodies.values():
         # the heading that is most nearly along x or y
         along = np.maximum(np.abs(np.cos(db.heading)), np.abs(np.sin(db.heading)))
         h = int(along.argmax())
-        wave = _Wave(k, float(db.omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
+        wave = _Wave(row, k, float(omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
         found += _phase(db, body, wave)
         if body.hydrostatics is not None and body.reference_point is not None:
             found += _heave(db, body, wave)
             found += _displacement(db, body, wave)
             found += _pitch(db, body, wave)
-    return _merged(found)
+    return found
 
 
 def _merged(found: list[Finding]) -> list[Finding]:
@@ -80,16 +102,19 @@ def _local(db: HydroDatabase, body: Body, wave: _Wave, dof: str, *, fk: bool) ->
     if label not in db.coordinates:
         return None
     table = db.froude_krylov if fk else db.excitation
+    # forces have the phase of where the water pushes, moments that of their point
     point = np.zeros(3) if body.reference_point is None else body.reference_point
+    if body.hydrostatics is not None and dof not in ("roll", "pitch", "yaw"):
+        point = body.hydrostatics.center_of_buoyancy
     shift = np.exp(1j * wave.k * (point[0] * wave.cosine + point[1] * wave.sine))
-    return complex(table[0, wave.heading, db.coordinates.index(label)] * shift)
+    return complex(table[wave.row, wave.heading, db.coordinates.index(label)] * shift)
 
 
-def _total_mass(db: HydroDatabase, body: Body, dof: str) -> float:
+def _total_mass(db: HydroDatabase, body: Body, dof: str, row: int) -> float:
     """Added mass of this force when all bodies move together (the water around them at rest)."""
     i = db.coordinates.index(f"{body.name}.{dof}")
     together = [j for j, c in enumerate(db.coordinates) if c.endswith("." + dof)]
-    return float(db.added_mass[0, i, together].sum())
+    return float(db.added_mass[row, i, together].sum())
 
 
 def _phase(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
@@ -113,10 +138,17 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     if hs is None or force is None:
         return []
     k33 = db.rho * db.gravity * hs.waterplane_area
-    inertia = wave.omega**2 * (db.rho * hs.displaced_volume + _total_mass(db, body, "heave"))
-    if k33 < 2.0 * inertia or wave.k * np.sqrt(hs.waterplane_area) > 0.5:
+    inertia = wave.omega**2 * (
+        db.rho * hs.displaced_volume + _total_mass(db, body, "heave", wave.row)
+    )
+    area = max(hs.waterplane_area, 0.0)
+    if k33 < 2.0 * inertia or wave.k * np.sqrt(area) > 0.5:
         return []
-    error = abs(force - (k33 - inertia)) / k33
+    # the water's vertical acceleration falls towards the keel, in shallow water to nothing
+    keel = 2.0 * float(hs.center_of_buoyancy[2])
+    least = k33 - inertia
+    most = k33 - inertia * _vertical_decay(wave.k, keel, db.water_depth)
+    error = abs(force - np.clip(force.real, least, most)) / k33
     return [
         Finding(
             "error" if error > 0.15 else "warning" if error > 0.05 else "info",
@@ -129,6 +161,13 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     ]
 
 
+def _vertical_decay(k: float, z: float, depth: float) -> float:
+    """Vertical acceleration of the water at height z over that at the surface."""
+    if not np.isfinite(depth):
+        return float(np.exp(k * z))
+    return float(np.sinh(k * max(z + depth, 0.0)) / np.sinh(k * depth))
+
+
 def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     hs = body.hydrostatics
     dof, factor = ("surge", wave.cosine) if abs(wave.cosine) > 0.5 else ("sway", wave.sine)
@@ -137,9 +176,9 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     if hs is None or force is None:
         return []
     depth, z = db.water_depth, float(hs.center_of_buoyancy[2])
-    if wave.k * max(abs(z) * 2.0, np.sqrt(hs.waterplane_area)) > 0.3:
+    if wave.k * max(abs(z) * 2.0, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.3:
         return []
-    added = 0.0 if split else _total_mass(db, body, dof)
+    added = 0.0 if split else _total_mass(db, body, dof, wave.row)
 
     def volume_in(depth: float) -> float:
         k = float(wavenumber(wave.omega, depth, db.gravity))
@@ -176,7 +215,11 @@ def _pitch(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     lever = hs.center_of_buoyancy[2] - body.reference_point[2]
     parts = hs.waterplane_moments[2] + abs(hs.displaced_volume * lever)
     size = max(abs(body.reference_point[2]), 2.0 * abs(hs.center_of_buoyancy[2]))
-    if force is None or parts <= 0.0 or wave.k * max(size, np.sqrt(hs.waterplane_area)) > 0.1:
+    if (
+        force is None
+        or parts <= 0.0
+        or wave.k * max(size, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.1
+    ):
         return []
     k55 = db.hydrostatic_stiffness(body.name)[4, 4]
     found = force.imag / (wave.k * wave.cosine)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import irf
+from hydrodae import infinity, irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.coordinates import nearest
@@ -109,7 +109,7 @@ def irregular(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     text = f"left out {mask.sum()} of {mask.size} frequencies: {shown} rad/s"
     if db.added_mass_inf_origin != "source":
         w, a, b = masked.omega, masked.added_mass, masked.radiation_damping
-        value, std = irf.added_mass_inf(w, a, b)
+        value, std = infinity.added_mass_inf(w, a, b)
         masked = replace(
             masked,
             added_mass_inf=0.5 * (value + value.T),

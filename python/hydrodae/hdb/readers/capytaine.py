@@ -20,6 +20,7 @@ from hydrodae.hdb.dispersion import frequency
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
+from hydrodae.hdb.readers.reference import reference_by_statics
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]
@@ -237,6 +238,9 @@ def _attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path)
                     "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
                 )
             )
+            if point is None:
+                data.reference_points[name] = reference_by_statics(data, name, near)
+                data.assumed_points.add(name)
         else:
             data.findings.append(
                 Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")

@@ -21,6 +21,7 @@ from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.time_sense import correct_time_sense
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -64,7 +65,8 @@ def read_nemoh(path: Path) -> SourceData:
         raise DatabaseError(f"{root}: no RadiationCoefficients.tec in it or in its results folder")
     data = _read_tables(root, cal, names, [cal_file, radiation])
     _compare_grid(data, cal)
-    _attach_hydrostatics(data, root, names)
+    _attach_hydrostatics(data, root, names, [body.mesh for body in cal.bodies])
+    correct_time_sense(data)
     return data
 
 
@@ -239,7 +241,7 @@ def _compare_grid(data: SourceData, cal: NemohCal) -> None:
         )
 
 
-def _attach_hydrostatics(data: SourceData, root: Path, names: list[str]) -> None:
+def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:
     found = nh.read_all(root, len(names), data.rho, data.gravity)
     data.files += [file for f in found if f is not None for file in f.files]
     missing = [name for name, f in zip(names, found, strict=True) if f is None]
@@ -256,7 +258,24 @@ def _attach_hydrostatics(data: SourceData, root: Path, names: list[str]) -> None
                 heave[i] = abs(force[0, 0, data.coordinates.index(f"{name}.heave")])
     refused = nh.total_of_all_bodies(found, heave, data.rho, data.gravity)
     if refused is not None:
-        data.findings.append(refused)
+        points = [data.reference_points[name] for name in names]
+        by_mesh = None
+        if found[0] is not None and all(p is not None for p in points):
+            known = [p for p in points if p is not None]
+            by_mesh = nh.from_meshes(root, meshes, found[0].hydrostatics, known)
+        if by_mesh is None:
+            data.findings.append(refused)
+            return
+        for name, point, (statics, path) in zip(names, points, by_mesh, strict=True):
+            assert point is not None
+            data.hydrostatics[name] = (statics, point)
+            data.files.append(path)
+        shown = ", ".join(path.name for _, path in by_mesh)
+        text = (
+            f"the files hold the sum of all bodies (a defect of Nemoh 3); taken body by body from "
+            f"the meshes {shown}, which add up to it"
+        )
+        data.findings.append(Finding("info", "assumption", text))
         return
     for name, f in zip(names, found, strict=True):
         if f is None:

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.bem.meshes import read_mesh
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.mesh_statics import mesh_statics
 from hydrodae.hdb.readers.tecplot import number
 
 Array = NDArray[np.float64]
@@ -105,9 +107,52 @@ def total_of_all_bodies(
     return Finding(
         "warning",
         "hydrostatics",
-        f"{text}, {reason}; hydrostatics are left out, give them body by body",
+        f"{text}, {reason}; hydrostatics are left out, give those of each body by its "
+        f"mesh (--mesh NAME=FILE)",
         value=float(volume[0]),
     )
+
+
+def from_meshes(
+    root: Path, meshes: list[str], total: Hydrostatics, points: list[Array]
+) -> list[tuple[Hydrostatics, Path]] | None:
+    """Hydrostatics body by body from the meshes of a folder, if their sum is what its files say.
+
+    Parameters
+    ----------
+    root : Path
+        The folder.
+    meshes : list of str
+        Names of the meshes in Nemoh.cal, without suffix.
+    total : Hydrostatics
+        What the files hold for every body: the sum of all.
+    points : list of (3,) arrays
+        Reference points of the bodies [m].
+
+    Returns
+    -------
+    list of (Hydrostatics, Path) or None
+        About `points`, and the mesh files; None if a mesh is missing or the sum is another.
+
+    Raises
+    ------
+    DatabaseError
+        A mesh file is wrong.
+    """
+    result = []
+    for name, point in zip(meshes, points, strict=True):
+        path = find(root, f"{name}.dat", f"{name}.gdf", f"{name}.stl")
+        if path is None:
+            return None
+        try:
+            result.append((mesh_statics(read_mesh(path), point), path))
+        except DatabaseError:
+            return None
+    volume = sum(hs.displaced_volume for hs, _ in result)
+    area = sum(hs.waterplane_area for hs, _ in result)
+    same_volume = abs(volume / total.displaced_volume - 1.0) < 0.02
+    same_area = abs(area - total.waterplane_area) < 0.02 * abs(total.waterplane_area) + 1e-6
+    return result if same_volume and same_area else None
 
 
 def _read_one(
@@ -124,7 +169,9 @@ def _read_one(
         k, gravity_center, values["displacement"], buoyancy, rho, gravity
     )
     area = values.get("waterplane area")
-    if area is not None and abs(area - hs.waterplane_area) > 0.01 * abs(area):
+    # a submerged body has areas of rounding size
+    least = 1e-4 * abs(values["displacement"]) ** (2.0 / 3.0)
+    if area is not None and abs(area - hs.waterplane_area) > 0.01 * max(abs(area), least):
         raise DatabaseError(
             f"{matrix}: K33 belongs to a waterplane of {hs.waterplane_area:.5g} m2, but "
             f"{text.name} says {area:.5g} m2; the files are of different runs"
@@ -155,7 +202,18 @@ def _read_matrix(path: Path) -> Array:
     try:
         matrix = np.array([[number(t) for t in row] for row in rows[:6]])
     except ValueError as error:
-        raise DatabaseError(f"{path}: not a 6 x 6 matrix of numbers ({error})") from None
+        line = _line_of(path)
+        raise DatabaseError(f"{path}:{line}: not numbers of a 6 x 6 matrix ({error})") from None
     if matrix.shape != (6, 6):
         raise DatabaseError(f"{path}: not a 6 x 6 matrix but {matrix.shape}")
     return matrix
+
+
+def _line_of(path: Path) -> int:
+    """Number of the first line that holds something else than numbers."""
+    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+        try:
+            [number(token) for token in line.split()]
+        except ValueError:
+            return count
+    return 1

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import irf
+from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.database import HydroDatabase
@@ -21,6 +21,25 @@ from hydrodae.version import version
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+#: Taken where nothing tells: sea water, and the mean over the globe.
+SEA_WATER, USUAL_GRAVITY = 1025.0, 9.81
+
+
+@dataclass(frozen=True)
+class Water:
+    """What the user states of the water, where a source leaves it out.
+
+    Attributes
+    ----------
+    density, depth, gravity : float or None
+        [kg/m3], [m] (may be infinite), [m/s2].
+    """
+
+    density: float | None = None
+    depth: float | None = None
+    gravity: float | None = None
 
 
 @dataclass
@@ -44,6 +63,8 @@ class SourceData:
         What was read; hashed for `source_sha256`.
     findings : list of Finding
         What the reader noticed.
+    assumed_points : set of str
+        Bodies whose reference point the source does not state: the user may state another.
     """
 
     coordinates: tuple[str, ...]
@@ -64,6 +85,7 @@ class SourceData:
     added_mass_inf: Array | None = None
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    assumed_points: set[str] = field(default_factory=set)
 
 
 def sha256(files: Iterable[Path]) -> str:
@@ -235,11 +257,40 @@ def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> F
     )
 
 
+def _coupling_doubt(value: Array, std: Array) -> Array:
+    """Uncertainty (n, n) whose couplings share the doubt of their diagonals.
+
+    What is wrong with the motion of one coordinate is wrong with its coupling too:
+    u_ij >= |r_ij| sqrt(u_ii u_jj) with the correlation r_ij = A_ij / sqrt(A_ii A_jj), at most 1.
+    """
+    size = np.sqrt(np.abs(np.diag(value)))
+    scale = np.outer(size, size)
+    scale[scale <= 0.0] = np.inf
+    correlation = np.minimum(np.abs(value) / scale, 1.0)
+    own = np.sqrt(np.diag(std))
+    return np.asarray(np.maximum(std, correlation * np.outer(own, own)))
+
+
+def _mesh_doubt(a: Array) -> Array:
+    """Uncertainty (n, n) of A that its asymmetry shows: half of it, at all frequencies alike.
+
+    A coordinate is as uncertain as its worst coupling, scaled by the roots of the diagonals:
+    errors of a mesh too coarse for a gap or a plate do not break Ogilvie's relation.
+    """
+    size = np.sqrt(np.abs(np.einsum("wii->wi", a)).max(axis=0))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    half = 0.5 * np.median(np.abs(a - a.transpose(0, 2, 1)), axis=0) / scale
+    worst = np.sqrt(half.max(axis=1)) * size
+    return np.asarray(np.outer(worst, worst))
+
+
 def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
-    value, std = irf.added_mass_inf(data.omega, a, b)
+    value, std = infinity.added_mass_inf(data.omega, a, b)
     value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    std = _coupling_doubt(value, std) + _mesh_doubt(data.added_mass)
     if data.added_mass_inf is None:
-        return value, std, "least squares on Ogilvie's relation, weight w^2, w > 0.3 w_max"
+        return value, std, "Ogilvie's relation at low frequencies"
     given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)
     size = np.sqrt(np.abs(np.diag(given)))
     scale = np.outer(size, size)

@@ -16,11 +16,14 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.source import SourceData, Water
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
+from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
+from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+FORCE_ROW = "period, heading, mode, modulus, phase, real and imaginary part"
 SUFFIXES = (".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".pot", ".cfg", ".mmx", ".out", ".frc")
 
 
@@ -34,22 +37,27 @@ def wamit_stem(path: Path) -> Path | None:
     """
     if path.is_dir():
         found = [p for p in sorted(path.iterdir()) if p.suffix == ".1"]
+        if not found:
+            found = [p for p in sorted(path.iterdir()) if is_listing(p)]
         return found[0].with_suffix("") if len(found) == 1 else None
     if path.suffix.lower() not in SUFFIXES:
         return None
     stem = path.with_suffix("")
-    return stem if beside(stem, ".1") is not None else None
+    listing = beside(stem, ".out")
+    if beside(stem, ".1") is not None or (listing is not None and is_listing(listing)):
+        return stem
+    return None
 
 
-def read_wamit(path: Path, rho: float | None = None) -> SourceData:
+def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     """Read one run of WAMIT.
 
     Parameters
     ----------
     path : Path
         Any file of the run (`rm3.1`), or its folder.
-    rho : float, optional
-        Density [kg/m3]; needed unless there is an `.out` file that states it.
+    water : Water, optional
+        What no file says. The depth is asked for; density and gravity are assumed and told.
 
     Returns
     -------
@@ -62,20 +70,23 @@ def read_wamit(path: Path, rho: float | None = None) -> SourceData:
         A file is missing or wrong; the message names file and line.
     """
     stem = wamit_stem(path)
-    radiation = None if stem is None else beside(stem, ".1")
-    if stem is None or radiation is None:
-        raise DatabaseError(f"{path}: no WAMIT output file .1 beside it")
+    if stem is None:
+        raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
     control = read_control(stem)
-    depth, gravity, length = _constants(stem, control)
-    rho = _density(stem, control, rho)
     findings: list[Finding] = []
-    option = control.first_column
-    if option is None:
-        option = 1
-        findings.append(
-            Finding("info", "first column", f"no {stem.name}.cfg: taken as the period (IPEROUT 1)")
-        )
-    rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
+    rho, depth, gravity, length = settled(stem, control, water or Water(), findings)
+    numeric, listed = beside(stem, ".1"), beside(stem, ".out")
+    radiation = numeric or listed
+    assert radiation is not None  # that is what makes a stem
+    listing = None
+    if numeric is None:
+        listing = read_listing(radiation)
+        rows, lines, option = listing.radiation, listing.radiation_lines, 1
+        text = f"read from {radiation.name}, whose phases are whole degrees: there is no .1 file"
+        findings.append(Finding("info", "excitation", text))
+    else:
+        rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
+        option = first_column(stem, control, findings)
     modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
     rows, lines = _of_modes(rows, lines, (1, 2), modes)
     omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)
@@ -103,17 +114,22 @@ def read_wamit(path: Path, rho: float | None = None) -> SourceData:
     ):
         file = next((f for s in suffixes if (f := beside(stem, s)) is not None), None)
         forces[key] = None
-        if file is not None:
-            if file.suffix == ".2":
-                text = f"taken from {file.name}, by Haskind's relation: there is no .3 file"
-                findings.append(Finding("info", "excitation", text))
-            read = _read_forces(file, modes, option, (length, depth, gravity), omega)
-            forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
-            if heading.size and not np.array_equal(heading, read[1]):
-                raise DatabaseError(f"{file}: headings differ from those of the other force files")
-            heading = read[1]
+        if listing is not None and key == "excitation" and len(listing.force):
+            found = (listing.force, listing.force_lines)
+            file = radiation
+        elif file is not None:
+            found = tables.read_rows(file, 7, 7, FORCE_ROW)
             files.append(file)
-    at_infinity = a[np.isinf(at)]
+        else:
+            continue
+        if file.suffix == ".2":
+            text = f"taken from {file.name}, by Haskind's relation: there is no .3 file"
+            findings.append(Finding("info", "excitation", text))
+        read = _forces(file, found, modes, option, (length, depth, gravity), omega)
+        forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
+        if heading.size and not np.array_equal(heading, read[1]):
+            raise DatabaseError(f"{file}: headings differ from those of the other force files")
+        heading = read[1]
     if control.frequencies is not None and control.frequencies != at.size:
         text = f"{stem.name}.pot asks for {control.frequencies}, {radiation.name} holds {at.size}"
         findings.append(Finding("warning", "frequency grid", text))
@@ -132,36 +148,15 @@ def read_wamit(path: Path, rho: float | None = None) -> SourceData:
         water_depth=depth,
         name=radiation.name,
         title=f"WAMIT {stem.name}",
-        added_mass_inf=scale * at_infinity[0] if len(at_infinity) else None,
+        added_mass_inf=None,
         files=files,
         findings=findings,
     )
+    limit = at_infinity(at, a, b, findings)
+    data.added_mass_inf = None if limit is None else scale * limit
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length)
     return data
-
-
-def _constants(stem: Path, control: Control) -> tuple[float, float, float]:
-    if control.depth is None:
-        raise DatabaseError(f"{stem}: the water depth is in {stem.name}.pot or .out: there is none")
-    if control.gravity is None or control.length is None:
-        raise DatabaseError(
-            f"{stem}: gravity and the length scale are in {stem.name}.mmx, .out or the .gdf file: "
-            f"there is none of them"
-        )
-    return control.depth, control.gravity, control.length
-
-
-def _density(stem: Path, control: Control, given: float | None) -> float:
-    stated = control.rho
-    if given is None and stated is None:
-        raise DatabaseError(
-            f"{stem}.1: WAMIT's tables do not hold the density of the water; "
-            f"state it (rho=, --rho 1025)"
-        )
-    if given is not None and stated is not None and not np.isclose(given, stated, rtol=1e-3):
-        raise DatabaseError(f"{stem}.out says the density is {stated:g} kg/m3, not {given:g}")
-    return float(given if stated is None else stated)  # type: ignore[arg-type]
 
 
 def _modes(
@@ -190,25 +185,28 @@ def _of_modes(
     return rows[kept].copy(), [n for n, k in zip(lines, kept, strict=True) if k]
 
 
-def _read_forces(
-    path: Path, modes: Array, option: int, constants: tuple[float, float, float], omega: Array
+def _forces(
+    path: Path,
+    found: tuple[Array, list[int]],
+    modes: Array,
+    option: int,
+    constants: tuple[float, float, float],
+    omega: Array,
 ) -> tuple[Complex, Array]:
-    """Return dimensionless forces (nw, nh, n) and headings [deg]."""
-    meaning = "period, heading, mode, modulus, phase, real and imaginary part"
-    rows, lines = tables.read_rows(path, 7, 7, meaning)
-    rows, lines = _of_modes(rows, lines, (2,), modes)
+    """Return dimensionless forces (nw, nh, n) and headings [deg] of rows and their lines."""
+    rows, lines = _of_modes(*found, (2,), modes)
     length, depth, gravity = constants
     rows[:, 0] = tables.to_omega(path, rows[:, 0], option, length, depth, gravity)
     usual = np.isfinite(rows[:, 0]) & (rows[:, 0] > 0.0)
     rows, lines = rows[usual], [n for n, k in zip(lines, usual, strict=True) if k]
-    found, heading = np.unique(rows[:, 0]), np.unique(rows[:, 1])
-    if found.size != omega.size or not np.allclose(found, omega, rtol=1e-5):
+    grid, heading = np.unique(rows[:, 0]), np.unique(rows[:, 1])
+    if grid.size != omega.size or not np.allclose(grid, omega, rtol=1e-5):
         raise DatabaseError(
-            f"{path}: {found.size} frequencies, not the {omega.size} of the .1 file: "
+            f"{path}: {grid.size} frequencies, not the {omega.size} of the .1 file: "
             f"files of different runs?"
         )
     values = rows[:, 5] + 1j * rows[:, 6]
-    axes = (found, heading, modes)
+    axes = (grid, heading, modes)
     return np.asarray(tables.scatter(path, rows, lines, (0, 1, 2), axes, values)), heading
 
 
@@ -217,18 +215,12 @@ def _attach_hydrostatics(
 ) -> None:
     """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
     path = beside(stem, ".hst")
-    missing = []
-    if path is None:
+    missing: list[str] = []
+    if path is None and len(control.stiffness) != len(names):
         missing = names
     else:
-        rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
-        data.files.append(path)
-        size = 6 * len(names)
-        rows, lines = _of_modes(rows, lines, (0, 1), np.arange(1.0, size + 1.0))
-        modes = np.arange(1.0, size + 1.0)
-        flat = np.column_stack([np.zeros(len(rows)), rows])
-        axes = (np.zeros(1), modes, modes)
-        stiffness = np.real(tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2]))[0]
+        stiffness = _stiffness(path, control, len(names))
+        data.files += [] if path is None else [path]
         for i, name in enumerate(names):
             point = data.reference_points[name]
             statics = control.statics[i] if i < len(control.statics) else None
@@ -255,3 +247,20 @@ def _attach_hydrostatics(
     if missing:
         text = f"no complete .hst and .mmx files of {missing}"
         data.findings.append(Finding("warning", "hydrostatics", text))
+
+
+def _stiffness(path: Path | None, control: Control, bodies: int) -> Array:
+    """C/(rho g), (6 n, 6 n): from `.hst`, else the blocks of `.out`."""
+    size = 6 * bodies
+    if path is None:
+        result = np.zeros((size, size))
+        for i, block in enumerate(control.stiffness):
+            result[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = block
+        return result
+    rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
+    modes = np.arange(1.0, size + 1.0)
+    rows, lines = _of_modes(rows, lines, (0, 1), modes)
+    flat = np.column_stack([np.zeros(len(rows)), rows])
+    axes = (np.zeros(1), modes, modes)
+    table = tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2])
+    return np.asarray(np.real(table)[0])

@@ -1,7 +1,8 @@
-"""What WAMIT's tables leave out, from `.pot`, `.cfg`, `.mmx`, `.gdf` and `.out` beside them.
+"""What WAMIT's tables leave out, from `.pot`, `.cfg`, `.frc`, `.mmx`, `.gdf`, `.out` beside them.
 
-Depth and body axes stand in `.pot`, gravity and the length scale in `.mmx`, `.out` or the `.gdf`,
-volumes and centres in `.mmx` or `.out`, the density in `.out` only.
+Depth and body axes stand in `.pot` or `.out`, gravity and the length scale in `.mmx`, `.out` or the
+`.gdf`, volumes and centres in `.mmx` or `.out`, the density in `.frc` (alternative form 2). HAMS,
+which writes the same tables, has depth and reference point in `ControlFile.in`.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ class Control:
     names: list[str] = field(default_factory=list)
     statics: list[Statics] = field(default_factory=list)
     frequencies: int | None = None
+    stiffness: list[Array] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
 
@@ -63,6 +65,11 @@ def read_control(stem: Path) -> Control:
         if path is not None:
             reader(path, control)
             control.files.append(path)
+    _frc(stem, control)
+    hams = _hams_file(stem)
+    if hams is not None and control.depth is None:
+        _hams(hams, control)
+        control.files.append(hams)
     if control.gravity is None or control.length is None:
         for name in control.names or [stem.name]:
             path = beside(stem.with_name(name), ".gdf")
@@ -158,7 +165,8 @@ def _point(path: Path, row: int, xbody: list[float]) -> Array:
 def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen = 0
-    for line in path.read_text(errors="replace").splitlines():
+    known = bool(control.points)
+    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
         if line.strip().startswith("Gravity:"):
             found = _numbers(line.split("Gravity:")[1])
             control.gravity = found[0]
@@ -171,24 +179,93 @@ def _listing(path: Path, control: Control) -> None:
         if depth and control.depth is None:
             infinite = depth[1].lower() == "infinite"
             control.depth = np.inf if infinite else float(depth[1])
+        place = re.search(rf"XBODY =\s*({_NUMBER})\s+YBODY =\s*({_NUMBER})\s+ZBODY =", line)
+        if place and not known:
+            found = _numbers(line)
+            if len(found) != 4 or found[3] != 0.0:
+                raise DatabaseError(
+                    f"{path}:{count}: body axes turned: {line.strip()!r}; run it with 0"
+                )
+            control.points.append(np.array(found[:3]))
+        row = re.match(r"\s*C\((\d),\d\)[C(),\d]*:(.*)", line)
+        if seen and row and path.suffix.lower() == ".out":
+            _stiffness_row(control, seen, int(row[1]), _numbers(row[2]))
         if "VOLX,VOLY,VOLZ" in line:
             seen += 1
             if len(control.statics) < seen:
                 control.statics.append(Statics())
-            control.statics[seen - 1].volume = float(np.median(_after(path, line)))
+            control.statics[seen - 1].volume = float(np.median(_after(path, count, line)))
         elif seen and "Center of Buoyancy" in line:
-            control.statics[seen - 1].center_of_buoyancy = _after(path, line)
+            control.statics[seen - 1].center_of_buoyancy = _after(path, count, line)
         elif seen and "Center of Gravity" in line:
-            control.statics[seen - 1].center_of_gravity = _after(path, line)
+            control.statics[seen - 1].center_of_gravity = _after(path, count, line)
         elif seen and re.match(r"\s*3\s+3\s+\S+\s*$", line) and path.suffix.lower() == ".mmx":
             control.statics[seen - 1].mass_over_rho = _numbers(line)[2]
 
 
-def _after(path: Path, line: str) -> Array:
+def _stiffness_row(control: Control, body: int, row: int, values: list[float]) -> None:
+    """Enter C(3,3..5), C(4,4..6) or C(5,5..6) over rho g, upper triangle, of body 1, 2, ..."""
+    while len(control.stiffness) < body:
+        control.stiffness.append(np.zeros((6, 6)))
+    k = control.stiffness[body - 1]
+    for column, value in enumerate(values, start=row - 1):
+        k[row - 1, column] = value
+        if column < 5:  # K46 and K56 stand in the upper half only
+            k[column, row - 1] = value
+
+
+def _frc(stem: Path, control: Control) -> None:
+    """Density of alternative form 2: the third line is one number, followed by centres."""
+    path, matrix = beside(stem, ".frc"), beside(stem, ".mmx")
+    if path is None or matrix is None:
+        return
+    form = re.search(r"IALTFRC\s*=\s*(\d)", matrix.read_text(errors="replace"))
+    lines = path.read_text(errors="replace").splitlines()
+    if form and form[1] != "1" and len(lines) > 2:
+        found = _leading(lines[2])
+        if found and found[0] > LEAST_DENSITY:
+            control.rho = found[0]
+            control.files.append(path)
+
+
+def _hams_file(stem: Path) -> Path | None:
+    """`ControlFile.in` of HAMS in the folder of the tables, above it, or in `Input` beside it."""
+    for folder in (stem.parent, stem.parent.parent, stem.parent.parent.parent):
+        for place in (folder, folder / "Input"):
+            path = place / "ControlFile.in"
+            if path.is_file():
+                return path
+    return None
+
+
+def _hams(path: Path, control: Control) -> None:
+    """Depth (negative: infinite), reference point and length of HAMS; its tables hold periods."""
+    text = path.read_text(errors="replace")
+    depth = re.search(rf"Waterdepth\s+({_NUMBER})", text, re.IGNORECASE)
+    if depth is None:
+        raise DatabaseError(f"{path}: no line Waterdepth with a number")
+    (value,) = _numbers(depth[1])
+    control.depth = np.inf if value <= 0.0 else value
+    center = re.search(rf"Reference_body_center((?:\s+{_NUMBER}){{3}})", text)
+    if center and not control.points:
+        control.points.append(np.array(_numbers(center[1])))
+    length = re.search(rf"Reference_body_length\s+({_NUMBER})", text)
+    if length and control.length is None:
+        control.length = _numbers(length[1])[0]
+    # HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period, 5 wavelength
+    kind = re.search(r"Output_frequency_type\s+(\d)", text)
+    if kind and control.first_column is None:
+        forms = {"1": 3, "2": 4, "3": 2, "4": 1}
+        if kind[1] not in forms:
+            raise DatabaseError(f"{path}: Output_frequency_type {kind[1]}: expected 1 to 4")
+        control.first_column = forms[kind[1]]
+
+
+def _after(path: Path, count: int, line: str) -> Array:
     """Three numbers behind the brackets and the colon."""
     found = _numbers(line[max(line.rfind(":"), line.rfind(")")) + 1 :])
     if len(found) != 3:
-        raise DatabaseError(f"{path}: expected 3 numbers in {line.strip()!r}")
+        raise DatabaseError(f"{path}:{count}: expected 3 numbers in {line.strip()!r}")
     return np.array(found)
 
 

@@ -101,6 +101,8 @@ class Rao:
         SolverError
             A run failed.
         """
+        if self.model.memory_missing is not None:
+            raise self.model.memory_missing
         return time_domain(
             self.model.case,
             self.chosen.omega.tolist(),

@@ -1,0 +1,177 @@
+"""Output of AQWA: `.AH1` (all coefficients as numbers), or the listing `.LIS` of one structure.
+
+AQWA's forces are F cos(wt - phase): the phase is a lag, counted from the crest at the centre of
+gravity. With x(t) = Re(X e^{+iwt}) and the phase zero at the origin of the world,
+X = F e^{-i phase} e^{-i k x'_G}. Directions are those of travel. Moments, A, B and the stiffness
+are about the centre of gravity; about that point the stiffness holds no weight term.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.aqwa_common import aqwa_data, to_world, unique_headings
+from hydrodae.hdb.readers.aqwa_listing import read_listing
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def aqwa_file(path: Path) -> Path | None:
+    """Return the file of AQWA that is meant by a file or folder; None if there is none.
+
+    Of a folder it is the one `.AH1`, else the one `.LIS`.
+
+    Raises
+    ------
+    DatabaseError
+        Several files of the kind.
+    """
+    if path.is_file():
+        return path if path.suffix.lower() in (".ah1", ".lis") else None
+    for suffix in (".ah1", ".lis"):
+        found = [p for p in sorted(path.iterdir()) if p.suffix.lower() == suffix]
+        if len(found) > 1:
+            raise DatabaseError(f"{path}: which one is meant? {', '.join(p.name for p in found)}")
+        if found:
+            return found[0]
+    return None
+
+
+def read_aqwa(path: Path) -> SourceData:
+    """Read an `.AH1` file, or a `.LIS` listing of one structure.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    SourceData
+        Added mass at 100 rad/s, where AQWA was asked for it, becomes `added_mass_inf`.
+
+    Raises
+    ------
+    DatabaseError
+        Something is missing or wrong; the message names file and line.
+    """
+    if path.suffix.lower() == ".lis":
+        return read_listing(path)
+    return _Ah1(path).data()
+
+
+class _Ah1:
+    """The sections of an `.AH1` file; numbers are read as one stream per section."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        lines = path.read_text(errors="replace").splitlines()
+        self.sections: dict[str, tuple[int, list[float]]] = {}
+        word, start, numbers = "", 0, list[float]()
+        for count, line in enumerate(lines, start=1):
+            if line.startswith("*") or not line.strip():
+                continue
+            if line[0].isalpha():
+                self.sections[word] = (start, numbers)
+                word, start, numbers = line.split()[0], count, []
+                continue
+            numbers += self._numbers(count, line)
+        self.sections[word] = (start, numbers)
+        self._header()
+
+    def _numbers(self, count: int, line: str) -> list[float]:
+        try:
+            return [float(word) for word in line.split()]
+        except ValueError:
+            wrong = next(word for word in line.split() if not _is_number(word))
+            raise DatabaseError(f"{self.path}:{count}: {wrong!r} is not a number") from None
+
+    def _header(self) -> None:
+        """Structures, headings [deg] and frequencies [rad/s]; equal for all structures."""
+        values = self.sections[""][1]
+        headings, grids = [], []
+        while values:
+            nh, nw = int(values[1]), int(values[2])
+            headings.append(values[3 : 3 + nh])
+            grids.append(values[3 + nh : 3 + nh + nw])
+            if len(grids[-1]) != nw:
+                raise DatabaseError(f"{self.path}: its head is cut short: {nw} frequencies stated")
+            values = values[3 + nh + nw :]
+        if (
+            not grids
+            or any(g != grids[0] for g in grids)
+            or any(h != headings[0] for h in headings)
+        ):
+            raise DatabaseError(f"{self.path}: structures with different frequencies or headings")
+        self.count = len(grids)
+        self.omega, self.heading_deg = np.array(grids[0]), np.array(headings[0])
+
+    def block(self, word: str, index: int, width: int, entries: int) -> Array:
+        """Numbers of a section, (entries, width); each entry begins with `index` indices."""
+        if word not in self.sections:
+            raise DatabaseError(f"{self.path}: no section {word}")
+        line, values = self.sections[word]
+        length = index + width
+        if len(values) != entries * length:
+            raise DatabaseError(
+                f"{self.path}:{line}: section {word} holds {len(values)} numbers, expected "
+                f"{entries * length}"
+            )
+        return np.array(values).reshape(entries, length)[:, index:]
+
+    def matrices(self, word: str) -> Array:
+        """A or B, (nw, 6 n, 6 n): entries i, j, frequency, 36 numbers."""
+        n, nw = self.count, self.omega.size
+        table = self.block(word, 3, 36, n * n * nw).reshape(n, n, nw, 6, 6)
+        return np.asarray(table.transpose(2, 0, 3, 1, 4).reshape(nw, 6 * n, 6 * n))
+
+    def data(self) -> SourceData:
+        """Put the sections together."""
+        n, nw, nh = self.count, self.omega.size, self.heading_deg.size
+        general = self.block("GENERAL", 1, 5, n)[0]
+        depth, rho, gravity = general[:3]
+        centers = list(self.block("COG", 1, 3, n))
+        force = self.block("FORCERAO", 3, 12, n * nh * nw).reshape(n, nh, nw, 2, 6)
+        turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
+        flat = turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
+        names = [f"structure{i + 1}" if n > 1 else self.path.stem for i in range(n)]
+        heading, kept = unique_headings(self.heading_deg)
+        k = wavenumber(self.omega, depth, gravity)
+        a_inf = None
+        if "ADDEDMASS_HF" in self.sections:
+            table = self.block("ADDEDMASS_HF", 2, 36, n * n).reshape(n, n, 6, 6)
+            a_inf = table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
+        data = aqwa_data(
+            self.path,
+            names,
+            self.omega,
+            (self.matrices("ADDEDMASS"), self.matrices("DAMPING"), a_inf),
+            heading,
+            centers,
+            (float(rho), float(gravity), float(depth)),
+        )
+        data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
+        buoyancy = self.block("COB", 1, 3, n)
+        volume = self.block("DISPLACEMENT", 1, 1, n)[:, 0]
+        stiffness = self.block("HYDSTIFFNESS", 1, 36, n).reshape(n, 6, 6)
+        for i, name in enumerate(data.reference_points):
+            statics = Hydrostatics.from_stiffness(
+                stiffness[i], centers[i], float(volume[i]), buoyancy[i], data.rho, data.gravity
+            )
+            data.hydrostatics[name] = (statics, centers[i])
+        return data
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

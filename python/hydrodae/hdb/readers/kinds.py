@@ -1,0 +1,143 @@
+"""Tell what a source is by its content, and find it in a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+
+from hydrodae.damaged import opened
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb import files
+from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.readers.aqwa import aqwa_file
+from hydrodae.hdb.readers.bemio import is_bemio_file
+from hydrodae.hdb.readers.nemoh_hydrostatics import find
+from hydrodae.hdb.readers.orcawave import orcawave_file
+from hydrodae.hdb.readers.wamit import wamit_stem
+
+#: Files of other codes, by suffix: what they are. No reader here, but a converter exists.
+FOREIGN = {
+    ".hdf": "Diodore or HydroStar",
+    ".hdb": "Diodore or HydroStar",
+    ".hyd": "MOSES",
+    ".qtf": "AQWA's quadratic transfer functions",
+    ".rao": "HydroStar",
+    ".owr": "OrcaWave's binary results",
+    ".foam": "FOAMM",
+    ".bem": "BEMRosetta",
+    ".mat": "MATLAB",
+}
+CONVERTER = (
+    "BEMRosetta (github.com/BEMRosetta/BEMRosetta) reads it and saves WAMIT tables (.1, .3, .hst)"
+)
+
+
+def resolve(source: str | Path) -> tuple[Path, str]:
+    """Return the file or folder to read, and what it is.
+
+    Parameters
+    ----------
+    source : path
+        A file, or a folder that holds one database.
+
+    Returns
+    -------
+    path : Path
+        The source itself, or the one file of a folder that is meant.
+    kind : str
+        "hydro", "nemoh", "capytaine", "bemio", "wamit", "aqwa" or "orcawave".
+
+    Raises
+    ------
+    DatabaseError
+        No such file, nothing that can be read, or several files that could be meant.
+    """
+    path = Path(source)
+    if path.is_dir():
+        return _folder(path)
+    if not path.is_file():
+        raise DatabaseError(f"{path}: no such file or folder{_similar(path)}")
+    return path, _file(path)
+
+
+def kind(source: str | Path) -> str:
+    """Return what a source is; see `resolve`."""
+    return resolve(source)[1]
+
+
+def _folder(path: Path) -> tuple[Path, str]:
+    if find(path, "Nemoh.cal") is not None:
+        if find(path, "RadiationCoefficients.tec") is not None or not _tables(path):
+            return path, "nemoh"
+    if wamit_stem(path) is not None:
+        return path, "wamit"
+    listing = aqwa_file(path)
+    if listing is not None:
+        return listing, "aqwa"
+    vessels = orcawave_file(path)
+    if vessels is not None:
+        return vessels, "orcawave"
+    inside = _tables(path)
+    if len(inside) == 1:
+        return resolve(inside[0])
+    if inside:
+        names = ", ".join(p.name for p in inside[:6])
+        raise DatabaseError(f"{path}: which one is meant? {names}: name the file")
+    below = [p for p in sorted(path.iterdir()) if p.is_dir() and wamit_stem(p) is not None]
+    if len(below) == 1:
+        return below[0], "wamit"
+    foreign = [p for p in sorted(path.iterdir()) if p.suffix.lower() in FOREIGN]
+    if foreign:
+        raise DatabaseError(_foreign(foreign[0]))
+    raise DatabaseError(
+        f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
+        f".1 or .out of WAMIT, .AH1 or .LIS of AQWA, or a .yml with OrcaWave's results"
+    )
+
+
+def _tables(path: Path) -> list[Path]:
+    """Files of a folder that hold a database by themselves."""
+    found = [p for p in sorted(path.iterdir()) if p.suffix.lower() in (".nc", ".h5")]
+    return [p for p in found if p.is_file()]
+
+
+def _file(path: Path) -> str:
+    if path.suffix.lower() == ".cal":
+        return "nemoh"
+    with open(path, "rb") as f:
+        magic = f.read(8)
+    if magic[:3] == b"CDF":
+        return "capytaine"
+    if h5py.is_hdf5(path):
+        if files.is_hydro_file(path):
+            return "hydro"
+        with opened(path, DatabaseError, "not a readable HDF5 file") as f:
+            if "added_mass" in f and "radiating_dof" in f:
+                return "capytaine"
+            if is_bemio_file(f):
+                return "bemio"
+            holds = ", ".join(sorted(f)[:6]) or "nothing"
+        raise DatabaseError(f"{path}: an HDF5 file of another kind (it holds {holds})")
+    if wamit_stem(path) is not None:
+        return "wamit"
+    if aqwa_file(path) is not None:
+        return "aqwa"
+    if orcawave_file(path) is not None:
+        return "orcawave"
+    if path.suffix.lower() in FOREIGN:
+        raise DatabaseError(_foreign(path))
+    raise DatabaseError(
+        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or .out, "
+        f"an AQWA .AH1 or .LIS, an OrcaWave .yml or a hydro.h5 of hydrodae"
+    )
+
+
+def _foreign(path: Path) -> str:
+    return f"{path}: a file of {FOREIGN[path.suffix.lower()]}, not read here; {CONVERTER}"
+
+
+def _similar(path: Path) -> str:
+    if not path.parent.is_dir():
+        return ""
+    return nearest(path.name, sorted(p.name for p in path.parent.iterdir()))

@@ -1,0 +1,290 @@
+"""Results of OrcaWave as a vessel type of an OrcaFlex data file (`.yml`).
+
+Units of OrcaFlex's SI are t, kN and m: tables are multiplied by 1000. Amplitudes and phases follow
+the conventions stated in the file; they are turned into x(t) = Re(X e^{+iwt}) with the phase zero
+of the wave at the origin. Directions are those of travel.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import DOFS, unique_names
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.orcayaml import read_yaml
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+#: t to kg, kN to N.
+KILO = 1000.0
+STANDARD_GRAVITY = 9.80665
+#: Positive senses that agree with right-handed axes, x forward, z up; others change the sign.
+SENSES = {
+    "SurgePositive": "forward",
+    "SwayPositive": "port",
+    "HeavePositive": "up",
+    "RollPositiveStarboard": "down",
+    "PitchPositiveBow": "down",
+    "YawPositiveBow": "port",
+}
+_TABLES = "FrequencyDependentAddedMassAndDamping"
+
+
+def orcawave_file(path: Path) -> Path | None:
+    """Return the `.yml` file with hydrodynamic tables that is meant by a file or folder, or None.
+
+    Raises
+    ------
+    DatabaseError
+        Several such files.
+    """
+    paths = [path] if path.is_file() else sorted(path.iterdir())
+    found = [p for p in paths if p.suffix.lower() in (".yml", ".yaml") and _has_tables(p)]
+    if len(found) > 1:
+        raise DatabaseError(f"{path}: which one is meant? {', '.join(p.name for p in found)}")
+    return found[0] if found else None
+
+
+def _has_tables(path: Path) -> bool:
+    with open(path, encoding="utf-8-sig", errors="replace") as f:
+        return any(_TABLES in line for line in f)
+
+
+def read_orcawave(path: Path) -> SourceData:
+    """Read the vessel types of an OrcaFlex data file.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    SourceData
+        The matrix at infinite frequency becomes `added_mass_inf`, that at zero is left out. Bodies
+        have no coupling: vessel types hold their own matrices only.
+
+    Raises
+    ------
+    DatabaseError
+        Something is missing, or a convention is unknown.
+    """
+    model = read_yaml(path)
+    if "MultibodyGroups" in model:
+        raise DatabaseError(
+            f"{path}: a multibody group, whose coupling is not read; OrcaWave's results exported "
+            f"in WAMIT format (.1, .3, .hst) are"
+        )
+    types = model.get("VesselTypes")
+    if not isinstance(types, list) or not types:
+        raise DatabaseError(f"{path}: no VesselTypes in it")
+    findings: list[Finding] = []
+    rho, gravity, depth, files = _water(path, model, findings)
+    bodies = [_Vessel(path, vessel, depth, gravity) for vessel in types]
+    names = unique_names([str(b.name).removesuffix(" type") for b in bodies])
+    omega, heading = bodies[0].omega, bodies[0].heading
+    for body in bodies[1:]:
+        if not np.array_equal(body.omega, omega) or not np.array_equal(body.heading, heading):
+            raise DatabaseError(f"{path}: vessel types with different frequencies or directions")
+    size = 6 * len(bodies)
+    a, b = np.zeros((omega.size, size, size)), np.zeros((omega.size, size, size))
+    inf = np.zeros((size, size))
+    force = np.zeros((omega.size, heading.size, size), dtype=complex)
+    for i, body in enumerate(bodies):
+        own = slice(6 * i, 6 * i + 6)
+        a[:, own, own], b[:, own, own], force[:, :, own] = body.added_mass, body.damping, body.force
+        if body.at_infinity is not None:
+            inf[own, own] = body.at_infinity
+    if len(bodies) > 1:
+        text = "vessel types hold no coupling between bodies: each is taken to radiate alone"
+        findings.append(Finding("warning", "coordinates", text))
+    data = SourceData(
+        coordinates=tuple(f"{name}.{dof}" for name in names for dof in DOFS),
+        omega=omega,
+        added_mass=a,
+        radiation_damping=b,
+        heading=heading,
+        froude_krylov=None,
+        diffraction=None,
+        excitation=force,
+        reference_points={name: b.point for name, b in zip(names, bodies, strict=True)},
+        rho=rho,
+        gravity=gravity,
+        water_depth=depth,
+        name=path.name,
+        title=f"OrcaWave {path.stem}",
+        added_mass_inf=inf if all(b.at_infinity is not None for b in bodies) else None,
+        files=files,
+        findings=findings,
+    )
+    for name, body in zip(names, bodies, strict=True):
+        statics = body.hydrostatics(rho, gravity)
+        if statics is None:
+            text = f"{name}: the stiffness is not about the centre of mass; left out"
+            findings.append(Finding("warning", "hydrostatics", text))
+        else:
+            data.hydrostatics[name] = (statics, body.point)
+    return data
+
+
+def _water(
+    path: Path, model: dict[str, Any], findings: list[Finding]
+) -> tuple[float, float, float, list[Path]]:
+    """Density, gravity and depth: of OrcaWave's own input beside the file, else of the model.
+
+    A model that imports results keeps its own depth (100 m unless changed), whatever the depth of
+    the diffraction analysis was.
+    """
+    for beside in sorted(path.parent.iterdir()):
+        if beside == path or beside.suffix.lower() not in (".yml", ".yaml"):
+            continue
+        head = beside.read_text("utf-8-sig", "replace")[:400]
+        if "# Type: Diffraction" not in head:
+            continue
+        settings = read_yaml(beside)
+        rho, depth = settings.get("WaterDensity"), settings.get("WaterDepth")
+        if isinstance(rho, float) and isinstance(depth, float):
+            text = f"density and depth from {beside.name} beside it"
+            findings.append(Finding("info", "assumption", text))
+            return KILO * rho, STANDARD_GRAVITY, depth, [path, beside]
+    environment = model.get("Environment") or {}
+    rho, depth = environment.get("Density"), environment.get("WaterDepth")
+    if not isinstance(rho, float) or not isinstance(depth, float):
+        raise DatabaseError(f"{path}: no Density and WaterDepth in Environment")
+    text = (
+        f"depth {depth:g} m is that of the OrcaFlex model; the diffraction analysis may have had "
+        f"another one (OrcaWave's own .yml, put beside it, tells)"
+    )
+    findings.append(Finding("warning", "assumption", text))
+    return KILO * rho, STANDARD_GRAVITY, depth, [path]
+
+
+class _Vessel:
+    """Tables of one vessel type, at its first draught, in SI units."""
+
+    def __init__(self, path: Path, vessel: dict[str, Any], depth: float, gravity: float) -> None:
+        self.path, self.name = path, vessel.get("Name", "vessel")
+        self.sign = np.array(
+            [1.0 if vessel.get(key, word) == word else -1.0 for key, word in SENSES.items()]
+        )
+        if vessel.get("Symmetry", "None") != "None":
+            raise DatabaseError(
+                f"{path}: {self.name}: Symmetry {vessel['Symmetry']!r}: export all directions "
+                f"(Symmetry None)"
+            )
+        draught = self._entry(vessel, "Draughts")[0]
+        self.draught = draught
+        self.unit = vessel.get("WavesReferredToBy", "period (s)")
+        entries = self._entry(draught, _TABLES)
+        w = np.array([self._omega(e.get("AMDPeriodOrFrequency")) for e in entries])
+        a = np.array([self._square(e, "AddedMassMatrixX") for e in entries])
+        b = np.array([self._square(e, "DampingX") for e in entries])
+        usual = np.isfinite(w) & (w > 0.0)
+        order = np.flatnonzero(usual)[np.argsort(w[usual])]
+        self.omega, self.added_mass, self.damping = w[order], a[order], b[order]
+        self.at_infinity = a[np.isinf(w)][0] if np.isinf(w).any() else None
+        self.point = self._vector(draught, "ReferenceOrigin")
+        self.heading, self.force = self._forces(vessel, depth, gravity)
+
+    def _entry(self, where: dict[str, Any], key: str) -> list[Any]:
+        value = where.get(key)
+        if not isinstance(value, list) or not value:
+            raise DatabaseError(f"{self.path}: {self.name}: no {key}")
+        return value
+
+    def _vector(self, where: dict[str, Any], key: str) -> Array:
+        value = where.get(key)
+        if not isinstance(value, list) or not all(isinstance(v, float) for v in value):
+            raise DatabaseError(f"{self.path}: {self.name}: {key}: expected three numbers")
+        return np.array(value)
+
+    def _omega(self, value: Any) -> float:
+        if isinstance(value, str):
+            value = np.inf if value.lower() == "infinity" else np.nan
+        if not isinstance(value, float) or np.isnan(value):
+            raise DatabaseError(f"{self.path}: {self.name}: {value!r} is no period or frequency")
+        if self.unit.startswith("frequency (rad"):
+            return value
+        if self.unit.startswith("frequency (Hz"):
+            return float(2.0 * np.pi * value)
+        if value == 0.0:
+            return float(np.inf)
+        return float(2.0 * np.pi / value)
+
+    def _square(self, entry: dict[str, Any], first: str) -> Array:
+        rows = next((v for key, v in entry.items() if key.startswith(first)), None)
+        table = np.array(rows, dtype=float) if isinstance(rows, list) else np.zeros(0)
+        if table.shape != (6, 6):
+            raise DatabaseError(f"{self.path}: {self.name}: {first}: expected 6 x 6 numbers")
+        return KILO * table * np.outer(self.sign, self.sign)
+
+    def _forces(
+        self, vessel: dict[str, Any], depth: float, gravity: float
+    ) -> tuple[Array, Complex]:
+        """Headings [rad] and excitation (nw, nh, 6) about the reference origin."""
+        loads = self.draught.get("LoadRAOs") or {}
+        blocks = self._entry(loads, "RAOs")
+        origin, phase_origin = loads.get("RAOOrigin"), loads.get("PhaseOrigin")
+        if not np.allclose(np.array(origin, dtype=float), self.point, atol=1e-6):
+            raise DatabaseError(
+                f"{self.path}: {self.name}: RAOOrigin {origin} is not ReferenceOrigin "
+                f"{self.point.tolist()}: export both about one point"
+            )
+        unit = vessel.get("RAOPhaseUnitsConvention", "degrees")
+        relative = vessel.get("RAOPhaseRelativeToConvention", "crest")
+        if unit not in ("degrees", "radians") or relative not in ("crest", "trough"):
+            raise DatabaseError(f"{self.path}: {self.name}: phases in {unit} about the {relative}")
+        sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
+        sense *= np.pi / 180.0 if unit == "degrees" else 1.0
+        factor = KILO * (1.0 if relative == "crest" else -1.0)
+        if vessel.get("RAOWaveUnit", "amplitude") != "amplitude":
+            factor *= 2.0
+        heading = np.array([block["RAODirection"] for block in blocks], dtype=float)
+        result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
+        for h, block in enumerate(blocks):
+            rows: list[Any] = next(
+                (v for key, v in block.items() if key.startswith("RAOPeriod")), []
+            )
+            table = np.array([[self._omega(row[0]), *row[1:]] for row in rows], dtype=float)
+            table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
+            table = table[np.argsort(table[:, 0])]
+            if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
+                raise DatabaseError(
+                    f"{self.path}: {self.name}: LoadRAOs at other frequencies than added mass"
+                )
+            result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
+        place = np.array([0.0 if v is None else v for v in phase_origin or []], dtype=float)
+        if phase_origin is None or any(v is None for v in phase_origin):
+            place = self.point  # `~` stands for the RAO origin
+        k = wavenumber(self.omega, depth, gravity)
+        beta = np.radians(heading)
+        along = place[0] * np.cos(beta) + place[1] * np.sin(beta)
+        return beta, result * self.sign * np.exp(-1j * np.outer(k, along))[:, :, None]
+
+    def hydrostatics(self, rho: float, gravity: float) -> Hydrostatics | None:
+        """Waterplane from the stiffness of heave, roll and pitch, about the centre of mass.
+
+        None if it is about another point: then the weight may or may not be in it.
+        """
+        rows = next(
+            (v for key, v in self.draught.items() if key.startswith("HydrostaticStiffnessz")), None
+        )
+        block = np.array(rows, dtype=float) if isinstance(rows, list) else np.zeros(0)
+        if block.shape != (3, 3):
+            raise DatabaseError(f"{self.path}: {self.name}: no 3 x 3 HydrostaticStiffness")
+        stiffness = np.zeros((6, 6))
+        stiffness[2:5, 2:5] = KILO * block * np.outer(self.sign[2:5], self.sign[2:5])
+        mass_center = self._vector(self.draught, "CentreOfMass")
+        if abs(mass_center[2] - self.point[2]) > 1e-6:
+            return None  # the file does not say whether the weight is in the stiffness
+        volume, center = self.draught.get("DisplacedVolume"), self.draught.get("CentreOfBuoyancy")
+        if not isinstance(volume, float) or not isinstance(center, list):
+            raise DatabaseError(f"{self.path}: {self.name}: no DisplacedVolume, CentreOfBuoyancy")
+        return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)

@@ -1,0 +1,129 @@
+r"""Files of one format by programs with other signs, told by physics.
+
+In x(t) = Re(X e^{+iwt}) a body that is small against the waves feels, about its own place,
+
+    F_1 = + i |F_1| sign(cos beta),   F_3 = K_33 - w^2 (rho V + A_33) + i w B_33,
+
+so that conjugate phases (the other time convention) turn the signs of both F_1 and Im F_3;
+headings from where the waves come turn that of F_1 only. Normals out of the water instead of out of
+the body turn the Froude-Krylov force alone: F_1 -> - F_1, F_3 -> - F_3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.hdb.coordinates import bodies_of
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.readers.source import SourceData
+
+Complex = NDArray[np.complex128]
+#: So many of the lowest frequencies are looked at.
+LONGEST = 10
+
+
+def correct_time_sense(data: SourceData) -> None:
+    """Conjugate the forces if all bodies say that they are of the other convention, and tell it.
+
+    Parameters
+    ----------
+    data : SourceData
+        Changed in place: forces, findings.
+    """
+    if not data.heading.size or _correct_froude_krylov(data):
+        return
+    force = data.excitation if data.excitation is not None else data.diffraction
+    if force is None:
+        return
+    bodies = bodies_of(data.coordinates)
+    horizontal = [s for body in bodies if (s := _horizontal(data, force, body)) is not None]
+    vertical = [s for body in bodies if (s := _vertical(data, force, body)) is not None]
+    if not horizontal or not vertical or max(horizontal) > -0.5 or max(vertical) > -0.5:
+        return
+    for name in ("excitation", "froude_krylov", "diffraction"):
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, np.conj(value))
+    data.findings.append(
+        Finding(
+            "warning",
+            "time convention",
+            "surge and heave lag where they must lead: the phases are of the other time "
+            "convention than the format has, and are taken so",
+        )
+    )
+
+
+def _correct_froude_krylov(data: SourceData) -> bool:
+    """Turn the sign of the Froude-Krylov force that excitation and diffraction imply, if wrong.
+
+    SeaFEM writes no Froude-Krylov file, and its excitation is diffraction minus Froude-Krylov.
+    """
+    total, scattered = data.excitation, data.diffraction
+    if data.froude_krylov is not None or total is None or scattered is None:
+        return False
+    force = total - scattered
+    bodies = bodies_of(data.coordinates)
+    sine = [s for body in bodies if (s := _horizontal(data, force, body)) is not None]
+    heave = [
+        float(np.real(_local(data, force, body, 0)[0, data.coordinates.index(f"{body}.heave")]))
+        for body in bodies
+        if f"{body}.heave" in data.coordinates
+    ]
+    if not sine or not heave or max(sine) > -0.9 or max(heave) >= 0.0:
+        return False
+    data.froude_krylov = -force
+    data.excitation = None
+    text = (
+        "the Froude-Krylov force that excitation minus diffraction gives pulls where it must push "
+        "(as SeaFEM writes it): its sign is turned"
+    )
+    data.findings.append(Finding("warning", "time convention", text))
+    return True
+
+
+def _local(data: SourceData, force: Complex, body: str, heading: int) -> Complex:
+    """Force of one heading with the phase zero at the body, (nw, n)."""
+    point = data.reference_points.get(body)
+    if point is None:
+        return force[:, heading]
+    k = wavenumber(data.omega, data.water_depth, data.gravity)
+    beta = data.heading[heading]
+    along = point[0] * np.cos(beta) + point[1] * np.sin(beta)
+    return np.asarray(force[:, heading] * np.exp(1j * k * along)[:, None])
+
+
+def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
+    """Sine of the phase of surge (or sway) in the longest wave: +1 expected."""
+    along = np.maximum(np.abs(np.cos(data.heading)), np.abs(np.sin(data.heading)))
+    h = int(along.argmax())
+    cosine, sine = np.cos(data.heading[h]), np.sin(data.heading[h])
+    dof, factor = ("surge", cosine) if abs(cosine) > 0.5 else ("sway", sine)
+    label = f"{body}.{dof}"
+    if label not in data.coordinates:
+        return None
+    value = _local(data, force, body, h)[0, data.coordinates.index(label)]
+    if not np.isfinite(value) or value == 0.0:
+        return None
+    return float(np.sin(np.angle(value * np.sign(factor))))
+
+
+def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
+    """Sign of Im F3 / (w B33) in the longest waves, where its size is 1; None if it is not.
+
+    Only of one body: waves that others scatter hide it.
+    """
+    label = f"{body}.heave"
+    if label not in data.coordinates or len(bodies_of(data.coordinates)) > 1:
+        return None
+    i = data.coordinates.index(label)
+    value = _local(data, force, body, 0)[:LONGEST, i].imag
+    waves = (data.omega * data.radiation_damping[:, i, i])[:LONGEST]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = value / waves
+    ratio = ratio[np.isfinite(ratio)]
+    if ratio.size == 0 or np.abs(np.abs(ratio) - 1.0).min() > 0.2:
+        return None
+    return float(np.sign(ratio[np.abs(np.abs(ratio) - 1.0).argmin()]))
