@@ -142,9 +142,8 @@ def test_hdb_import(reference: Path, tmp_path: Path, capsys: CAPTURE) -> None:
     words = ("-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5", "--keep", "buoy.planar")
     told = said(capsys, "hdb", "import", source, *words)
     database, report = hydrodae.hdb.import_database(
-        source, names=["buoy"], reference_points={"buoy": (0.0, 0.0, -1.5)}
+        source, names=["buoy"], reference_points={"buoy": (0.0, 0.0, -1.5)}, keep="buoy.planar"
     )
-    database = database.select(hydrodae.hdb.expand("buoy.planar", database.coordinates))
     assert told.startswith(f"{database.summary()}\n{report}\n")
     same(hydrodae.hdb.read(out), database)
 
