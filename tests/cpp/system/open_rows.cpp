@@ -87,7 +87,8 @@ TEST_CASE("open stops, slack ropes and dry friction are no redundant rows") {
   rope.length = 3.0;
   rope.one_sided = true;
   scene.joints.push_back(rope);
-  std::get<std::vector<element::DryFriction>>(scene.forces).push_back({"dry", "lower", 0.5, {}});
+  std::get<std::vector<element::DryFriction>>(scene.forces)
+      .push_back({"dry", "lower", {}, 0.5, {}});
   const system::System s = system::build(scene);
   CHECK(s.n_lambda == 5);
   CHECK(dropped_rows(s) == 5);
@@ -131,7 +132,7 @@ TEST_CASE("what the joints hold stays where it is, with stops and friction on it
       model::Scene scene = locked();
       scene.constraints = {stop("s", "hinge", upper)};
       std::get<std::vector<element::DryFriction>>(scene.forces)
-          .push_back({"dry", "hinge", 0.5, {}});
+          .push_back({"dry", "hinge", {}, 0.5, {}});
       scene.solver.method = method;
       CHECK(system::build(scene).n_lambda == 6);
       CHECK(simulate(scene, "", {}).status == "completed");
