@@ -1976,7 +1976,7 @@ class ForceTypes(TypedList):
             Tension at B in the reference pose; the length of the first part follows from it.
             Allowed: > 0.
         seabed : true or false, default true
-            Does a flat seabed at the height of A carry the line?
+            Whether a flat seabed at the height of A carries the line.
         friction : number, default 0
             Friction coefficient of the seabed. Allowed: >= 0.
 

@@ -180,7 +180,7 @@ struct CatenaryLine {
         {"pretension", &C::pretension, "N",
          "Tension at B in the reference pose; the length of the first part follows from it.", false,
          more_than(0)},
-        {"seabed", &C::seabed, "-", "Does a flat seabed at the height of A carry the line?"},
+        {"seabed", &C::seabed, "-", "Whether a flat seabed at the height of A carries the line."},
         {"friction", &C::friction, "-", "Friction coefficient of the seabed.", false, at_least(0)},
     };
   }

@@ -72,7 +72,7 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
   check_messages({
       {"damping = 5.0", "dampping = 5.0",
        "case.toml:32:1: unknown key 'dampping' in [[force]] 'pto1'; did you mean 'damping'? "
-       "(valid: type, name, joint, damping, stiffness, neutral, delay)"},
+       "(valid: type, name, joint, coordinate, damping, stiffness, neutral, delay)"},
       {"gravity = 9.81", "  zzz = 9.81",
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity, water_density, "
        "water_depth"},
@@ -123,7 +123,7 @@ TEST_CASE("a wrong value is told with its place and what was expected") {
       {"type = \"revolute\"", "type = \"revolut\"",
        "case.toml:21:1: key 'type' in [[joint]] 'hinge': unknown value 'revolut'; did you mean "
        "'revolute'? (valid: spherical, revolute, prismatic, fixed, universal, cylindrical, planar, "
-       "sliding, screw, distance, path)"},
+       "sliding, screw, distance, telescope, path)"},
       {"end_time = 10.0", "end_time = 0",
        "case.toml:35:1: key 'end_time' in [solver]: must be > 0 s, got 0 s"},
       {"end_time = 10.0", "end_time = 10.0\nmax_order = 9",

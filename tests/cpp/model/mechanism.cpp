@@ -32,7 +32,7 @@ Joint make_joint(const std::string& name, const std::string& type, const std::st
   j.point = Vector3(1, 0, 0);
   if (joint::find_joint_type(type)->needs_axis)
     j.axis = Vector3(0, 0, 1);
-  if (type == "distance")
+  if (type == "distance" || type == "telescope")
     j.point_b = Vector3(1, 0, -2);
   if (type == "screw")
     j.pitch = 0.1;
@@ -109,7 +109,8 @@ TEST_CASE("every joint of the table is accepted with its own keys and no others"
     CAPTURE(name);
     const Joint good = make_joint("j", name, "a", "b");
     CHECK(verdict_of(good) == "");
-    const bool distance = name == "distance", screw = name == "screw";
+    const bool distance = name == "distance", screw = name == "screw",
+               two_points = distance || name == "telescope";
 
     Joint j = good;
     j.axis = type.needs_axis ? std::nullopt : std::optional<Vector3>(Vector3(0, 0, 1));
@@ -119,11 +120,12 @@ TEST_CASE("every joint of the table is accepted with its own keys and no others"
       CHECK((verdict_of(j) == "") == (name == "fixed"));
 
     j = good;
-    j.point_b = distance ? std::nullopt : std::optional<Vector3>(Vector3(1, 2, 3));
-    CHECK(verdict_of(j) == (distance ? "joint.j: joint 'j': a distance joint needs the key "
-                                       "'point_b', the point on body B"
-                                     : "joint.j.point_b: joint 'j': " + head +
-                                           "has no 'point_b'; only a distance joint has"));
+    j.point_b = two_points ? std::nullopt : std::optional<Vector3>(Vector3(1, 2, 3));
+    CHECK(verdict_of(j) ==
+          (two_points
+               ? "joint.j: joint 'j': " + head + "needs the key 'point_b', the point on body B"
+               : "joint.j.point_b: joint 'j': " + head +
+                     "has no 'point_b'; only distance and telescope joints have"));
     j = good;
     j.length = 3.0;
     CHECK(verdict_of(j) == (distance ? ""
@@ -175,7 +177,7 @@ TEST_CASE("a point has no rotation that a joint could hold") {
   for (const joint::JointType& type : joint::joint_types()) {
     const std::string name(type.name);
     CAPTURE(name);
-    const bool joins_points = name == "spherical" || name == "distance";
+    const bool joins_points = name == "spherical" || name == "distance" || name == "telescope";
     const std::string reason = "body 'p' is a point: it has no rotation for a " + name +
                                " joint to hold; use spherical, distance, sliding or path";
     const std::string as_a = verdict_of(make_joint("j", name, "p", "a"));
@@ -343,9 +345,10 @@ TEST_CASE("a power take-off needs a joint with one motion") {
   ptos[0].joint = "hinge";
   CHECK(verdict(scene) == "");
   ptos[0].joint = "ball";
-  CHECK(contains(verdict(scene), "force.pto.joint: force 'pto': a spherical joint has no motion"));
+  CHECK(contains(verdict(scene), "force.pto.joint: force 'pto': joint 'ball' has no coordinate: a "
+                                 "spherical joint has no motion"));
   ptos[0].joint = "tube";
-  CHECK(contains(verdict(scene), "a cylindrical joint has more than one motion"));
+  CHECK(contains(verdict(scene), "a cylindrical joint has more than one coordinate"));
 }
 
 TEST_CASE("a summary tells what joints keep and what constraints follow") {

@@ -78,7 +78,7 @@ TEST_CASE("a list with types has what all types have") {
   const TableInfo& hinge = named(named(all, "joint").types, "revolute");
   CHECK(keys_of(hinge.nested.at(0)) == "angle_deg angle_rate");
   CHECK(keys_of(named(named(all, "force").types, "pto_linear")) ==
-        "name type joint damping stiffness neutral delay");
+        "name type joint coordinate damping stiffness neutral delay");
 }
 
 TEST_CASE("defaults are those of the structs, and none where a value means that there is none") {
