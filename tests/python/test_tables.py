@@ -65,7 +65,7 @@ def good_value(key: Key) -> Any:
 
 def bad_values(key: Key) -> Iterator[Any]:
     yield {"a": 1}
-    yield "some_name" if key.kind != "word" or key.choices else 1
+    yield "some_name" if key.kind not in ("word", "words") or key.choices else 1
     yield True if key.kind != "truth" else 1
     yield [1.0] * 7 if key.kind not in ("numbers", "points") else []
     if key.kind == "integer":
