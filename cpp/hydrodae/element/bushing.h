@@ -34,8 +34,7 @@ struct Bushing {
 
   LinearWrench law() const { return {pretension, stiffness, damping}; }
 
-  static Fields<Bushing> fields() {
-    using B = Bushing;
+  template <class B = Bushing> static Fields<B> fields() {
     return {
         {"name", &B::name, "-", "Name of this force in the results.", true},
         {"body_a", &B::body_a, "-", "First body, or ground: it carries the axes.", true},

@@ -43,8 +43,7 @@ struct ConstantLoad {
     return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
   }
 
-  static Fields<ConstantLoad> fields() {
-    using C = ConstantLoad;
+  template <class C = ConstantLoad> static Fields<C> fields() {
     return {
         {"name", &C::name, "-", "Name of this force in the results.", true},
         {"body", &C::body, "-", "Body that is loaded.", true},

@@ -43,8 +43,7 @@ struct DryFriction {
     return {};
   }
 
-  static Fields<DryFriction> fields() {
-    using D = DryFriction;
+  template <class D = DryFriction> static Fields<D> fields() {
     return {
         {"name", &D::name, "-", "Name of this force in the results.", true},
         {"joint", &D::joint, "-", "Joint along which it acts.", true},

@@ -106,8 +106,7 @@ struct EndStop {
     return {};
   }
 
-  static Fields<EndStop> fields() {
-    using E = EndStop;
+  template <class E = EndStop> static Fields<E> fields() {
     return {
         {"name", &E::name, "-", "Name of this force in the results.", true},
         {"joint", &E::joint, "-", "Joint along which it acts.", true},

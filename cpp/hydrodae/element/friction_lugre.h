@@ -67,8 +67,7 @@ struct FrictionLugre {
     return {};
   }
 
-  static Fields<FrictionLugre> fields() {
-    using F = FrictionLugre;
+  template <class F = FrictionLugre> static Fields<F> fields() {
     return {
         {"name", &F::name, "-", "Name of this force in the results.", true},
         {"joint", &F::joint, "-", "Joint along which it acts.", true},

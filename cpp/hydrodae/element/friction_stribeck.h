@@ -54,8 +54,7 @@ struct FrictionStribeck {
     return {};
   }
 
-  static Fields<FrictionStribeck> fields() {
-    using F = FrictionStribeck;
+  template <class F = FrictionStribeck> static Fields<F> fields() {
     return {
         {"name", &F::name, "-", "Name of this force in the results.", true},
         {"joint", &F::joint, "-", "Joint along which it acts.", true},

@@ -45,8 +45,7 @@ struct LibraryLoad : LibraryLaw {
   }
   std::size_t shape() const { return found ? static_cast<std::size_t>(found->n_states) : 0; }
 
-  static Fields<LibraryLoad> fields() {
-    using L = LibraryLoad;
+  template <class L = LibraryLoad> static Fields<L> fields() {
     return {
         {"name", &L::name, "-", "Name of this force in the results.", true},
         {"joint", &L::joint, "-", "Joint along which it acts.", true},
@@ -72,8 +71,7 @@ struct LibraryWrench : LibraryLaw {
   }
   std::size_t shape() const { return found ? static_cast<std::size_t>(found->n_states) : 0; }
 
-  static Fields<LibraryWrench> fields() {
-    using L = LibraryWrench;
+  template <class L = LibraryWrench> static Fields<L> fields() {
     return {
         {"name", &L::name, "-", "Name of this force in the results.", true},
         {"body", &L::body, "-", "Body that is loaded.", true},

@@ -26,8 +26,7 @@ struct MooringMatrix {
   /// The law that the system evaluates.
   LinearWrench law() const { return {pretension, stiffness, damping}; }
 
-  static Fields<MooringMatrix> fields() {
-    using M = MooringMatrix;
+  template <class M = MooringMatrix> static Fields<M> fields() {
     return {
         {"name", &M::name, "-", "Name of this force in the results.", true},
         {"body", &M::body, "-", "Body that is moored.", true},

@@ -105,8 +105,7 @@ struct PtoGeneral {
     return {};
   }
 
-  static Fields<PtoGeneral> fields() {
-    using P = PtoGeneral;
+  template <class P = PtoGeneral> static Fields<P> fields() {
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
         {"joint", &P::joint, "-", "Joint along which it acts.", true},

@@ -81,8 +81,7 @@ struct PtoHydraulic {
     return {};
   }
 
-  static Fields<PtoHydraulic> fields() {
-    using P = PtoHydraulic;
+  template <class P = PtoHydraulic> static Fields<P> fields() {
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
         {"joint", &P::joint, "-", "Joint along which it acts.", true},

@@ -55,8 +55,7 @@ struct PtoLinear {
   }
   std::array<double, n_signals> start_signals() const { return {damping, stiffness, neutral}; }
 
-  static Fields<PtoLinear> fields() {
-    using P = PtoLinear;
+  template <class P = PtoLinear> static Fields<P> fields() {
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
         {"joint", &P::joint, "-", "Joint along which it acts.", true},

@@ -36,8 +36,7 @@ struct PtoRotary {
     return out;
   }
 
-  static Fields<PtoRotary> fields() {
-    using P = PtoRotary;
+  template <class P = PtoRotary> static Fields<P> fields() {
     return {
         {"name", &P::name, "-", "Name of this force in the results.", true},
         {"body_a", &P::body_a, "-", "First body, or ground: it carries the axes.", true},

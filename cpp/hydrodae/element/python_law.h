@@ -78,8 +78,7 @@ struct PythonLoad {
 
   FunctionLaw<1> law() const { return {function}; }
 
-  static Fields<PythonLoad> fields() {
-    using P = PythonLoad;
+  template <class P = PythonLoad> static Fields<P> fields() {
     return {
         {"name", &P::name, "-",
          "Name of this force in the results; its function f(t, s, s') is given to "
@@ -108,8 +107,7 @@ struct PythonWrench {
 
   FunctionLaw<6> law() const { return {function}; }
 
-  static Fields<PythonWrench> fields() {
-    using P = PythonWrench;
+  template <class P = PythonWrench> static Fields<P> fields() {
     return {
         {"name", &P::name, "-",
          "Name of this force in the results; its function f(t, displacement, twist) is given to "

@@ -78,8 +78,7 @@ struct SpringDamper {
     return {};
   }
 
-  static Fields<SpringDamper> fields() {
-    using D = SpringDamper;
+  template <class D = SpringDamper> static Fields<D> fields() {
     return {
         {"name", &D::name, "-", "Name of this force in the results.", true},
         {"body_a", &D::body_a, "-", "First body, or ground.", true},

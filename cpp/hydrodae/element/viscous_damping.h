@@ -51,8 +51,7 @@ struct ViscousDamping {
   };
   Law law() const { return {linear, quadratic}; }
 
-  static Fields<ViscousDamping> fields() {
-    using V = ViscousDamping;
+  template <class V = ViscousDamping> static Fields<V> fields() {
     return {
         {"name", &V::name, "-", "Name of this force in the results.", true},
         {"body", &V::body, "-", "Body that is damped.", true},

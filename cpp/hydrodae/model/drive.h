@@ -67,8 +67,7 @@ struct Drive {
     return f;
   }
 
-  static Fields<Drive> fields() {
-    using D = Drive;
+  template <class D = Drive> static Fields<D> fields() {
     return {
         {"constant", &D::constant, "m or rad", "Constant part."},
         {"rate", &D::rate, "m/s or rad/s", "Grows linearly with time."},

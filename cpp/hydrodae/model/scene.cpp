@@ -4,6 +4,13 @@
 
 namespace hydrodae::model {
 
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
 Fields<Joint> Joint::fields() {
   using J = Joint;
   return {

@@ -43,8 +43,7 @@ struct Environment {
   double gravity = 9.81;
   std::optional<double> water_density, water_depth;
 
-  static Fields<Environment> fields() {
-    using E = Environment;
+  template <class E = Environment> static Fields<E> fields() {
     return {
         {"gravity", &E::gravity, "m/s2", "Acceleration of gravity, along -z.", false, at_least(0)},
         {"water_density", &E::water_density, "kg/m3",
@@ -67,8 +66,7 @@ struct HydroOptions {
   std::optional<double> frequency;
   std::optional<double> memory_length;
 
-  static Fields<HydroOptions> fields() {
-    using H = HydroOptions;
+  template <class H = HydroOptions> static Fields<H> fields() {
     return {
         {"database", &H::database, "-", "Path of hydro.h5, relative to the case file.", true},
         {"axes",
@@ -109,8 +107,7 @@ struct BodyInitial {
   Vector3 rotation = Vector3::Zero();
   std::optional<Vector3> velocity, angular_velocity;
 
-  static Fields<BodyInitial> fields() {
-    using B = BodyInitial;
+  template <class B = BodyInitial> static Fields<B> fields() {
     return {
         {"displacement", &B::displacement, "m", "Of the centre of gravity, world axes."},
         {"rotation_deg", &B::rotation, "deg", "Rotation vector, world axes."},
@@ -135,8 +132,7 @@ struct Body {
   std::optional<std::string> hydro;
   BodyInitial initial;
 
-  static Fields<Body> fields() {
-    using B = Body;
+  template <class B = Body> static Fields<B> fields() {
     return {
         {"name", &B::name, "-", "Name of the body.", true},
         {"motion",
@@ -172,8 +168,7 @@ struct JointInitial {
   std::optional<double> displacement;
   std::optional<double> displacement_rate;
 
-  static Fields<JointInitial> fields() {
-    using J = JointInitial;
+  template <class J = JointInitial> static Fields<J> fields() {
     return {
         {"angle_deg", &J::angle, "deg", "Angle of a joint that turns."},
         {"angle_rate", &J::angle_rate, "rad/s", "Rate of the angle."},
@@ -227,8 +222,7 @@ struct Constraint {
   std::optional<double> lower_angle, upper_angle;
   std::optional<double> restitution;
 
-  static Fields<Constraint> fields() {
-    using C = Constraint;
+  template <class C = Constraint> static Fields<C> fields() {
     return {
         {"name", &C::name, "-", "Name of the constraint in the results.", true},
         {"type",
@@ -273,8 +267,7 @@ struct Marker {
   Vector3 point = Vector3::Zero();
   std::string axes = "world";
 
-  static Fields<Marker> fields() {
-    using M = Marker;
+  template <class M = Marker> static Fields<M> fields() {
     return {
         {"name", &M::name, "-", "Name of the marker in the results.", true},
         {"body", &M::body, "-", "Body that carries it.", true},
@@ -296,8 +289,8 @@ struct OutputOptions {
   static constexpr std::string_view doc = "What the results file holds.";
   double step = 0.1;
 
-  static Fields<OutputOptions> fields() {
-    return {{"step", &OutputOptions::step, "s", "Time between two samples of the results.", false,
+  template <class O = OutputOptions> static Fields<O> fields() {
+    return {{"step", &O::step, "s", "Time between two samples of the results.", false,
              more_than(0, longest_time)}};
   }
 };
@@ -316,6 +309,14 @@ using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<eleme
                           std::vector<element::LibraryWrench>>;
 
 struct Scene {
+  // Written once, in scene.cpp: every list of forces is copied and freed there.
+  Scene();
+  ~Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+
   std::string title;
   Environment environment;
   std::optional<HydroOptions> hydro;

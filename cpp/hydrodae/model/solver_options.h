@@ -31,8 +31,7 @@ struct SolverOptions {
   std::optional<double> length_scale;
   std::optional<double> time_scale;
 
-  static Fields<SolverOptions> fields() {
-    using O = SolverOptions;
+  template <class O = SolverOptions> static Fields<O> fields() {
     return {
         {"method",
          &O::method,

@@ -16,17 +16,17 @@ struct Sea {
   Vector3 current = Vector3::Zero();
   std::string phase = "fixed";
 
-  static Fields<Sea> fields() {
+  template <class S = Sea> static Fields<S> fields() {
     return {
-        {"ramp", &Sea::ramp, "s",
+        {"ramp", &S::ramp, "s",
          "Time over which all waves grow from nothing, by a polynomial of degree 7 (three "
          "continuous derivatives).",
          false, at_least(0, longest_time)},
-        {"current", &Sea::current, "m/s",
+        {"current", &S::current, "m/s",
          "Velocity of the water, the same everywhere, on which the Morison elements work; the "
          "waves do not feel it."},
         {"phase",
-         &Sea::phase,
+         &S::phase,
          "-",
          "Where a body feels the phase of the waves: at its reference position (fixed), or where "
          "it "
@@ -73,8 +73,7 @@ struct Wave {
   std::vector<double> frequency_range;
   int seed = 1;
 
-  static Fields<Wave> fields() {
-    using W = Wave;
+  template <class W = Wave> static Fields<W> fields() {
     return {
         {"name", &W::name, "-", "Name of the wave system.", true},
         {"type",

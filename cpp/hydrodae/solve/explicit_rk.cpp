@@ -167,7 +167,7 @@ void ExplicitRk::estimate(double h) {
 /// Do the accelerations at the end of the step agree with those of the last stage, which lies there
 /// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
 /// hits would not be seen. They differ by little more than in the steps before where all is smooth;
-/// what is allowed was found on pendulums, linkages and floating bodies: 34 times the usual at
+/// what is allowed was found on pendulums, linkages and floating bodies: 34 times the common at
 /// most.
 bool ExplicitRk::is_smooth(double h) {
   constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
@@ -176,10 +176,10 @@ bool ExplicitRk::is_smooth(double h) {
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
   const double jump = std::max(e_.norm(w_, stage_), least);
-  const double usual = std::max(usual_jump_, least);
-  if (!(jump <= allowed * usual))
+  const double common = std::max(usual_jump_, least);
+  if (!(jump <= allowed * common))
     return false;
-  usual_jump_ = std::pow(usual, memory) * std::pow(jump, 1.0 - memory);
+  usual_jump_ = std::pow(common, memory) * std::pow(jump, 1.0 - memory);
   return true;
 }
 

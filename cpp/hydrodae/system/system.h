@@ -175,6 +175,14 @@ enum class Formulation { stabilised, index_2, index_3, index_1 };
 class History;
 
 struct System {
+  // Written once, in system.cpp: it holds much, and many files hold one.
+  System();
+  ~System();
+  System(const System&);
+  System(System&&) noexcept;
+  System& operator=(const System&);
+  System& operator=(System&&) noexcept;
+
   double gravity = 9.81;
   Formulation formulation = Formulation::stabilised;
   double baumgarte_rate = 0.0; ///< b of index 1 [1/s]

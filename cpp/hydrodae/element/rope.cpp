@@ -1,0 +1,237 @@
+#include "hydrodae/element/rope.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/math/curve.h"
+
+namespace hydrodae::element {
+
+double Rope::free_length() const {
+  double distance = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    distance += (points[i] - points[i - 1]).norm();
+  return pretension ? distance / (1.0 + *pretension / stiffness) : length.value_or(distance);
+}
+
+std::optional<Fault> Rope::fault() const {
+  if (points.size() < 2)
+    return Fault{"points", "a rope needs two points or more"};
+  if (points.size() > most_points)
+    return Fault{"points", "a rope takes 100 points at most: each feels all others"};
+  if (bodies.size() != points.size())
+    return Fault{"bodies", "a rope needs as many names in 'bodies' as 'points'"};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if ((points[i] - points[i - 1]).norm() == 0.0)
+      return Fault{"points", "two points in a row are at one place in the reference pose: the "
+                             "rope has no direction between them"};
+  if (length && pretension)
+    return Fault{"pretension", "write either 'length' or 'pretension'"};
+  if (const std::string_view wrong = Curve::fault(winch_time, winch_length); !wrong.empty())
+    return Fault{"winch_time", "'winch_time' " + std::string(wrong) + " 'winch_length'"};
+  if (!winch_time.empty() && (length || pretension))
+    return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
+  return {};
+}
+
+namespace {
+
+/// Ropes over one number of points.
+class RopeList final : public Elements {
+public:
+  explicit RopeList(const std::vector<Rope>& ropes)
+      : n_(static_cast<int>(ropes.front().points.size())) {
+    type = Rope::type;
+    shape = {Port::points, 3 * n_, 0, 1};
+    inputs = {{"length_change", "m"}};
+    channels = {{"tension", "N", "Tension of the rope."},
+                {"length", "m", "Length of the rope along its points."},
+                {"winch_power", "W", "Power that the winch gives."}};
+    for (const Rope& rope : ropes) {
+      names.push_back(rope.name);
+      const bool winds = !rope.winch_time.empty();
+      laws_.push_back({rope.stiffness, rope.damping, rope.free_length(),
+                       winds ? Curve(rope.winch_time, rope.winch_length) : Curve(),
+                       winds ? rope.winch_time.front() : 0.0,
+                       winds ? rope.winch_time.back() : 0.0});
+    }
+    signals.assign(ropes.size(), 0.0);
+    for (std::size_t k = 0; k < ropes.size(); ++k) {
+      const std::vector<double>& times = ropes[k].winch_time;
+      double finest = INFINITY;
+      for (std::size_t i = 1; i < times.size(); ++i)
+        finest = std::min(finest, 0.5 * (times[i] - times[i - 1]));
+      if (!times.empty())
+        schedules.push_back({"the winch of rope '" + names[k] + "'", finest,
+                             [law = laws_[k]](double t) { return wound(law, t).a; }});
+    }
+  }
+
+  void evaluate(double t, const double* in, const double* held, double* out) const override {
+    each(t, in, held, out);
+  }
+  void evaluate(double t, const Dual* in, const double* held, Dual* out) const override {
+    each(t, in, held, out);
+  }
+
+  /// With g = dl/dx: load = -T g, T_x = (EA g + D dl'/dx) / L0, T_v = D g / L0.
+  void jacobian(double t, const double* in, const double* held, double* jacobian) const override {
+    for (std::size_t k = 0; k < laws_.size(); ++k) {
+      const int w = shape.width;
+      Eigen::Map<MatrixX> J(jacobian, w, 2 * w);
+      J.setZero();
+      const State<double> now = pull<double>(laws_[k], t, in, held[k]);
+      if (now.tension > 0.0) {
+        const double c = laws_[k].damping / now.free;
+        for (int i = 0; i < n_; ++i)
+          for (int j = 0; j < n_; ++j) {
+            const Vector3 gi = slope(in, i), gj = slope(in, j);
+            const Vector3 by_x = laws_[k].stiffness / now.free * gj + c * rate_slope(in, j);
+            J.block<3, 3>(3 * i, 3 * j) -= gi * by_x.transpose();
+            J.block<3, 3>(3 * i, w + 3 * j) -= c * gi * gj.transpose();
+          }
+        for (int i = 0; i + 1 < n_; ++i) { // -T d g / dx of each span
+          const Vector3 d = span(in, i), e = d.normalized();
+          const Matrix3 P = now.tension / d.norm() * (Matrix3::Identity() - e * e.transpose());
+          J.block<3, 3>(3 * i, 3 * i) -= P;
+          J.block<3, 3>(3 * i + 3, 3 * i + 3) -= P;
+          J.block<3, 3>(3 * i, 3 * i + 3) += P;
+          J.block<3, 3>(3 * i + 3, 3 * i) += P;
+        }
+      }
+      in += 2 * w;
+      jacobian += 2 * w * w;
+    }
+  }
+
+  void energy(const double* in, const double* held, double* joules) const override {
+    for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width) {
+      const double free = laws_[k].length + held[k]; // a winch works on it besides
+      const double stretch = std::max(0.0, total<double>(in) - free);
+      joules[k] =
+          laws_[k].winch.empty() ? 0.5 * laws_[k].stiffness * stretch * stretch / free : 0.0;
+    }
+  }
+
+  void observe(double t, const double* in, const double* held, const double*,
+               double* values) const override {
+    for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width, values += 3) {
+      const State<double> now = pull<double>(laws_[k], t, in, held[k]);
+      values[0] = now.tension;
+      values[1] = total<double>(in);
+      values[2] = -now.tension * now.free_rate;
+    }
+  }
+
+  bool lost_at_rest(std::size_t) const override { return false; }
+
+private:
+  struct Law {
+    double stiffness, damping, length;
+    Curve winch;
+    double begin, end; ///< of its table [s]
+  };
+  template <class S> struct State {
+    S tension;
+    double free, free_rate; ///< L0, L0'
+  };
+
+  /// Length that the winch gives, and its rate; it stands before and after its table.
+  static Dual wound(const Law& law, double t) {
+    const double inside = std::clamp(t, law.begin, law.end);
+    return law.winch(Dual(inside, t == inside ? 1.0 : 0.0));
+  }
+
+  template <class S> static Vec3<S> point(const S* in, int i) {
+    return Eigen::Map<const Vec3<S>>(in + 3 * i);
+  }
+  template <class S> Vec3<S> velocity(const S* in, int i) const {
+    return Eigen::Map<const Vec3<S>>(in + shape.width + 3 * i);
+  }
+  static Vector3 span(const double* in, int i) { return point(in, i + 1) - point(in, i); }
+
+  template <class S> static S size(const Vec3<S>& d) {
+    using std::sqrt;
+    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  template <class S> S total(const S* in) const {
+    S sum(0);
+    for (int i = 0; i + 1 < n_; ++i)
+      sum += size<S>(point(in, i + 1) - point(in, i));
+    return sum;
+  }
+
+  template <class S> State<S> pull(const Law& law, double t, const S* in, double change) const {
+    State<S> out{S(0), law.length + change, 0.0};
+    if (!law.winch.empty()) {
+      const Dual now = wound(law, t);
+      out.free = now.a + change;
+      out.free_rate = now.b;
+    }
+    const S l = total(in);
+    if (l > S(out.free)) {
+      S rate(0);
+      for (int i = 0; i + 1 < n_; ++i) {
+        const Vec3<S> d = point(in, i + 1) - point(in, i);
+        rate += d.cwiseProduct(velocity(in, i + 1) - velocity(in, i)).sum() / size<S>(d);
+      }
+      const S T =
+          (S(law.stiffness) * (l - S(out.free)) + S(law.damping) * (rate - S(out.free_rate))) /
+          S(out.free);
+      if (T > S(0))
+        out.tension = T;
+    }
+    return out;
+  }
+
+  template <class S> void each(double t, const S* in, const double* held, S* out) const {
+    for (std::size_t k = 0; k < laws_.size(); ++k) {
+      const State<S> now = pull(laws_[k], t, in, held[k]);
+      std::fill_n(out, shape.width, S(0));
+      for (int i = 0; i + 1 < n_ && now.tension > S(0); ++i) {
+        const Vec3<S> d = point(in, i + 1) - point(in, i);
+        const S part = now.tension / size<S>(d);
+        for (int c = 0; c < 3; ++c) {
+          out[3 * i + c] += part * d[c];
+          out[3 * i + 3 + c] -= part * d[c];
+        }
+      }
+      in += 2 * shape.width;
+      out += shape.width;
+    }
+  }
+
+  /// d l / d (place of point i).
+  Vector3 slope(const double* in, int i) const {
+    Vector3 out = Vector3::Zero();
+    if (i > 0)
+      out += span(in, i - 1).normalized();
+    if (i + 1 < n_)
+      out -= span(in, i).normalized();
+    return out;
+  }
+  /// d l' / d (place of point i).
+  Vector3 rate_slope(const double* in, int i) const {
+    Vector3 out = Vector3::Zero();
+    const auto across = [&](int k) {
+      const Vector3 d = span(in, k), e = d.normalized(), v = velocity(in, k + 1) - velocity(in, k);
+      return Vector3((v - e * e.dot(v)) / d.norm());
+    };
+    if (i > 0)
+      out += across(i - 1);
+    if (i + 1 < n_)
+      out -= across(i);
+    return out;
+  }
+
+  int n_;
+  std::vector<Law> laws_;
+};
+
+} // namespace
+
+std::shared_ptr<const Elements> Rope::list(const std::vector<Rope>& ropes) {
+  return std::make_shared<const RopeList>(ropes);
+}
+
+} // namespace hydrodae::element
