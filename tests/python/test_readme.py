@@ -42,11 +42,23 @@ def test_python_example(readme: Path) -> None:
     assert done.stdout.count("flap 2 reaches") == 3
 
 
-def test_pictures_and_files_named_exist(readme: Path) -> None:
-    text = readme.read_text()
-    named = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(
-        r"`((?:cases|tests|cpp)/[^`\s]+)`", text
-    )
-    assert named
-    missing = [name for name in named if not (readme.parent / name).exists()]
+def test_pictures_and_files_named_exist(repository: Path) -> None:
+    pages = [repository / "README.md", *sorted((repository / "docs").glob("*.md"))]
+    missing = []
+    for page in pages:
+        text = page.read_text()
+        links = re.findall(r"\]\((?!http)([^)#]+)(?:#[^)]*)?\)", text)
+        missing += [f"{page.name}: {x}" for x in links if not (page.parent / x).exists()]
+        named = re.findall(r"`((?:cases|tests|cpp|docs)/[^`\s]+)`", text)
+        missing += [f"{page.name}: {x}" for x in named if not (repository / x).exists()]
+        assert links or page.name != "README.md"
     assert not missing
+
+
+def test_sections_named_exist(repository: Path) -> None:
+    for page in (repository / "README.md", *(repository / "docs").glob("*.md")):
+        for target, section in re.findall(r"\]\(([^)#]*)#([^)]+)\)", page.read_text()):
+            text = (page.parent / target if target else page).read_text()
+            titles = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+            slugs = {re.sub(r"[^\w -]", "", t.lower()).replace(" ", "-") for t in titles}
+            assert section in slugs, f"{page.name}: {target}#{section}"

@@ -9,7 +9,9 @@
 namespace hydrodae::hydro {
 namespace {
 
-constexpr double slack = 1e-9; ///< of angles [rad] and of frequencies, relative
+constexpr double slack = 1e-9; ///< of frequencies, relative
+/// Of headings [rad]: a device that rests with its bow a hair off its reference feels the same.
+constexpr double aside = 1e-4;
 
 std::vector<double> as_list(const VectorX& values) {
   return {values.data(), values.data() + values.size()};
@@ -24,8 +26,8 @@ double phase_lag(const Database& db, const Vector3& point, double omega, double 
 
 std::optional<double> covered_heading(const Database& database, double heading) {
   const double low = database.heading[0], high = database.heading[database.heading.size() - 1];
-  const double turned = heading - 2.0 * pi * std::floor((heading - low + slack) / (2.0 * pi));
-  if (turned > high + slack)
+  const double turned = heading - 2.0 * pi * std::floor((heading - low + aside) / (2.0 * pi));
+  if (turned > high + aside)
     return std::nullopt;
   return std::clamp(turned, low, high);
 }

@@ -10,7 +10,7 @@
 namespace hydrodae::hydro {
 
 /// The heading as an angle within the headings of the database (turned by full turns), or nothing
-/// if it lies outside them. A database of one heading covers that one only.
+/// if it lies more than 1e-4 rad outside. A database of one heading covers that one only.
 std::optional<double> covered_heading(const Database& database, double heading);
 
 /// Does the database reach to this frequency [rad/s]?

@@ -65,11 +65,6 @@ int lock(int descriptor) {
 
 } // namespace
 
-std::string partial_name(const std::string& path) {
-  const fs::path file(path);
-  return (file.parent_path() / file.stem()).string() + ".partial" + file.extension().string();
-}
-
 std::string name_beside(const std::string& path, const std::string& what) {
   const fs::path file = behind_links(path);
   return (file.parent_path() / file.stem()).string() + "." + what + file.extension().string();
@@ -96,7 +91,7 @@ void check_output(const std::string& path, const std::vector<std::string>& input
 }
 
 OutputPlace::OutputPlace(const std::string& path)
-    : path_(path), target_(behind_links(path).string()), partial_(partial_name(target_)) {
+    : path_(path), target_(behind_links(path).string()), partial_(name_beside(path, "partial")) {
   require_replaceable(path_, target_);
 }
 

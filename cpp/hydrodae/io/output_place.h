@@ -10,10 +10,7 @@
 
 namespace hydrodae::io {
 
-/// "X.partial.h5" for "X.h5".
-std::string partial_name(const std::string& path);
-
-/// "X.checkpoint.h5" for "X.h5" and "checkpoint", beside what a link means.
+/// "X.partial.h5" for "X.h5" and "partial", beside what a link means.
 std::string name_beside(const std::string& path, const std::string& what);
 
 /// Throws CaseError when a run writes the partial file of `path`.

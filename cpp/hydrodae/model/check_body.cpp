@@ -63,6 +63,23 @@ void check_initial(const Body& body, const std::array<bool, 6>& free) {
   }
 }
 
+void check_volume(const Scene& scene, const Body& body) {
+  if (body.center_of_buoyancy && body.volume == 0.0)
+    refuse(body, "center_of_buoyancy", "a centre of buoyancy needs a 'volume'");
+  if (body.volume == 0.0)
+    return;
+  if (body.hydro)
+    refuse(
+        body, "volume",
+        "the buoyancy of this body comes from the database, by 'hydro'; 'volume' is for dry ones");
+  if (water(scene).density <= 0.0)
+    refuse(body, "volume",
+           "buoyancy needs the density of the water: a database, or environment.water_density");
+  if (const double z = body.center_of_buoyancy.value_or(body.center_of_gravity)[2]; z > 0.0)
+    refuse(body, body.center_of_buoyancy ? "center_of_buoyancy" : "volume",
+           "a volume under water has its centre below z = 0, this one at " + number_text(z) + " m");
+}
+
 } // namespace
 
 void check_body(const Scene& scene, const Body& body) {
@@ -72,6 +89,7 @@ void check_body(const Scene& scene, const Body& body) {
            "a body that moves needs a mass > 0 kg, this one has " + number_text(body.mass) + " kg");
   check_inertia(body, free);
   check_initial(body, free);
+  check_volume(scene, body);
   if (body.hydro && !scene.hydro)
     refuse(body, "hydro", "key 'hydro' needs a table [hydro] with a database");
 }

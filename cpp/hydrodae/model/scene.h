@@ -130,6 +130,8 @@ struct Body {
   Vector3 products_of_inertia = Vector3::Zero();
   std::optional<Vector3> principal_axes; ///< rotation vector; then `inertia`: principal moments
   std::optional<std::string> hydro;
+  double volume = 0.0; ///< 0: not given
+  std::optional<Vector3> center_of_buoyancy;
   BodyInitial initial;
 
   template <class B = Body> static Fields<B> fields() {
@@ -155,6 +157,13 @@ struct Body {
          "reference pose; inertia then holds the principal moments."},
         {"hydro", &B::hydro, "-",
          "Name of this body in the hydrodynamic database; without it the body is dry."},
+        {"volume", &B::volume, "m3",
+         "Volume of a body without `hydro` that is and stays under water: it has the buoyancy "
+         "rho g V.",
+         false, more_than(0)},
+        {"center_of_buoyancy", &B::center_of_buoyancy, "m",
+         "Centre of that volume in the reference pose, world axes; default: the centre of "
+         "gravity."},
     };
   }
 };

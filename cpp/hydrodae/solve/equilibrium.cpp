@@ -11,6 +11,7 @@
 #include "hydrodae/system/algebraic.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 #include "hydrodae/system/sanity.h"
 
@@ -199,6 +200,15 @@ LinearMatrices balance(const System& s, VectorX& y) {
   }
 }
 
+/// What counts as a length, or an angle, of a coordinate.
+double size_of(const System& s, int motion) {
+  const system::BodyData* b = system::moving_body(s, system::joint_of(s, motion));
+  if (!b)
+    return 1.0;
+  const bool turns = s.motions[static_cast<std::size_t>(motion)].motion.is_angle();
+  return b->length_scale / (turns ? b->lever : 1.0);
+}
+
 /// Closes the stop that y violates most, or else opens the one that pulls most; false when every
 /// stop agrees with y. Dry friction stays open: it holds any pose near.
 bool correct_stops(System& s, const VectorX& y) {
@@ -220,8 +230,9 @@ bool correct_stops(System& s, const VectorX& y) {
     if (element.kind != system::SwitchData::Kind::stop || element.holds())
       continue;
     const double value = system::motion_row<double>(s, ws, element.motion).value;
-    propose(value - element.upper - 1e-9, element, State::upper);
-    propose(element.lower - value - 1e-9, element, State::lower);
+    const double little = 1e-9 * size_of(s, element.motion);
+    propose(value - element.upper - little, element, State::upper);
+    propose(element.lower - value - little, element, State::lower);
   }
   for (system::SwitchData& element : s.switches) {
     if (!element.holds() || worst > 0.0)

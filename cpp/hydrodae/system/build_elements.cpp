@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/buoyancy.h"
 #include "hydrodae/element/hydrostatics.h"
 #include "hydrodae/element/laws.h"
 #include "hydrodae/hydro/coverage.h"
@@ -153,6 +154,28 @@ void turn(element::LinearWrench& law, PortData& port, const HydroBody& hb) {
   port.turn << std::cos(0.5 * hb.yaw), 0.0, 0.0, std::sin(0.5 * hb.yaw);
 }
 
+/// Of the dry bodies that say how much water they displace.
+void add_buoyancy(const model::Scene& scene, System& s) {
+  const model::Water water = model::water(scene);
+  std::vector<element::Buoyancy> forces;
+  ElementList list;
+  for (const model::Body& body : scene.bodies) {
+    if (body.volume == 0.0)
+      continue;
+    forces.push_back({body.name, water.density * water.gravity * body.volume});
+    PortData port;
+    port.component = element::Buoyancy::type;
+    port.points.push_back(make_marker(scene, body.name,
+                                      body.center_of_buoyancy.value_or(body.center_of_gravity),
+                                      Matrix3::Identity()));
+    list.ports.push_back(std::move(port));
+  }
+  if (forces.empty())
+    return;
+  list.laws = std::make_shared<const element::Laws<element::Buoyancy>>(forces);
+  s.elements.push_back(std::move(list));
+}
+
 } // namespace
 
 void add_elements(const model::Scene& scene, System& s) {
@@ -164,6 +187,7 @@ void add_elements(const model::Scene& scene, System& s) {
         add_list(scene, list, s);
   };
   std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces);
+  add_buoyancy(scene, s);
 }
 
 void set_hydrostatics(const model::Scene& scene, System& s) {

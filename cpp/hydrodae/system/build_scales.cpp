@@ -80,21 +80,24 @@ void set_body_scales(const model::Scene& scene, System& s) {
 }
 
 void take_time_scales(System& s, const VectorX& y, const VectorX& yp) {
-  double shortest = INFINITY;
+  std::vector<double> shortest(static_cast<std::size_t>(s.n_groups), INFINITY);
   for (const BodyData& b : s.bodies)
     for (int k = 0; k < b.n_active && !b.time_scale_known; ++k) {
+      double& time = shortest[static_cast<std::size_t>(b.group)];
       const double size = b.active[k] < 3 ? b.length_scale : b.length_scale / b.lever;
       const double speed = std::abs(y[b.u0 + k]), rate = std::abs(yp[b.u0 + k]);
       if (speed > 0.0)
-        shortest = std::min(shortest, size / speed);
+        time = std::min(time, size / speed);
       if (rate > 0.0)
-        shortest = std::min(shortest, std::sqrt(size / rate));
+        time = std::min(time, std::sqrt(size / rate));
     }
-  if (!std::isfinite(shortest))
-    return; // at rest without loads: any scale will do
-  for (BodyData& b : s.bodies)
-    if (!b.time_scale_known)
-      b.time_scale = shortest;
+  for (BodyData& b : s.bodies) { // at rest without loads any scale will do
+    if (b.time_scale_known || b.group < 0)
+      continue;
+    const double time = shortest[static_cast<std::size_t>(b.group)];
+    if (std::isfinite(time))
+      b.time_scale = time;
+  }
   s.states = declare(s).states;
   set_scales(s);
 }

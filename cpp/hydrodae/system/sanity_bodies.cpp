@@ -243,8 +243,9 @@ std::vector<FloatingGroup> floating_groups(const System& s) {
       for (std::size_t i = 0; i < port.points.size(); ++i)
         if (const int body = port.points[i].body; body >= 0) {
           const auto z = static_cast<Index>(3 * i + 2);
-          group_of(body).load += rest.load[z];
-          group_of(body).mooring += rest.stiffness(z, z);
+          FloatingGroup& group = group_of(body);
+          (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
+          group.mooring += rest.stiffness(z, z);
         }
     }
     if (port.body < 0)
