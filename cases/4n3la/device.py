@@ -22,10 +22,11 @@ NODES = {"S3": (0.0, 0.0), "C1": (0.7, -1.21), "S1": (0.0, -2.42), "S2": (2.1, -
 ARMS = {"LA1": ("C1", "S1"), "LA2": ("C1", "S2"), "LA3": ("C1", "S3")}
 MOORED = ("S1", "S2", "S3")
 
-DENSITY, GRAVITY = 1025.0, 9.81  # kg/m3, m/s2
+DENSITY = 1025.0  # kg/m3
 RADIUS, DRAFT = 0.3, 0.6  # m, of a node: a vertical cylinder
 NODE_DEPTH, ARM_DEPTH = 0.3, 0.4  # m, of the centres of gravity; joints are at that of the arms
 TUBE_RADIUS = 0.05  # m, of an arm
+BALLAST = 0.01  # m, its centre of buoyancy above that of gravity: or nothing would hold its roll
 LINE_LENGTH, LINE_STIFFNESS, PRETENSION = 3.0, 500.0, 15.0  # m, N, N: each of the two ropes
 LINE_DAMPING = 100.0  # N s
 BUOY_MASS = 1.0  # kg, where the ropes of a mooring meet
@@ -55,21 +56,22 @@ def add_arms(scene: hydrodae.Scene, stiffness: float, damping: float) -> None:
     for name, (first, second) in ARMS.items():
         (xa, ya), (xb, yb) = NODES[first], NODES[second]
         length, heading = math.hypot(xb - xa, yb - ya), math.atan2(yb - ya, xb - xa)
-        mass = DENSITY * math.pi * TUBE_RADIUS**2 * length
+        volume = math.pi * TUBE_RADIUS**2 * length
+        mass = DENSITY * volume
         along, across = 0.5 * mass * TUBE_RADIUS**2, mass * length**2 / 12.0
+        x, y = 0.5 * (xa + xb), 0.5 * (ya + yb)
         scene.body(
             name,
             mass=mass,
-            center_of_gravity=[0.5 * (xa + xb), 0.5 * (ya + yb), -ARM_DEPTH],
+            center_of_gravity=[x, y, -ARM_DEPTH],
             inertia=[along, across, across],
             principal_axes_deg=[0.0, 0.0, math.degrees(heading)],
+            volume=volume,
+            center_of_buoyancy=[x, y, BALLAST - ARM_DEPTH],
         )
-        scene.force.constant_load(f"{name}_buoyancy", body=name, force=[0.0, 0.0, mass * GRAVITY])
         for node in (first, second):
-            x, y = NODES[node]
-            scene.joint.spherical(
-                f"{name}_{node}", body_a=name, body_b=node, point=[x, y, -ARM_DEPTH]
-            )
+            point = [*NODES[node], -ARM_DEPTH]
+            scene.joint.spherical(f"{name}_{node}", body_a=name, body_b=node, point=point)
             scene.force.pto_rotary(
                 f"pto_{name}_{node}",
                 body_a=name,
@@ -93,10 +95,11 @@ def add_moorings(scene: hydrodae.Scene) -> None:
             for s in (RADIUS, RADIUS + LINE_LENGTH, RADIUS + 2.0 * LINE_LENGTH)
         )
         buoy = scene.body(
-            f"buoy_{node}", motion="point", mass=BUOY_MASS, center_of_gravity=middle
-        )
-        scene.force.constant_load(
-            f"{buoy}_buoyancy", body=buoy, force=[0.0, 0.0, BUOY_MASS * GRAVITY]
+            f"buoy_{node}",
+            motion="point",
+            mass=BUOY_MASS,
+            center_of_gravity=middle,
+            volume=BUOY_MASS / DENSITY,
         )
         for name, bodies, points in (
             (f"rope_{node}", [node, buoy], [start, middle]),

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao
     from hydrodae.study.sensitivity import sensitivity
+    from hydrodae.study.sweep import sweep
 
     __version__: str
 
@@ -62,6 +63,7 @@ __all__ = [
     "recommend",
     "run",
     "sensitivity",
+    "sweep",
     "working_band",
 ]
 
@@ -77,6 +79,7 @@ _LATER = {
     "rao": "study.rao",
     "recommend": "study.chart",
     "sensitivity": "study.sensitivity",
+    "sweep": "study.sweep",
     "working_band": "study.band",
 }
 

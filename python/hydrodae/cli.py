@@ -126,6 +126,19 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         ladder_command.add_arguments(ladder)
         ladder.set_defaults(call=ladder_command.run)
 
+    sweep = commands.add_parser(
+        "sweep",
+        help="run a case with many values of its keys, on all cores: power matrix, annual energy",
+        description="Run every point of a study. What is finished is kept at once: an interrupted "
+        "or killed sweep goes on where it stopped, and a run that fails is a row with its reason.",
+        epilog="example: hydrodae sweep power_matrix.toml -o power_matrix.nc",
+    )
+    if command == ["sweep"]:
+        from hydrodae.commands import sweep as sweep_command
+
+        sweep_command.add_arguments(sweep)
+        sweep.set_defaults(call=sweep_command.run)
+
     plot.add_parser(commands)
     chart.add_arguments(commands)
 

@@ -25,8 +25,8 @@ class ProgressLine:
     ...     progress(1.0, 10.0)  # quiet: the run is young
     """
 
-    def __init__(self, title: str) -> None:
-        self._title = title
+    def __init__(self, title: str, unit: str = "s") -> None:
+        self._title, self._unit = title, unit
         self._console = Console(stderr=True)
         self._start = self._last = monotonic()
         self._bar: Progress | None = None
@@ -53,8 +53,9 @@ class ProgressLine:
         elif now - self._last >= INTERVAL:
             self._last = now
             remaining = (now - self._start) * (end_time - time) / time if time > 0 else float("inf")
+            done = f"{time:g} of {end_time:g} {self._unit}"
             print(
-                f"{self._title}: {time:g} of {end_time:g} s, about {remaining:.0f} s to go",
+                f"{self._title}: {done}, about {remaining:.0f} s to go",
                 file=sys.stderr,
                 flush=True,
             )
@@ -64,7 +65,7 @@ class ProgressLine:
             self._bar = Progress(
                 TextColumn("{task.description}", markup=False),
                 BarColumn(),
-                TextColumn("{task.completed:g} of {task.total:g} s"),
+                TextColumn("{task.completed:g} of {task.total:g} " + self._unit),
                 TimeRemainingColumn(),
                 console=self._console,
                 transient=True,

@@ -1,0 +1,47 @@
+"""The command `hydrodae sweep`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from hydrodae.case import parse_assignment
+from hydrodae.progress import ProgressLine
+from hydrodae.study.sweep import sweep, text
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `hydrodae sweep`."""
+    parser.add_argument("study", metavar="STUDY", help="study file (TOML): docs/sweeps.md")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="netCDF (default: STUDY.nc); FILE.runs.jsonl beside it keeps what is finished",
+    )
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Sweep, and print counts, power matrix and annual energy.
+
+    Raises
+    ------
+    CaseError
+        As `hydrodae.sweep`.
+    """
+    output = Path(arguments.output or Path(arguments.study).with_suffix(".nc"))
+    values = dict(map(parse_assignment, arguments.set))
+    with ProgressLine(Path(arguments.study).name, "runs") as progress:
+        results = sweep(
+            arguments.study,
+            output,
+            set=values,
+            jobs=arguments.jobs,
+            progress=None if arguments.quiet else progress,
+        )
+    print(text(results))
+    print(f"written: {output}")
+    return 0

@@ -1,0 +1,78 @@
+"""Sweeps: a case with many values of its keys, on all cores, kept as they are finished."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hydrodae.case import Case
+from hydrodae.study.sweep.journal import Journal
+from hydrodae.study.sweep.plan import point_key, read_study
+from hydrodae.study.sweep.pool import run_points
+from hydrodae.study.sweep.table import dataset, text, write
+from hydrodae.version import version
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["sweep", "text"]
+
+
+def sweep(
+    study: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    set: Mapping[str, Any] | None = None,
+    jobs: int | None = None,
+    progress: Callable[[float, float], None] | None = None,
+) -> xarray.Dataset:
+    """Run every point of a study, and gather what is measured in one netCDF file.
+
+    A finished run is kept at once in ``X.runs.jsonl`` beside ``X.nc``: a sweep that was killed goes
+    on from there, and runs nothing twice. A study that got more points only runs the new ones.
+
+    Parameters
+    ----------
+    study : path
+        The study file (docs/sweeps.md).
+    output : path
+        ``X.nc``, replaced when all is done.
+    set : mapping from str, optional
+        Values that replace those of the case at every point.
+    jobs : int, optional
+        Runs at a time; default: all cores.
+    progress : callable, optional
+        Called with the numbers of finished and of all points.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along the keys of a grid, else along `point`: what was measured (with its unit), `status`
+        (completed, failed, refused) and `reason` of each run.
+
+    Raises
+    ------
+    CaseError
+        The study or its case cannot be used, or another sweep is writing the same file.
+    """
+    plan = read_study(study)
+    case = Case(path=plan.case, values=set or {})
+    target = Path(output)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    case.with_values(plan.points[0])  # a wrong key is told before anything runs
+    record = target.with_name(target.stem + ".runs.jsonl")
+    with Journal(record, plan.identity(case)) as journal:
+        left = [p for p in plan.points if point_key(p) not in journal.rows]
+        done = len(plan.points) - len(left)
+        if left:
+            for row in run_points(str(plan.case), set or {}, plan.measures, left, jobs):
+                journal.add(row)
+                done += 1
+                if progress is not None:
+                    progress(done, len(plan.points))
+        attributes = {"case": case.text, "study": plan.path.read_text(), "hydrodae": version()}
+        results = dataset(plan, journal.rows, attributes)
+    write(target, results)
+    return results

@@ -1,0 +1,111 @@
+"""What is kept of a run: numbers from its channels."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import CaseError
+from hydrodae.results import Results
+
+Array = NDArray[np.float64]
+
+#: Numbers of a series of samples.
+STATISTICS: dict[str, Callable[[Array], float]] = {
+    "mean": lambda x: float(np.mean(x)),
+    "std": lambda x: float(np.std(x)),
+    "max": lambda x: float(np.max(x)),
+    "min": lambda x: float(np.min(x)),
+    "range": lambda x: float(np.ptp(x)),
+    "rms": lambda x: float(np.sqrt(np.mean(x**2))),
+    "last": lambda x: float(x[-1]),
+}
+#: What every run tells, with its unit.
+ALWAYS = {"mean_power_absorbed": "W", "estimated_error": "-", "steps": "-"}
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A statistic of a channel over the samples from a time on."""
+
+    name: str
+    channel: str
+    statistic: str
+    component: str | None
+    start: float  #: s
+
+    def __call__(self, results: Results) -> tuple[float, str]:
+        """Return the value and its unit.
+
+        Raises
+        ------
+        CaseError
+            There is no such channel or component, or no sample after the start.
+        """
+        if self.channel not in results:
+            told = str(results.missing(self.channel)).partition(" has no channel ")[2]
+            raise CaseError(f"result.{self.name}: the runs have no channel {told}")
+        series = results[self.channel]
+        if self.component is not None:
+            series = series.sel(component=self.component)
+        elif series.ndim > 1:
+            raise CaseError(
+                f"result.{self.name}: {self.channel} has components "
+                f"{', '.join(map(str, series['component'].values))}: name one with 'component'"
+            )
+        values = series.to_numpy()[results.time >= self.start]
+        if len(values) == 0:
+            raise CaseError(
+                f"result.{self.name}: no sample from {self.start:g} s on; the run ends at "
+                f"{results.end_time:g} s"
+            )
+        return STATISTICS[self.statistic](values), str(series.attrs.get("unit", "-"))
+
+
+def make_measure(file: Path, name: str, table: Any) -> Measure:
+    """Read [result.NAME] of a study.
+
+    Raises
+    ------
+    CaseError
+        A key is missing or wrong.
+    """
+    where = f"{file}: [result.{name}]"
+    keys = ("channel", "statistic", "component", "from")
+    if not isinstance(table, dict) or "channel" not in table:
+        raise CaseError(f"{where}: expected a table with the name of a 'channel'")
+    for key in table:
+        if key not in keys:
+            near = difflib.get_close_matches(key, keys, 1)
+            raise CaseError(
+                f"{where}: unknown key {key!r}"
+                + (f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(keys)}")
+            )
+    statistic = table.get("statistic", "mean")
+    if statistic not in STATISTICS:
+        near = difflib.get_close_matches(str(statistic), STATISTICS, 1)
+        raise CaseError(
+            f"{where}: key 'statistic': {statistic!r} is none of {', '.join(STATISTICS)}"
+            + (f"; did you mean {near[0]!r}?" if near else "")
+        )
+    if name in ALWAYS:
+        raise CaseError(f"{where}: every run tells {name!r}; take another name")
+    return Measure(
+        name, table["channel"], statistic, table.get("component"), float(table.get("from", 0.0))
+    )
+
+
+def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[float, str]]:
+    """All that is kept of a run: name to value and unit."""
+    known = results.statistics
+    out = {name: (float(known[name]), unit) for name, unit in ALWAYS.items() if name in known}
+    for name, value in known.items():
+        if name.startswith("mean_power_absorbed."):
+            out[name] = (float(value), "W")
+    return out | {m.name: m(results) for m in measures}

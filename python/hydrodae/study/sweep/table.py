@@ -1,0 +1,159 @@
+"""The results of a study as one dataset, and as text."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.stats import t as student
+
+from hydrodae.errors import CaseError
+from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.plan import Study, point_key
+
+HOURS_A_YEAR = 8766.0
+
+
+def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]) -> xr.Dataset:
+    """Every number of every run: along the keys of a grid, else along `point`.
+
+    Runs that did not complete have NaN, their `status` and `reason`. With repetitions (`over`)
+    `NAME_mean` and `NAME_interval`, half the width of the 95 % confidence interval of the mean
+    (Student's t), stand beside the values.
+    """
+    shape, coordinates = _axes(study)
+    dimensions = tuple(coordinates) if study.dimensions else ("point",)
+    ordered = [rows[point_key(point)] for point in study.points]
+    units: dict[str, str] = {}
+    for row in ordered:
+        units |= row.get("units", {})
+    variables: dict[str, Any] = {
+        name: (
+            dimensions,
+            np.array([row.get("values", {}).get(name, np.nan) for row in ordered]).reshape(shape),
+            {"units": unit},
+        )
+        for name, unit in units.items()
+    }
+    for name in ("status", "reason"):
+        text = np.array([row[name] for row in ordered], dtype=object).reshape(shape)
+        variables[name] = (dimensions, text)
+    if not study.dimensions:
+        for key in study.points[0]:
+            values = [point[key] for point in study.points]
+            variables[_short(study, key)] = ("point", _column(values), {"key": key})
+    out = xr.Dataset(variables, coordinates, dict(attributes))
+    _add_means(out, study)
+    _add_energy(out, study)
+    return out
+
+
+def _axes(study: Study) -> tuple[tuple[int, ...], dict[str, Any]]:
+    if not study.dimensions:
+        return (len(study.points),), {}
+    names = {key: _short(study, key) for key in study.dimensions}
+    return tuple(map(len, study.dimensions.values())), {
+        names[key]: (names[key], _column(values), {"key": key})
+        for key, values in study.dimensions.items()
+    }
+
+
+def _column(values: list[Any]) -> Any:
+    array = np.array(values)
+    return array if array.dtype.kind in "biufU" and array.ndim == 1 else [str(v) for v in values]
+
+
+def _short(study: Study, key: str) -> str:
+    """The last word of a key where that is enough, else the whole key with underscores."""
+    last = key.rpartition(".")[2]
+    same = [k for k in study.points[0] if k.rpartition(".")[2] == last]
+    return last if len(same) == 1 else key.replace(".", "_")
+
+
+def _add_means(out: xr.Dataset, study: Study) -> None:
+    along = [_short(study, key) for key in study.over]
+    if not along:
+        return
+    numbers = [str(n) for n, v in out.data_vars.items() if v.dtype.kind == "f"]
+    for name in [n for n in numbers if n not in ("estimated_error", "steps")]:
+        values = out[name]
+        count = values.count(along)
+        width = student.ppf(0.975, np.maximum(count - 1, 1)) * values.std(along, ddof=1)
+        mean = values.mean(along)
+        mean.attrs = values.attrs
+        interval = (width / np.sqrt(count)).where(count > 1)
+        interval.attrs = values.attrs
+        out[f"{name}_mean"], out[f"{name}_interval"] = mean, interval
+
+
+def _add_energy(out: xr.Dataset, study: Study) -> None:
+    """Annual energy [J] = sum over sea states of mean power times hours (scatter table)."""
+    if study.scatter is None:
+        return
+    s = study.scatter
+    if set(study.dimensions) - set(study.over) != {s.height_key, s.period_key}:
+        raise CaseError(
+            f"{study.path}: [scatter] needs a [grid] of height and period, and else only keys "
+            "that are named by 'over'"
+        )
+    name = "mean_power_absorbed" + "_mean" * bool(study.over)
+    if name not in out:
+        raise CaseError(f"{study.path}: [scatter]: no run completed with a power take-off")
+    energy, missing = 0.0, []
+    axes = [_short(study, key) for key in (s.height_key, s.period_key)]
+    for height, period, hours in zip(s.height, s.period, s.hours, strict=True):
+        place = [np.isclose(out[a], x) for a, x in zip(axes, (height, period), strict=True)]
+        if not (place[0].any() and place[1].any()):
+            missing.append(f"{height:g} m, {period:g} s")
+            continue
+        power = out[name].isel({a: int(np.argmax(p)) for a, p in zip(axes, place, strict=True)})
+        energy += float(power) * hours * 3600.0
+    if missing:
+        raise CaseError(
+            f"{study.path}: [scatter]: sea states that the grid lacks: {'; '.join(missing[:5])}"
+            + f" and {len(missing) - 5} more" * (len(missing) > 5)
+        )
+    out["annual_energy"] = ((), energy, {"units": "J"})
+    out["hours"] = ((), sum(s.hours), {"units": "h", "long_name": "hours a year in the table"})
+
+
+def write(path: str | os.PathLike[str], results: xr.Dataset) -> Path:
+    """Write the dataset as netCDF (a whole file or none)."""
+    target = Path(path)
+    beside = target.with_name(target.name + ".writing")
+    results.to_netcdf(beside, engine="netcdf4")
+    beside.replace(target)
+    return target
+
+
+def text(results: xr.Dataset) -> str:
+    """Counts, and the mean power of each sea state or point, for people."""
+    status, count = np.unique(results["status"].to_numpy().astype(str), return_counts=True)
+    lines = [", ".join(f"{n} {word}" for word, n in zip(status, count, strict=True))]
+    for reason in sorted(set(results["reason"].to_numpy().ravel()) - {""})[:5]:
+        lines.append(f"  {str(reason).splitlines()[0]}")
+    for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
+        if name in results:
+            lines += ["mean absorbed power, W:", *_rows(results[name])]
+            break
+    if "annual_energy" in results:
+        energy, hours = float(results["annual_energy"]), float(results["hours"])
+        lines.append(f"annual energy: {energy / 3.6e9:,.4g} MWh in {hours:g} h")
+    return "\n".join(lines)
+
+
+def _rows(power: xr.DataArray) -> list[str]:
+    if power.ndim != 2:
+        flat = power.to_numpy().ravel()
+        return [f"  {np.nanmin(flat):.4g} to {np.nanmax(flat):.4g}"] if len(flat) else []
+    down, across = (power[d].to_numpy() for d in power.dims)
+    width = 11
+    head = f"{power.dims[0]} | {power.dims[1]}".rjust(28)
+    lines = ["  " + head + "".join(f"{x!s:>{width}.10}" for x in across)]
+    for value, row in zip(down, power.to_numpy(), strict=True):
+        lines.append("  " + f"{value!s:>28}" + "".join(f"{x:{width}.4g}" for x in row))
+    return lines

@@ -1,0 +1,180 @@
+"""Sweeps: points, measures, failures, and what a kill leaves."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from scipy.stats import t as student
+
+import hydrodae
+from hydrodae.study.sweep.plan import read_study
+
+CASE = """
+title = "Mass on a spring with a take-off"
+[environment]
+gravity = 0.0
+[[body]]
+name = "float"
+motion = "heave"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial.velocity = [0.0, 0.0, 1.0]
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "float"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+[[force]]
+type = "pto_linear"
+name = "pto"
+joint = "guide"
+damping = 1.0
+[solver]
+end_time = 8.0
+[output]
+step = 0.02
+"""
+SPEED = "body.float.initial.velocity"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "case.toml").write_text(CASE)
+    return tmp_path
+
+
+def write_study(folder: Path, text: str) -> Path:
+    path = folder / "study.toml"
+    path.write_text('case = "case.toml"\n' + text)
+    return path
+
+
+def test_grid_has_its_keys_as_dimensions(folder: Path) -> None:
+    """A damper stops the mass: v = v0 exp(-c t / m), way v0 m / c, power m v0^2 / 2 (1 - ...)."""
+    study = write_study(
+        folder,
+        '[grid]\n"force.pto.damping" = { from = 1.0, to = 2.0, count = 3 }\n'
+        '"body.float.mass" = [2.0, 4.0]\n'
+        '[result.way]\nchannel = "joints/guide/displacement"\nstatistic = "last"\n',
+    )
+    found = hydrodae.sweep(study, folder / "study.nc", jobs=2)
+    assert dict(found.sizes) == {"damping": 3, "mass": 2}
+    assert (found["status"] == "completed").all()
+    c, m = found["damping"], found["mass"]
+    left = np.exp(-c * 8.0 / m)
+    np.testing.assert_allclose(found["way"], (m / c * (1.0 - left)).T, rtol=1e-5)
+    power = 0.5 * m * (1.0 - left**2) / 8.0  # (mass, damping)
+    np.testing.assert_allclose(found["mean_power_absorbed"], power.T, rtol=1e-5)
+    assert found["way"].attrs["units"] == "m"
+    xarray.testing.assert_identical(found.load(), xarray.load_dataset(folder / "study.nc"))
+
+
+def test_points_of_all_kinds(folder: Path) -> None:
+    (folder / "points.csv").write_text("body.float.mass, solver.end_time\n2.0, 1.0\n3.0, 2.0\n")
+    study = read_study(
+        write_study(
+            folder,
+            '[list]\n"force.pto.damping" = [1.0, 2.0]\n"force.pto.stiffness" = [3.0, 4.0]\n'
+            "[latin_hypercube]\nsamples = 5\n"
+            '[latin_hypercube.range]\n"solver.rtol" = [1e-6, 1e-5]\n'
+            '[table]\nfile = "points.csv"\n',
+        )
+    )
+    assert len(study.points) == 2 * 5 * 2
+    assert not study.dimensions
+    pairs = {(p["force.pto.damping"], p["force.pto.stiffness"]) for p in study.points}
+    assert pairs == {(1.0, 3.0), (2.0, 4.0)}
+    parts = sorted((p - 1e-6) // 1.8e-6 for p in {p["solver.rtol"] for p in study.points})
+    assert parts == [0, 1, 2, 3, 4]  # one in each fifth of the range
+    assert {p["body.float.mass"] for p in study.points} == {2.0, 3.0}
+
+
+def test_failed_runs_are_rows_with_their_reason(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"body.float.mass" = [2.0, -1.0]\n')
+    found = hydrodae.sweep(study, folder / "study.nc", jobs=1)
+    assert list(found["status"].values) == ["completed", "refused"]
+    assert "mass" in str(found["reason"].values[1])
+    assert np.isnan(found["mean_power_absorbed"].values[1])
+
+
+def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
+    (folder / "scatter.csv").write_text("height,period,hours\n1.0,2.0,10\n2.0,2.0,30\n")
+    study = write_study(
+        folder,
+        'over = ["solver.end_time"]\n'
+        '[grid]\n"force.pto.damping" = [1.0, 2.0]\n"body.float.mass" = [2.0]\n'
+        '"solver.end_time" = [4.0, 6.0, 8.0]\n'
+        '[scatter]\nfile = "scatter.csv"\nheight = "force.pto.damping"\n'
+        'period = "body.float.mass"\n',
+    )
+    found = hydrodae.sweep(study, folder / "study.nc", jobs=2)
+    each = found["mean_power_absorbed"].values[:, 0, :]
+    np.testing.assert_allclose(found["mean_power_absorbed_mean"].values[:, 0], each.mean(axis=1))
+    half = student.ppf(0.975, 2) * each.std(axis=1, ddof=1) / np.sqrt(3.0)
+    np.testing.assert_allclose(found["mean_power_absorbed_interval"].values[:, 0], half)
+    joules = 3600.0 * (10.0 * each[0].mean() + 30.0 * each[1].mean())
+    assert float(found["annual_energy"]) == pytest.approx(joules)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "nothing varies"),
+        ("[gird]\n", "did you mean 'grid'"),
+        ('[grid]\n"body.float.mas" = [1.0]\n', "mass"),
+        ("[list]\na = [1]\nb = [1, 2]\n", "all need as many"),
+        ("[grid]\na = [1]\n[list]\na = [1]\n", "two tables"),
+        ('[grid]\na = [1]\n[result.x]\nchannel = "c"\nstatistic = "men"\n', "did you mean 'mean'"),
+        (
+            '[grid]\n"body.float.mass" = [1.0]\n[result.x]\nchannel = "joints/guide/angle"\n',
+            "displ",
+        ),
+    ],
+)
+def test_wrong_studies_are_refused(folder: Path, text: str, told: str) -> None:
+    with pytest.raises(hydrodae.CaseError, match=told):
+        hydrodae.sweep(write_study(folder, text), folder / "study.nc", jobs=1)
+
+
+def test_a_record_of_something_else_is_kept(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"body.float.mass" = [2.0]\n')
+    hydrodae.sweep(study, folder / "study.nc", jobs=1)
+    with pytest.raises(hydrodae.CaseError, match="another case"):
+        hydrodae.sweep(study, folder / "study.nc", set={"solver.end_time": 2.0}, jobs=1)
+    (folder / "notes.runs.jsonl").write_text("my notes")
+    with pytest.raises(hydrodae.CaseError, match="no record of a sweep"):
+        hydrodae.sweep(study, folder / "notes.nc", jobs=1)
+    assert (folder / "notes.runs.jsonl").read_text() == "my notes"
+
+
+def test_killed_sweep_goes_on_and_runs_nothing_twice(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"force.pto.damping" = { from = 1, to = 2, count = 12 }\n')
+    whole = hydrodae.sweep(study, folder / "whole.nc", jobs=1)
+    record = folder / "killed.runs.jsonl"
+    command = [sys.executable, "-m", "hydrodae", "sweep", str(study), "--jobs", "1"]
+    process = subprocess.Popen([*command, "-o", str(folder / "killed.nc")])
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        if record.exists() and record.read_bytes().count(b"\n") > 3:
+            break
+        time.sleep(0.005)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    kept = record.read_bytes().count(b"\n")
+    with record.open("ab") as file:
+        file.write(b'{"key": "cut o')
+    again = hydrodae.sweep(study, folder / "killed.nc", jobs=1)
+    xarray.testing.assert_identical(again.load(), whole.load())
+    keys = [json.loads(line).get("key") for line in record.read_text().splitlines()]
+    assert len(keys) == len(set(keys)) == 13
+    assert kept >= 4
