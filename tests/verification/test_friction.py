@@ -159,14 +159,14 @@ def test_bristles_take_the_reaction(method: str) -> None:
     assert slope == pytest.approx(G * (np.sin(0.6) - 0.3 * np.cos(0.6)), rel=1e-5)
 
 
-PUSH = '''
+PUSH = """
 [[force]]
 type = "constant_load"
 name = "push"
 body = "block"
 force = [{x:.17g}, 0.0, 0.0]
 moment = [0.0, 0.0, {m:.17g}]
-'''
+"""
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -191,9 +191,7 @@ def test_a_push_off_the_guide_locks_it(method: str, part: float) -> None:
 @pytest.mark.parametrize("kind", ["stribeck", "dry"])
 @pytest.mark.parametrize("pushed", [-20.0, 20.0])
 @pytest.mark.parametrize("part", [0.98, 1.02])
-def test_a_centre_off_the_guide_jams_it(
-    method: str, kind: str, pushed: float, part: float
-) -> None:
+def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, part: float) -> None:
     """The inertia of a centre e off the guide presses by 2 m |s''| e / L.
 
     With mu 2 e / L = k < 1, m s'' = F / (1 + k sign(s' s'')); from k = 1 on there is no solution
@@ -212,7 +210,9 @@ def test_a_centre_off_the_guide_jams_it(
     push = PUSH.format(x=pushed, m=offset * pushed)
     text = text.replace("[solver]", push + "[solver]")
     if part > 1.0:
-        with pytest.raises(SolverError, match="friction 'pads' jams joint 'guide'.*not below 0.625"):
+        with pytest.raises(
+            SolverError, match=r"friction 'pads' jams joint 'guide'.*not below 0\.625"
+        ):
             run(text)
         return
     results = run(text)
@@ -295,7 +295,9 @@ def test_a_pendulum_rubs_in_its_bearing(method: str, motion: str) -> None:
     assert np.asarray(results["forces/bearing/power"].values).max() <= 0.0
 
 
-@pytest.mark.parametrize(("method", "order"), [("gauss", 2), ("lobatto_iiic", 2), ("explicit_rk", 5)])
+@pytest.mark.parametrize(
+    ("method", "order"), [("gauss", 2), ("lobatto_iiic", 2), ("explicit_rk", 5)]
+)
 def test_the_error_falls_with_the_step(method: str, order: int) -> None:
     errors = []
     for step in (0.02, 0.01):
@@ -346,5 +348,5 @@ def test_a_reaction_shared_with_redundant_rows_is_refused() -> None:
     text = text.replace("LENGTHS", "length = 0.1\nradius_axial = 0.0")
     second = text[text.index("[[joint]]") : text.index("[[force]]")].replace('"hinge"', '"second"')
     second = second.replace("point = [0.0, 0.0, 0.0]", "point = [0.0, 0.4, 0.0]")
-    with pytest.raises(CaseError, match="joint 'hinge' is not known.*redundant.*'second'"):
+    with pytest.raises(CaseError, match=r"joint 'hinge' is not known.*redundant.*'second'"):
         run(text.replace("[[force]]", second + "[[force]]"))

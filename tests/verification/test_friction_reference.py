@@ -155,7 +155,7 @@ def test_turning_points_of_a_rubbing_oscillator(endstop: Any, method: str) -> No
     )
     place = column(results, "bodies/cart/position")[:, 0]
     turns = np.array(p["turning_points"])
-    np.testing.assert_allclose(place[:: 100][: len(turns)], turns, atol=1e-4)
+    np.testing.assert_allclose(place[::100][: len(turns)], turns, atol=1e-4)
     assert place[-1] == pytest.approx(p["x_stop"], abs=1e-4)
 
 
