@@ -80,11 +80,15 @@ void write_impacts(const run::Simulation& simulation, io::ResultsFile& file) {
     if (impacts.empty())
       continue;
     std::vector<double> values;
-    for (const solve::Switching::Impact& i : impacts)
+    for (const solve::Switching::Impact& i : impacts) {
       values.insert(values.end(), {i.time, i.impulse, i.energy_lost});
-    file.write_table("impacts/" + stop.name, 3, values,
-                     {{"columns", "time, impulse, energy lost"},
-                      {"unit", stop.angle ? "s, N m s, J" : "s, N s, J"},
+      if (stop.contact_time)
+        values.push_back(stop.peak(i.impulse));
+    }
+    const std::string columns = "time, impulse, energy lost", unit = stop.angle ? "N m" : "N";
+    file.write_table("impacts/" + stop.name, stop.contact_time ? 4 : 3, values,
+                     {{"columns", stop.contact_time ? columns + ", peak force" : columns},
+                      {"unit", "s, " + unit + " s, J" + (stop.contact_time ? ", " + unit : "")},
                       {"description", "The impacts on this stop, one a row."}});
   }
 }

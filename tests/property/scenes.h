@@ -173,6 +173,19 @@ template <class Law> Law random_force(Random& random, const std::string& name) {
   return law;
 }
 
+/// Friction that the reaction of the link presses.
+template <class Law> Law pressed_friction(Random& random) {
+  Law law = random_force<Law>(random, "pressed " + std::string(Law::type));
+  law.static_coefficient = 0.4;
+  law.kinetic_coefficient = 0.3;
+  law.preload = 0.5;
+  law.length = 0.7;
+  law.radius = 0.2;
+  law.radius_axial = 0.3;
+  law.small_force = 0.6;
+  return law;
+}
+
 /// What a program might give as a law: load_i = -x_i^3 - sin(t) v_i + x_0 v_0.
 template <int w> element::Function smooth_function() {
   return [](double t, const double* x, const double* v, double* load) {
@@ -199,7 +212,9 @@ template <int w> const hydrodae_law* smooth_library_law() {
 /// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
 /// it can have one.
 inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
-  const bool one_motion = joint::find_joint_type(scene.joints.front().type)->motions.size() == 1;
+  const std::string& type = scene.joints.front().type;
+  const bool one_motion = joint::find_joint_type(type)->motions.size() == 1;
+  const bool presses = type == "prismatic" || type == "revolute" || type == "sliding";
   std::apply(
       [&](auto&... lists) {
         auto add = [&](auto& list) {
@@ -213,6 +228,12 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
           if constexpr (requires(Law law) { law.found; })
             for (Law& law : list)
               law.found = smooth_library_law<element::width(Law::port)>();
+          if constexpr (requires(Law law) { law.static_coefficient; }) {
+            for (Law& law : list)
+              law.static_load = 1.5;
+            if (presses)
+              list.push_back(pressed_friction<Law>(random));
+          }
           if constexpr (requires(Law law) { law.upper; })
             for (Law& law : list)
               law.upper = -0.2; // beyond it

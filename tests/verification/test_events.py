@@ -326,6 +326,22 @@ def test_impacts_report_their_impulses_and_the_energy_they_take() -> None:
     assert not [name for name in results if name.startswith("impacts/")]
 
 
+def test_a_contact_time_tells_the_peak_force() -> None:
+    """Half a sine of the length T and the impulse J: pi J / 2 T. The motion stays the same."""
+    results = run(BALL.replace("restitution = 0.8", "restitution = 0.8\ncontact_time = 0.02"), 1.0)
+    table = results.impacts["floor"]
+    largest = 2.0 * 1.8 * np.sqrt(2.0 * GRAVITY)  # N s
+    np.testing.assert_allclose(table["impulse"][0], largest, rtol=1e-5)
+    np.testing.assert_allclose(table["peak_force"], np.pi * table["impulse"] / 0.04, rtol=1e-12)
+    assert table["peak_force"].attrs["unit"] == "N"
+    assert f"peak force {np.pi * largest / 0.04:.4g} N" in results.summary()
+    plain = run(BALL, 1.0)
+    assert "peak_force" not in plain.impacts["floor"]
+    np.testing.assert_array_equal(
+        plain["bodies/ball/position"].values, results["bodies/ball/position"].values
+    )
+
+
 @pytest.mark.parametrize("method", ["gauss", "lobatto_iiic"])
 def test_low_orders_locate_impacts_on_a_parabola(method: str) -> None:
     """Of order 2 the velocities are a line in each step, and a fall is exact."""

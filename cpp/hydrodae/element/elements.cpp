@@ -26,7 +26,7 @@ AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
           out = VectorX::Zero(out_size * static_cast<Index>(n));
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t z = 0; z < states; ++z)
-      in[static_cast<Index>(k) * in_size + 2 * w + static_cast<Index>(z)] =
+      in[static_cast<Index>(k + 1) * in_size - static_cast<Index>(states - z)] =
           list.unknowns[k * states + z].start;
   in.segment(static_cast<Index>(law) * in_size, x.size()) = x;
   std::vector<double> all(n * static_cast<std::size_t>(in_size * out_size), 0.0);

@@ -3,7 +3,8 @@
 /// what it sees of their motion and what its loads act on; the system gathers that motion into
 /// numbers, and the list answers with loads and with the rates of the states that its laws have.
 ///
-/// - along_joint: the coordinate s of a joint with one motion, s'; f on s [N, N m]
+/// - along_joint: the coordinate s of a joint with one motion, s'; f on s [N, N m]; if wanted, what
+///   the rows of the joint load body B with at its marker (force and moment, axes of marker A)
 /// - along_distance: the distance of two points, its rate; f pushes them apart [N]
 /// - on_body: displacement from the reference pose, twist (6 each, earth axes); force and moment
 ///   about the centre of gravity
@@ -86,6 +87,7 @@ template <class S> struct In {
   const S *x, *v;        ///< (width,)
   const S* z;            ///< (n_states,)
   const double* signals; ///< (n_signals,)
+  const S* r = nullptr;  ///< (n_reaction,) force and moment [N, N m]
 };
 
 /// What it answers.
@@ -101,11 +103,14 @@ struct Shape {
   Port port = Port::on_body;
   int width = 6, n_states = 0, n_signals = 0;
   int n_algebraic = 0;     ///< of the n_states unknowns: the last ones
+  int n_reaction = 0;      ///< 6: it feels the reaction of its joint
   bool feels_rates = true; ///< in the water: velocities and accelerations, else the pose alone
   bool in_water() const { return port == Port::in_water; }
-  int n_in() const { return in_water() ? body_numbers : 2 * width + n_states; } ///< x, v, z
-  int n_columns() const { return in_water() ? 18 : n_in(); }                    ///< of the Jacobian
-  int n_out() const { return width + n_states; }                                ///< load, z'
+  int n_in() const { ///< x, v, reaction, z
+    return in_water() ? body_numbers : 2 * width + n_reaction + n_states;
+  }
+  int n_columns() const { return in_water() ? 18 : n_in(); } ///< of the Jacobian
+  int n_out() const { return width + n_states; }             ///< load, z'
 };
 
 /// The waves that a list feels: their components, and what forces these put on each body.

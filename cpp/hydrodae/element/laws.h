@@ -21,7 +21,8 @@
 /// A force with states says n_states and unknowns(), and how many of these, the last ones, are
 /// algebraic (n_algebraic): its law answers what is to be zero in place of their rates. One with
 /// numbers that a program may change while it runs, n_signals, inputs() and start_signals(). One
-/// header and one line in the list of forces (model/scene.h) are all that a new kind takes.
+/// that feels the reaction of its joint, n_reaction = 6. One header and one line in the list of
+/// forces (model/scene.h) are all that a new kind takes.
 
 #include <type_traits>
 #include <utility>
@@ -45,6 +46,11 @@ template <class F> constexpr int signals_of() {
     return F::n_signals;
   return 0;
 }
+template <class F> constexpr int reaction_of() {
+  if constexpr (requires { F::n_reaction; })
+    return F::n_reaction;
+  return 0;
+}
 
 template <class F> constexpr int points_of() {
   if constexpr (requires { F::n_points; })
@@ -55,12 +61,13 @@ template <class F> constexpr int points_of() {
 template <class F> class Laws final : public Elements {
 public:
   using Law = std::remove_cvref_t<decltype(std::declval<const F&>().law())>;
-  static constexpr int w = width(F::port, points_of<F>()), nz = states_of<F>(), n_in = 2 * w + nz,
-                       n_out = w + nz, n_signals = signals_of<F>();
+  static constexpr int w = width(F::port, points_of<F>()), nz = states_of<F>(),
+                       nr = reaction_of<F>(), n_in = 2 * w + nr + nz, n_out = w + nz,
+                       n_signals = signals_of<F>();
 
   Laws() {
     type = F::type;
-    shape = {F::port, w, nz, n_signals, algebraic_of<F>()};
+    shape = {F::port, w, nz, n_signals, algebraic_of<F>(), nr};
     if constexpr (requires { F::timed; })
       timed = F::timed;
     absorbs = type.starts_with("pto_");
@@ -152,7 +159,7 @@ private:
   using Jacobian = Eigen::Matrix<double, n_out, n_in, n_out == 1 ? Eigen::RowMajor : 0>;
 
   template <class S> static In<S> view(double t, const S* in, const double* held) {
-    return {t, in, in + w, in + 2 * w, held};
+    return {t, in, in + w, in + 2 * w + nr, held, in + 2 * w};
   }
 
   template <class S> void each(double t, const S* in, const double* held, S* out) const {

@@ -86,6 +86,7 @@ void refuse_bounds(const Entry& entry, const Constraint& c) {
   refuse_if(c.lower_angle.has_value(), entry, "lower_deg", c.type);
   refuse_if(c.upper_angle.has_value(), entry, "upper_deg", c.type);
   refuse_if(c.restitution.has_value(), entry, "restitution", c.type);
+  refuse_if(c.contact_time.has_value(), entry, "contact_time", c.type);
 }
 
 void check_coordinate(const Scene& scene, const Entry& entry, const Constraint& c) {

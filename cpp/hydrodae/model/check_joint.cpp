@@ -45,6 +45,8 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
     refuse(joint, "one_sided", kind + "cannot be one-sided; only a distance joint can");
   if (joint.restitution && !joint.one_sided)
     refuse(joint, "restitution", "key 'restitution' needs one_sided = true");
+  if (joint.contact_time && !joint.one_sided)
+    refuse(joint, "contact_time", "key 'contact_time' needs one_sided = true");
   if (type.has_row(Row::screw) && joint.pitch == 0.0)
     refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
   if (!type.has_row(Row::screw) && joint.pitch != 0.0)

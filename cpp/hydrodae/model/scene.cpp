@@ -40,6 +40,10 @@ Fields<Joint> Joint::fields() {
        "Rate of the distance after a one-sided joint becomes taut over the rate before; 0, the "
        "default: no rebound.",
        false, between(0, 1)},
+      {"contact_time", &J::contact_time, "s",
+       "How long an impact of a one-sided joint is taken to last, for its peak force; see that of "
+       "a stop.",
+       false, more_than(0)},
   };
 }
 

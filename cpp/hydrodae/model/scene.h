@@ -204,7 +204,7 @@ struct Joint {
   double pitch = 0.0; ///< 0: not given
   std::vector<Vector3> path;
   bool one_sided = false;
-  std::optional<double> restitution;
+  std::optional<double> restitution, contact_time;
   JointInitial initial;
 
   static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
@@ -229,7 +229,7 @@ struct Constraint {
   double ratio = 1.0;
   std::optional<double> lower, upper;
   std::optional<double> lower_angle, upper_angle;
-  std::optional<double> restitution;
+  std::optional<double> restitution, contact_time;
 
   template <class C = Constraint> static Fields<C> fields() {
     return {
@@ -264,6 +264,11 @@ struct Constraint {
         {"restitution", &C::restitution, "-",
          "Rate after an impact over the rate before; 0, the default: no rebound.", false,
          between(0, 1)},
+        {"contact_time", &C::contact_time, "s",
+         "How long an impact is taken to last: half a sine of this length has the impulse J at a "
+         "peak force of pi J / (2 contact_time), which the results then list. The motion does not "
+         "know of it.",
+         false, more_than(0)},
     };
   }
 };

@@ -24,7 +24,7 @@ Keys joint_keys(const std::string& name) {
   if (type->has_two_points())
     add(keys, {"point_b"});
   if (type->has_row(RowKind::distance))
-    add(keys, {"length", "one_sided", "restitution"});
+    add(keys, {"length", "one_sided", "restitution", "contact_time"});
   if (type->has_row(RowKind::screw))
     add(keys, {"pitch"});
   if (type->has_row(RowKind::across))
@@ -66,8 +66,8 @@ Keys constraint_keys(const std::string& type) {
   if (type == "coupler")
     return {"name", "type", "joint", "coordinate", "joint_b", "coordinate_b", "ratio"};
   if (type == "stop")
-    return {"name",  "type",      "joint",     "coordinate", "lower",
-            "upper", "lower_deg", "upper_deg", "restitution"};
+    return {"name",  "type",      "joint",     "coordinate",  "lower",
+            "upper", "lower_deg", "upper_deg", "restitution", "contact_time"};
   return {};
 }
 

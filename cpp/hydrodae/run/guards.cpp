@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/solve/energy_guard.h"
+#include "hydrodae/solve/saddle_point.h"
 
 namespace hydrodae::run {
 
@@ -96,6 +99,42 @@ private:
   Judges judges_;
 };
 
+/// Friction that its joint presses, against Painleve's paradox.
+class JamCheck : public Guard {
+public:
+  JamCheck(const system::System& s, const system::Pattern& pattern) : s_(s), pattern_(pattern) {
+    begin();
+  }
+  void check(const Step& step) override {
+    if (step.event)
+      return; // other rows hold from there on, which the switches look at
+    y_ = step.y;
+    yp_ = step.yp;
+    saddle_->accelerations(step.end, y_, yp_);
+    if (!saddle_->jam().empty())
+      throw SolverError(step.end,
+                        "stopped at t = " + number_text(step.end) + " s: " + saddle_->jam());
+  }
+  void restart(const Step&) override { begin(); }
+
+private:
+  void begin() {
+    equations_ = std::make_unique<solve::Equations>(s_, pattern_, 1.0);
+    saddle_ = std::make_unique<solve::SaddlePoint>(*equations_);
+  }
+  const system::System& s_;
+  const system::Pattern& pattern_;
+  std::unique_ptr<solve::Equations> equations_;
+  std::unique_ptr<solve::SaddlePoint> saddle_;
+  VectorX y_, yp_;
+};
+
+bool has_pressed_friction(const system::System& s) {
+  return std::any_of(s.elements.begin(), s.elements.end(), [](const system::ElementList& list) {
+    return list.laws->shape.n_reaction > 0;
+  });
+}
+
 } // namespace
 
 PoseWatch::PoseWatch(const system::System& s, const model::SolverOptions& options, const VectorX& y,
@@ -160,6 +199,8 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::System& system,
       guards.push_back(std::make_unique<BranchCheck>(std::move(branch)));
   if (drifts)
     guards.push_back(std::make_unique<DriftCheck>(system, *watch));
+  if (has_pressed_friction(system))
+    guards.push_back(std::make_unique<JamCheck>(system, judges.pattern));
   guards.push_back(std::make_unique<TrustCheck>(judges));
   return guards;
 }

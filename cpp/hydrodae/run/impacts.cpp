@@ -7,7 +7,8 @@ ImpactOutput::ImpactOutput(const system::System& s) {
     const system::SwitchData& element = s.switches[k];
     if (element.kind == system::SwitchData::Kind::stop)
       stops_.push_back({k, s.couplers[static_cast<std::size_t>(element.coupler)].name,
-                        s.motions[static_cast<std::size_t>(element.motion)].motion.is_angle()});
+                        s.motions[static_cast<std::size_t>(element.motion)].motion.is_angle(),
+                        element.contact_time});
   }
 }
 

@@ -24,6 +24,10 @@ public:
     std::size_t index; ///< among the switches
     std::string name;
     bool angle;
+    std::optional<double> contact_time; ///< [s]
+
+    /// Of half a sine that lasts the contact time: pi J / 2 T [N or N m].
+    double peak(double impulse) const { return 0.5 * pi * impulse / *contact_time; }
   };
   const std::vector<Stop>& stops() const { return stops_; }
 

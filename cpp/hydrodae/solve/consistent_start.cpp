@@ -95,7 +95,10 @@ void consistent_start(const System& s, const system::Pattern& pattern, VectorX& 
   check_constraints(s, y, r);
   Equations equations(s, pattern, 1.0);
   SaddlePoint saddle(equations);
-  if (!saddle.accelerations(0.0, y, yp) || saddle.mismatch() > start_balanced)
+  const bool found = saddle.accelerations(0.0, y, yp);
+  if (!saddle.jam().empty())
+    throw SolverError(0.0, "stopped at t = 0 s: " + saddle.jam());
+  if (!found || saddle.mismatch() > start_balanced)
     throw SolverError(0.0, "no accelerations satisfy the constraints at the start: they contradict "
                            "each other, or a body that moves has no mass");
 }
@@ -115,7 +118,8 @@ std::optional<double> make_consistent(System& s, double t, VectorX& y, VectorX& 
   }
   s.formulation = formulation;
   if (!good)
-    throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s");
+    throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s" +
+                             (saddle.jam().empty() ? "" : ": " + saddle.jam()));
   return work;
 }
 

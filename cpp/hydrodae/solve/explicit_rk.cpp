@@ -79,8 +79,9 @@ private:
 };
 
 void ExplicitRk::fail(const std::string& reason) {
-  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
-                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+  const std::string jam = saddle_.jam().empty() ? "" : ": " + saddle_.jam();
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + jam +
+                            ", last step " + number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
 }
 
 /// stage_ = start + h sum_j a_j k_j

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/solve/pressed_friction.h"
 #include "hydrodae/system/assemble.h"
 
 namespace hydrodae::solve {
@@ -75,7 +76,10 @@ SaddlePoint::SaddlePoint(Equations& equations)
   plain_.resize(row_.size());
   metric_.resize(s_.n_lambda);
   lu_ = std::make_unique<SparseLu<double>>(start_, row_);
+  pressed_ = Pressed::find(s_);
 }
+
+SaddlePoint::~SaddlePoint() = default;
 
 /// K with e > 0 from K; D_i = sum_k G_ik^2 / M_kk.
 bool SaddlePoint::factorise() {
@@ -142,9 +146,10 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   if (!factorise())
     return false;
   solve(x_);
+  const bool balanced = !pressed_ || press(t, y, yp);
   yp.segment(s_.u0, s_.n_u) = x_.head(s_.n_u);
   y.segment(s_.lambda0, s_.n_lambda) = -x_.tail(s_.n_lambda);
-  return x_.allFinite();
+  return balanced && x_.allFinite();
 }
 
 VectorX SaddlePoint::independence(const std::vector<int>& part, int parts) {

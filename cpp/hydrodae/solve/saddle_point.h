@@ -8,6 +8,11 @@
 /// each other (singular poses); refinement against e = 0 (the proximal iteration of Bayo and
 /// Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its effect out again and tends to the
 /// minimum-norm reactions.
+///
+/// Friction that the reactions press is found after that (pressed_friction.cpp).
+
+#include <memory>
+#include <string>
 
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/klu.h"
@@ -17,10 +22,15 @@ namespace hydrodae::solve {
 class SaddlePoint {
 public:
   explicit SaddlePoint(Equations& equations);
+  ~SaddlePoint();
 
   /// Of y only q, u, z are read. Fills y' of them and the reactions lambda of y (mu = sigma = 0).
   /// False when no finite accelerations exist.
   bool accelerations(double t, VectorX& y, VectorX& yp);
+
+  /// Friction pressed by its joint that leaves no accelerations or more than one at the last call
+  /// of `accelerations` (Painleve's paradox), in words; empty: there is none.
+  const std::string& jam() const { return jam_; }
 
   /// What the last `accelerations` left of the equations, relative to the loads [-].
   double mismatch();
@@ -41,6 +51,8 @@ public:
   bool project(double t, VectorX& y);
 
 private:
+  struct Pressed;
+  bool press(double t, const VectorX& y, VectorX& yp);
   bool factorise();
   void solve(VectorX& x);
   void multiply(const VectorX& x, VectorX& out) const;
@@ -68,6 +80,8 @@ private:
   VectorX metric_;              ///< (n_lambda,) D
   std::unique_ptr<SparseLu<double>> lu_;
   VectorX residual_, rhs_, x_, r_, yp0_;
+  std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
+  std::string jam_;
 };
 
 } // namespace hydrodae::solve

@@ -5,6 +5,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/system/elements.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
@@ -144,7 +145,8 @@ double Switching::margin(std::size_t k, const VectorX& y) const {
   case State::lower:
     return load(element, y) + 2.0 * resting * size.load;
   case State::stick:
-    return element.static_load + 2.0 * resting * size.load - std::abs(load(element, y));
+    return system::sticking_load(s_, element, y.data()) + 2.0 * resting * size.load -
+           std::abs(load(element, y));
   case State::forward:
     return motion(element).rate + resting * size.rate;
   case State::backward:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hydrodae/solve/switching.h"
+#include "hydrodae/system/elements.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
@@ -143,7 +144,7 @@ bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
       wrong = (element.state == State::upper ? f : -f) / size.load;
     } else if (element.state == State::stick) {
       const double f = load(element, y);
-      wrong = (std::abs(f) - element.static_load) / size.load;
+      wrong = (std::abs(f) - system::sticking_load(s_, element, y.data())) / size.load;
       wanted = f > 0.0 ? State::backward : State::forward;
     } else if (element.kind == Kind::stop && touches(k)) {
       const Motion m = motion(element);
@@ -189,7 +190,11 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
     resize(s_, y);
     resize(s_, yp);
     SaddlePoint& saddle = present_->saddle;
-    if (!saddle.accelerations(t, y, yp) || !saddle.project(t, y) || !saddle.accelerations(t, y, yp))
+    const bool good =
+        saddle.accelerations(t, y, yp) && saddle.project(t, y) && saddle.accelerations(t, y, yp);
+    if (!saddle.jam().empty())
+      fail(t, saddle.jam());
+    if (!good)
       fail(t, struck ? "no motion goes on from the impact" : "the constraints contradict a stop");
     unpack(t, y, yp);
     if (!correct(y, changes))

@@ -12,7 +12,7 @@ template <int w, int n>
 void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies,
                          const double* jacobian, const element::Shape& shape, Index z) {
   const int n_states = shape.n_states;
-  const Eigen::Map<const MatrixX> J(jacobian, w + n_states, 2 * w + n_states);
+  const Eigen::Map<const MatrixX> J(jacobian, w + n_states, shape.n_in());
   const Eigen::Matrix<double, w, w> f_x = J.template topLeftCorner<w, w>(),
                                     f_v = J.template block<w, w>(0, w);
   const Eigen::Matrix<double, n, w> W_T = port.W.transpose();
@@ -27,7 +27,8 @@ void Assembly<Sink>::law(const PortGradient<w, n>& port, const std::array<int, 2
       load_by_velocity(bodies[a], bodies[b], by_u.template block<6, 6>(6 * a, 6 * b));
     }
   for (int k = 0; k < n_states; ++k) {
-    const Eigen::Matrix<double, n, 1> by_z = W_T * J.template block<w, 1>(0, 2 * w + k);
+    const Eigen::Matrix<double, n, 1> by_z =
+        W_T * J.template block<w, 1>(0, shape.n_in() - n_states + k);
     const Eigen::Matrix<double, 1, w> h_x = J.template block<1, w>(w + k, 0),
                                       h_v = J.template block<1, w>(w + k, w);
     const Eigen::Matrix<double, 1, n> rate_by_xi = -(h_x * port.x_xi + h_v * port.v_xi),
@@ -54,7 +55,30 @@ void Assembly<Sink>::law_states(const double* jacobian, const element::Shape& sh
     if (k < n - shape.n_algebraic)
       sink.by_yp(z + k, z + k, 1.0);
     for (int m = 0; m < n; ++m)
-      sink.by_y(z + k, z + m, -J(shape.width + k, 2 * shape.width + m));
+      sink.by_y(z + k, z + m, -J(shape.width + k, shape.n_in() - n + m));
+  }
+}
+
+/// How the multipliers of its joint act on a law that feels its reaction.
+template <class Sink>
+void Assembly<Sink>::law_by_reaction(const PortData& data, const PortGradient<1, 12>& port,
+                                     const double* jacobian, const element::Shape& shape, Index z) {
+  const JointData& j = s.joints[static_cast<std::size_t>(data.joint)];
+  const Eigen::Map<const MatrixX> J(jacobian, shape.n_out(), shape.n_in());
+  for (const PortData::Pressing& p : data.reaction) {
+    const Index lambda = j.rows[p.row].lambda;
+    const auto by_lambda = [&](Index row) { return J.row(row).segment<6>(2).dot(p.on_b); };
+    const double load = by_lambda(0);
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? j.A.body : j.B.body;
+      if (body < 0)
+        continue;
+      const BodyData& b = s.bodies[static_cast<std::size_t>(body)];
+      for (int k = 0; k < b.n_active; ++k)
+        sink.by_y(b.u0 + k, lambda, -load * port.W(0, 6 * side + b.active[k]));
+    }
+    for (int k = 0; k < shape.n_states; ++k)
+      sink.by_y(z + k, lambda, -by_lambda(1 + k));
   }
 }
 
@@ -146,6 +170,8 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
         PortGradient<1, 12> d;
         motion_gradient(s, ws.state, port, *rows, *load, d);
         law<1, 12>(d, bodies, J, shape, z);
+        if (shape.n_reaction > 0)
+          law_by_reaction(port, d, J, shape, z);
       }
       rows += shape.width;
     }

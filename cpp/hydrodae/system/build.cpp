@@ -159,6 +159,7 @@ System build(const model::Scene& scene, bool with_excitation) {
     throw ModelError("body", "nothing can move: every body of the scene is fixed");
   assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
            body_starts(scene));
+  find_reactions(s);
   take_mean_yaw(scene, s);
   if (with_excitation) {
     note_axes(scene, s);

@@ -16,6 +16,7 @@ void add_stop(const model::Constraint& c, System& s) {
   stop.lower = c.lower ? *c.lower : c.lower_angle.value_or(-INFINITY);
   stop.upper = c.upper ? *c.upper : c.upper_angle.value_or(INFINITY);
   stop.restitution = c.restitution.value_or(0.0);
+  stop.contact_time = c.contact_time;
   add_switch(c.name, stop, s);
 }
 
@@ -29,6 +30,7 @@ void add_ropes(const model::Scene& scene, System& s) {
     rope.motion = s.joints[k].first_motion;
     rope.upper = s.joints[k].parameters.length;
     rope.restitution = joint.restitution.value_or(0.0);
+    rope.contact_time = joint.contact_time;
     add_switch(joint.name, rope, s);
   }
 }

@@ -83,13 +83,29 @@ template <class F> PortData make_port(const model::Scene& scene, const F& force,
   return port;
 }
 
+/// What friction takes from the scene.
+template <class F> void complete(F& force, const PortData& port, const System& s) {
+  if constexpr (std::is_base_of_v<element::FrictionLoads, F>) {
+    force.turns = s.motions[static_cast<std::size_t>(port.motion)].motion.is_angle();
+    force.weight = INFINITY;
+    for_each_body(s, port, [&](int body) {
+      if (body < 0 || s.bodies[static_cast<std::size_t>(body)].n_active == 0)
+        return;
+      const double g = s.gravity > 0.0 ? s.gravity : 9.81; // a size is wanted
+      force.weight = std::min(force.weight, g * s.bodies[static_cast<std::size_t>(body)].mass);
+    });
+    if (std::isinf(force.weight))
+      force.weight = 1.0;
+  }
+}
+
 /// The switch of dry friction: law `law` of the last list.
 void add_friction(const element::DryFriction& f, const PortData& port, std::size_t law, System& s) {
   SwitchData friction;
   friction.kind = SwitchData::Kind::friction;
   friction.motion = port.motion;
-  friction.static_load = f.static_load;
-  friction.kinetic_load = f.kinetic_load.value_or(f.static_load);
+  friction.static_load = f.stick();
+  friction.kinetic_load = f.slip();
   friction.list = static_cast<int>(s.elements.size()) - 1;
   friction.law = static_cast<int>(law);
   add_switch(f.name, friction, s);
@@ -122,9 +138,15 @@ std::shared_ptr<const element::Elements> make_laws(const std::vector<F>& forces)
 template <class F>
 void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s) {
   ElementList list;
-  for (const F& force : forces)
+  std::vector<F> completed = forces;
+  for (F& force : completed) {
     list.ports.push_back(make_port(scene, force, s));
-  list.laws = make_laws(forces);
+    complete(force, list.ports.back(), s);
+    if constexpr (std::is_base_of_v<element::FrictionLoads, F>)
+      if (force.pressed())
+        list.ports.back().bearing = force.bearing();
+  }
+  list.laws = make_laws(completed);
   list.signals = list.laws->signals;
   s.elements.push_back(std::move(list));
   if constexpr (std::is_same_v<F, element::DryFriction>)

@@ -69,6 +69,10 @@ void set_coupler_offsets(const model::Scene& scene, System& system);
 /// The forces of the case with their ports (build_elements.cpp).
 void add_elements(const model::Scene& scene, System& system);
 
+/// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
+/// Throws ModelError where a joint does not tell what presses, or not alone.
+void find_reactions(System& system);
+
 /// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws
 /// (build_elements.cpp); made anew by each call.
 void set_hydrostatics(const model::Scene& scene, System& system);

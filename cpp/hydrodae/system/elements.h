@@ -89,6 +89,28 @@ Vec6<S> load_at(const BodyState<S>& b, const joint::Marker& point, const S* forc
   return load;
 }
 
+/// Force and moment by which the rows of its joint load body B of a port, at B's marker along the
+/// axes of A's [N, N m], into (6,).
+template <class S> void see_reaction(const System& s, const PortData& port, const S* y, S* out) {
+  std::fill_n(out, 6, S(0));
+  const JointData& j = s.joints[port.joint];
+  for (const PortData::Pressing& p : port.reaction)
+    for (int c = 0; c < 6; ++c)
+      out[c] += S(p.on_b[c]) * y[j.rows[p.row].lambda];
+}
+
+/// Largest load of sticking of dry friction [N, N m]: that of a joint that presses follows from its
+/// reaction in y.
+inline double sticking_load(const System& s, const SwitchData& friction, const double* y) {
+  const ElementList& list = s.elements[static_cast<std::size_t>(friction.list)];
+  const PortData& port = list.ports[static_cast<std::size_t>(friction.law)];
+  if (!port.bearing)
+    return friction.static_load;
+  std::array<double, 6> reaction;
+  see_reaction<double>(s, port, y, reaction.data());
+  return friction.static_load * port.bearing->load(reaction.data());
+}
+
 /// What all laws of one list see, into its scratch.
 template <class S>
 void gather(const System& s, const ElementList& list, const Workspace<S>& ws, const S* y,
@@ -115,6 +137,8 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
     } else {
       see_motion<S>(s, ws, port, x, v, *rows++);
     }
+    if (shape.n_reaction > 0)
+      see_reaction<S>(s, port, y, v + shape.width);
     std::copy(z, z + shape.n_states, in + shape.n_in() - shape.n_states);
     z += shape.n_states;
     in += shape.n_in();

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "hydrodae/element/elements.h"
+#include "hydrodae/element/friction_loads.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/hydro_data.h"
@@ -111,6 +112,15 @@ struct PortData {
   int joint = -1;           ///< in System::joints; of a motion: its own
   Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
   std::vector<joint::Marker> points; ///< of Port::points
+
+  /// A row of the joint that loads body B by lambda `on_b`: force and moment at B's marker, axes of
+  /// marker A.
+  struct Pressing {
+    std::size_t row = 0; ///< in JointData::rows
+    Vector6 on_b = Vector6::Zero();
+  };
+  std::vector<Pressing> reaction;          ///< of laws that feel that of their joint
+  std::optional<element::Bearing> bearing; ///< of those among them that are friction
 };
 
 /// Laws of one type with their ports.
@@ -139,7 +149,7 @@ struct MarkerData {
 /// costs nothing.
 ///   stop      lower <= s <= upper; its load pushes back only
 ///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (the signal of
-///   its law)
+///   its law). Of a law that the joint presses both are coefficients.
 struct SwitchData {
   enum class Kind { stop, friction };
   enum class State { open, lower, upper, stick, forward, backward };
@@ -148,7 +158,8 @@ struct SwitchData {
   int coupler = 0; ///< in System::couplers
   int motion = 0;  ///< in System::motions
   double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
-  double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m]
+  double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m], or coefficients [-]
+  std::optional<double> contact_time;           ///< of an impact [s]
   int list = -1, law = -1;                      ///< of friction: in System::elements, and in there
   bool holds() const {
     return state == State::lower || state == State::upper || state == State::stick;

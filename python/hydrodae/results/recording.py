@@ -167,7 +167,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
 
         Each has dimension `impact` and the variables `time` [s], `impulse` (its size, N s or N m s)
         and `energy_lost` [J]; their sums over time are the channels ``constraints/NAME/impulse``
-        and ``constraints/NAME/energy_lost``. Known when the run has ended.
+        and ``constraints/NAME/energy_lost``. Where the case gives a `contact_time` T, also
+        `peak_force` [N or N m], pi J / (2 T) of half a sine. Known when the run has ended.
         """
         import xarray
 
@@ -176,9 +177,10 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             with opened(self.path, ResultsError, f"impacts on {name} are damaged") as file:
                 values = _real(file[_IMPACTS + name][:])
                 units = str(_plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
-            if values.ndim != 2 or values.shape[1] != 3 or len(units) != 3:
+            if values.ndim != 2 or values.shape[1] not in (3, 4) or len(units) != values.shape[1]:
                 raise ResultsError(f"{self.path}: impacts on {name} are damaged")
-            columns = zip(("time", "impulse", "energy_lost"), values.T, units, strict=True)
+            keys = ("time", "impulse", "energy_lost", "peak_force")
+            columns = zip(keys, values.T, units, strict=False)
             tables[name] = xarray.Dataset(
                 {key: ("impact", column, {"unit": unit}) for key, column, unit in columns}
             )

@@ -137,6 +137,9 @@ def _impacts(results: Recording) -> list[str]:
             f"{float(largest['impulse']):.4g} {unit} at t = {float(largest['time']):.4g} s, "
             f"energy lost in all {float(table['energy_lost'].sum()):.4g} J"
         )
+        if "peak_force" in table:
+            peak = table["peak_force"]
+            lines[-1] += f", peak force {float(peak.max()):.4g} {peak.attrs['unit']}"
     return lines
 
 

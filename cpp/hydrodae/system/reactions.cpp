@@ -1,0 +1,170 @@
+/// The reactions of joints that laws feel.
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::system {
+
+namespace {
+
+using joint::BasicRow;
+
+constexpr std::array<std::string_view, 4> pressing_joints = {"prismatic", "revolute", "cylindrical",
+                                                             "sliding"};
+
+/// By what a multiplier of one loads body B: a force along axis i of marker A, or a moment
+/// b_j x a_i about its axes, which the rows of the joint hold in line with those of B.
+Vector6 load_on_b(const BasicRow& row) {
+  Vector6 out = Vector6::Zero();
+  if (row.kind == BasicRow::Kind::span)
+    out[row.i] = 1.0;
+  else
+    out.tail<3>() = Vector3::Unit(row.j).cross(Vector3::Unit(row.i));
+  return out;
+}
+
+/// Gradients of all rows of the scene that may be asked for, as columns by velocity coordinates.
+class Gradients {
+public:
+  explicit Gradients(const System& s) : s_(s), ws_(s) {
+    const VectorX y = initial_state(s), rest = VectorX::Zero(s.n);
+    unpack<double>(s, y.data(), rest.data(), ws_.bodies);
+  }
+  VectorX row(const JointData& j, const BasicRow& kind) const {
+    const auto g = joint_geometry<double>(j, ws_.bodies);
+    VectorX out = VectorX::Zero(s_.n_u);
+    add(j, joint::basic_row<double>(kind, j.A, j.B, j.parameters, g).gradient, out);
+    return out;
+  }
+  VectorX coupler(const CouplerData& c) const {
+    VectorX out = VectorX::Zero(s_.n_u);
+    for (const CouplerData::Term& term : c.terms) {
+      const JointData& j = s_.joints[static_cast<std::size_t>(s_.motions[term.motion].joint)];
+      add(j, term.factor * motion_row<double>(s_, ws_, term.motion).gradient, out);
+    }
+    return out;
+  }
+
+private:
+  void add(const JointData& j, const joint::Vector12& gradient, VectorX& out) const {
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? j.A.body : j.B.body;
+      if (body < 0)
+        continue;
+      const BodyData& b = s_.bodies[static_cast<std::size_t>(body)];
+      for (int k = 0; k < b.n_active; ++k)
+        out[b.u0 - s_.u0 + k] += gradient[6 * side + b.active[k]];
+    }
+  }
+  const System& s_;
+  Workspace<double> ws_;
+};
+
+/// Redundant rows that rows of this joint are part of: the reactions may be shared with them in any
+/// way. "gap along x of 'guide', ..."; empty: none.
+std::string shared_rows(const System& s, const JointData& pressed) {
+  constexpr double part = 1e-6;
+  std::vector<std::pair<std::string, VectorX>> dropped;
+  const Gradients gradients(s);
+  MatrixX kept = MatrixX::Zero(s.n_u, s.n_lambda);
+  std::vector<Index> own;
+  const auto take = [&](Index lambda, const std::string& name, VectorX gradient, bool of_pressed) {
+    if (lambda == redundant) {
+      dropped.emplace_back(name, std::move(gradient));
+      return;
+    }
+    kept.col(lambda - s.lambda0) = gradient;
+    if (of_pressed)
+      own.push_back(lambda - s.lambda0);
+  };
+  for (const JointData& j : s.joints)
+    for (const RowData& row : j.rows)
+      take(row.lambda, row_name(row.kind) + " of " + in_quotes(j.name), gradients.row(j, row.kind),
+           &j == &pressed);
+  for (std::size_t c = 0; c < s.couplers.size(); ++c)
+    if (std::none_of(s.switches.begin(), s.switches.end(),
+                     [&](const SwitchData& w) { return w.coupler == static_cast<int>(c); }))
+      take(s.couplers[c].lambda, in_quotes(s.couplers[c].name), gradients.coupler(s.couplers[c]),
+           false);
+  if (dropped.empty())
+    return {};
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(kept);
+  std::vector<std::string> names;
+  for (const auto& [name, gradient] : dropped) {
+    const VectorX c = qr.solve(gradient);
+    const bool shares = std::any_of(own.begin(), own.end(), [&](Index i) {
+      return std::abs(c[i]) * kept.col(i).norm() > part * gradient.norm();
+    });
+    if (shares || name.ends_with(" of " + in_quotes(pressed.name)))
+      names.push_back(name);
+  }
+  return joined(names);
+}
+
+/// A radius or a length that the joint needs, or that it has no use for.
+void check_lengths(const JointData& j, const PortData& port, const std::string& key) {
+  const element::Bearing& b = *port.bearing;
+  Vector6 taken = Vector6::Zero();
+  for (const PortData::Pressing& p : port.reaction)
+    taken += p.on_b.cwiseAbs();
+  const bool bends = taken[3] + taken[4] > 0.0, twists = taken[5] > 0.0;
+  const auto need = [&](bool wanted, double value, const char* name, const char* what) {
+    if (wanted && value <= 0.0)
+      throw ModelError(key, "joint " + in_quotes(j.name) + " takes " + what +
+                                ", which presses too: friction from 'static_coefficient' needs the "
+                                "key '" +
+                                name + "' [m]");
+  };
+  need(bends, b.length, "length", "moments across its axis");
+  if (b.turns)
+    need(true, b.radius, "radius", "forces at its bearing");
+  else
+    need(twists, b.radius, "radius", "a moment about its axis");
+}
+
+} // namespace
+
+void find_reactions(System& s) {
+  for (ElementList& list : s.elements)
+    for (PortData& port : list.ports) {
+      if (!port.bearing)
+        continue;
+      const std::string key = "force." + port.component;
+      const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+      if (std::find(pressing_joints.begin(), pressing_joints.end(), j.type->name) ==
+          pressing_joints.end())
+        throw ModelError(key, "'static_coefficient' needs a joint whose reaction presses a bearing "
+                              "on its axis: prismatic, revolute, cylindrical or sliding, and not " +
+                                  std::string(j.type->name) + "; give the load itself as 'static'");
+      for (std::size_t k = 0; k < j.rows.size(); ++k)
+        port.reaction.push_back({k, load_on_b(j.rows[k].kind)});
+      if (port.reaction.empty())
+        throw ModelError(key,
+                         "joint " + in_quotes(j.name) +
+                             " restricts no free coordinate, so that no reaction of it presses:"
+                             " give the load itself as 'static', or free the bodies");
+      check_lengths(j, port, key);
+      if (const std::string rows = shared_rows(s, j); !rows.empty())
+        throw ModelError(key, "how much presses joint " + in_quotes(j.name) +
+                                  " is not known: its reaction may be shared in any way with "
+                                  "redundant constraint rows (" +
+                                  rows +
+                                  "). Let other joints hold less, or give the load itself as "
+                                  "'static'");
+      if (std::any_of(s.switches.begin(), s.switches.end(), [](const SwitchData& w) {
+            return w.kind == SwitchData::Kind::stop;
+          }))
+        s.notes.push_back("friction '" + port.component +
+                          "' has no part in impacts: the impulse that joint " + in_quotes(j.name) +
+                          " takes there does not press it");
+    }
+}
+
+} // namespace hydrodae::system
