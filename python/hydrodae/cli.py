@@ -126,6 +126,15 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         ladder_command.add_arguments(ladder)
         ladder.set_defaults(call=ladder_command.run)
 
+    mooring = commands.add_parser(
+        "mooring", help="mooring matrices from lines, and MoorDyn's input files"
+    )
+    if command == ["mooring"]:
+        from hydrodae.commands import mooring as mooring_command
+
+        mooring_command.add_arguments(mooring)
+        mooring.set_defaults(call=mooring_command.run)
+
     plot.add_parser(commands)
     chart.add_arguments(commands)
 
