@@ -127,7 +127,7 @@ def test_lines_in_series_become_one_force(
         assert any(word in note for note in notes), word
     imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
     assert imported.to_toml() == out.read_text()
-    assert held(first).tension == pytest.approx(held(last).tension, rel=1e-5)
+    assert held(first).tension == pytest.approx(held(last).tension, rel=1e-4)
 
 
 @pytest.mark.parametrize(

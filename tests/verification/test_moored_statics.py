@@ -220,12 +220,12 @@ length = 33.0
 
 
 def test_no_equilibrium_is_one_clear_message() -> None:
+    """Heavier than its buoyancy, it goes down to the seabed, of which the line knows nothing."""
     anchor = np.array([-385.0, 0.0, -50.0])
-    text = scene(np.array([0.0, 0.0, 1e5]), line("bow", anchor, np.zeros(3)), stiff=0.0)
-    drifting = text.replace("force = [0.0, 0.0", "force = [0.0, 1e5, -1e7")
-    with pytest.raises(hydrodae.CaseError, match="no static equilibrium near the start") as error:
-        hydrodae.equilibrium(hydrodae.Case.from_text(drifting))
-    assert "nan" not in str(error.value)
+    text = scene(np.array([0.0, 0.0, -1e6]), line("bow", anchor, np.zeros(3)), stiff=0.0)
+    message = r"no static equilibrium near the start: catenary 'bow': end B is .* m below the"
+    with pytest.raises(hydrodae.CaseError, match=message):
+        hydrodae.equilibrium(hydrodae.Case.from_text(text))
 
 
 def test_a_linearised_mooring_is_the_mooring_to_first_order() -> None:
@@ -290,7 +290,8 @@ def test_a_line_with_a_float_sags_on_both_sides(x: float, z: float) -> None:
     found = root(off, [line.horizontal / 1e5 * 1.01, line.vertical / 1e5 + 0.01], tol=1e-13)
     assert found.success
     assert [line.horizontal, line.vertical] == pytest.approx(found.x * 1e5, rel=1e-8)
-    assert line.z[241:].min() < line.z[240]  # below the float
+    if line.vertical < WEIGHT * lengths[1]:
+        assert line.z[241:].min() < line.z[240]  # below the float
     assert line.x[-1] == pytest.approx(x, abs=1e-8)
     assert line.z[-1] == pytest.approx(z, abs=1e-8)
 
@@ -327,7 +328,7 @@ method = "{method}"
 @pytest.mark.parametrize(
     ("speed", "reason"),
     [
-        ("-40.0, 0.0, 0.0", "a buoy between its parts is down on the seabed"),
+        ("-40.0, 0.0, 0.0", "a buoy between its parts, or a part above one, is down on the seabed"),
         ("0.0, 0.0, -40.0", "m below the seabed"),
     ],
 )

@@ -150,8 +150,9 @@ public:
   }
 
   /// Makes an implicit Euler step of pseudo-time tau, in units of weights and length scales; of
-  /// infinite tau, Newton's. false: it is no number.
-  bool step(const Balance& now, double tau, VectorX& y) const {
+  /// infinite tau, Newton's. Longer ones than `longest` are cut to that.
+  /// @returns its length before that; infinite: it is no number
+  double step(const Balance& now, double tau, VectorX& y) const {
     const LinearMatrices& m = now.m;
     const Index n = s_.n_u + s_.n_lambda;
     MatrixX kkt = MatrixX::Zero(n, n);
@@ -169,27 +170,28 @@ public:
     cod.compute(kkt);
     VectorX x = cod.solve(rhs);
     if (!x.allFinite())
-      return false;
+      return INFINITY;
     const double length = x.head(s_.n_u).cwiseAbs().maxCoeff();
     if (length > longest) // the reactions are taken whole: they are linear
       x.head(s_.n_u) *= longest / length;
     system::retract(s_, x.head(s_.n_u).cwiseProduct(scale_), y);
     y.segment(s_.lambda0, s_.n_lambda) += x.tail(s_.n_lambda).cwiseProduct(units_);
-    return true;
+    return length;
   }
 
   /// Newton's method; the balance that it found, or where it ended.
   Balance newton(VectorX& y) {
     for (int k = 0;; ++k) {
       Balance now = at(y);
-      if (!now.trouble.empty() || now.holds() || k == most_steps || !step(now, INFINITY, y))
+      if (!now.trouble.empty() || now.holds() || k == most_steps ||
+          std::isinf(step(now, INFINITY, y)))
         return now;
     }
   }
 
-  /// Creeps to the static pose, with steps that grow where they go well.
+  /// Creeps to the static pose, with pseudo-times that grow where steps go well and are not cut.
   std::optional<Balance> creep(VectorX& y) {
-    constexpr double grow = 2.0, cut = 0.25, worse = 2.0, least = 1e-9, most = 1e14;
+    constexpr double grow = 2.0, cut = 0.25, worse = 2.0, least = 1e-9, most = 1e9;
     Balance now = at(y);
     if (!now.trouble.empty())
       return {};
@@ -198,14 +200,16 @@ public:
       if (now.holds())
         return now;
       VectorX next_y = y;
-      if (!step(now, tau, next_y))
+      const double length = step(now, tau, next_y);
+      if (std::isinf(length))
         return {};
       Balance next = at(next_y);
       if (!(next.error() <= worse * now.error())) {
         tau *= cut;
         continue;
       }
-      tau = std::min(grow * tau, most);
+      if (length <= longest)
+        tau = std::min(grow * tau, most);
       now = std::move(next);
       y = next_y;
     }
