@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hydrodae.mooring.imported import Imported
 from hydrodae.mooring.line_at_rest import Catenary, catenary
 from hydrodae.mooring.line_types import (
     LineType,
@@ -13,7 +14,7 @@ from hydrodae.mooring.line_types import (
     wire,
 )
 from hydrodae.mooring.linear import LinearMooring, linearise
-from hydrodae.mooring.moordyn import Imported, read_moordyn
+from hydrodae.mooring.moordyn import read_moordyn
 from hydrodae.mooring.stiffness import Hold, MooringStiffness, holds
 
 __all__ = [
