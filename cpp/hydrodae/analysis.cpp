@@ -1,5 +1,6 @@
 #include "hydrodae/analysis.h"
 
+#include "hydrodae/analysis_moorings.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/element/hydro_axes_gradient.h"
@@ -45,6 +46,7 @@ void add_bodies(const System& s, const system::Workspace<double>& ws, const Vect
     const Vector6 xi = system::displacement<double>(b, ws.bodies[i], y.data());
     out.bodies.push_back(b.name);
     out.offsets.emplace_back(xi.head<3>());
+    out.places.emplace_back(ws.bodies[i].r);
     out.rotations.emplace_back(xi.tail<3>());
     for (int k = 0; k < b.n_active; ++k)
       out.coordinates.push_back("bodies/" + b.name + "/" +
@@ -223,6 +225,7 @@ LinearModel linearize(const model::Scene& scene) {
   add_motions(s, ws, out);
   add_water(s, ws, out);
   note_nonlinear(s, out);
+  out.moorings = moorings(s, ws, y);
   add_reactions(s, y, out);
   return out;
 }

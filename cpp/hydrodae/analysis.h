@@ -9,6 +9,19 @@
 
 namespace hydrodae {
 
+/// A force by which points or a body are held, at a pose at rest: ropes and lines (their points),
+/// springs between two points, mooring matrices (the body).
+struct Mooring {
+  std::string name, type;
+  std::vector<int> bodies;     ///< of each point, in LinearModel::bodies; -1: ground
+  std::vector<Vector3> places; ///< of each point [m]; of a mooring matrix the centre of gravity
+  VectorX load;                ///< forces on the points (3 n,) [N]; or force and moment (6,)
+  MatrixX stiffness, damping;  ///< -d load / d places, over their rates (3 n, 3 n); or (6, 6) over
+                               ///< the displacement from the reference pose, earth axes
+  std::vector<std::string> channels, units; ///< what it reports beside its load
+  VectorX values;
+};
+
 /// A scene at rest in its static equilibrium in still water, and its equations linearised there.
 ///
 ///   M xi'' + C xi' + K xi + T^T (hydrodynamic loads) = G^T dlambda + T^T f + F_z z,   G xi = 0
@@ -44,7 +57,9 @@ struct LinearModel {
 
   std::vector<std::string> bodies;
   std::vector<Vector3> offsets, rotations; ///< per body, from the reference pose [m], [rad]
-  VectorX reaction;                        ///< (6 n_joints,) in equilibrium [N], [N m]
+  std::vector<Vector3> places;             ///< of the centres of gravity [m]
+  std::vector<Mooring> moorings;
+  VectorX reaction; ///< (6 n_joints,) in equilibrium [N], [N m]
   std::vector<std::string> notes;
 };
 

@@ -27,7 +27,7 @@ from hydrodae.simulation import Simulation
 from hydrodae.version import version
 
 if TYPE_CHECKING:
-    from hydrodae import hdb
+    from hydrodae import hdb, mooring
     from hydrodae.mooring import Catenary, catenary
     from hydrodae.scene import Scene
     from hydrodae.study.band import working_band
@@ -59,6 +59,7 @@ __all__ = [
     "equilibrium",
     "hdb",
     "ladder",
+    "mooring",
     "rao",
     "recommend",
     "run",
@@ -88,8 +89,8 @@ if not TYPE_CHECKING:
     def __getattr__(name: str) -> Any:
         if name == "__version__":
             return version()
-        if name == "hdb":
-            return import_module("hydrodae.hdb")
+        if name in ("hdb", "mooring"):
+            return import_module(f"hydrodae.{name}")
         if name in _LATER:
             return getattr(import_module(f"hydrodae.{_LATER[name]}"), name)
         raise AttributeError(f"module 'hydrodae' has no attribute {name!r}")

@@ -138,6 +138,14 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
 
         sweep_command.add_arguments(sweep)
         sweep.set_defaults(call=sweep_command.run)
+    mooring = commands.add_parser(
+        "mooring", help="mooring matrices from lines, and MoorDyn's input files"
+    )
+    if command == ["mooring"]:
+        from hydrodae.commands import mooring as mooring_command
+
+        mooring_command.add_arguments(mooring)
+        mooring.set_defaults(call=mooring_command.run)
 
     plot.add_parser(commands)
     chart.add_arguments(commands)

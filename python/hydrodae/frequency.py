@@ -126,6 +126,8 @@ class LinearModel:
         self.constraints: Array = model["constraints"]
         self.offsets = dict(zip(model["bodies"], np.array(model["offsets"]), strict=True))
         self.rotations = dict(zip(model["bodies"], np.array(model["rotations"]), strict=True))
+        self.places = dict(zip(model["bodies"], np.array(model["places"]), strict=True))
+        self.moorings: list[dict[str, Any]] = model["moorings"]
         self.reactions = dict(zip(model["reactions"], model["reaction"], strict=True))
         self.notes: list[str] = model["notes"]
         self._model = model

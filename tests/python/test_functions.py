@@ -197,13 +197,13 @@ def test_hdb_repair_compare_and_export(sphere: Path, tmp_path: Path, capsys: CAP
 
 def test_hdb_compute(tmp_path: Path) -> None:
     pytest.importorskip("capytaine", reason="needs the extra bem")
-    from hydrodae.hdb.bem import run, shapes
+    from hydrodae.hdb.bem import cutting, run, shapes
 
     out, point = tmp_path / "hydro.h5", np.array([0.0, 0.0, -2.0])
     words = ["--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "--omega", "0.4,1.6,4"]
     words += ["--panel", "1.2", "-o", str(out), "--work", str(tmp_path), "-q", "--accept"]
     assert main(["hdb", "compute", *words]) == 0
-    panels = run.immersed(shapes.build("sphere", 1.2, {"radius": 5.0}))
+    panels = cutting.immersed(shapes.build("sphere", 1.2, {"radius": 5.0}))
     database, _ = hydrodae.hdb.compute(
         [run.WettedBody("buoy", panels, point)],
         run.Settings(omega=np.linspace(0.4, 1.6, 4)),

@@ -14,6 +14,7 @@ from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
+from hydrodae.hdb.bem.cutting import immersed
 
 cpt = pytest.importorskip("capytaine", reason="needs the extra bem")
 SETTINGS = bem.Settings(omega=np.array([0.4, 0.8, 1.2, 1.6]), rho=1000.0)
@@ -130,12 +131,12 @@ def test_a_lid_removes_the_irregular_frequency(reference, tmp_path):
 
 def test_what_is_above_the_water_is_cut_off():
     whole = shapes.sphere(1.6, radius=5.0, z=-6.0) + np.array([0.0, 0.0, 6.0])
-    cut = bem.immersed(whole[:, ::-1])
+    cut = immersed(whole[:, ::-1])
     hs = shapes.hydrostatics(cut, np.zeros(3))
     assert hs.displaced_volume == pytest.approx(0.5 * 4 / 3 * np.pi * 125, rel=0.01)
     assert cut[..., 2].max() == pytest.approx(0.0, abs=1e-9)
     with pytest.raises(DatabaseError, match="not in the water"):
-        bem.immersed(whole + np.array([0.0, 0.0, 6.0]))
+        immersed(whole + np.array([0.0, 0.0, 6.0]))
 
 
 def test_command_from_a_mesh_file(tmp_path, capsys):

@@ -14,7 +14,7 @@ LAYERS = [
     {"io", "system"},
     {"solve"},
     {"run"},
-    {"simulation.h", "analysis.h", "examine.h", "run_output.h"},
+    {"simulation.h", "analysis.h", "analysis_moorings.h", "examine.h", "run_output.h"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

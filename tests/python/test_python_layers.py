@@ -16,7 +16,7 @@ import pytest
 LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
-    {"curve", "damaged", "irf", "mooring", "tables"},
+    {"curve", "damaged", "irf", "tables"},
     {"infinity"},
     {"memory", "results", "schema"},
     {"panels", "post"},
@@ -39,7 +39,7 @@ LAYERS = [
     {"case"},
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
-    {"states"},
+    {"states", "mooring"},
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},

@@ -110,3 +110,25 @@ def test_in_the_plane(reference: Path, rm3_planar: Path) -> None:
     assert on_float <= 5e-4
     assert on_spar <= 3e-4
     assert relative_amplitude(rm3_planar, "hydro.h5", "planar") == pytest.approx(0.879, rel=0.01)
+
+
+@pytest.mark.long
+def test_moored_in_an_irregular_sea(rm3_planar: Path) -> None:
+    """cases/rm3/moored.toml: the statics from the spar's water plane, and a run about them."""
+    moored = hydrodae.Case(path=rm3_planar / "moored.toml")
+    rest = hydrodae.equilibrium(moored)
+    pull = -rest.stiffness.load_of("spar")[2]
+    area = np.pi / 4.0 * 6.0**2  # of the spar, 6 m thick [m2]
+    assert rest.offsets["spar"][2] == pytest.approx(-pull / (1000.0 * 9.81 * area), rel=0.02)
+    tensions = [rest.tensions[f"forces/{name}/tension"] for name in ("bow", "port", "starboard")]
+    assert tensions == pytest.approx([162.1e3] * 3, rel=1e-3)
+    surge = [mode.period for mode in rest.modes if abs(mode.shape["bodies/spar/surge"]) > 0.9]
+    assert max(surge) == pytest.approx(67.5, rel=0.05)
+    run = hydrodae.run(moored)
+    late = run.time >= 100.0
+    place = run["bodies/spar/position"].values[late]
+    assert np.mean(place, axis=0) == pytest.approx([0.0, 0.0, -21.63], abs=0.05)
+    for name, static in zip(("bow", "port", "starboard"), tensions, strict=True):
+        tension = run[f"forces/{name}/tension"].values[late]
+        assert np.mean(tension) == pytest.approx(static, rel=5e-3)
+        assert 0.9 * static < tension.min() < tension.max() < 1.1 * static

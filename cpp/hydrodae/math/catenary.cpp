@@ -59,16 +59,26 @@ Span hang(double H, double V, double L, double w, double EA) {
   return out;
 }
 
+/// Index of the lowest part that a buoy holds up at its upper end; without buoys the last one. What
+/// is above it hangs free of the bed, as long as it does not sag so far.
+std::size_t lowest_lifted(const Catenary& line) {
+  for (std::size_t i = 0; i < line.loads.size(); ++i)
+    if (line.loads[i] < 0.0)
+      return i;
+  return line.parts.size() - 1;
+}
+
 /// Walks down the line from the fairlead.
 struct Walk {
   const Catenary& line;
-  double H, V;         ///< at the fairlead
-  double below = V;    ///< vertical force at the upper end of what comes next
-  bool follows = true; ///< V: nothing stands on the bed above
-  bool lies = false;   ///< all that comes next, on the bed
-  double pull = H;     ///< there
-  double by_V = 0.0;   ///< d pull / dV: as V lifts the line off the bed, less friction acts
-  double phi = 0.0;    ///< complementary energy [J]
+  double H, V;          ///< at the fairlead
+  double below = V;     ///< vertical force at the upper end of what comes next
+  bool follows = true;  ///< V: nothing stands on the bed above
+  bool lies = false;    ///< all that comes next, on the bed
+  double pull = H;      ///< there
+  double by_V = 0.0;    ///< d pull / dV: as V lifts the line off the bed, less friction acts
+  double phi = 0.0;     ///< complementary energy [J]
+  double deepest = 0.0; ///< how far parts above a buoy sag below the fairlead [m]
   CatenaryReach out = {};
 
   void add_span(const Span& a) {
@@ -80,7 +90,10 @@ struct Walk {
   }
 
   void hang_whole(const LinePart& part) {
-    below -= part.weight * part.length;
+    const double w = part.weight, top = below;
+    below -= w * part.length;
+    if (line.bed && below < 0.0 && top > 0.0)
+      deepest = std::max(deepest, out.Z + hang(H, 0.0, top / w, w, part.stiffness).z);
     const Span a = hang(H, below, part.length, part.weight, part.stiffness);
     add_span(a);
     out.gradient(0, 1) += a.x_V;
@@ -89,6 +102,8 @@ struct Walk {
 
   /// Hangs as far as the vertical force lasts; the rest lies.
   void touch_down(const LinePart& part) {
+    if (below < 0.0) // the buoy above it does not bear what is above the buoy
+      out.X = std::numeric_limits<double>::quiet_NaN();
     const double w = part.weight, EA = part.stiffness, hung = below / w;
     if (hung > 0.0) {
       add_span(hang(H, 0.0, hung, w, EA));
@@ -101,7 +116,7 @@ struct Walk {
       by_V = line.friction;
     }
     lies = true;
-    lie(part, part.length - hung);
+    lie(part, part.length - std::max(hung, 0.0));
     below = 0.0;
   }
 
@@ -119,11 +134,11 @@ struct Walk {
       out.X = std::numeric_limits<double>::quiet_NaN();
   }
 
-  void pass_load(double weight) {
+  void pass_load(double weight, bool over_bed) {
     double stands = weight; // of it, on the bed
     if (!lies) {
       below -= weight;
-      if (!line.bed || below > 0.0 || weight <= 0.0)
+      if (!over_bed || below > 0.0 || weight <= 0.0)
         return;
       stands = -below;
       below = 0.0;
@@ -143,16 +158,17 @@ struct Walk {
   }
 
   CatenaryReach run() {
+    const std::size_t lowest = lowest_lifted(line);
     for (std::size_t i = line.parts.size(); i-- > 0;) {
       const LinePart& part = line.parts[i];
       if (lies)
         lie(part, part.length);
-      else if (line.bed && part.weight > 0.0 && below <= part.weight * part.length)
+      else if (line.bed && i <= lowest && part.weight > 0.0 && below <= part.weight * part.length)
         touch_down(part);
       else
         hang_whole(part);
       if (i > 0)
-        pass_load(line.loads[i - 1]);
+        pass_load(line.loads[i - 1], line.bed && i <= lowest);
     }
     out.anchor_horizontal = lies ? pull : H;
     out.anchor_vertical = lies ? 0.0 : below;
@@ -166,6 +182,14 @@ double weight_of(const Catenary& line) {
     sum += part.weight * part.length;
   for (const double load : line.loads)
     sum += load;
+  return sum;
+}
+
+/// Least vertical force at the fairlead of a line on a bed: buoys may push it up.
+double least_lift(const Catenary& line) {
+  double sum = 0.0;
+  for (const double load : line.loads)
+    sum += std::min(load, 0.0);
   return sum;
 }
 
@@ -200,7 +224,7 @@ template <class Function> double root(Function&& f, double low, double high) {
 
 /// V of a fairlead at height Z that pulls with H: heights grow with V.
 double vertical(const Catenary& line, double H, double Z) {
-  double low = line.bed ? 0.0 : std::min(0.0, weight_of(line)),
+  double low = line.bed ? least_lift(line) : std::min(0.0, weight_of(line)),
          high = std::max(0.0, weight_of(line));
   double EA = INFINITY;
   for (const LinePart& part : line.parts)
@@ -283,6 +307,14 @@ bool iterate(const Catenary& line, double X, double Z, double& H, double& V) {
   return false;
 }
 
+/// Do parts above a buoy sag to the bed?
+bool sags_to_bed(const Catenary& line, double H, double V) {
+  if (!line.bed || lowest_lifted(line) + 1 == line.parts.size())
+    return false;
+  Walk walk{.line = line, .H = H, .V = V};
+  return walk.run().Z < walk.deepest;
+}
+
 CatenaryHold describe(const CatenaryReach& r, double H, double V, const Eigen::Matrix2d& stiffness,
                       double out_of_plane) {
   CatenaryHold out;
@@ -317,6 +349,8 @@ CatenaryHold hold(const Catenary& line, double X, double Z) {
   const double little = speck(line), V_slack = vertical(line, little, Z);
   const CatenaryReach slack = reach(line, little, V_slack);
   if (X <= slack.X) {
+    if (sags_to_bed(line, little, V_slack))
+      return describe({}, nan, nan, Eigen::Matrix2d::Constant(nan), nan);
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();
     stiffness(1, 1) = 1.0 / slack.gradient(1, 1);
     if (line.bed && slack.on_bed > 0.0)
@@ -330,7 +364,8 @@ CatenaryHold hold(const Catenary& line, double X, double Z) {
   if (!iterate(line, X, Z, H, V))
     search(line, X, Z, H, V);
   const CatenaryReach r = reach(line, H, V);
-  if (!(std::hypot(X - r.X, Z - r.Z) <= 1e-9 * std::max(line.length(), std::hypot(X, Z))))
+  if (!(std::hypot(X - r.X, Z - r.Z) <= 1e-9 * std::max(line.length(), std::hypot(X, Z))) ||
+      sags_to_bed(line, H, V))
     return describe(r, nan, nan, Eigen::Matrix2d::Constant(nan), nan);
   return describe(r, H, V, r.gradient.inverse(), H / X);
 }
@@ -355,6 +390,7 @@ std::vector<LinePoint> profile(const Catenary& line, const CatenaryHold& found, 
       part.length = std::min(part.length, left);
       left -= part.length;
     }
+    above.bed = line.bed && first <= lowest_lifted(line);
     above.parts.erase(above.parts.begin(), above.parts.begin() + static_cast<Index>(first));
     above.loads.erase(above.loads.begin(),
                       above.loads.begin() + static_cast<Index>(std::min(first, line.loads.size())));

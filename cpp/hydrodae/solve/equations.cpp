@@ -8,6 +8,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/system/algebraic.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/trouble.h"
 
 namespace hydrodae::solve {
 
@@ -140,10 +141,12 @@ double Equations::time_scale() const {
 }
 
 std::string Equations::diagnosis(double t, const VectorX& y, const VectorX& yp) {
+  const std::string trouble = system::unknown_load(system, workspace_); // of the last attempt
   VectorX values(system.n);
   system::residual<double>(system, workspace_, t, y.data(), yp.data(), values.data());
-  std::string text = "\n  worst equations, relative to their scale: " +
-                     worst(values.cwiseQuotient(system.row_scale), system.row_names);
+  std::string text = trouble.empty() ? "" : "\n  the last step tried meets " + trouble;
+  text += "\n  worst equations, relative to their scale: " +
+          worst(values.cwiseQuotient(system.row_scale), system.row_names);
   // A loop that locks shows in reactions that grow without bound.
   values.setZero();
   values.segment(system.lambda0, system.n_lambda) =

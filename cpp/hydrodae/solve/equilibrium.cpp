@@ -1,14 +1,12 @@
 #include "hydrodae/solve/equilibrium.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/model/motion.h"
-#include "hydrodae/system/algebraic.h"
+#include "hydrodae/solve/balance.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
@@ -21,29 +19,6 @@ namespace {
 
 using system::BodyData;
 using system::System;
-
-constexpr double balanced = 1e-10; ///< of weights and lengths
-constexpr double longest = 3.0;    ///< largest step of Newton's method, in length scales
-constexpr int most_steps = 200;
-
-/// Gaps of all rows at position level, in the order of lambda; the others 0.
-VectorX gaps_of(const System& s, const VectorX& r) {
-  VectorX gaps = VectorX::Zero(s.n_lambda);
-  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
-    if (lambda != system::redundant && !velocity_level)
-      gaps[lambda - s.lambda0] = r[mu];
-  });
-  return gaps;
-}
-
-VectorX gap_sizes(const System& s) {
-  VectorX sizes = VectorX::Ones(s.n_lambda);
-  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
-    if (lambda != system::redundant)
-      sizes[lambda - s.lambda0] = s.row_scale[velocity_level ? lambda : mu];
-  });
-  return sizes;
-}
 
 /// Takes positions from y into the start of the bodies and motions, at rest.
 void take_start(System& s, const VectorX& y) {
@@ -80,124 +55,6 @@ void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) 
   if (values[0] < -1e-6 * values.cwiseAbs().maxCoeff())
     s.notes.push_back("the equilibrium is unstable: the smallest displacement moves the scene away "
                       "from it");
-}
-
-/// A coordinate and the unit of the force along it: "heave of body 'sphere'", "N".
-struct CoordinateName {
-  std::string text, unit;
-};
-
-CoordinateName coordinate_name(const System& s, Index u) {
-  for (const BodyData& b : s.bodies) {
-    const Index k = u - (b.u0 - s.u0);
-    if (k < 0 || k >= b.n_active)
-      continue;
-    const int c = b.active[static_cast<std::size_t>(k)];
-    return {std::string(model::coordinate_names[static_cast<std::size_t>(c)]) + " of body " +
-                in_quotes(b.name),
-            c < 3 ? "N" : "N m"};
-  }
-  return {s.row_names[s.u0 + u], "N or N m"};
-}
-
-/// Coordinates of the motions, free of the constraints, that a force drives and that have no
-/// stiffness: K d = 0 but d . f != 0.
-std::vector<std::string> unrestored(const System& s, const LinearMatrices& m,
-                                    const VectorX& scale) {
-  const MatrixX G = m.constraints * scale.asDiagonal();
-  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
-  if (G.rows() > 0) {
-    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
-    free = svd.matrixV().rightCols(s.n_u - svd.rank());
-  }
-  std::vector<std::string> out;
-  if (free.cols() == 0)
-    return out;
-  const VectorX forces = free.transpose() * scale.cwiseProduct(m.forces);
-  const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  Eigen::JacobiSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const VectorX sizes = svd.singularValues();
-  const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff();
-  VectorX drift = VectorX::Zero(free.cols());
-  for (Index k = 0; k < sizes.size(); ++k)
-    if (sizes[k] <= 1e-9 * std::max(sizes[0], weight))
-      drift += svd.matrixU().col(k).dot(forces) * svd.matrixU().col(k);
-  if (!(drift.norm() > 1e-9 * weight))
-    return out;
-  const VectorX moved = (free * drift).cwiseAbs();
-  for (Index u = 0; u < s.n_u; ++u)
-    if (moved[u] > 0.1 * moved.maxCoeff())
-      out.push_back(coordinate_name(s, u).text);
-  return out;
-}
-
-[[noreturn]] void refuse(const System& s, const LinearMatrices& m, const VectorX& scale) {
-  Index worst = 0;
-  m.forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
-      .cwiseAbs()
-      .maxCoeff(&worst);
-  const CoordinateName name = coordinate_name(s, worst);
-  const std::vector<std::string> slack = unrestored(s, m, scale);
-  throw ModelError("solver.start",
-                   "no static equilibrium near the start: " + s.row_names[s.u0 + worst] +
-                       " is off by " + number_text(m.forces[worst]) + " " + name.unit +
-                       (slack.empty() ? "; start nearer to the equilibrium, or hold what drifts"
-                                      : "; there is no stiffness in " + joined(slack) +
-                                            ": balance weight, buoyancy and constant loads there, "
-                                            "or add a mooring, a spring or hydrostatics"));
-}
-
-/// Newton's method from y to forces in balance and closed rows; y with the reactions.
-LinearMatrices balance(const System& s, VectorX& y) {
-  const system::Pattern pattern = system::find_pattern(s);
-  const VectorX scale = system::displacement_scale(s), sizes = gap_sizes(s),
-                rest = VectorX::Zero(s.n);
-  const VectorX weights = s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300);
-  const VectorX units = s.scale.segment(s.lambda0, s.n_lambda).cwiseMax(1e-300);
-  system::Workspace<double> ws(s);
-  system::JacobianWorkspace laws(s);
-  VectorX r(s.n);
-  for (int step = 0;; ++step) {
-    if (!system::solve_algebraic(s, laws, 0.0, y))
-      throw ModelError("solver.start", "no static equilibrium near the start: an algebraic unknown "
-                                       "of a force has no solution there");
-    system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
-    const LinearMatrices m = linear_matrices(s, pattern, y);
-    const VectorX gaps = gaps_of(s, r);
-    const double force_error = m.forces.cwiseQuotient(weights).cwiseAbs().maxCoeff();
-    const double gap_error = s.n_lambda > 0 ? gaps.cwiseQuotient(sizes).cwiseAbs().maxCoeff() : 0.0;
-    if (force_error <= balanced && gap_error <= balanced) {
-      for (const system::CouplerData& c : s.couplers)
-        if (c.kept() && std::abs(r[c.lambda]) > 0.0)
-          throw ModelError("constraint." + c.name, "constraint '" + c.name +
-                                                       "' moves at the start: there is no "
-                                                       "equilibrium");
-      return m;
-    }
-    if (step == most_steps)
-      refuse(s, m, scale);
-    const Index n = s.n_u + s.n_lambda;
-    MatrixX kkt = MatrixX::Zero(n, n);
-    kkt.topLeftCorner(s.n_u, s.n_u) =
-        weights.cwiseInverse().asDiagonal() * m.stiffness * scale.asDiagonal();
-    kkt.topRightCorner(s.n_u, s.n_lambda) =
-        -(weights.cwiseInverse().asDiagonal() * m.constraints.transpose() * units.asDiagonal());
-    kkt.bottomLeftCorner(s.n_lambda, s.n_u) =
-        sizes.cwiseInverse().asDiagonal() * m.constraints * scale.asDiagonal();
-    VectorX rhs(n);
-    rhs << m.forces.cwiseQuotient(weights), -gaps.cwiseQuotient(sizes);
-    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-    cod.setThreshold(1e-12);
-    cod.compute(kkt);
-    VectorX x = cod.solve(rhs);
-    const double length = x.head(s.n_u).cwiseAbs().maxCoeff();
-    if (!x.allFinite())
-      refuse(s, m, scale);
-    if (length > longest) // the reactions are taken whole: they are linear
-      x.head(s.n_u) *= longest / length;
-    system::retract(s, x.head(s.n_u).cwiseProduct(scale), y);
-    y.segment(s.lambda0, s.n_lambda) += x.tail(s.n_lambda).cwiseProduct(units);
-  }
 }
 
 /// What counts as a length, or an angle, of a coordinate.

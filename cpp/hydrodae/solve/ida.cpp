@@ -101,8 +101,9 @@ public:
       double t0, const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(condensed(s, p)), rtol(share * options.rtol),
         equations(s, pattern, rtol), newton{{s, pattern}}, good(y0), good_rate(yp0), t_good(t0),
-        now(y0), now_rate(yp0), out(s.n), t_(t0), end_time(options.end_time),
-        time_scale(equations.time_scale()), guard(t0, end_time, time_scale) {
+        now(y0), now_rate(yp0), out(s.n), lost(y0), lost_rate(yp0), t_(t0),
+        end_time(options.end_time), time_scale(equations.time_scale()),
+        guard(t0, end_time, time_scale) {
     start(options, y0, yp0);
   }
   double step(double end, double bound) override;
@@ -122,6 +123,8 @@ private:
   int restarts = 0;
   Statistics before;          ///< of the starts before the last
   VectorX now, now_rate, out; ///< copies for the calls that take our vectors
+  VectorX lost, lost_rate;    ///< where the residual was no number last
+  double lost_time = -INFINITY;
   double t_ = 0.0, end_time = 0.0;
   VectorX error_;
   double first = 0.0;      ///< first step [s]
@@ -160,6 +163,11 @@ int Ida::residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
   self.now = view(y, self.system.n);
   self.now_rate = view(yp, self.system.n);
   const bool finite = self.equations.residual(t, self.now, self.now_rate, self.out);
+  if (!finite) {
+    self.lost = self.now;
+    self.lost_rate = self.now_rate;
+    self.lost_time = t;
+  }
   std::copy(self.out.begin(), self.out.end(), N_VGetArrayPointer(r));
   return finite ? 0 : 1; // recoverable: IDA tries a shorter step
 }
@@ -259,6 +267,8 @@ std::string Ida::diagnosis(int flag) {
     now_rate = view(yp_now, system.n);
     now.segment(system.lambda0, system.n_lambda) =
         view(y.get(), system.n).segment(system.lambda0, system.n_lambda);
+    if (lost_time >= t_ - 1e-6 * time_scale) // the diagnosis looks at what was evaluated last
+      equations.residual(lost_time, lost, lost_rate, out);
     text += equations.diagnosis(t_, now, now_rate);
   }
   return text;

@@ -27,7 +27,7 @@ def compute(
     ----------
     bodies : sequence of hydrodae.hdb.bem.run.WettedBody
         Panels (n, 4, 3) of what is in the water [m] (`hydrodae.hdb.bem.shapes`,
-        `hydrodae.hdb.bem.meshes.read_mesh`, cut off by `hydrodae.hdb.bem.run.immersed`) and the
+        `hydrodae.hdb.bem.meshes.read_mesh`, cut off by `hydrodae.hdb.bem.cutting.immersed`) and the
         reference point (3,) [m] of each.
     settings : hydrodae.hdb.bem.run.Settings
         Frequencies [rad/s], headings [rad], water.

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import CaseLike, read_case
-from hydrodae.frequency import LinearModel
+from hydrodae.frequency import LinearModel, Mode
+from hydrodae.mooring.stiffness import Hold, MooringStiffness, holds, mooring_stiffness
 
 Array = NDArray[np.float64]
 
@@ -32,6 +33,13 @@ class Equilibrium:
     reactions : dict of float
         By channel, such as "joints/hinge/reaction_force.x": on body B, in the axes of marker A
         [N, N m].
+    moorings : list of Hold
+        Ropes, lines, springs between two points and mooring matrices, with their tensions.
+    stiffness : MooringStiffness
+        What the moorings put on the bodies, and how that changes with small displacements.
+    modes : list of Mode
+        Natural modes of a moored scene, with the added mass of its database, the longest period
+        first; empty where nothing is moored.
     notes : list of str
         What a linear model of the case there has to leave out.
     """
@@ -40,7 +48,19 @@ class Equilibrium:
     offsets: dict[str, Array]
     rotations: dict[str, Array]
     reactions: dict[str, float]
+    moorings: list[Hold]
+    stiffness: MooringStiffness
+    modes: list[Mode]
     notes: list[str]
+
+    @property
+    def tensions(self) -> dict[str, float]:
+        """What the moorings read, by channel: "forces/bow/tension" [N] and such."""
+        return {
+            f"forces/{hold.name}/{name}": value
+            for hold in self.moorings
+            for name, (value, _) in hold.readings.items()
+        }
 
     def __str__(self) -> str:
         lines = [self.title]
@@ -59,8 +79,37 @@ class Equilibrium:
                 for kind in ("force", "moment")
             ]
             lines.append(f"    {joint:16} {_numbers(values[0], 1)};  {_numbers(values[1], 1)}")
+        if self.moorings:
+            lines += self._moored()
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
+
+    def _moored(self) -> list[str]:
+        lines = ["  moorings"]
+        for hold in self.moorings:
+            read = ", ".join(
+                f"{name} {value + 0.0:.1f} {unit}" for name, (value, unit) in hold.readings.items()
+            )
+            lines.append(f"    {hold.name:16} {read or hold.type}")
+        held = [b for b in self.offsets if any(b in hold.held for hold in self.moorings)]
+        lines.append(
+            "  load of the moorings on a body, about its centre of gravity [N; N m], and their "
+            "stiffness there"
+        )
+        for body in held:
+            load = self.stiffness.load_of(body)
+            lines.append(f"    {body:16} {_numbers(load[:3], 1)};  {_numbers(load[3:], 1)}")
+            lines += [
+                "      " + " ".join(f"{value + 0.0:12.4g}" for value in row)
+                for row in self.stiffness.of(body)
+            ]
+        if self.modes:
+            lines.append("  natural periods [s], and what moves most")
+        for mode in self.modes:
+            most = max(mode.shape, key=lambda name: abs(mode.shape[name]))
+            beyond = ", beyond the frequencies of the database" if mode.extrapolated else ""
+            lines.append(f"    {mode.period:10.3f}  {most}{beyond}")
+        return lines
 
 
 def equilibrium(case: CaseLike, *, set: Mapping[str, Any] | None = None) -> Equilibrium:
@@ -83,8 +132,16 @@ def equilibrium(case: CaseLike, *, set: Mapping[str, Any] | None = None) -> Equi
         The case cannot be used, or there is no equilibrium near its start.
     """
     model = LinearModel(read_case(case, set))
+    moorings = holds(model)
     return Equilibrium(
-        model.case.title, model.offsets, model.rotations, model.reactions, model.notes
+        title=model.case.title,
+        offsets=model.offsets,
+        rotations=model.rotations,
+        reactions=model.reactions,
+        moorings=moorings,
+        stiffness=mooring_stiffness(model, moorings),
+        modes=model.modes() if moorings else [],
+        notes=model.notes,
     )
 
 

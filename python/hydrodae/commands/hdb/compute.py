@@ -13,6 +13,7 @@ from hydrodae.commands.arguments import parse_numbers, parse_point
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
+from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.meshes import read_mesh
 from hydrodae.hdb.computing import hydrostatics_of
 from hydrodae.hdb.coordinates import body_name, check_body
@@ -158,7 +159,7 @@ def _body(
     else:
         panels = shapes.build(first, 1.0, lengths)  # says what is missing
     try:
-        panels = bem.immersed(panels)
+        panels = immersed(panels)
     except DatabaseError as error:
         raise DatabaseError(f"body {name}: {error}") from error
     return bem.WettedBody(name, panels, np.array(points[name]))

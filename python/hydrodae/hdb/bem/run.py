@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.extras import install_command
 from hydrodae.hdb.bem.lids import lid
-from hydrodae.hdb.bem.shapes import hydrostatics
 from hydrodae.hdb.dispersion import wavenumber
 
 Array = NDArray[np.float64]
@@ -81,43 +80,6 @@ class Settings:
             raise DatabaseError("rho, gravity and water_depth must be > 0")
 
 
-def immersed(panels: Array) -> Array:
-    """Cut a surface off at z = 0 and turn its normals into the water.
-
-    Parameters
-    ----------
-    panels : (n, 4, 3) array
-        Closed, or open at or above z = 0.
-
-    Returns
-    -------
-    (m, 4, 3) array
-
-    Raises
-    ------
-    DatabaseError
-        Nothing of it is in the water, or it has holes.
-    """
-    below: Array = panels
-    if panels[..., 2].max() > 1e-9:
-        mesh = _mesh(_capytaine(), panels).immersed_part()
-        if mesh.nb_faces == 0:
-            raise DatabaseError("the surface is not in the water")
-        below = np.asarray(mesh.as_array_of_faces(), dtype=float)
-    elif panels[..., 2].min() >= 0.0:
-        raise DatabaseError("the surface is not in the water")
-    # a lid drawn at the water plane is no part of the hull
-    below = np.asarray(below[np.abs(below[..., 2]).max(axis=1) > 1e-9], dtype=float)
-    area = np.linalg.norm(np.cross(below[:, 2] - below[:, 0], below[:, 3] - below[:, 1]), axis=1)
-    below = below[area > 1e-9 * area.max(initial=0.0)]
-    try:
-        hydrostatics(below, np.zeros(3))
-    except DatabaseError:
-        below = np.ascontiguousarray(below[:, [1, 0, 3, 2]])
-        hydrostatics(below, np.zeros(3))
-    return below
-
-
 def compute(
     bodies: Sequence[WettedBody],
     settings: Settings,
@@ -145,8 +107,10 @@ def compute(
     Raises
     ------
     DatabaseError
-        Capytaine is missing, a lid covers too little, too many panels, or NaN at w = inf.
+        Capytaine is missing, a body is deeper than the water, a lid covers too little, too many
+        panels, or NaN at w = inf.
     """
+    _check_depth(bodies, settings.water_depth)
     cpt = _capytaine()
     cpt.set_logging("ERROR")
     logging.getLogger("capytaine").setLevel(logging.ERROR)
@@ -167,6 +131,16 @@ def compute(
             if progress is not None:
                 progress(len(files) - len(todo) + i, len(files), float(w), monotonic() - start)
     return _collect(files, bodies, place / "all.nc")
+
+
+def _check_depth(bodies: Sequence[WettedBody], water_depth: float) -> None:
+    for body in bodies:
+        lowest = -float(body.panels[..., 2].min())
+        if lowest >= water_depth:
+            raise DatabaseError(
+                f"body {body.name!r} goes down to {lowest:g} m, but the water is {water_depth:g} m "
+                "deep: it has to float above the seabed"
+            )
 
 
 def panel_warning(bodies: Sequence[WettedBody], settings: Settings) -> str:

@@ -1,4 +1,4 @@
-"""Elastic mooring lines at rest, by the same equations as forces of type `catenary`."""
+"""One elastic mooring line at rest, by the same equations as forces of type `catenary`."""
 
 from __future__ import annotations
 

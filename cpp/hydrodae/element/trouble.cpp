@@ -1,0 +1,21 @@
+#include "hydrodae/element/trouble.h"
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/element/catenary_line.h"
+
+namespace hydrodae::element {
+
+std::string trouble(std::string_view type, std::span<const double> in) {
+  if (type != CatenaryLine::type)
+    return {};
+  // A line without seabed has a balance everywhere, so this one is on the seabed.
+  const double rise = in[5] - in[2]; // of end B over end A
+  if (rise < 0.0)
+    return "end B is " + rounded_text(-rise) +
+           " m below the seabed, which is at the height of end A";
+  return "a buoy between its parts, or a part above one, is down on the seabed, which this type "
+         "does "
+         "not know";
+}
+
+} // namespace hydrodae::element

@@ -1,0 +1,262 @@
+#include "hydrodae/solve/balance.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+#include <optional>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/motion.h"
+#include "hydrodae/system/algebraic.h"
+#include "hydrodae/system/closing.h"
+#include "hydrodae/system/constraints.h"
+#include "hydrodae/system/residual.h"
+#include "hydrodae/system/trouble.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+using system::BodyData;
+using system::System;
+
+constexpr double longest = 3.0; ///< largest step, in length scales
+constexpr int most_steps = 200, most_creeping_steps = 1000;
+
+/// Gaps of all rows at position level, in the order of lambda; the others 0.
+VectorX gaps_of(const System& s, const VectorX& r) {
+  VectorX gaps = VectorX::Zero(s.n_lambda);
+  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
+    if (lambda != system::redundant && !velocity_level)
+      gaps[lambda - s.lambda0] = r[mu];
+  });
+  return gaps;
+}
+
+VectorX gap_sizes(const System& s) {
+  VectorX sizes = VectorX::Ones(s.n_lambda);
+  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
+    if (lambda != system::redundant)
+      sizes[lambda - s.lambda0] = s.row_scale[velocity_level ? lambda : mu];
+  });
+  return sizes;
+}
+
+/// A coordinate and the unit of the force along it: "heave of body 'sphere'", "N".
+struct CoordinateName {
+  std::string text, unit;
+};
+
+CoordinateName coordinate_name(const System& s, Index u) {
+  for (const BodyData& b : s.bodies) {
+    const Index k = u - (b.u0 - s.u0);
+    if (k < 0 || k >= b.n_active)
+      continue;
+    const int c = b.active[static_cast<std::size_t>(k)];
+    return {std::string(model::coordinate_names[static_cast<std::size_t>(c)]) + " of body " +
+                in_quotes(b.name),
+            c < 3 ? "N" : "N m"};
+  }
+  return {s.row_names[s.u0 + u], "N or N m"};
+}
+
+/// Coordinates of the motions, free of the constraints, that a force drives and that have no
+/// stiffness: K d = 0 but d . f != 0.
+std::vector<std::string> unrestored(const System& s, const LinearMatrices& m,
+                                    const VectorX& scale) {
+  const MatrixX G = m.constraints * scale.asDiagonal();
+  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
+  if (G.rows() > 0) {
+    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
+    free = svd.matrixV().rightCols(s.n_u - svd.rank());
+  }
+  std::vector<std::string> out;
+  if (free.cols() == 0)
+    return out;
+  const VectorX forces = free.transpose() * scale.cwiseProduct(m.forces);
+  const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
+  Eigen::JacobiSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const VectorX sizes = svd.singularValues();
+  const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff();
+  VectorX drift = VectorX::Zero(free.cols());
+  for (Index k = 0; k < sizes.size(); ++k)
+    if (sizes[k] <= 1e-9 * std::max(sizes[0], weight))
+      drift += svd.matrixU().col(k).dot(forces) * svd.matrixU().col(k);
+  if (!(drift.norm() > 1e-9 * weight))
+    return out;
+  const VectorX moved = (free * drift).cwiseAbs();
+  for (Index u = 0; u < s.n_u; ++u)
+    if (moved[u] > 0.1 * moved.maxCoeff())
+      out.push_back(coordinate_name(s, u).text);
+  return out;
+}
+
+std::string off_balance(const System& s, const LinearMatrices& m, const VectorX& scale) {
+  Index worst = 0;
+  m.forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
+      .cwiseAbs()
+      .maxCoeff(&worst);
+  const CoordinateName name = coordinate_name(s, worst);
+  const std::vector<std::string> slack = unrestored(s, m, scale);
+  return s.row_names[s.u0 + worst] + " is off by " + number_text(m.forces[worst]) + " " +
+         name.unit +
+         (slack.empty() ? "; start nearer to the equilibrium, or hold what drifts"
+                        : "; there is no stiffness in " + joined(slack) +
+                              ": balance weight, buoyancy and constant loads there, or add a "
+                              "mooring, a spring or hydrostatics");
+}
+
+/// The equations at a pose.
+struct Balance {
+  LinearMatrices m;
+  VectorX gaps;
+  double force_error = INFINITY, gap_error = INFINITY; ///< of weights and lengths
+  std::string trouble;                                 ///< why there are none; empty: there are
+
+  bool holds() const { return force_error <= balanced && gap_error <= balanced; }
+  double error() const { return std::hypot(force_error, gap_error); }
+};
+
+/// Finds the static pose; scratch and scales of one search.
+class Search {
+public:
+  explicit Search(const System& system)
+      : s_(system), pattern_(system::find_pattern(system)),
+        scale_(system::displacement_scale(system)), sizes_(gap_sizes(system)),
+        weights_(system.row_scale.segment(system.u0, system.n_u).cwiseMax(1e-300)),
+        units_(system.scale.segment(system.lambda0, system.n_lambda).cwiseMax(1e-300)), ws_(system),
+        laws_(system), residual_(system.n) {}
+
+  Balance at(VectorX& y) {
+    Balance out;
+    if (!system::solve_algebraic(s_, laws_, 0.0, y)) {
+      out.trouble = "an algebraic unknown of a force has no solution there";
+      return out;
+    }
+    const VectorX rest = VectorX::Zero(s_.n);
+    system::residual<double>(s_, ws_, 0.0, y.data(), rest.data(), residual_.data());
+    if (!std::isfinite(residual_.sum())) {
+      out.trouble = system::unknown_load(s_, ws_);
+      if (out.trouble.empty())
+        out.trouble = "the forces have no value there";
+      return out;
+    }
+    out.m = linear_matrices(s_, pattern_, y);
+    out.gaps = gaps_of(s_, residual_);
+    out.force_error = out.m.forces.cwiseQuotient(weights_).cwiseAbs().maxCoeff();
+    out.gap_error = s_.n_lambda > 0 ? out.gaps.cwiseQuotient(sizes_).cwiseAbs().maxCoeff() : 0.0;
+    return out;
+  }
+
+  /// Makes an implicit Euler step of pseudo-time tau, in units of weights and length scales; of
+  /// infinite tau, Newton's. Longer ones than `longest` are cut to that.
+  /// @returns its length before that; infinite: it is no number
+  double step(const Balance& now, double tau, VectorX& y) const {
+    const LinearMatrices& m = now.m;
+    const Index n = s_.n_u + s_.n_lambda;
+    MatrixX kkt = MatrixX::Zero(n, n);
+    kkt.topLeftCorner(s_.n_u, s_.n_u) =
+        weights_.cwiseInverse().asDiagonal() * m.stiffness * scale_.asDiagonal();
+    kkt.topLeftCorner(s_.n_u, s_.n_u).diagonal().array() += 1.0 / tau;
+    kkt.topRightCorner(s_.n_u, s_.n_lambda) =
+        -(weights_.cwiseInverse().asDiagonal() * m.constraints.transpose() * units_.asDiagonal());
+    kkt.bottomLeftCorner(s_.n_lambda, s_.n_u) =
+        sizes_.cwiseInverse().asDiagonal() * m.constraints * scale_.asDiagonal();
+    VectorX rhs(n);
+    rhs << m.forces.cwiseQuotient(weights_), -now.gaps.cwiseQuotient(sizes_);
+    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
+    cod.setThreshold(1e-12);
+    cod.compute(kkt);
+    VectorX x = cod.solve(rhs);
+    if (!x.allFinite())
+      return INFINITY;
+    const double length = x.head(s_.n_u).cwiseAbs().maxCoeff();
+    if (length > longest) // the reactions are taken whole: they are linear
+      x.head(s_.n_u) *= longest / length;
+    system::retract(s_, x.head(s_.n_u).cwiseProduct(scale_), y);
+    y.segment(s_.lambda0, s_.n_lambda) += x.tail(s_.n_lambda).cwiseProduct(units_);
+    return length;
+  }
+
+  /// Newton's method; the balance that it found, or where it ended.
+  Balance newton(VectorX& y) {
+    for (int k = 0;; ++k) {
+      Balance now = at(y);
+      if (!now.trouble.empty() || now.holds() || k == most_steps ||
+          std::isinf(step(now, INFINITY, y)))
+        return now;
+    }
+  }
+
+  /// Creeps to the static pose, with pseudo-times that grow where steps go well and are not cut.
+  std::optional<Balance> creep(VectorX& y) {
+    constexpr double grow = 2.0, cut = 0.25, worse = 2.0, least = 1e-9, most = 1e9;
+    Balance now = at(y);
+    if (!now.trouble.empty())
+      return {};
+    double tau = 1.0;
+    for (int k = 0; k < most_creeping_steps && tau > least; ++k) {
+      if (now.holds())
+        return now;
+      VectorX next_y = y;
+      const double length = step(now, tau, next_y);
+      if (std::isinf(length))
+        return {};
+      Balance next = at(next_y);
+      if (!(next.error() <= worse * now.error())) {
+        tau *= cut;
+        continue;
+      }
+      if (length <= longest)
+        tau = std::min(grow * tau, most);
+      now = std::move(next);
+      y = next_y;
+    }
+    return {};
+  }
+
+  std::string off(const Balance& end) const {
+    return end.trouble.empty() ? off_balance(s_, end.m, scale_) : end.trouble;
+  }
+
+private:
+  const System& s_;
+  const system::Pattern pattern_;
+  const VectorX scale_, sizes_, weights_, units_;
+  system::Workspace<double> ws_;
+  system::JacobianWorkspace laws_;
+  VectorX residual_;
+};
+
+/// Rows that a drive moves have no static pose.
+void refuse_motion(const System& s, const VectorX& y) {
+  system::Workspace<double> ws(s);
+  VectorX r(s.n);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
+  for (const system::CouplerData& c : s.couplers)
+    if (c.kept() && std::abs(r[c.lambda]) > 0.0)
+      throw ModelError("constraint." + c.name,
+                       "constraint '" + c.name + "' moves at the start: there is no equilibrium");
+}
+
+} // namespace
+
+LinearMatrices balance(const System& s, VectorX& y) {
+  Search search(s);
+  const VectorX start = y;
+  Balance found = search.newton(y);
+  if (!found.holds()) {
+    y = start;
+    std::optional<Balance> crept = search.creep(y);
+    if (!crept)
+      throw ModelError("solver.start",
+                       "no static equilibrium near the start: " + search.off(found));
+    found = std::move(*crept);
+  }
+  refuse_motion(s, y);
+  return found.m;
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,90 @@
+"""The commands `hydrodae mooring ...`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the commands below `hydrodae mooring`."""
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    linearise = commands.add_parser(
+        "linearise",
+        help="make mooring matrices from the ropes and lines of a case",
+        description="Linearise ropes and lines about the static equilibrium of a case; print the "
+        "[[force]] tables of type mooring_matrix that stand for them.",
+    )
+    linearise.add_argument("case", metavar="CASE", help="case file (TOML)")
+    linearise.add_argument(
+        "--force", metavar="NAME", action="append", default=[], help="only this one; repeatable"
+    )
+    linearise.add_argument(
+        "--set", metavar="KEY=VALUE", action="append", default=[], help="as in run"
+    )
+    linearise.add_argument(
+        "--library", metavar="FILE", action="append", default=[], help="as in run"
+    )
+    _add_output(linearise)
+    linearise.set_defaults(work=_linearise)
+    importing = commands.add_parser(
+        "import",
+        help="make tables of a case from a MoorDyn input file",
+        description="Read a MoorDyn input file, version 1 or 2; print the tables that stand for "
+        "it, lines in series as forces of type catenary, below notes of all that they do not hold.",
+    )
+    importing.add_argument("file", metavar="FILE", help="input file of MoorDyn")
+    importing.add_argument(
+        "--body",
+        metavar="[N=]NAME",
+        action="append",
+        default=[],
+        help="body of the case that coupled points belong to (default platform), or that stands "
+        "for body N of the file; repeatable",
+    )
+    importing.add_argument(
+        "--at",
+        metavar="X,Y,Z",
+        default="0,0,0",
+        help="origin of the coupled points in the reference pose of the case [m]",
+    )
+    _add_output(importing)
+    importing.set_defaults(work=_import)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what one of the commands asks for; returns 0."""
+    text: str = arguments.work(arguments)
+    if arguments.output is None:
+        print(text, end="")
+    else:
+        Path(arguments.output).write_text(text)
+        print(f"written: {arguments.output}")
+    return 0
+
+
+def _add_output(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("-o", "--output", metavar="FILE", help="write there instead of printing")
+
+
+def _linearise(arguments: argparse.Namespace) -> str:
+    from hydrodae.commands.arguments import given_case
+    from hydrodae.mooring import linearise
+
+    return linearise(given_case(arguments), forces=arguments.force).to_toml()
+
+
+def _import(arguments: argparse.Namespace) -> str:
+    from hydrodae.commands.arguments import parse_numbers
+    from hydrodae.mooring import read_moordyn
+
+    x, y, z = parse_numbers("--at", arguments.at, 3)
+    named = dict(_split(text) for text in arguments.body)
+    body = named.pop("", "platform")
+    return read_moordyn(arguments.file, body=body, at=(x, y, z), bodies=named).to_toml()
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Number of the body in the file, empty for coupled points, and name in the case."""
+    number, equals, name = text.partition("=")
+    return (number.strip(), name.strip()) if equals else ("", text.strip())

@@ -1,0 +1,45 @@
+"""Tables of a case that stand for the moorings of another program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from hydrodae.case import to_toml
+
+
+@dataclass
+class Imported:
+    """Tables of a case that stand for the input file of another program.
+
+    Attributes
+    ----------
+    source : str
+        The file.
+    bodies, forces, morison : list of dict
+        Keys of each `[[body]]`, `[[force]]` and `[[morison]]`.
+    notes : list of str
+        What the tables do not hold of the file, and what was assumed.
+    """
+
+    source: str
+    bodies: list[dict[str, Any]] = field(default_factory=list)
+    forces: list[dict[str, Any]] = field(default_factory=list)
+    morison: list[dict[str, Any]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        return self.to_toml()
+
+    def to_toml(self) -> str:
+        """Return the tables as they stand in a case file, with the notes above them."""
+        lines = [f"# Moorings of {self.source}", *(f"# - {note}" for note in self.notes)]
+        for header, tables in (
+            ("body", self.bodies),
+            ("force", self.forces),
+            ("morison", self.morison),
+        ):
+            for table in tables:
+                lines += ["", f"[[{header}]]"]
+                lines += [f"{key} = {to_toml(value, key)}" for key, value in table.items()]
+        return "\n".join(lines) + "\n"

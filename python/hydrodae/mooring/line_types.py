@@ -1,0 +1,139 @@
+"""Properties of mooring lines by their diameter, for early design.
+
+The coefficients are the defaults of MoorPy (M. Hall and others, MoorPy, NREL, 2021,
+doi:10.11578/dc.20210726.1), which fit catalogues of makers: chain of grade R4 with the stiffness
+of DNV-OS-E301 and the breaking load of DNV-OS-E302; six-strand wire rope; polyester and nylon with
+a stiffness in proportion to the breaking load. A line that is bought has a data sheet: use that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+from hydrodae.errors import CaseError
+
+_LARGEST = 1.0  #: [m]; a diameter above it was given in millimetres
+
+
+@dataclass(frozen=True)
+class LineType:
+    """What a metre of line is.
+
+    Attributes
+    ----------
+    name : str
+        "studless chain 0.1 m", for people.
+    diameter : float
+        Nominal diameter: of the bar of a chain, over all of a rope [m].
+    volume_diameter : float
+        Diameter of a cylinder of the same volume [m]: the one for drag and added mass, and the
+        `Diam` of MoorDyn.
+    mass : float
+        Dry, per unstretched length [kg/m].
+    stiffness : float
+        Axial stiffness EA [N]; of polyester and nylon the quasi-static one.
+    breaking_load : float
+        Minimum breaking load [N].
+    stiffness_at_sea : tuple of float or None
+        Of polyester and nylon: EA at wave frequency is the first [N] plus the second [-] times the
+        mean tension.
+    """
+
+    name: str
+    diameter: float
+    volume_diameter: float
+    mass: float
+    stiffness: float
+    breaking_load: float
+    stiffness_at_sea: tuple[float, float] | None = None
+
+    def weight(self, density: float = 1025.0, gravity: float = 9.81) -> float:
+        """Weight in water per unstretched length [N/m], as forces of type `catenary` take it.
+
+        Parameters
+        ----------
+        density : float
+            Of the water [kg/m3].
+        gravity : float
+            [m/s2]
+        """
+        return (self.mass - density * 0.25 * pi * self.volume_diameter**2) * gravity
+
+
+def chain(diameter: float, *, studs: bool = False) -> LineType:
+    """Chain of grade R4, by the diameter of its bar [m].
+
+    Raises
+    ------
+    CaseError
+        The diameter is none, or beyond 0.3 m, where the formula of the breaking load ends.
+    """
+    d = _checked(diameter, 0.3)
+    breaking = (-2.19e9 * d + 1.21e9) * d**2 + 9.11e2 * d
+    if studs:
+        return LineType(
+            f"studlink chain {d:g} m", d, 1.89 * d, 21.9e3 * d**2, 88.0e9 * d**2, breaking
+        )
+    stiffness = (-3.93e7 * d + 85.6e9) * d**2
+    return LineType(f"studless chain {d:g} m", d, 1.80 * d, 20.0e3 * d**2, stiffness, breaking)
+
+
+def studless_chain(diameter: float) -> LineType:
+    """Chain without studs: see `chain`."""
+    return chain(diameter)
+
+
+def studlink_chain(diameter: float) -> LineType:
+    """Chain with studs: see `chain`."""
+    return chain(diameter, studs=True)
+
+
+def wire(diameter: float) -> LineType:
+    """Six-strand wire rope, by its diameter [m]. Raises CaseError as `chain` does."""
+    d = _checked(diameter)
+    return LineType(f"wire rope {d:g} m", d, 1.18 * d, 5293.0 * d**2, 97.1e9 * d**2, 1022e6 * d**2)
+
+
+def polyester(diameter: float) -> LineType:
+    """Polyester rope, by its diameter [m]. Raises CaseError as `chain` does."""
+    d = _checked(diameter)
+    breaking = 308e6 * d**2
+    return _fibre("polyester", d, 679.0, 1380.0, breaking, (14.0, 11.6, 40.0))
+
+
+def nylon(diameter: float) -> LineType:
+    """Nylon rope, by its diameter [m]. Raises CaseError as `chain` does."""
+    d = _checked(diameter)
+    breaking = (230e6 * d + 207e6) * d**2
+    return _fibre("nylon", d, 585.0, 1140.0, breaking, (5.0, 2.08, 39.0))
+
+
+def _fibre(
+    name: str,
+    d: float,
+    mass_per_square: float,
+    density: float,
+    breaking: float,
+    stiffness: tuple[float, float, float],
+) -> LineType:
+    """A rope of a material with this density [kg/m3]; stiffnesses over the breaking load."""
+    mass = mass_per_square * d**2
+    static, at_rest, by_tension = stiffness
+    return LineType(
+        f"{name} rope {d:g} m",
+        d,
+        sqrt(4.0 * mass / (pi * density)),
+        mass,
+        static * breaking,
+        breaking,
+        (at_rest * breaking, by_tension),
+    )
+
+
+def _checked(diameter: float, largest: float = _LARGEST) -> float:
+    if not 0.0 < diameter <= largest:
+        raise CaseError(
+            f"a line of diameter {diameter:g} m: expected more than 0 and at most {largest:g} m"
+        )
+    return float(diameter)

@@ -1,0 +1,281 @@
+"""MoorDyn's input files as tables of a case, on the rung of lines at rest (`catenary`)."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import CaseError
+from hydrodae.mooring.imported import Imported
+from hydrodae.mooring.moordyn_chains import Chain, find_chains
+from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
+
+Array = NDArray[np.float64]
+
+_CARRIED = ("g", "rho", "wtrdpth", "frictioncoefficient")
+
+
+def read_moordyn(
+    path: str | os.PathLike[str],
+    *,
+    body: str = "platform",
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    bodies: Mapping[str, str] | None = None,
+) -> Imported:
+    """Read a MoorDyn input file, version 1 or 2, as tables of a case.
+
+    Lines in series from an anchor to a body become one force of type `catenary`, with the masses
+    and floats between them as its loads. A free point where more than two lines meet, or one ends,
+    becomes a point mass. What cannot be carried over is in `Imported.notes`.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    body : str
+        Body of the case that coupled points (those of a vessel) belong to.
+    at : (3,) floats
+        Where the origin of the coupled points is in the reference pose, world axes [m].
+    bodies : mapping from str, optional
+        Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``.
+
+    Raises
+    ------
+    CaseError
+        The file cannot be read, or it has something without which its moorings would be others:
+        rods that lines end at, stiffness from a table.
+    """
+    return _Conversion(read_deck(path), body, np.array(at, float), dict(bodies or {})).run()
+
+
+class _Conversion:
+    """From a deck to tables."""
+
+    def __init__(self, deck: Deck, body: str, at: Array, bodies: dict[str, str]) -> None:
+        self.deck, self.body, self.at, self.names = deck, body, at, bodies
+        self.out = Imported(deck.file.name)
+        self.depth, self.assumed_depth = self._depth()
+
+    def run(self) -> Imported:
+        deck = self.deck
+        chains, junctions = find_chains(deck)
+        self.out.notes.append(
+            f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the case "
+            "sets its own in [environment]"
+        )
+        if self.assumed_depth:
+            self.out.notes.append(
+                f"no depth in the file: the seabed is at z = {-self.depth:g} m, the lowest anchor"
+            )
+        for point in junctions:
+            self._junction(point)
+        for chain in chains:
+            self._chain(chain)
+        self._note_types()
+        self._note_bodies()
+        self._note_rest()
+        return self.out
+
+    def _depth(self) -> tuple[float, bool]:
+        """Depth of the seabed, and whether it is a guess."""
+        try:
+            depth = self.deck.option("wtrdpth", 0.0)
+        except CaseError:
+            depth = 0.0  # the file of a bathymetry
+            self.out.notes.append(
+                f"seabed {self.deck.options['wtrdpth']!r}: it is flat at the height of each anchor"
+            )
+        if depth > 0.0:
+            return depth, False
+        fixed = [p.place[2] for p in self.deck.points.values() if p.attachment == "fixed"]
+        return -min(fixed, default=0.0), True
+
+    def _owner(self, point: Point) -> tuple[str, Array]:
+        """Body of the case that a point belongs to, or ground, and its place."""
+        place = np.array(point.place)
+        if point.attachment == "fixed":
+            return "ground", place
+        if point.attachment == "coupled":
+            return self.body, self.at + place
+        if point.attachment == "free":
+            return f"point{point.id}", place
+        number = point.attachment.removeprefix("body")
+        if not point.attachment.startswith("body") or number not in self.deck.bodies:
+            raise point.row.fail(
+                f"point {point.id}: attachment {point.row.words[1]!r} is not carried over; there "
+                "are Fixed, Coupled (Vessel), Free (Connect) and the bodies of the file"
+            )
+        body = self.deck.bodies[number]
+        place = np.array(body.place) + _rotation(body.angles) @ place
+        if body.attachment == "fixed":
+            return "ground", place
+        if number not in self.names:
+            raise body.row.fail(
+                f"body {number}: which body of the case is it? Say --body {number}=NAME, in Python "
+                f'bodies={{"{number}": NAME}}'
+            )
+        return self.names[number], place
+
+    def _net_weight(self, point: Point) -> float:
+        """Weight in water less the force that the file gives [N]."""
+        net = point.mass - self.deck.density * point.volume
+        return net * self.deck.gravity - point.force[2]
+
+    def _chain(self, chain: Chain) -> None:
+        deck = self.deck
+        (body_a, place_a), (body_b, place_b) = map(self._owner, chain.ends)
+        label = ("line " if len(chain.lines) == 1 else "lines ") + ", ".join(
+            line.id for line in chain.lines
+        )
+        if body_a == body_b:
+            why = "two fixed points" if body_a == "ground" else f"two points of body {body_a}"
+            self.out.notes.append(f"{label} between {why}: left out, it moves nothing")
+            return
+        weights = [self._weight(line) for line in chain.lines]
+        lies = body_a == "ground" and abs(place_a[2] + self.depth) <= 1e-3 * self.depth
+        if lies and min(weights) <= 0.0:
+            lies = False
+            self.out.notes.append(f"{label}: a part floats up, so that the seabed is not felt")
+        elif not lies and not self.assumed_depth:
+            self.out.notes.append(
+                f"{label}: end A is not on the seabed, z = {-self.depth:g} m, which is not felt"
+            )
+        table: dict[str, Any] = {
+            "type": "catenary",
+            "name": "line" + "_".join(line.id for line in chain.lines),
+            "body_a": body_a,
+            "body_b": body_b,
+            "point_a": place_a.tolist(),
+            "point_b": place_b.tolist(),
+            "length": [line.length for line in chain.lines],
+            "weight": weights,
+            "stiffness": [line.type.stiffness for line in chain.lines],
+        }
+        loads = [self._net_weight(point) for point in chain.between]
+        if any(loads):
+            table["loads"] = loads
+        if not lies:
+            table["seabed"] = False
+        elif friction := deck.option("frictioncoefficient", 0.0):
+            table["friction"] = friction
+        self.out.forces.append(table)
+        for point in chain.between:
+            self._note_between(point)
+
+    def _weight(self, line: Line) -> float:
+        area = 0.25 * math.pi * line.type.diameter**2
+        return (line.type.mass - self.deck.density * area) * self.deck.gravity
+
+    def _note_between(self, point: Point) -> None:
+        lost = [
+            f"{what} {value:g}{unit}"
+            for what, value, unit in (
+                ("inertia of", point.mass, " kg"),
+                ("drag area", point.drag_area, " m2"),
+                ("added mass coefficient", point.added_mass, ""),
+            )
+            if value
+        ]
+        if lost:
+            self.out.notes.append(
+                f"point {point.id}: without {', '.join(lost)}: loads between parts of a line at "
+                "rest have weight only"
+            )
+
+    def _junction(self, point: Point) -> None:
+        """A free point as a point mass, with half of the segments next to it, as in MoorDyn."""
+        lumped = sum(
+            0.5 * line.type.mass * line.length / line.segments
+            for line in self.deck.lines
+            for end in line.ends
+            if end == point.id
+        )
+        name = f"point{point.id}"
+        self.out.bodies.append(
+            {
+                "name": name,
+                "motion": "point",
+                "mass": point.mass + lumped,
+                "center_of_gravity": list(point.place),
+            }
+        )
+        up = self.deck.density * point.volume + lumped
+        force = [point.force[0], point.force[1], up * self.deck.gravity + point.force[2]]
+        self.out.forces.append(
+            {"type": "constant_load", "name": f"{name}_lift", "body": name, "force": force}
+        )
+        self.out.notes.append(
+            f"point {point.id} is body {name}, with {lumped:g} kg of the segments next to it "
+            f"({name}_lift: buoyancy, and their weight, which the lines hold)"
+        )
+        if not (point.drag_area or point.added_mass * point.volume):
+            return
+        table: dict[str, Any] = {
+            "name": f"{name}_water",
+            "body": name,
+            "point": list(point.place),
+            "area": point.drag_area,
+            "volume": point.volume,
+            "drag_coefficient": 1.0,
+        }
+        if point.added_mass * point.volume:
+            table["added_mass_coefficient"] = point.added_mass
+        self.out.morison.append(table)
+
+    def _note_types(self) -> None:
+        for kind in {line.type.name: line.type for line in self.deck.lines}.values():
+            lost = [f"{key} {text}" for key, text in kind.others.items() if text not in _NOTHING]
+            if lost:
+                self.out.notes.append(
+                    f"line type {kind.name}: without {', '.join(lost)}: a line at rest has no "
+                    "damping, bending, drag or added mass"
+                )
+
+    def _note_bodies(self) -> None:
+        for body in self.deck.bodies.values():
+            if body.attachment != "fixed":
+                known = self.names.get(body.id)
+                self.out.notes.append(
+                    f"body {body.id}"
+                    + (f" is {known}: mass, volume and drag are those of the case" if known else
+                       ": left out, no line ends at it")
+                )  # fmt: skip
+
+    def _note_rest(self) -> None:
+        deck, notes = self.deck, self.out.notes
+        ends = {end for line in deck.lines for end in line.ends}
+        for point in deck.points.values():
+            if point.id not in ends:
+                notes.append(f"point {point.id}: left out, no line ends at it")
+            elif point.attachment != "free" and (point.mass or point.volume or point.drag_area):
+                notes.append(
+                    f"point {point.id}: mass {point.mass:g} kg, volume {point.volume:g} m3 and "
+                    f"drag area {point.drag_area:g} m2 left out: they are those of its body"
+                )
+        others = [f"{key} {value}" for key, value in deck.options.items() if key not in _CARRIED]
+        if others:
+            notes.append(f"options of dynamic lines, not used: {', '.join(others)}")
+        for name, count in deck.unread.items():
+            notes.append(f"section {name.upper()}: left out ({count} lines)")
+        if deck.outputs:
+            notes.append(
+                f"outputs: left out ({', '.join(deck.outputs)}); forces/NAME/tension is at end B "
+                "(FAIRTEN), tension_anchor at end A (ANCHTEN)"
+            )
+
+
+_NOTHING = ("0", "0.0", "0.")
+
+
+def _rotation(angles_deg: tuple[float, float, float]) -> Array:
+    """Rx Ry Rz of roll, pitch and yaw, as in MoorDyn."""
+    (a, b, c), (x, y, z) = np.cos(np.radians(angles_deg)), np.sin(np.radians(angles_deg))
+    about_x = np.array([[1, 0, 0], [0, a, -x], [0, x, a]])
+    about_y = np.array([[b, 0, y], [0, 1, 0], [-y, 0, b]])
+    about_z = np.array([[c, -z, 0], [z, c, 0], [0, 0, 1]])
+    return np.asarray(about_x @ about_y @ about_z)
