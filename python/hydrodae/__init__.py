@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao
     from hydrodae.study.sensitivity import sensitivity
+    from hydrodae.study.spectral import spectral
 
     __version__: str
 
@@ -62,6 +63,7 @@ __all__ = [
     "recommend",
     "run",
     "sensitivity",
+    "spectral",
     "working_band",
 ]
 
@@ -77,6 +79,7 @@ _LATER = {
     "rao": "study.rao",
     "recommend": "study.chart",
     "sensitivity": "study.sensitivity",
+    "spectral": "study.spectral",
     "working_band": "study.band",
 }
 

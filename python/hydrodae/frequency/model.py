@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
@@ -15,7 +16,8 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.frequency.kinematics import water_motion
 from hydrodae.frequency.modes import Mode, find_modes
 from hydrodae.frequency.reading import without_memory
-from hydrodae.frequency.response import Response, power_factor, unit_of
+from hydrodae.frequency.response import Response, bristles, make_response
+from hydrodae.frequency.sea import in_waves, wave_components
 from hydrodae.frequency.tables import WaterTables
 from hydrodae.hdb.database import HydroDatabase
 
@@ -76,6 +78,52 @@ class LinearModel:
             other.__dict__.pop(name, None)  # cached properties of the old tables
         other._given_database = database
         return other
+
+    def with_law_slopes_taken_out(self, names: Sequence[str]) -> LinearModel:
+        """Return the same linearised case without the dampers at rest of some forces.
+
+        Of friction with bristles its state goes as well.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Of forces along joints.
+        """
+        other = copy.copy(self)
+        m = other._model = dict(self._model)
+        for k, name in enumerate(m["dampers"]):
+            if name in names:
+                row = m["damper_map"][k]
+                other.damping = other.damping - m["damper_damping"][k] * np.outer(row, row)
+        taken = bristles(m, names)
+        m["load_by_state"] = np.delete(m["load_by_state"], taken, axis=1)
+        m["state_by_state"] = np.delete(np.delete(m["state_by_state"], taken, 0), taken, 1)
+        for key in ("state_by_xi", "state_by_rate"):
+            m[key] = np.delete(m[key], taken, axis=0)
+        keep = [k for k, name in enumerate(m["dampers"]) if name not in names]
+        for key in ("dampers", "damper_damping", "damper_stiffness", "damper_delay"):
+            m[key] = [m[key][k] for k in keep]
+        m["damper_map"] = m["damper_map"][keep]
+        return other
+
+    @property
+    def water_points(self) -> list[Array]:
+        """Points of the Morison elements that move, one a segment, world axes [m]."""
+        return [np.asarray(point, dtype=float) for point in self._model["water_points"]]
+
+    @property
+    def water(self) -> tuple[float, float]:
+        """Depth [m], may be infinite, and gravity [m/s2]."""
+        return float(self._model["water_depth"]), float(self._model["gravity"])
+
+    def motion_row(self, joint: str, coordinate: str | None = None) -> Array:
+        """Row (n_u,) of a joint coordinate over xi; without `coordinate` its only one."""
+        head = f"joints/{joint}/{coordinate or ''}"
+        names = list(self._model["motions"])
+        found = [k for k, n in enumerate(names) if n == head or (not coordinate and head in n)]
+        if len(found) != 1:
+            raise CaseError(f"joint {joint!r}: no coordinate {coordinate!r} in {', '.join(names)}")
+        return np.asarray(self._model["motion_map"][found[0]])
 
     @property
     def hydro_labels(self) -> tuple[str, ...]:
@@ -173,7 +221,20 @@ class LinearModel:
         water = water_motion(w, heading, points, m["water_depth"], m["gravity"])
         return np.asarray(np.einsum("wpc,puc->wu", water, np.array(m["water_loads"])))
 
-    def response(self, omega: ArrayLike, heading: float = 0.0) -> Response:
+    def dynamic_stiffness_at(self, w: Array) -> Complex:
+        """Z(w) = -w^2 (M + A) + iw (C + B) + K of all coordinates, (nw, n_u, n_u)."""
+        (added, radiation), iw = self.added(w), 1j * w[:, None, None]
+        z = -(w**2)[:, None, None] * (self.mass + added) + iw * (self.damping + radiation)
+        return np.asarray(z + self.stiffness + self.late(w))
+
+    def response(
+        self,
+        omega: ArrayLike,
+        heading: float = 0.0,
+        *,
+        damping: Array | None = None,
+        force: Complex | None = None,
+    ) -> Response:
         """Response to waves of unit amplitude.
 
         Parameters
@@ -182,6 +243,10 @@ class LinearModel:
             Frequencies [rad/s].
         heading : float
             Direction of travel [rad].
+        damping : (n_u, n_u) array, optional
+            Damping beside that of the model.
+        force : (nw, n_u) complex array, optional
+            Loads beside those of the waves, per metre of their amplitude.
 
         Raises
         ------
@@ -189,43 +254,19 @@ class LinearModel:
             Outside the database.
         """
         w = np.atleast_1d(np.asarray(omega, dtype=float))
-        force = self.excitation(w, heading)
-        added, radiation = self.added(w)
-        free, iw = self._free, 1j * w[:, None, None]
-        z = -(w**2)[:, None, None] * (self.mass + added) + iw * (self.damping + radiation)
-        z = z + self.stiffness + self.late(w)
-        reduced = free.T @ z @ free
-        xi = np.linalg.solve(reduced, (force @ free)[:, :, None])[:, :, 0] @ free.T
+        load = self.excitation(w, heading)
+        if force is not None:
+            load = load + force
+        z = self.dynamic_stiffness_at(w)
+        if damping is not None:
+            z = z + 1j * w[:, None, None] * damping
+        free = self._free
+        xi = np.linalg.solve(free.T @ z @ free, (load @ free)[:, :, None])[:, :, 0] @ free.T
         # G^T lambda = Z xi - F has a solution: the constraints left are independent.
-        multipliers = ((z @ xi[:, :, None])[:, :, 0] - force) @ self._constraints_inverse.T
-        m = self._model
-        joints = xi @ m["motion_map"].T
-        reactions = xi @ m["reaction_by_xi"].T + multipliers @ m["reaction_by_lambda"].T
-        squares = np.abs(xi @ m["damper_map"].T) ** 2
-        power = {
-            name: 0.5 * squares[:, n] * power_factor(w, k, c, tau)
-            for n, (name, k, c, tau) in enumerate(
-                zip(
-                    m["dampers"],
-                    m["damper_stiffness"],
-                    m["damper_damping"],
-                    m["damper_delay"],
-                    strict=True,
-                )
-            )
-            if c != 0.0 or tau > 0.0
-        }
-        velocity = 1j * w[:, None] * xi
-        return Response(
-            omega=w,
-            heading=heading,
-            names=(*self.coordinates, *m["motions"], *m["reactions"]),
-            units=tuple(map(unit_of, (*self.coordinates, *m["motions"], *m["reactions"]))),
-            values=np.hstack([xi, joints, reactions]),
-            power=power,
-            excitation_power=0.5 * np.sum(force.conj() * velocity, axis=1).real,
-            radiated_power=0.5
-            * np.einsum("wi,wij,wj->w", velocity.conj(), radiation, velocity).real,
+        rest = (z @ xi[:, :, None])[:, :, 0] - load
+        multipliers = rest @ self._constraints_inverse.T
+        return make_response(
+            self._model, w, heading, xi, multipliers, force=load, radiation=self.added(w)[1]
         )
 
     def modes(self) -> list[Mode]:
@@ -259,19 +300,4 @@ class LinearModel:
         CaseError
             The case has no waves.
         """
-        from hydrodae import _core
-
-        waves = np.asarray(_core.wave_components(self.case.scene))
-        if len(waves) == 0:
-            raise CaseError("the case has no [[wave]]: there is no sea to respond to")
-        variance: dict[str, float] = {"sea/elevation": 0.5 * float(np.sum(waves[:, 2] ** 2))}
-        power: dict[str, float] = {}
-        for heading in np.unique(waves[:, 1]):
-            mine = waves[waves[:, 1] == heading]
-            response = self.response(mine[:, 0], float(heading))
-            squares = 0.5 * (mine[:, 2] ** 2) @ np.abs(response.values) ** 2
-            for name, value in zip(response.names, squares, strict=True):
-                variance[name] = variance.get(name, 0.0) + float(value)
-            for name, per_square in response.power.items():
-                power[name] = power.get(name, 0.0) + float(mine[:, 2] ** 2 @ per_square)
-        return {name: float(np.sqrt(value)) for name, value in variance.items()}, power
+        return in_waves(self.response, wave_components(self.case))
