@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -17,11 +17,15 @@ from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, Response
 from hydrodae.frequency.sea import in_waves, wave_components
 from hydrodae.study.spectral import text
-from hydrodae.study.spectral.collect import Bodies, joint_loads, morison_loads, viscous_loads
-from hydrodae.study.spectral.loads import AlongJoint, Load
+from hydrodae.study.spectral.linearise import (
+    all_notes,
+    dampings,
+    mean_powers,
+    nonlinear_loads,
+)
 from hydrodae.study.spectral.output import write
-from hydrodae.study.spectral.solve import Equivalents, equivalents
-from hydrodae.study.spectral.tables import case_tables
+from hydrodae.study.spectral.seeds import Seeds, comparison, time_domain
+from hydrodae.study.spectral.solve import equivalents
 
 if TYPE_CHECKING:
     import xarray
@@ -136,6 +140,46 @@ class Spectral:
         """
         return write(path, self)
 
+    def time_domain(
+        self, seeds: int | Sequence[int] = 10, *, settle: float = 100.0, jobs: int = 1
+    ) -> Seeds:
+        """Run the case in the time domain with other seeds of its sea.
+
+        Parameters
+        ----------
+        seeds : int or sequence of int
+            How many, 1, 2, ...; or which.
+        settle : float
+            Time from the start that is left out [s].
+        jobs : int
+            Runs at a time.
+
+        Returns
+        -------
+        Seeds
+            Standard deviations of every run; `comparison` prints them beside these.
+
+        Raises
+        ------
+        CaseError
+            The case cannot be run, nothing in its sea is random, or the runs are too short or few.
+        SolverError
+            A run failed.
+        """
+        if self.model.memory_missing is not None:
+            raise self.model.memory_missing
+        names = {
+            name: unit.removesuffix("/m")
+            for name, unit in zip(self.names, self.units, strict=True)
+            if name in self.rate
+        }
+        chosen = range(1, seeds + 1) if isinstance(seeds, int) else seeds
+        return time_domain(self.model.case, names, list(chosen), settle, jobs)
+
+    def comparison(self, runs: Seeds) -> str:
+        """Return standard deviations and mean powers beside those of runs, and what both cost."""
+        return comparison(self, runs)
+
     def __str__(self) -> str:
         return text.table(self)
 
@@ -201,7 +245,7 @@ def spectral(
         model = case
     else:
         model = LinearModel(read_case(case, set))
-    loads, model = _loads(model)
+    loads, model = nonlinear_loads(model)
     start = perf_counter()
     waves = wave_components(model.case)
     found = equivalents(model, loads, waves, tolerance, iterations)
@@ -228,60 +272,10 @@ def spectral(
         values=values,
         standard_deviation=deviation,
         rate={name: float(rates[k]) for k, name in enumerate(names) if "/reaction_" not in name},
-        power=power | _power(loads, found),
-        damping=_damping(loads, found),
+        power=power | mean_powers(loads, found),
+        damping=dampings(loads, found),
         iterations=found.iterations,
         change=found.change,
         time=perf_counter() - start,
-        notes=_notes(model, loads),
+        notes=all_notes(model, loads),
     )
-
-
-def _loads(model: LinearModel) -> tuple[list[Load], LinearModel]:
-    """The nonlinear loads of a case, and its model without their slopes at rest."""
-    tables = case_tables(model.case)
-    bodies = Bodies(model, tables)
-    along = joint_loads(model, tables)
-    density = tables.get("environment", {}).get("water_density", np.nan)
-    if model.database is not None:
-        density = model.database.rho
-    loads = [*along, *viscous_loads(bodies, tables), *morison_loads(bodies, tables, density)]
-    return loads, model.with_law_slopes_taken_out([load.name for load in along])
-
-
-def _power(loads: list[Load], found: Equivalents) -> dict[str, float]:
-    """Mean power <f . u> = sum of B <u u^T> of what feels the motion alone, not the water [W]."""
-    out: dict[str, float] = {}
-    for load, factor, motion in zip(loads, found.factors, found.motions, strict=True):
-        if load.axes is None:
-            out[load.name] = float(np.sum(factor * motion.covariance))
-    return out
-
-
-def _damping(loads: list[Load], found: Equivalents) -> dict[str, Any]:
-    """Equivalents as `Spectral.damping` has them."""
-    out: dict[str, Any] = {}
-    for load, factor in zip(loads, found.factors, strict=True):
-        if load.axes is not None:
-            value: Any = np.swapaxes(load.axes, 1, 2) @ factor @ load.axes
-            out[load.name] = out.get(load.name, 0.0) + value
-        else:
-            out[load.name] = float(factor[0, 0, 0]) if factor.size == 1 else factor[0]
-    return out
-
-
-def _notes(model: LinearModel, loads: list[Load]) -> list[str]:
-    """Notes of the linear model but for what is linearised in the sea, and those of the loads."""
-    here = ["Morison elements: every", "quadratic drag of Morison", "quadratic viscous_damping is"]
-    here += [f"has of '{load.name}' the slope" for load in loads]
-    notes = [note for note in model.notes if not any(words in note for words in here)]
-    for load in loads:
-        law = load.equivalent
-        if isinstance(law, AlongJoint) and law.sticks:
-            notes.append(f"{load.name!r} holds its joint: friction is above what moves it")
-        elif isinstance(law, AlongJoint) and abs(law.mean_load) > 1e-9 * law.size:
-            notes.append(
-                f"{load.name!r} has a mean load of {law.mean_load:.4g} N or N m against the "
-                "motion, which is left out"
-            )
-    return notes
