@@ -12,6 +12,7 @@ import hydrodae
 from hydrodae.cli import main
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel
+from hydrodae.study.spectral import Spectral
 from hydrodae.study.spectral.factors import gauss_drag, lorentz_drag
 
 GAUSS, LORENTZ = np.sqrt(8.0 / np.pi), 8.0 / (3.0 * np.pi)
@@ -60,9 +61,9 @@ def along(kind: str, **values: float) -> str:
     return f'[[force]]\ntype = "{kind}"\nname = "law"\njoint = "guide"\n' + "\n".join(lines) + "\n"
 
 
-def solve(*parts: str, **options: float) -> hydrodae.study.spectral.Spectral:
+def solve(*parts: str, iterations: int = 2000) -> Spectral:
     case = hydrodae.Case.from_text(BALL + "\n".join(parts) + "\n[solver]\nend_time = 10.0\n")
-    return hydrodae.spectral(case, **options)
+    return hydrodae.spectral(case, iterations=iterations)
 
 
 def wave_force(omega: float) -> float:
@@ -166,7 +167,7 @@ def test_laws_of_friction_agree_where_they_are_the_same() -> None:
 
 def test_drag_on_a_body_and_along_its_guide_are_the_same() -> None:
     b = 3.0e4
-    whole = f'[[force]]\ntype = "viscous_damping"\nname = "law"\nbody = "ball"\n'
+    whole = '[[force]]\ntype = "viscous_damping"\nname = "law"\nbody = "ball"\n'
     body = solve(JONSWAP, whole + f"quadratic = [0.0, 0.0, {b}, 0.0, 0.0, 0.0]\n")
     joint = solve(JONSWAP, along("pto_general", damping=b, exponent=2.0))
     assert body.standard_deviation == pytest.approx(joint.standard_deviation, rel=1e-4)
@@ -212,8 +213,9 @@ def test_rm3_with_drag_against_runs(rm3: Path) -> None:
     runs = found.time_domain(2, settle=100.0)
     for name in runs.names:
         assert found.standard_deviation[name] == pytest.approx(runs.mean(name), rel=0.12), name
-    assert found.standard_deviation["joints/slide/displacement"] < 0.98 * (
-        LinearModel(case).irregular()[0]["joints/slide/displacement"]
+    assert (
+        found.standard_deviation["joints/slide/displacement"]
+        < 0.98 * (LinearModel(case).irregular()[0]["joints/slide/displacement"])
     )
     assert "times for one of them" in found.comparison(runs)
 
