@@ -65,7 +65,7 @@ def make(folder: Path) -> hdb.HydroDatabase:
         added_mass_inf=0.5 * (at_inf + at_inf.T),
         added_mass_inf_std=1e-3 * np.abs(at_inf),
         heading=np.array([0.0]),
-        froude_krylov=np.zeros((len(force), 1, 3)),
+        froude_krylov=np.zeros((len(force), 1, 3), dtype=complex),
         diffraction=force[:, None, :],
         bodies={
             "section": Body("section", np.array([0.0, 0.0, center]), hydrostatics(model, center))
@@ -90,7 +90,8 @@ def main() -> None:
     print(hdb.check(database))
     database.write(arguments.output)
     print(f"written: {arguments.output} ({arguments.output.stat().st_size / 1024:.0f} kB)")
-    print({key: v for key, v in database.memory["planar"].report.items()})
+    error = database.memory["planar"].report["h_error_band"]
+    print(f"error of H in {BAND[0]:g} to {BAND[1]:g} rad/s: {error:.1e}")
 
 
 if __name__ == "__main__":
