@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from hydrodae.study.rao import rao
     from hydrodae.study.sensitivity import sensitivity
     from hydrodae.study.sweep import sweep
+    from hydrodae.study.spectral import spectral
 
     __version__: str
 
@@ -65,6 +66,7 @@ __all__ = [
     "run",
     "sensitivity",
     "sweep",
+    "spectral",
     "working_band",
 ]
 
@@ -81,6 +83,7 @@ _LATER = {
     "recommend": "study.chart",
     "sensitivity": "study.sensitivity",
     "sweep": "study.sweep",
+    "spectral": "study.spectral",
     "working_band": "study.band",
 }
 

@@ -113,6 +113,20 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         rao_command.add_arguments(rao)
         rao.set_defaults(call=rao_command.run)
 
+    spectral = commands.add_parser(
+        "spectral",
+        help="motion in the sea of a case, with drag and friction linearised in it",
+        description="Standard deviations, mean powers and equivalent damping of a case in its sea: "
+        "its linear model, with drag, friction and nonlinear power take-offs replaced by the "
+        "linear loads that are nearest to them for the motion that follows; beside them, if asked "
+        "for, runs with several seeds.",
+    )
+    if command == ["spectral"]:
+        from hydrodae.commands import spectral as spectral_command
+
+        spectral_command.add_arguments(spectral)
+        spectral.set_defaults(call=spectral_command.run)
+
     ladder = commands.add_parser(
         "ladder",
         help="what each model of radiation costs on a case, and what it gets wrong",

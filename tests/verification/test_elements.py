@@ -336,4 +336,4 @@ def test_states_stand_in_check_and_in_the_linear_model() -> None:
     model = LinearModel(case)
     assert any("'rail'" in note and "it sticks there" in note for note in model.notes)
     stiff = -(100.0**2) * 2.0 + 1e5 + 1j * 100.0 * (2.0 * np.sqrt(1e5) + 3.0)
-    assert model._dynamic_stiffness(100.0)[0, 0] == pytest.approx(stiff, rel=1e-9)
+    assert model.dynamic_stiffness(100.0)[0, 0] == pytest.approx(stiff, rel=1e-9)

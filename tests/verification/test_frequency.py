@@ -173,7 +173,7 @@ def test_reactions_balance_the_flap(f3of: LinearModel) -> None:
     base, free = slice(0, 3), f3of.constraints
     assert free.shape == (4, 9)
     z = f3of.stiffness - w[0] ** 2 * f3of.mass + 1j * w[0] * f3of.damping
-    added, radiation = f3of._added(w)
+    added, radiation = f3of.added(w)
     z = z - w[0] ** 2 * added[0] + 1j * w[0] * radiation[0]
     residual = (z @ response.values[0, :9] - f3of.excitation(w, 0.0)[0])[base]
     force = sum(response[f"joints/hinge{k}/reaction_force.x"][0] for k in (1, 2))

@@ -49,6 +49,17 @@ def test_command_tells_what_did_not_run(
     assert "63 states" in text
 
 
+def test_rungs_of_motion_in_waves(repository: Path) -> None:
+    """The linear sphere: both rungs below the run agree with each other and with it."""
+    case = hydrodae.Case.read(repository / "cases" / "sphere" / "wave.toml")
+    made = ladder(case, repeat=1)
+    linear, spectral, run = made.motion
+    assert spectral.deviation == pytest.approx(linear.deviation, rel=1e-12)
+    assert 1e-5 < linear.error < 0.01
+    assert run.time > spectral.time
+    assert "spectral" in str(made)
+
+
 def test_wrong_requests_are_refused(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
     case = str(repository / "cases" / "sphere" / "decay.toml")
     assert main(["ladder", case, "--channel", "nothing", "--repeat", "1"]) == 2

@@ -1,4 +1,4 @@
-"""The ladder of radiation models of a case: what each rung costs, and what it gets wrong."""
+"""The ladder of models of a case: what each rung costs, and what it gets wrong."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.memory import ExponentialMemory
 from hydrodae.simulate import run
+from hydrodae.study.motion_rungs import MotionRung, motion_rungs
+from hydrodae.study.motion_rungs import lines as motion_lines
 from hydrodae.study.reference import Solution, default_channels, pick
 
 RUNGS = ("none", "constant", "exponential", "convolution")
@@ -61,12 +63,16 @@ class Rung:
 
 @dataclass(frozen=True)
 class Ladder:
-    """All rungs of a case; `frequency` [rad/s] is that of the constant one."""
+    """All rungs of a case; `frequency` [rad/s] is that of the constant one.
+
+    `motion`: linear response and statistical linearisation beside the run, on a case with waves.
+    """
 
     title: str
     channel: str
     frequency: float
     rungs: tuple[Rung, ...]
+    motion: tuple[MotionRung, ...] = ()
 
     def __str__(self) -> str:
         lines = [
@@ -84,7 +90,7 @@ class Ladder:
                 f"{_figure(rung.motion_error):>16}"
             )
         lines += [f"{rung.name}: {rung.reason}" for rung in self.rungs if rung.reason]
-        return "\n".join(lines)
+        return "\n".join(lines + motion_lines(self.motion))
 
 
 def ladder(
@@ -159,7 +165,9 @@ def ladder(
                 reason,
             )
         )
-    return Ladder(case.title, names[row], omega, tuple(rungs))
+    last = max(i for i, solution in enumerate(solutions) if solution is not None)
+    motion = motion_rungs(case, names[row], done[-1][1], row, rungs[last].time)
+    return Ladder(case.title, names[row], omega, tuple(rungs), tuple(motion))
 
 
 def dominant_frequency(case: Case) -> float:

@@ -1,0 +1,49 @@
+"""The command `hydrodae spectral`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from hydrodae.commands.arguments import given_case
+from hydrodae.study.rao.output import check_ending
+from hydrodae.study.spectral import spectral
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `hydrodae spectral`."""
+    parser.add_argument("case", metavar="CASE", help="case file (TOML) with waves")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
+    parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    parser.add_argument(
+        "--seeds", metavar="N", type=int, help="also run the case with so many seeds and compare"
+    )
+    parser.add_argument(
+        "--settle",
+        metavar="S",
+        type=float,
+        default=100.0,
+        help="time that is left out at the start of these runs (default 100 s)",
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="runs at a time (1)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="phasors of all channels over the waves, reactions too: .csv, or .nc, .h5 (netCDF, "
+        "which is HDF5)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print standard deviations, mean powers and the damping used, and those of runs if asked."""
+    if arguments.output:
+        check_ending(Path(arguments.output))
+    found = spectral(given_case(arguments))
+    print(found)
+    if arguments.output:
+        print(f"written: {found.write(arguments.output)}")
+    if arguments.seeds is not None:
+        runs = found.time_domain(arguments.seeds, settle=arguments.settle, jobs=arguments.jobs)
+        print("\n" + found.comparison(runs))
+    return 0

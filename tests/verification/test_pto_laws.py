@@ -1,0 +1,180 @@
+"""Power take-offs and friction along joints against closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from tests.verification.blocks import METHODS, block, run_text
+
+from hydrodae.errors import CaseError
+
+GENERAL = """
+[[force]]
+type = "pto_general"
+name = "pto"
+joint = "slide"
+damping = 300.0
+exponent = 2.0
+constant = 20.0
+reversal_rate = 1e-3
+stiffness = 50.0
+load_limit = 150.0
+power_limit = 80.0
+efficiency = 0.8
+motor_efficiency = 0.9
+[[constraint]]
+name = "drive"
+type = "coordinate"
+joint = "slide"
+drive = { amplitude = 0.5, period = 4.0 }
+"""
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_power_take_off_within_its_limits(method: str) -> None:
+    run = block(GENERAL, 8.0, method=method, speed=0.5 * math.pi / 2.0, rtol=1e-6)
+    s = run["joints/slide/displacement"].values
+    v = run["joints/slide/displacement_rate"].values
+    raw = -50.0 * s - 300.0 * abs(v) * v - 20.0 * v / np.sqrt(v**2 + 1e-6)
+    limit = np.minimum(150.0, 80.0 / np.maximum(abs(v), 1e-9))
+    force = run["forces/pto/force"].values
+    assert force == pytest.approx(np.clip(raw, -limit, limit), abs=1e-6)
+    power = run["forces/pto/power_absorbed"].values
+    assert power == pytest.approx(-force * v, abs=1e-6)
+    assert power.max() == pytest.approx(80.0, rel=1e-6)
+    assert power.min() < -0.1  # the spring gives some back
+    electric = run["forces/pto/electric_power"].values
+    assert electric == pytest.approx(np.where(power > 0, 0.8 * power, power / 0.9), abs=1e-6)
+
+
+def test_rotary_power_take_off_damps_each_axis() -> None:
+    """Slow spins of a ball with I = 2 in dampers c: w = w0 exp(-c t / I), each by itself."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "ball"
+mass = 1.0
+inertia = [2.0, 2.0, 2.0]
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { angular_velocity = [0.0, 0.3, 0.0] }
+[[joint]]
+name = "ball"
+type = "spherical"
+body_a = "ground"
+body_b = "ball"
+point = [0.0, 0.0, 0.0]
+[[force]]
+type = "pto_rotary"
+name = "pto"
+body_a = "ground"
+body_b = "ball"
+damping = [0.5, 1.0, 0.0]
+"""
+    run = run_text(text, 4.0)
+    w = run["bodies/ball/angular_velocity"].values[:, 1]
+    assert w == pytest.approx(0.3 * np.exp(-run.time / 2.0), abs=1e-8)
+    power = run["forces/pto/power_absorbed"].values
+    assert power == pytest.approx(1.0 * w**2, abs=1e-9)
+    assert "power_absorbed" in str(run.summary()) or run.statistics is not None
+
+
+def test_a_force_acts_on_the_coordinate_that_it_names() -> None:
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "nut"
+mass = 2.0
+inertia = [2.0, 2.0, 3.0]
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { velocity = [0.0, 0.0, 1.0], angular_velocity = [0.0, 0.0, 1.0] }
+[[joint]]
+name = "rod"
+type = "cylindrical"
+body_a = "ground"
+body_b = "nut"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+[[force]]
+type = "pto_linear"
+name = "brake"
+joint = "rod"
+COORDINATE
+damping = 3.0
+"""
+    run = run_text(text.replace("COORDINATE", 'coordinate = "angle"'), 2.0)
+    assert run["joints/rod/displacement_rate"].values[-1] == pytest.approx(1.0, abs=1e-8)
+    assert run["joints/rod/angle_rate"].values[-1] == pytest.approx(math.exp(-2.0), abs=1e-7)
+    assert run["forces/brake/torque"].attrs["unit"] == "N m"
+    with pytest.raises(CaseError, match="more than one coordinate"):
+        run_text(text.replace("COORDINATE", ""), 1.0)
+    with pytest.raises(CaseError, match="angle"):
+        run_text(text.replace("COORDINATE", 'coordinate = "angel"'), 1.0)
+
+
+def test_a_power_take_off_along_a_distance() -> None:
+    """Between a ball joint and the ground a telescope turns and gets longer: c s' along it."""
+    text = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "mass"
+motion = ["surge", "sway", "heave"]
+mass = 2.0
+center_of_gravity = [3.0, 0.0, 4.0]
+initial = { velocity = [1.0, 2.0, 0.5] }
+[[joint]]
+name = "ram"
+type = "telescope"
+body_a = "ground"
+body_b = "mass"
+point = [0.0, 0.0, 0.0]
+point_b = [3.0, 0.0, 4.0]
+[[force]]
+type = "pto_linear"
+name = "pto"
+joint = "ram"
+damping = 4.0
+stiffness = 3.0
+neutral = 5.0
+"""
+    run = run_text(text, 5.0)
+    place, velocity = run["bodies/mass/position"].values, run["bodies/mass/velocity"].values
+    distance = np.linalg.norm(place, axis=1)
+    rate = np.sum(place * velocity, axis=1) / distance
+    assert run["joints/ram/displacement"].values == pytest.approx(distance, abs=1e-9)
+    force = run["forces/pto/force"].values
+    assert force == pytest.approx(-3.0 * (distance - 5.0) - 4.0 * rate, abs=1e-6)
+    assert run["forces/pto/power_absorbed"].values == pytest.approx(-force * rate, abs=1e-6)
+    momentum = 2.0 * np.cross(place, velocity)
+    assert np.ptp(momentum, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-7)
+
+
+# Friction
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_smooth_friction_slides_by_its_curve_and_creeps(method: str) -> None:
+    rail = """
+[[force]]
+type = "friction_stribeck"
+name = "rail"
+joint = "slide"
+static = 12.0
+kinetic = 8.0
+stribeck_rate = 0.05
+creep_rate = 1e-4
+viscous = 3.0
+"""
+    for rate in (0.01, 0.1):
+        drive = '[[constraint]]\nname = "drive"\ntype = "coordinate"\njoint = "slide"\n'
+        run = block(rail + drive + f"drive = {{ rate = {rate} }}\n", 1.0, speed=rate, method=method)
+        curve = (8.0 + 4.0 * math.exp(-((rate / 0.05) ** 2))) * rate / math.hypot(rate, 1e-4)
+        assert run["forces/rail/force"].values[-1] == pytest.approx(-curve - 3.0 * rate, rel=1e-6)
+    push = '[[force]]\ntype = "constant_load"\nname = "push"\nbody = "block"\nforce = [6.0, 0, 0]\n'
+    run = block(rail + push, 5.0, method=method, rtol=1e-6)
+    creep = run["joints/slide/displacement_rate"].values[-1]
+    assert creep == pytest.approx(1e-4 * 0.5 / math.sqrt(0.75), rel=1e-2)
