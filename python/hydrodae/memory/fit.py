@@ -13,10 +13,11 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
+from hydrodae.memory.blocks import FittedGroup, fit_group
 from hydrodae.memory.data import Goal, ImpedanceData, Progress, RadiationData
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
-from hydrodae.memory.search import GroupFit, fit_group
+from hydrodae.memory.search import GroupFit
 from hydrodae.memory.vector_fitting import Array
 
 PASSIVE_LIMIT = -1e-4
@@ -28,9 +29,6 @@ DEFAULT_BAND = (0.04, 1.0)
 
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
-
-UNIFORM_FLOOR = 0.12
-"""Share of such a goal by which damping is kept from zero: it costs less to be passive then."""
 
 
 class MemoryFitWarning(UserWarning):
@@ -123,7 +121,7 @@ def fit_memory(
         raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
-    data = prepare.gather(database, inputs, outputs, UNIFORM_FLOOR * (uniform or 0.0))
+    data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     goal = Goal(
         _checked_band(data.omega, band),
         band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),
@@ -135,15 +133,42 @@ def fit_memory(
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
-    fits = [fit_group(data, group, goal, len(groups), say) for group in groups]
+    made = _fit_groups(data, groups, inputs, goal, say)
+    scale = data.scale.copy()
+    for group, part in zip(groups, made, strict=True):
+        scale[group] = part.scale
+    data = replace(data, scale=scale)
     fits = [
-        replace(fit, quality=prepare.stored_quality(fit.modes, data, group, fit.problem, goal.band))
-        for group, fit in zip(groups, fits, strict=True)
+        replace(
+            part.fit,
+            quality=prepare.stored_quality(
+                part.fit.modes, data, group, part.fit.problem, goal.band
+            ),
+        )
+        for group, part in zip(groups, made, strict=True)
     ]
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
     _warn(name, report, goal)
     return replace(memory, report=report)
+
+
+def _fit_groups(
+    data: ImpedanceData,
+    groups: Sequence[IntArray],
+    labels: Sequence[str],
+    goal: Goal,
+    say: Progress,
+) -> list[FittedGroup]:
+    """Fit the groups one after the other; states that one leaves go to the next."""
+    made: list[FittedGroup] = []
+    left, rest = goal.max_states, sum(group.size for group in groups)
+    for group in groups:
+        cap = None if left is None else max(2, left * group.size // rest)
+        made.append(fit_group(data, group, labels, goal, cap, say))
+        left = None if left is None else left - made[-1].fit.modes.n_states
+        rest -= group.size
+    return made
 
 
 def _checked_band(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:

@@ -14,6 +14,7 @@ from four real functions per mode.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +31,7 @@ from hydrodae.memory.vector_fitting import (
 )
 
 IntArray = npt.NDArray[np.int64]
+AnyArray = TypeVar("AnyArray", Array, ComplexArray)
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,9 @@ class Problem:
         Number of coordinates n.
     damping_grid, damping
         Least -Re p [1/s] at the frequencies of the grid [rad/s].
+    largest, bases
+        Of a block of a symmetric array: the largest entry of H of the array, that the largest error
+        is compared with, and the bases (n_array, n) of the block. Else 0 and none.
     """
 
     samples: Samples
@@ -54,13 +59,22 @@ class Problem:
     size: int
     damping_grid: Array
     damping: Array
+    largest: float = 0.0
+    bases: tuple[Array, ...] = ()
 
-    def matrix(self, entries: Array) -> Array:
+    def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
-        full = np.zeros((*entries.shape[:-1], self.size, self.size))
+        full = np.zeros((*entries.shape[:-1], self.size, self.size), dtype=entries.dtype)
         full[..., self.rows, self.columns] = entries
         full[..., self.columns, self.rows] = entries
         return full
+
+    def peak(self, entries: ComplexArray) -> float:
+        """Return the largest entry of what (..., ne) stands for in the array's coordinates."""
+        if not self.bases:
+            return float(np.abs(entries).max())
+        block = self.matrix(entries)
+        return float(np.abs(sum(basis @ block @ basis.T for basis in self.bases)).max())
 
 
 @dataclass(frozen=True)

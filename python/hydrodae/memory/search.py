@@ -10,9 +10,9 @@ import numpy as np
 
 from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
-from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
+from hydrodae.memory.data import Goal, Progress, Quality
 from hydrodae.memory.hankel import fit_hankel
-from hydrodae.memory.modes import IntArray, Modes, Problem, error, from_residues, importance, refine
+from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.vector_fitting import (
     ComplexArray,
     order,
@@ -43,13 +43,23 @@ class GroupFit:
     method: str = "vector fit of B + i w A"
 
 
-def fit_group(
-    data: ImpedanceData, group: IntArray, goal: Goal, parts: int, say: Progress
+def fit_problem(
+    problem: Problem, goal: Goal, cap: int | None, many: bool, say: Progress
 ) -> GroupFit:
-    """Fit one group; step back to more modes while the passive fit misses the goal."""
-    problem = prepare.make_problem(data, group, goal.band, goal.factor)
-    cap = None if goal.max_states is None else max(2, goal.max_states // parts)
-    if goal.method == "hankel" or (goal.method == "auto" and problem.size > MANY):
+    """Fit one problem; step back to more modes while the passive fit misses the goal.
+
+    Parameters
+    ----------
+    problem, goal
+        What is fitted, and how well.
+    cap
+        Most states, or None.
+    many
+        Whether the coordinates are those of many bodies: a Hankel realisation then comes first.
+    say
+        Called with one line per stage.
+    """
+    if goal.method == "hankel" or (goal.method == "auto" and many):
         realised, reached_quality, _ = fit_hankel(problem, goal, cap, say)
         return GroupFit(realised, problem, reached_quality, HANKEL)
     candidates, least = _rich_poles(problem, goal, say)
