@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from hydrodae.memory import passivity
 from hydrodae.memory.data import Goal, Progress, Quality
 from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
+from hydrodae.memory.penalty import press
 from hydrodae.memory.vector_fitting import (
     ComplexArray,
     order,
@@ -100,8 +100,8 @@ def _passive_rungs(
     kept: list[GroupFit] = []
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[:: -2 if len(ladder) > 6 else -1] if reachable else ladder[-1:]
-    for modes, lowering in product(rungs, (0.8, 0.9)):
-        passive, reached = passivity.enforce(modes, problem, lowering)
+    for modes in rungs:
+        passive, reached = _passive(modes, problem, goal)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
@@ -112,6 +112,14 @@ def _passive_rungs(
             if goal.met(found.quality):
                 break
     return kept
+
+
+def _passive(modes: Modes, problem: Problem, goal: Goal) -> tuple[Modes, bool]:
+    """Make modes passive, by the penalty or else by constraints; tell whether they are."""
+    found, reached = press(
+        modes, problem, lambda trial: goal.met(prepare.quality(trial, problem, goal.band))
+    )
+    return (found, True) if reached else passivity.enforce(modes, problem)
 
 
 def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[GroupFit]:
@@ -135,7 +143,7 @@ def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            passive, reached = passivity.enforce(tame, problem, 0.8)
+            passive, reached = _passive(tame, problem, goal)
             quality = prepare.quality(passive, problem, goal.band)
             say(
                 f"{passive.n_states} states from {count} poles, passive: {reached}, "
