@@ -34,7 +34,7 @@ from hydrodae.memory.vector_fitting import Array
 
 FLOOR = -4e-5
 """Smallest eigenvalue of Re H over the largest that ends the search."""
-MARGINS = (5e-5, 3e-4)
+MARGINS = (-1e-5, 3e-4)
 """First and largest margin."""
 POINTS = 120
 """Uniform points of the grid."""
@@ -100,7 +100,7 @@ def press(
             if size < LOOSENED * now**2:
                 factor *= 4.0
             else:
-                margin = min(max(1.3 * margin, margin + 0.5 * (FLOOR - lowest)), MARGINS[1])
+                margin = min(margin + max(1e-5, 0.5 * (FLOOR - lowest)), MARGINS[1])
         if damping > 1e6:
             break
     return (best[1], True) if best else (modes, False)
@@ -188,7 +188,7 @@ def _derivatives(
 
     count, product = omega.size, on_left * on_right
     columns = [
-        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(count, -1)
+        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(count, left.shape[1] * modes.poles.size)
         for a, b in zip(by_vector(on_right), by_vector(on_left), strict=True)
     ]
     columns += [

@@ -116,10 +116,17 @@ def _passive_rungs(
 
 def _passive(modes: Modes, problem: Problem, goal: Goal) -> tuple[Modes, bool]:
     """Make modes passive, by the penalty or else by constraints; tell whether they are."""
-    found, reached = press(
-        modes, problem, lambda trial: goal.met(prepare.quality(trial, problem, goal.band))
-    )
-    return (found, True) if reached else passivity.enforce(modes, problem)
+
+    def good(trial: Modes) -> bool:
+        return goal.met(prepare.quality(trial, problem, goal.band))
+
+    pressed, reached = press(modes, problem, good)
+    if reached and good(pressed):
+        return pressed, True
+    held, kept = passivity.enforce(modes, problem)
+    if reached and not (kept and error(held, problem) < error(pressed, problem)):
+        return pressed, True
+    return held, kept
 
 
 def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[GroupFit]:
