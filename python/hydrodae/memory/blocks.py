@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.memory import data as prepare
 from hydrodae.memory import symmetry
@@ -21,6 +22,8 @@ ALIKE = 1.5
 """Coordinates of one kind are scaled alike where their scales, sorted, differ by no more."""
 TIGHTENED = 2
 """Rounds of fits of the blocks."""
+WEAK = 3.0
+"""A block whose size is this many times below its share has its goal relaxed."""
 KINDS = {"surge": "along", "sway": "along", "roll": "tilt", "pitch": "tilt"}
 """Degrees of freedom that rotations about the vertical mix."""
 
@@ -74,10 +77,14 @@ def fit_group(
 
 @dataclass(frozen=True)
 class _Array:
-    """A symmetric group: problem of the whole, of each block, and what the symmetry leaves out."""
+    """A symmetric group: problem of the whole, of each block, and what the symmetry leaves out.
+
+    `measured` is the whole with the tables as they stand.
+    """
 
     blocks: Sequence[Block]
     whole: Problem
+    measured: Problem
     problems: Sequence[Problem]
     lost: Quality
 
@@ -85,7 +92,7 @@ class _Array:
     def of(cls, omega: Array, stored: ComplexArray, blocks: Sequence[Block], goal: Goal) -> _Array:
         """Reduce the scaled tables Z (nw, n, n)."""
         reduced = [block.reduced(stored) for block in blocks]
-        top = max(float(np.linalg.eigvalsh(part.real).max()) for part in reduced)
+        top = float(np.abs(stored.real).max())
         raised = [prepare.raised(part, goal.floor, top) for part in reduced]
         masses = [prepare.first_added_mass(omega, part, goal.band) for part in raised]
         kept = np.asarray(sum(b.restored(r) for b, r in zip(blocks, raised, strict=True)))
@@ -105,7 +112,35 @@ class _Array:
         off = stored - symmetry.symmetrised(stored, blocks)
         entries = whole.rows, whole.columns
         lost = prepare.measure(off[:, *entries], mass[entries], whole, goal.band)
-        return cls(blocks, whole, problems, lost)
+        value = whole.samples.value.copy()
+        value[:-1] = stored[:, *entries]
+        measured = replace(whole, samples=replace(whole.samples, value=value))
+        return cls(blocks, whole, measured, problems, lost)
+
+    def goals(self, goal: Goal) -> list[Goal]:
+        """Return the goal of each block: a relative error in proportion to what it contributes.
+
+        Where a block is weak, an equal share of the error of the whole is enough for it.
+        """
+        inside = prepare.in_band(self.whole.damping_grid, goal.band)
+        number = sum(len(block.bases) for block in self.blocks)
+        sizes = [self._sizes(problem, inside) for problem in self.problems]
+        whole = self._sizes(self.whole, inside)
+        result = []
+        for size in sizes:
+            near, far = (
+                _relief(every / max(own, 1e-300) / np.sqrt(number))
+                for own, every in zip(size, whole, strict=True)
+            )
+            result.append(
+                replace(goal, target=goal.target * near, target_outside=goal.target_outside * far)
+            )
+        return result
+
+    def _sizes(self, problem: Problem, inside: NDArray[np.bool_]) -> tuple[float, float]:
+        """Return the norms of the damping in the band and outside it."""
+        damping = problem.matrix(problem.samples.value[:-1].real)
+        return float(np.linalg.norm(damping[inside])), float(np.linalg.norm(damping[~inside]))
 
     def joined(self, parts: Sequence[Modes]) -> Modes:
         """Put modes of the blocks together: one copy of them for each basis."""
@@ -129,34 +164,54 @@ class _Array:
         )
 
 
-def _fit_blocks(
-    array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress
-) -> GroupFit:
+def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress) -> GroupFit:
     """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
-    fits: list[GroupFit] = []
     share = 1.0
     for _ in range(TIGHTENED):
-        fits = []
+        goals = array.goals(_tightened(goal, share))
+        fits: list[GroupFit] = []
         left, rest = cap, sum(len(block.bases) * block.size for block in array.blocks)
         for at, (block, problem) in enumerate(zip(array.blocks, array.problems, strict=True)):
             copies = len(block.bases)
             own = None if left is None else max(2, left * block.size // rest)
             prefix = f"block {at + 1} of {len(array.blocks)}: "
-            fit = fit_problem(
-                problem, _tightened(goal, share), own, many, lambda text, p=prefix: say(p + text)
+            fits.append(
+                _fit_block(problem, goals[at], own, many, lambda text, p=prefix: say(p + text))
             )
-            fits.append(fit)
             rest -= copies * block.size
-            left = None if left is None else left - copies * fit.modes.n_states
+            left = None if left is None else left - copies * fits[-1].modes.n_states
         modes = array.joined([fit.modes for fit in fits])
-        found = prepare.quality(modes, array.whole, goal.band)
+        found = prepare.quality(modes, array.measured, goal.band)
         miss = goal.miss(found)
         say(f"all blocks: {modes.n_states} states, {miss:.2f} of the target error")
-        tight = _tightened(goal, share)
-        if miss <= 1.0 or miss > 3.0 or not all(tight.met(fit.quality) for fit in fits):
+        if not 1.0 < miss < 3.0 or not all(
+            own.met(fit.quality) for own, fit in zip(goals, fits, strict=True)
+        ):
             break
         share *= 0.9 / miss
-    return GroupFit(modes, array.whole, found, fits[-1].method)
+    largest = max(fits, key=lambda fit: fit.modes.n_states)
+    return GroupFit(modes, array.whole, found, largest.method)
+
+
+def _fit_block(
+    problem: Problem, goal: Goal, cap: int | None, many: bool, say: Progress
+) -> GroupFit:
+    """Fit one block; none where it is too small to matter."""
+    n = problem.size
+    mass = prepare.first_added_mass(
+        problem.damping_grid, problem.matrix(problem.samples.value[:-1]), goal.band
+    )[problem.rows, problem.columns]
+    none = Modes(np.zeros(0, complex), np.zeros((0, n), complex), np.zeros(0), mass)
+    found = prepare.quality(none, problem, goal.band)
+    if goal.met(found):
+        say("too small to matter")
+        return GroupFit(none, problem, found)
+    return fit_problem(problem, goal, cap, many, say)
+
+
+def _relief(ratio: float) -> float:
+    """Return by how much the goal of a block is relaxed; 1 unless the block is weak."""
+    return ratio if ratio > WEAK else 1.0
 
 
 def _tightened(goal: Goal, share: float) -> Goal:

@@ -24,6 +24,8 @@ PASSIVE_LIMIT = -1e-4
 """A fit is passive when the smallest eigenvalue of Re H is above this share of the largest."""
 COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
+REPORTED = 2_000_000
+"""Entries of H that the report's search of its smallest eigenvalue begins with."""
 DEFAULT_BAND = (0.04, 1.0)
 """Frequencies of the rigid resonances and of swell at full scale, rad/s."""
 
@@ -193,7 +195,8 @@ def _report(
 ) -> dict[str, Any]:
     """Measure the assembled fit."""
     n_in = len(memory.inputs)
-    lowest = memory.passivity(float(data.omega[-1]))
+    points = max(1500, min(6000, REPORTED // n_in**2))
+    lowest = memory.passivity(float(data.omega[-1]), points)
     fitted = memory.transfer(data.omega)
     slope = 1j * data.omega[:, None, None]
     scaled = data.active[:, None] & data.active

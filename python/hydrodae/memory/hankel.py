@@ -22,7 +22,7 @@ import numpy as np
 
 from hydrodae import irf
 from hydrodae.memory.data import Goal, Progress, Quality, quality
-from hydrodae.memory.modes import Modes, Problem, impedance, refine
+from hydrodae.memory.modes import PARAMETERS, Modes, Problem, impedance, refine
 from hydrodae.memory.penalty import press
 from hydrodae.memory.vector_fitting import Array, limited
 
@@ -53,7 +53,8 @@ def fit_hankel(
     modes, quality, passive
     """
     kernel = _decompose(problem)
-    most = kernel.values.size if cap is None else min(cap, kernel.values.size)
+    room = (PARAMETERS - problem.rows.size) // (problem.size + 1)
+    most = min(kernel.values.size, room, cap or room)
     orders = _orders(2 * problem.size, most)
     best: tuple[Modes, Quality, bool] | None = None
     for count in orders:

@@ -99,7 +99,7 @@ def _passive_rungs(
     """
     kept: list[GroupFit] = []
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
-    rungs = ladder[:: -2 if len(ladder) > 6 else -1] if reachable else ladder[-1:]
+    rungs = ladder[::-1] if reachable else ladder[-1:]
     for modes in rungs:
         passive, reached = _passive(modes, problem, goal)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))

@@ -28,6 +28,8 @@ COMMUTES = 0.06
 """Matrices whose relative commutator with the tables is below this may belong to a symmetry."""
 COMBINATIONS = 16
 """Random combinations of the tables that stand for all of them in the search."""
+FEWEST = 4
+"""Fewest coordinates for which symmetry is sought: below, blocks save nothing."""
 LARGEST = 90
 """Most coordinates for which symmetry is sought: the search takes n^4/4 numbers."""
 
@@ -67,7 +69,7 @@ def candidates(impedance: ComplexArray) -> list[list[Block]]:
     without symmetry has none.
     """
     n = impedance.shape[1]
-    if not 2 <= n <= LARGEST:
+    if not FEWEST <= n <= LARGEST:
         return []
     commuting, amount = _commutant(_combined(impedance))
     found = []
