@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hydrodae.memory import data as prepare
 from hydrodae.memory import symmetry
 from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
-from hydrodae.memory.modes import IntArray, Modes, Problem
+from hydrodae.memory.modes import AnyArray, IntArray, Modes, Problem
 from hydrodae.memory.search import MANY, GroupFit, fit_problem
 from hydrodae.memory.symmetry import Block
 from hydrodae.memory.vector_fitting import Array, ComplexArray
@@ -66,7 +66,7 @@ def fit_group(
     for blocks in symmetry.candidates(stored):
         array = _Array.of(data.omega, stored, blocks, goal)
         if goal.met(array.lost, SYMMETRIC):
-            say(f"symmetric: {group.size} coordinates in blocks of {_sizes(blocks)}")
+            say(f"symmetric: {group.size} coordinates in blocks of {sizes(blocks)}")
             fit = _fit_blocks(array, goal, cap, group.size > MANY, say)
             return FittedGroup(fit, alike[group], tuple(blocks), array.lost.all)
     matrices = prepare.scaled(data.square, data.scale, group)
@@ -95,8 +95,8 @@ class _Array:
         top = float(np.abs(stored.real).max())
         raised = [prepare.raised(part, goal.floor, top) for part in reduced]
         masses = [prepare.first_added_mass(omega, part, goal.band) for part in raised]
-        kept = np.asarray(sum(b.restored(r) for b, r in zip(blocks, raised, strict=True)))
-        mass = np.asarray(sum(b.restored(a) for b, a in zip(blocks, masses, strict=True)))
+        kept = _restored(blocks, raised)
+        mass = _restored(blocks, masses)
         whole = prepare.make_problem(omega, kept, goal.band, goal.factor, mass)
         inside = prepare.in_band(omega, goal.band)
         impedance = kept - 1j * omega[:, None, None] * mass
@@ -152,16 +152,30 @@ class _Array:
         counts = [len(block.bases) for block in self.blocks]
         poles = [m.poles for m, k in zip(parts, counts, strict=True) for _ in range(k)]
         sign = [m.sign for m, k in zip(parts, counts, strict=True) for _ in range(k)]
-        mass = sum(
-            block.restored(problem.matrix(modes.added_mass))
-            for block, problem, modes in zip(self.blocks, self.problems, parts, strict=True)
-        )
+        entries = [
+            problem.matrix(modes.added_mass)
+            for problem, modes in zip(self.problems, parts, strict=True)
+        ]
+        mass = _restored(self.blocks, entries)
         return Modes(
             np.concatenate(poles),
             np.concatenate(vectors),
             np.concatenate(sign),
-            np.asarray(mass)[self.whole.rows, self.whole.columns],
+            mass[self.whole.rows, self.whole.columns],
         )
+
+
+def _restored(blocks: Sequence[Block], parts: Sequence[AnyArray]) -> AnyArray:
+    """Return the matrices (..., n, n) of the array from those of its blocks."""
+    result = np.zeros((), dtype=parts[0].dtype)
+    for block, part in zip(blocks, parts, strict=True):
+        result = result + block.restored(part)
+    return result
+
+
+def _prefixed(say: Progress, prefix: str) -> Progress:
+    """Return a callback that says a prefix first."""
+    return lambda text: say(prefix + text)
 
 
 def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress) -> GroupFit:
@@ -175,9 +189,7 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
             copies = len(block.bases)
             own = None if left is None else max(2, left * block.size // rest)
             prefix = f"block {at + 1} of {len(array.blocks)}: "
-            fits.append(
-                _fit_block(problem, goals[at], own, many, lambda text, p=prefix: say(p + text))
-            )
+            fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
             rest -= copies * block.size
             left = None if left is None else left - copies * fits[-1].modes.n_states
         modes = array.joined([fit.modes for fit in fits])
@@ -243,7 +255,7 @@ def _kind(label: str) -> str:
     return KINDS.get(dof, dof)
 
 
-def _sizes(blocks: Sequence[Block]) -> str:
+def sizes(blocks: Sequence[Block]) -> str:
     """Return the sizes in words, as "4 + 2 + 2 x 7"."""
     return " + ".join(
         f"{len(block.bases)} x {block.size}" if len(block.bases) > 1 else str(block.size)

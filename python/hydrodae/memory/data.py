@@ -220,7 +220,7 @@ def with_zero(omega: Array, value: ComplexArray, weight: Array) -> Samples:
     )
 
 
-def scaled(matrices: Array, scale: Array, pick: npt.NDArray[np.int64]) -> Array:
+def scaled(matrices: ComplexArray, scale: Array, pick: npt.NDArray[np.int64]) -> ComplexArray:
     """Return the rows and columns `pick` of (nw, n, n) over the scales of both."""
     return np.asarray(matrices[:, pick][:, :, pick] / scale[pick] / scale[pick][:, None])
 

@@ -13,15 +13,14 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
-from hydrodae.memory.blocks import FittedGroup, fit_group
+from hydrodae.memory.blocks import FittedGroup, fit_group, sizes
 from hydrodae.memory.data import Goal, ImpedanceData, Progress, RadiationData
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
 from hydrodae.memory.search import GroupFit
 from hydrodae.memory.vector_fitting import Array
+from hydrodae.memory.verdict import PASSIVE_LIMIT, missed
 
-PASSIVE_LIMIT = -1e-4
-"""A fit is passive when the smallest eigenvalue of Re H is above this share of the largest."""
 COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
 REPORTED = 2_000_000
@@ -59,7 +58,10 @@ def fit_memory(
     nothing is interpolated. Groups of more than 12 coupled coordinates start from a Hankel
     realisation of K(t) instead (`hydrodae.memory.hankel`). Coordinates that do not radiate into
     each other (surge and heave of a body of revolution, motion in and across a plane of symmetry)
-    are fitted apart. Where the tables would give energy to the body (negative eigenvalues of B),
+    are fitted apart, and so are the blocks of an array whose tables are symmetric (equal bodies
+    that rotations and mirrors map onto each other, `hydrodae.memory.symmetry`); tables that miss
+    the symmetry by less than 0.3 of the target are symmetrised. Where the tables would give energy
+    to the body (negative eigenvalues of B),
     the nearest ones that do not are fitted; errors are told against the tables as they stand.
     Deterministic.
 
@@ -101,7 +103,8 @@ def fit_memory(
         Its `report` holds n_states, passive, min_eig_re_h_relative, max_real_pole, h_error_band and
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
         h_zero, data_min_eig_relative, target_met, band, weights, method, dropped_inputs (no
-        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling.
+        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling,
+        symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it).
 
     Raises
     ------
@@ -151,7 +154,8 @@ def fit_memory(
     ]
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
-    _warn(name, report, goal)
+    report |= _symmetry(inputs, groups, made)
+    _warn(name, report)
     return replace(memory, report=report)
 
 
@@ -231,6 +235,11 @@ def _report(
         "weighted_error_band": max(fit.quality.weighted_band for fit in fits),
         "weighted_error_outside": max(fit.quality.weighted_outside for fit in fits),
         "band": goal.band,
+        **(
+            {"target": goal.target, "target_outside": goal.target_outside}
+            if goal.uniform is None
+            else {"uniform": goal.uniform}
+        ),
         "weights": f"|H|^-1/2, times {goal.factor:g} in the band",
         "method": ", ".join(dict.fromkeys(fit.method for fit in fits))
         + "; rank-one modes refitted with Re H >= 0",
@@ -240,27 +249,24 @@ def _report(
     }
 
 
-def _warn(name: str, report: dict[str, Any], goal: Goal) -> None:
+def _symmetry(
+    labels: Sequence[str], groups: Sequence[IntArray], made: Sequence[FittedGroup]
+) -> dict[str, Any]:
+    """Tell which symmetry of the tables was used, and what of them it leaves out."""
+    used = [
+        (", ".join(labels[i] for i in group), fit)
+        for group, fit in zip(groups, made, strict=True)
+        if fit.blocks
+    ]
+    return {
+        "symmetry": "; ".join(f"{text}: blocks of {sizes(fit.blocks)}" for text, fit in used),
+        "symmetry_left_out": max((fit.left_out for _, fit in used), default=0.0),
+    }
+
+
+def _warn(name: str, report: dict[str, Any]) -> None:
     """Warn of what was missed."""
-    messages = []
-    if not report["passive"]:
-        messages.append(
-            f"is not passive: Re H falls to {report['min_eig_re_h_relative']:.1e} of its largest "
-            f"eigenvalue at {report['min_eig_re_h_omega']:.3g} rad/s (limit {PASSIVE_LIMIT:g}), "
-            f"the data to {report['data_min_eig_relative']:.1e}; a free device may be unstable"
-        )
-    if not report["target_met"] and goal.uniform is not None:
-        messages.append(
-            f"misses its target with {report['n_states']} states: error of H "
-            f"{report['h_error_peak']:.1e} of its largest entry in the band (target "
-            f"{goal.uniform:g})"
-        )
-    elif not report["target_met"]:
-        messages.append(
-            f"misses its target with {report['n_states']} states: weighted error "
-            f"{report['weighted_error_band']:.1e} in the band (target {goal.target:g}), "
-            f"{report['weighted_error_outside']:.1e} outside (target {goal.target_outside:g})"
-        )
+    messages = list(missed(report).values())
     if report["dropped_inputs"]:
         messages.append(f"finds no radiation in {report['dropped_inputs']}: no memory there")
     for message in messages:

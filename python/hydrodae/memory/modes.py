@@ -161,8 +161,8 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
     functions = np.concatenate([functions, 1j * samples.omega[None]])
     base = np.concatenate([functions.real, functions.imag], axis=1)
     weight = np.concatenate([samples.weight, samples.weight]).T
-    off = residual(modes, problem).T
-    off = np.concatenate([off.real, off.imag], axis=1)
+    error_of_z = residual(modes, problem).T
+    off = np.concatenate([error_of_z.real, error_of_z.imag], axis=1)
     local = _local_derivatives(modes, problem)
     total = 2 * m * n + 2 * m + entries
     matrix, gradient = np.zeros((total, total)), np.zeros(total)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
@@ -165,16 +166,14 @@ def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices i <= j of all pairs at equal frequency; omega is sorted."""
     starts = np.append(np.flatnonzero(np.diff(omega, prepend=-1.0) > 0.0), omega.size)
     first, second = [np.zeros(0, int)], [np.zeros(0, int)]
-    for start, end in zip(starts[:-1], starts[1:], strict=True):
+    for start, end in pairwise(starts):
         i, j = np.triu_indices(end - start)
         first.append(start + i)
         second.append(start + j)
     return np.concatenate(first), np.concatenate(second)
 
 
-def _derivatives(
-    modes: Modes, problem: Problem, omega: Array, left: Array, right: Array
-) -> Array:
+def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:
     """Return d(u^T Re H v)/d(parameters), (k, n_parameters), of u, v (k, n) at omega (k,)."""
     value, slope = (part.real.transpose(0, 2, 1) for part in fractions(modes, omega))
     pair = ~modes.real
@@ -188,7 +187,9 @@ def _derivatives(
 
     count, product = omega.size, on_left * on_right
     columns = [
-        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(count, left.shape[1] * modes.poles.size)
+        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(
+            count, left.shape[1] * modes.poles.size
+        )
         for a, b in zip(by_vector(on_right), by_vector(on_left), strict=True)
     ]
     columns += [

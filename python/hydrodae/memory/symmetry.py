@@ -17,11 +17,13 @@ Japan J. Indust. Appl. Math. 27 (2010) 263 (with errors in the data).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import eigh
 
+from hydrodae.memory.modes import AnyArray, IntArray
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
 COMMUTES = 0.06
@@ -45,21 +47,19 @@ class Block:
         """Return the number of coordinates of one block."""
         return int(self.bases[0].shape[1])
 
-    def reduced(self, matrices: Array) -> Array:
+    def reduced(self, matrices: AnyArray) -> AnyArray:
         """Return the mean of V^T M V over the bases, (..., nb, nb), of M (..., n, n)."""
-        parts = [basis.T @ matrices @ basis for basis in self.bases]
-        return np.asarray(sum(parts[1:], parts[0]) / len(parts))
+        return np.asarray(np.mean([basis.T @ matrices @ basis for basis in self.bases], axis=0))
 
-    def restored(self, matrices: Array) -> Array:
+    def restored(self, matrices: AnyArray) -> AnyArray:
         """Return the sum of V M V^T over the bases, (..., n, n), of M (..., nb, nb)."""
-        parts = [basis @ matrices @ basis.T for basis in self.bases]
-        return np.asarray(sum(parts[1:], parts[0]))
+        return np.asarray(np.sum([basis @ matrices @ basis.T for basis in self.bases], axis=0))
 
 
-def symmetrised(matrices: Array, blocks: list[Block]) -> Array:
+def symmetrised(matrices: AnyArray, blocks: Sequence[Block]) -> AnyArray:
     """Return what the blocks keep of matrices (..., n, n)."""
     parts = [block.restored(block.reduced(matrices)) for block in blocks]
-    return np.asarray(sum(parts[1:], parts[0]))
+    return np.asarray(np.sum(parts, axis=0))
 
 
 def candidates(impedance: ComplexArray) -> list[list[Block]]:
@@ -104,7 +104,7 @@ def _commutant(matrices: Array) -> tuple[Array, Array]:
         form -= 2.0 * _pairs(matrix, matrix, rows, columns)
     factor = np.where(rows == columns, np.sqrt(0.5), 1.0)
     form *= factor[:, None] * factor
-    # half of the mean of |M X - X M|^2 over random X measures the size
+    # the mean of |M X - X M|^2 over random X of unit norm measures the size
     most = min(rows.size, 3 * n) - 1
     values, vectors = eigh(form, subset_by_index=[0, most])
     found = np.zeros((most + 1, n, n))
@@ -114,7 +114,7 @@ def _commutant(matrices: Array) -> tuple[Array, Array]:
     return found, np.sqrt(np.maximum(values, 0.0) / size)
 
 
-def _pairs(left: Array, right: Array, rows: Array, columns: Array) -> Array:
+def _pairs(left: Array, right: Array, rows: IntArray, columns: IntArray) -> Array:
     """Return <E_ij, left E_kl right> in the basis (e_i e_j^T + e_j e_i^T)/sqrt(2) of i <= j."""
     ii, jj = left[np.ix_(rows, rows)], right[np.ix_(columns, columns)]
     ij, ji = left[np.ix_(rows, columns)], right[np.ix_(columns, rows)]
