@@ -92,8 +92,8 @@ def press(
                 break
         grid = np.union1d(_grid(modes, highest), strict.omega)
         lack = _lack(modes, grid, margin, top)
-        if factor == 0.0:
-            factor = 0.3 * now**2 / max(float(lack.values @ lack.values), 1e-300)
+        if factor == 0.0 and lack.values.size:
+            factor = 0.3 * now**2 / float(lack.values @ lack.values)
         found = _step(modes, problem, grid, (margin, top, factor, damping))
         modes, damping, gain = found
         if lowest < FLOOR and gain < 0.3:
