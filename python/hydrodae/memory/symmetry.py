@@ -30,6 +30,8 @@ COMMUTES = 0.06
 """Matrices whose relative commutator with the tables is below this may belong to a symmetry."""
 COMBINATIONS = 16
 """Random combinations of the tables that stand for all of them in the search."""
+QUIET = 0.1
+"""Frequencies whose Z is below this share of the largest are not brought to equal size."""
 FEWEST = 4
 """Fewest coordinates for which symmetry is sought: below, blocks save nothing."""
 LARGEST = 90
@@ -81,12 +83,15 @@ def candidates(impedance: ComplexArray) -> list[list[Block]]:
 
 
 def _combined(impedance: ComplexArray) -> Array:
-    """Return random combinations of Re Z and Im Z, each frequency of equal size, (k, n, n)."""
+    """Return random combinations of Re Z and Im Z, frequencies of equal size, (k, n, n).
+
+    Where Z is small noise would grow with it: those frequencies count for less.
+    """
     parts = np.concatenate([impedance.real, impedance.imag])
     trace = np.einsum("wii->w", parts) / parts.shape[1]
     parts = parts - trace[:, None, None] * np.eye(parts.shape[1])  # the identity says nothing
     size = np.linalg.norm(parts, axis=(1, 2))
-    parts = parts[size > 1e-3 * size.max()] / size[size > 1e-3 * size.max()][:, None, None]
+    parts = parts / np.maximum(size, QUIET * size.max())[:, None, None]
     mix = np.random.default_rng(0).standard_normal((COMBINATIONS, len(parts)))
     return np.asarray(np.tensordot(mix / np.sqrt(len(parts)), parts, 1))
 
