@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+# one BLAS thread for each process of the tests: they share the processors
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 ROOT = Path(__file__).resolve().parents[1]
 
 

@@ -1,4 +1,4 @@
-"""Progress of a long run on stderr: a bar in a terminal, else a plain line every few seconds."""
+"""Progress of long work on stderr: a bar in a terminal, else a plain line every few seconds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from types import TracebackType
 from typing import Self
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.status import Status
 
 #: Wall time before anything is shown, s.
 PATIENCE = 1.0
@@ -73,3 +75,46 @@ class ProgressLine:
             self._task = self._bar.add_task(self._title, total=end_time)
             self._bar.start()
         self._bar.update(self._task, completed=time)
+
+
+class StageLine:
+    """Callback of work in stages of unknown number: its last line of text, and the time.
+
+    Examples
+    --------
+    >>> with StageLine("fit") as progress:
+    ...     progress("12 states")  # quiet: the work is young
+    """
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._console = Console(stderr=True)
+        self._start = self._last = monotonic()
+        self._status: Status | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._status is not None:
+            self._status.stop()
+
+    def __call__(self, text: str) -> None:
+        """Show the stage."""
+        now = monotonic()
+        if now - self._start < PATIENCE:
+            return
+        line = f"{self._title}, {now - self._start:.0f} s: {text}"
+        if self._console.is_terminal:
+            if self._status is None:
+                self._status = Status("", console=self._console)
+                self._status.start()
+            self._status.update(escape(line))
+        elif now - self._last >= INTERVAL:
+            self._last = now
+            print(line, file=sys.stderr, flush=True)

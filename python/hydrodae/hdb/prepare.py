@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
 
@@ -22,6 +23,8 @@ def fit(
     target: float | None = None,
     uniform: float | None = None,
     method: str | None = None,
+    accept: Sequence[str] = (),
+    progress: Callable[[str], None] | None = None,
 ) -> HydroDatabase:
     """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
 
@@ -46,6 +49,11 @@ def fit(
         Target in place of that: largest error of H in the band over its largest value [-].
     method : str, optional
         "modes", "hankel" or "auto" (default: by the number of coordinates).
+    accept : sequence of str
+        What the fit may miss: "target" (implied by `states`, which asks for the best of so many)
+        and "passive".
+    progress : callable, optional
+        Called with a line of text now and then.
 
     Returns
     -------
@@ -57,35 +65,59 @@ def fit(
     CaseError
         The name or the target is not one.
     DatabaseError
-        Unknown coordinates, no radiation, or fewer than 4 frequencies in the band.
+        Unknown coordinates, no radiation, fewer than 4 frequencies in the band, or a fit that is
+        not passive or misses its target and is not accepted.
 
     Warns
     -----
     hydrodae.memory.MemoryFitWarning
-        The fit is not passive or misses its target.
+        What the fit missed and was accepted; coordinates that do not radiate.
     """
-    from hydrodae.memory import fit_memory
+    from hydrodae.memory import MemoryFitWarning, fit_memory
+    from hydrodae.memory.verdict import CHECKS, missed
 
     if not is_fit_name(name):
         raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only")
     if target is not None and not target > 0.0:
         raise CaseError(f"target {target:g}: expected a number > 0")
+    if unknown := [check for check in accept if check not in CHECKS]:
+        raise CaseError(f"accept {unknown[0]!r}: expected one of {', '.join(CHECKS)}")
+    allowed = {*accept, *(() if states is None else ("target",))}
     given = {
         "band": band,
         "max_states": states,
         "target": target,
         "uniform": uniform,
         "method": method,
+        "progress": progress,
     }
     options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
-    made = fit_memory(
-        database,
-        inputs=_labels(inputs, database),
-        outputs=None if loads is None else _labels(loads, database),
-        name=name,
-        **options,
-    )
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", MemoryFitWarning)
+        made = fit_memory(
+            database,
+            inputs=_labels(inputs, database),
+            outputs=None if loads is None else _labels(loads, database),
+            name=name,
+            **options,
+        )
+    refused = {check: text for check, text in missed(made.report).items() if check not in allowed}
+    if refused:
+        raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
+    for warning in told:
+        warnings.warn(warning.message, stacklevel=2)
     return replace(database, memory={**database.memory, name: made})
+
+
+def _refusal(refused: dict[str, str]) -> str:
+    """Return why a fit is refused, and what can be done."""
+    ways = []
+    if "target" in refused:
+        ways.append("a larger --target, a narrower --band or --states N, the best of so many")
+    if "passive" in refused:
+        ways.append("more states or another --method")
+    names = " ".join(f"--accept {check}" for check in refused)
+    return f"{', and '.join(refused.values())}. Not kept: give {', or '.join(ways)}, or {names}"
 
 
 def kernel(

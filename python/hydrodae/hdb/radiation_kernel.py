@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 from hydrodae import irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.convolution import RadiationKernel, taper, transform
-from hydrodae.hdb.kernels import envelope_length
+from hydrodae.hdb.kernels import envelope_length, resolved_time
 from hydrodae.hdb.tables import Tables
 
 Array = NDArray[np.float64]
 
 #: Step of the grid times the highest frequency of the table: 20 points a period.
 RESOLUTION = 0.3
-#: Longest memory that is looked for [s].
+#: Longest memory that is looked for [s]; shorter where the table does not resolve as much.
 LONGEST = 600.0
 #: Couplings below this share of the diagonal are taken as none.
 NO_COUPLING = 1e-6
@@ -50,7 +50,8 @@ def make_kernel(
         Coordinates that move, and those that are loaded (the inputs and more; default: the inputs).
     length : float, optional
         Memory T [s]; default: the smallest that leaves a thousandth of int |K| dt of every input
-        (diagonal), at most 600 s.
+        (diagonal), at most 600 s and 2 pi over the largest step of the frequencies: beyond that a
+        table says nothing of K, and what its interpolation gives is not let down to zero.
     band : (float, float), optional
         Frequencies [rad/s] that the motion is sensitive to, as for the exponential fits: there H
         weighs 500 times more. Default 0.04 to 1 rad/s, right at full scale.
@@ -74,8 +75,9 @@ def make_kernel(
     omega, step = database.omega, RESOLUTION / float(database.omega[-1])
     damping = database.radiation_damping[:, rows][:, :, columns]
     added = database.added_mass[:, rows][:, :, columns]
+    resolved = 2.0 * resolved_time(database)
     long_time, diagonal, found = _envelope(omega, damping[:, : len(inputs)], step, length)
-    length = found if length is None else length
+    length = min(found, resolved) if length is None else length
     if not length >= 10.0 * step:
         raise DatabaseError(
             f"radiation kernel: a memory of {length:g} s is too short for steps of {step:.3g} s"

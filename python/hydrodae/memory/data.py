@@ -28,6 +28,8 @@ WEIGHT_FLOOR = 1e-2
 """|H| is taken as at least this share of its largest value in the weights."""
 ENTRY_FLOOR = 1e-3
 """|H| is taken as at least this share of the largest entry (entries that symmetry makes zero)."""
+UNIFORM_FLOOR = 0.12
+"""Share of a uniform goal by which damping is kept from zero: it costs less to be passive then."""
 ZERO_WEIGHT = 3.0
 """Weight of the row H(0) = 0 relative to the largest other weight of the entry."""
 
@@ -149,15 +151,21 @@ def _passive(
 ) -> ComplexArray:
     """Raise the eigenvalues of the scaled B to 0 or to `floor` of the largest; A stays."""
     i = np.nonzero(active)[0]
-    size = scale[i] * scale[i][:, None]
-    values, vectors = np.linalg.eigh(square[:, i][:, :, i].real / size)
-    damping = (vectors * np.maximum(values, floor * values.max())[:, None]) @ vectors.transpose(
-        0, 2, 1
-    )
     result = square.copy()
     at = np.ix_(np.arange(len(square)), i, i)
-    result[at] = damping * size + 1j * square[at].imag
+    result[at] = raised(scaled(square, scale, i), floor) * (scale[i] * scale[i][:, None])
     return result
+
+
+def raised(matrices: ComplexArray, floor: float, largest: float = 0.0) -> ComplexArray:
+    """Raise the eigenvalues of Re Z (nw, n, n) to 0 or to `floor` of the largest; Im Z stays.
+
+    `largest` is the largest eigenvalue where it is not one of these matrices; else 0.
+    """
+    values, vectors = np.linalg.eigh(matrices.real)
+    least = floor * (largest or values.max())
+    damping = (vectors * np.maximum(values, least)[:, None]) @ vectors.transpose(0, 2, 1)
+    return np.asarray(damping + 1j * matrices.imag)
 
 
 def uncoupled_groups(
@@ -212,16 +220,54 @@ def with_zero(omega: Array, value: ComplexArray, weight: Array) -> Samples:
     )
 
 
+def scaled(matrices: ComplexArray, scale: Array, pick: npt.NDArray[np.int64]) -> ComplexArray:
+    """Return the rows and columns `pick` of (nw, n, n) over the scales of both."""
+    return np.asarray(matrices[:, pick][:, :, pick] / scale[pick] / scale[pick][:, None])
+
+
 def make_problem(
-    data: ImpedanceData, group: npt.NDArray[np.int64], band: tuple[float, float], factor: float
+    omega: Array,
+    matrices: ComplexArray,
+    band: tuple[float, float],
+    factor: float,
+    added_mass: Array | None = None,
 ) -> Problem:
-    """Scale one group and weigh it, with A_inf from a first fit of moderate weights."""
-    n, omega = group.size, data.omega
+    """Weigh the scaled Z (nw, n, n), with A_inf given or from a first fit of moderate weights.
+
+    Parameters
+    ----------
+    omega
+        (nw,) rad/s.
+    matrices
+        (nw, n, n) scaled, symmetric.
+    band, factor
+        Where the weights are `factor` times larger, rad/s.
+    added_mass
+        (n, n) A_inf for the weights; None to estimate it.
+    """
+    n = matrices.shape[1]
     rows, columns = np.triu_indices(n)
-    scaled = data.square[:, group][:, :, group] / data.scale[group] / data.scale[group][:, None]
-    value = scaled[:, rows, columns]
+    value = matrices[:, rows, columns]
     double = np.where(rows == columns, 1.0, np.sqrt(2.0))
-    damping = np.maximum(0.2 * np.gradient(omega), 1e-3 * omega[-1])
+    damping = least_damping(omega)
+    mass = (first_added_mass(omega, matrices, band) if added_mass is None else added_mass)[
+        rows, columns
+    ]
+    samples = with_zero(omega, value, double * weigh(value, omega, mass, band, factor))
+    return Problem(samples, rows, columns, n, omega, damping)
+
+
+def least_damping(omega: Array) -> Array:
+    """Return the least -Re p [1/s] of poles at the frequencies of the table, (nw,)."""
+    return np.asarray(np.maximum(0.2 * np.gradient(omega), 1e-3 * omega[-1]))
+
+
+def first_added_mass(omega: Array, matrices: ComplexArray, band: tuple[float, float]) -> Array:
+    """Estimate A_inf (n, n) of the scaled Z (nw, n, n) by a vector fit with twelve poles."""
+    n, damping = matrices.shape[1], least_damping(omega)
+    rows, columns = np.triu_indices(n)
+    value = matrices[:, rows, columns]
+    double = np.where(rows == columns, 1.0, np.sqrt(2.0))
     added_mass = value[-1].imag / omega[-1]
     poles = starting_poles(
         min(12, omega.size // 3 * 2), 2, max(omega[0], 0.02 * omega[-1]), omega[-1], 0.1, True
@@ -230,8 +276,9 @@ def make_problem(
         samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
         poles = relocate(poles, samples, omega, damping)
         added_mass = solve_residues(poles, samples)[0][-1]
-    samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, factor))
-    return Problem(samples, rows, columns, n, omega, damping)
+    full = np.zeros((n, n))
+    full[rows, columns] = full[columns, rows] = added_mass
+    return full
 
 
 @dataclass(frozen=True)
@@ -276,6 +323,11 @@ class Goal:
     uniform: float | None = None
     method: str = "auto"
 
+    @property
+    def floor(self) -> float:
+        """Share of its largest eigenvalue that those of B are raised to before the fit."""
+        return UNIFORM_FLOOR * (self.uniform or 0.0)
+
     def met(self, found: Quality, share: float = 1.0) -> bool:
         """Tell whether the errors are below `share` of their targets."""
         return self.miss(found) <= share
@@ -306,9 +358,9 @@ def stored_quality(
     band: tuple[float, float],
 ) -> Quality:
     """Measure a fit of one group against the tables as they stand."""
-    scaled = data.stored[:, group][:, :, group] / data.scale[group] / data.scale[group][:, None]
+    stored = scaled(data.stored, data.scale, group)
     value = problem.samples.value.copy()
-    value[:-1] = scaled[:, problem.rows, problem.columns]
+    value[:-1] = stored[:, problem.rows, problem.columns]
     return quality(modes, replace(problem, samples=replace(problem.samples, value=value)), band)
 
 
@@ -333,5 +385,5 @@ def measure(
         ratio(plain, everywhere),
         ratio(weight, inside),
         ratio(weight, ~inside),
-        float(np.abs(off[inside]).max() / np.abs(target[inside]).max()),
+        problem.peak(off[inside]) / (problem.largest or problem.peak(target[inside])),
     )

@@ -13,24 +13,23 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
+from hydrodae.memory.blocks import FittedGroup, fit_group, sizes
 from hydrodae.memory.data import Goal, ImpedanceData, Progress, RadiationData
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
-from hydrodae.memory.search import GroupFit, fit_group
+from hydrodae.memory.search import GroupFit
 from hydrodae.memory.vector_fitting import Array
+from hydrodae.memory.verdict import PASSIVE_LIMIT, missed
 
-PASSIVE_LIMIT = -1e-4
-"""A fit is passive when the smallest eigenvalue of Re H is above this share of the largest."""
 COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
+REPORTED = 2_000_000
+"""Entries of H that the report's search of its smallest eigenvalue begins with."""
 DEFAULT_BAND = (0.04, 1.0)
 """Frequencies of the rigid resonances and of swell at full scale, rad/s."""
 
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
-
-UNIFORM_FLOOR = 0.12
-"""Share of such a goal by which damping is kept from zero: it costs less to be passive then."""
 
 
 class MemoryFitWarning(UserWarning):
@@ -59,7 +58,10 @@ def fit_memory(
     nothing is interpolated. Groups of more than 12 coupled coordinates start from a Hankel
     realisation of K(t) instead (`hydrodae.memory.hankel`). Coordinates that do not radiate into
     each other (surge and heave of a body of revolution, motion in and across a plane of symmetry)
-    are fitted apart. Where the tables would give energy to the body (negative eigenvalues of B),
+    are fitted apart, and so are the blocks of an array whose tables are symmetric (equal bodies
+    that rotations and mirrors map onto each other, `hydrodae.memory.symmetry`); tables that miss
+    the symmetry by less than 0.3 of the target are symmetrised. Where the tables would give energy
+    to the body (negative eigenvalues of B),
     the nearest ones that do not are fitted; errors are told against the tables as they stand.
     Deterministic.
 
@@ -101,7 +103,8 @@ def fit_memory(
         Its `report` holds n_states, passive, min_eig_re_h_relative, max_real_pole, h_error_band and
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
         h_zero, data_min_eig_relative, target_met, band, weights, method, dropped_inputs (no
-        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling.
+        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling,
+        symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it).
 
     Raises
     ------
@@ -123,7 +126,7 @@ def fit_memory(
         raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
-    data = prepare.gather(database, inputs, outputs, UNIFORM_FLOOR * (uniform or 0.0))
+    data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     goal = Goal(
         _checked_band(data.omega, band),
         band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),
@@ -135,15 +138,43 @@ def fit_memory(
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
-    fits = [fit_group(data, group, goal, len(groups), say) for group in groups]
+    made = _fit_groups(data, groups, inputs, goal, say)
+    scale = data.scale.copy()
+    for group, part in zip(groups, made, strict=True):
+        scale[group] = part.scale
+    data = replace(data, scale=scale)
     fits = [
-        replace(fit, quality=prepare.stored_quality(fit.modes, data, group, fit.problem, goal.band))
-        for group, fit in zip(groups, fits, strict=True)
+        replace(
+            part.fit,
+            quality=prepare.stored_quality(
+                part.fit.modes, data, group, part.fit.problem, goal.band
+            ),
+        )
+        for group, part in zip(groups, made, strict=True)
     ]
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
-    _warn(name, report, goal)
+    report |= _symmetry(inputs, groups, made)
+    _warn(name, report)
     return replace(memory, report=report)
+
+
+def _fit_groups(
+    data: ImpedanceData,
+    groups: Sequence[IntArray],
+    labels: Sequence[str],
+    goal: Goal,
+    say: Progress,
+) -> list[FittedGroup]:
+    """Fit the groups one after the other; states that one leaves go to the next."""
+    made: list[FittedGroup] = []
+    left, rest = goal.max_states, sum(group.size for group in groups)
+    for group in groups:
+        cap = None if left is None else max(2, left * group.size // rest)
+        made.append(fit_group(data, group, labels, goal, cap, say))
+        left = None if left is None else left - made[-1].fit.modes.n_states
+        rest -= group.size
+    return made
 
 
 def _checked_band(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:
@@ -168,7 +199,8 @@ def _report(
 ) -> dict[str, Any]:
     """Measure the assembled fit."""
     n_in = len(memory.inputs)
-    lowest = memory.passivity(float(data.omega[-1]))
+    points = max(1500, min(6000, REPORTED // n_in**2))
+    lowest = memory.passivity(float(data.omega[-1]), points)
     fitted = memory.transfer(data.omega)
     slope = 1j * data.omega[:, None, None]
     scaled = data.active[:, None] & data.active
@@ -203,6 +235,11 @@ def _report(
         "weighted_error_band": max(fit.quality.weighted_band for fit in fits),
         "weighted_error_outside": max(fit.quality.weighted_outside for fit in fits),
         "band": goal.band,
+        **(
+            {"target": goal.target, "target_outside": goal.target_outside}
+            if goal.uniform is None
+            else {"uniform": goal.uniform}
+        ),
         "weights": f"|H|^-1/2, times {goal.factor:g} in the band",
         "method": ", ".join(dict.fromkeys(fit.method for fit in fits))
         + "; rank-one modes refitted with Re H >= 0",
@@ -212,27 +249,24 @@ def _report(
     }
 
 
-def _warn(name: str, report: dict[str, Any], goal: Goal) -> None:
+def _symmetry(
+    labels: Sequence[str], groups: Sequence[IntArray], made: Sequence[FittedGroup]
+) -> dict[str, Any]:
+    """Tell which symmetry of the tables was used, and what of them it leaves out."""
+    used = [
+        (", ".join(labels[i] for i in group), fit)
+        for group, fit in zip(groups, made, strict=True)
+        if fit.blocks
+    ]
+    return {
+        "symmetry": "; ".join(f"{text}: blocks of {sizes(fit.blocks)}" for text, fit in used),
+        "symmetry_left_out": max((fit.left_out for _, fit in used), default=0.0),
+    }
+
+
+def _warn(name: str, report: dict[str, Any]) -> None:
     """Warn of what was missed."""
-    messages = []
-    if not report["passive"]:
-        messages.append(
-            f"is not passive: Re H falls to {report['min_eig_re_h_relative']:.1e} of its largest "
-            f"eigenvalue at {report['min_eig_re_h_omega']:.3g} rad/s (limit {PASSIVE_LIMIT:g}), "
-            f"the data to {report['data_min_eig_relative']:.1e}; a free device may be unstable"
-        )
-    if not report["target_met"] and goal.uniform is not None:
-        messages.append(
-            f"misses its target with {report['n_states']} states: error of H "
-            f"{report['h_error_peak']:.1e} of its largest entry in the band (target "
-            f"{goal.uniform:g})"
-        )
-    elif not report["target_met"]:
-        messages.append(
-            f"misses its target with {report['n_states']} states: weighted error "
-            f"{report['weighted_error_band']:.1e} in the band (target {goal.target:g}), "
-            f"{report['weighted_error_outside']:.1e} outside (target {goal.target_outside:g})"
-        )
+    messages = list(missed(report).values())
     if report["dropped_inputs"]:
         messages.append(f"finds no radiation in {report['dropped_inputs']}: no memory there")
     for message in messages:

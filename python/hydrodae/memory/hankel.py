@@ -21,9 +21,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydrodae import irf
-from hydrodae.memory import passivity
 from hydrodae.memory.data import Goal, Progress, Quality, quality
-from hydrodae.memory.modes import Modes, Problem, impedance, refine
+from hydrodae.memory.modes import PARAMETERS, Modes, Problem, impedance, refine
+from hydrodae.memory.penalty import press
 from hydrodae.memory.vector_fitting import Array, limited
 
 ROWS = 1600
@@ -53,7 +53,8 @@ def fit_hankel(
     modes, quality, passive
     """
     kernel = _decompose(problem)
-    most = kernel.values.size if cap is None else min(cap, kernel.values.size)
+    room = (PARAMETERS - problem.rows.size) // (problem.size + 1)
+    most = min(kernel.values.size, room, cap or room)
     orders = _orders(2 * problem.size, most)
     best: tuple[Modes, Quality, bool] | None = None
     for count in orders:
@@ -69,7 +70,9 @@ def fit_hankel(
         )
         if free > 0.9 and not last:
             continue
-        modes, reached = passivity.enforce(modes, problem, 0.6)
+        modes, reached = press(
+            modes, problem, lambda trial: goal.met(quality(trial, problem, goal.band))
+        )
         found = quality(modes, problem, goal.band)
         say(f"{modes.n_states} states, passive: {reached}, {goal.miss(found):.2f} of the target")
         if reached and goal.met(found):
@@ -100,7 +103,7 @@ def _decompose(problem: Problem) -> _Kernel:
     k = k.reshape(-1, n, n)
     blocks = [k[i : i + half].transpose(1, 0, 2).reshape(n, half * n) for i in range(half)]
     matrix = np.concatenate(blocks)
-    count = min(10 * n + 20, len(matrix) - n)
+    count = min(max(10 * n + 20, 60), len(matrix) - n)
     probe = np.random.default_rng(0).standard_normal((len(matrix), count))
     basis = np.linalg.qr(matrix @ probe)[0]
     for _ in range(2):  # range finder of Halko, Martinsson and Tropp

@@ -14,6 +14,7 @@ from four real functions per mode.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +31,11 @@ from hydrodae.memory.vector_fitting import (
 )
 
 IntArray = npt.NDArray[np.int64]
+CHUNK = 20_000_000
+"""Numbers that the assembly of the normal equations holds at a time (160 MB)."""
+PARAMETERS = 14_000
+"""Most parameters of a fit: their normal matrix takes 1.6 GB."""
+AnyArray = TypeVar("AnyArray", Array, ComplexArray)
 
 
 @dataclass(frozen=True)
@@ -46,6 +52,9 @@ class Problem:
         Number of coordinates n.
     damping_grid, damping
         Least -Re p [1/s] at the frequencies of the grid [rad/s].
+    largest, bases
+        Of a block of a symmetric array: the largest entry of H of the array, that the largest error
+        is compared with, and the bases (n_array, n) of the block. Else 0 and none.
     """
 
     samples: Samples
@@ -54,13 +63,22 @@ class Problem:
     size: int
     damping_grid: Array
     damping: Array
+    largest: float = 0.0
+    bases: tuple[Array, ...] = ()
 
-    def matrix(self, entries: Array) -> Array:
+    def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
-        full = np.zeros((*entries.shape[:-1], self.size, self.size))
+        full = np.zeros((*entries.shape[:-1], self.size, self.size), dtype=entries.dtype)
         full[..., self.rows, self.columns] = entries
         full[..., self.columns, self.rows] = entries
         return full
+
+    def peak(self, entries: ComplexArray) -> float:
+        """Return the largest entry of what (..., ne) stands for in the array's coordinates."""
+        if not self.bases:
+            return float(np.abs(entries).max())
+        block = self.matrix(entries)
+        return float(np.abs(sum(basis @ block @ basis.T for basis in self.bases)).max())
 
 
 @dataclass(frozen=True)
@@ -109,9 +127,10 @@ def fractions(modes: Modes, omega: Array) -> tuple[ComplexArray, ComplexArray]:
 def impedance(modes: Modes, omega: Array) -> ComplexArray:
     """Return H(i omega) = Z - i omega A_inf of the modes, (nw, n, n)."""
     value, _ = fractions(modes, omega)
-    product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(modes.poles.size, -1)
+    m, n = modes.vectors.shape
+    product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(m, n * n)
     full = value[0].T @ product.real + value[1].T @ product.imag
-    return np.asarray(full).reshape(omega.size, modes.vectors.shape[1], -1)
+    return np.asarray(full).reshape(omega.size, n, n)
 
 
 def residual(modes: Modes, problem: Problem) -> ComplexArray:
@@ -130,24 +149,43 @@ def error(modes: Modes, problem: Problem) -> float:
 
 
 def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
-    """Return J^T J and the gradient J^T r of half the squared weighted error."""
-    m, entries = modes.poles.size, problem.rows.size
+    """Return J^T J and the gradient J^T r of half the squared weighted error.
+
+    Entries of Z are taken some at a time, so that no more than `CHUNK` numbers are held beside the
+    matrix itself, which has (2 n + 2) m + n (n + 1) / 2 rows.
+    """
+    m, n, entries = modes.poles.size, problem.size, problem.rows.size
     samples = problem.samples
     value, slope = fractions(modes, samples.omega)
-    functions = np.concatenate([value, slope]).reshape(4 * m, -1)
+    functions = np.concatenate([value, slope]).reshape(4 * m, samples.omega.size)
     functions = np.concatenate([functions, 1j * samples.omega[None]])
     base = np.concatenate([functions.real, functions.imag], axis=1)
     weight = np.concatenate([samples.weight, samples.weight]).T
-    off = residual(modes, problem).T
-    off = np.concatenate([off.real, off.imag], axis=1)
+    error_of_z = residual(modes, problem).T
+    off = np.concatenate([error_of_z.real, error_of_z.imag], axis=1)
+    local = _local_derivatives(modes, problem)
+    total = 2 * m * n + 2 * m + entries
+    matrix, gradient = np.zeros((total, total)), np.zeros(total)
+    step = max(1, CHUNK // (60 * m * m + 8 * base.size + 1))
+    for start in range(0, entries, step):
+        pick = np.arange(start, min(start + step, entries))
+        blocks = _entry_blocks(base, weight[pick], off[pick], local[pick])
+        _scatter(matrix, gradient, problem, pick, blocks)
+    return matrix, gradient
+
+
+_Blocks = tuple[Array, Array, Array, Array, Array]
+
+
+def _entry_blocks(base: Array, weight: Array, off: Array, local: Array) -> _Blocks:
+    """Return the blocks (6, 6, k, m, m) of J^T J of k entries, their borders and gradients."""
+    entries, m = local.shape[0], local.shape[-1]
     gram = np.empty((entries, base.shape[0], base.shape[0]))
     moment = np.empty((entries, base.shape[0]))
     for entry in range(entries):
         weighted = base * weight[entry]
         gram[entry] = weighted @ weighted.T
         moment[entry] = weighted @ (weight[entry] * off[entry])
-
-    local = _local_derivatives(modes, problem)
     inner = gram[:, :-1, :-1].reshape(entries, 2, 2, m, 2, 2, m)
     block = np.empty((6, 6, entries, m, m))
     for a in range(6):
@@ -159,7 +197,7 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
     drive = moment[:, :-1].reshape(entries, 2, 2, m)
     cross = np.stack([(local[:, a] * mixed[:, a // 4]).sum(axis=1) for a in range(6)])
     force = np.stack([(local[:, a] * drive[:, a // 4]).sum(axis=1) for a in range(6)])
-    return _scatter(modes, problem, block, cross, force, gram[:, -1, -1], moment[:, -1])
+    return block, cross, force, gram[:, -1, -1], moment[:, -1]
 
 
 def _local_derivatives(modes: Modes, problem: Problem) -> Array:
@@ -185,30 +223,23 @@ def _local_derivatives(modes: Modes, problem: Problem) -> Array:
 
 
 def _scatter(
-    modes: Modes,
-    problem: Problem,
-    block: Array,
-    cross: Array,
-    force: Array,
-    corner: Array,
-    tail: Array,
-) -> tuple[Array, Array]:
-    """Add the entries' blocks into the global matrix and gradient."""
-    m, n, entries = modes.poles.size, problem.size, problem.rows.size
-    total = 2 * m * n + 2 * m + entries
-    matrix, gradient = np.zeros((total, total)), np.zeros(total)
-    for entry, (i, j) in enumerate(zip(problem.rows, problem.columns, strict=True)):
+    matrix: Array, gradient: Array, problem: Problem, pick: IntArray, blocks: _Blocks
+) -> None:
+    """Add the blocks of the entries `pick` into the global matrix and gradient."""
+    block, cross, force, corner, tail = blocks
+    m, n, total = block.shape[-1], problem.size, gradient.size
+    for at, entry in enumerate(pick):
+        i, j = problem.rows[entry], problem.columns[entry]
         starts = [i * m, (n + i) * m, j * m, (n + j) * m, 2 * n * m, (2 * n + 1) * m]
-        last = total - entries + entry
+        last = total - problem.rows.size + entry
         for a, row in enumerate(starts):
             for b, column in enumerate(starts):
-                matrix[row : row + m, column : column + m] += block[a, b, entry]
-            matrix[row : row + m, last] += cross[a, entry]
-            matrix[last, row : row + m] += cross[a, entry]
-            gradient[row : row + m] += force[a, entry]
-        matrix[last, last] = corner[entry]
-        gradient[last] = tail[entry]
-    return matrix, gradient
+                matrix[row : row + m, column : column + m] += block[a, b, at]
+            matrix[row : row + m, last] += cross[a, at]
+            matrix[last, row : row + m] += cross[a, at]
+            gradient[row : row + m] += force[a, at]
+        matrix[last, last] = corner[at]
+        gradient[last] = tail[at]
 
 
 def moved(modes: Modes, step: Array, problem: Problem) -> Modes:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
 from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
-from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
+from hydrodae.memory.data import Goal, Progress, Quality
 from hydrodae.memory.hankel import fit_hankel
-from hydrodae.memory.modes import IntArray, Modes, Problem, error, from_residues, importance, refine
+from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
+from hydrodae.memory.penalty import press
 from hydrodae.memory.vector_fitting import (
     ComplexArray,
     order,
@@ -43,17 +43,28 @@ class GroupFit:
     method: str = "vector fit of B + i w A"
 
 
-def fit_group(
-    data: ImpedanceData, group: IntArray, goal: Goal, parts: int, say: Progress
+def fit_problem(
+    problem: Problem, goal: Goal, cap: int | None, many: bool, say: Progress
 ) -> GroupFit:
-    """Fit one group; step back to more modes while the passive fit misses the goal."""
-    problem = prepare.make_problem(data, group, goal.band, goal.factor)
-    cap = None if goal.max_states is None else max(2, goal.max_states // parts)
-    if goal.method == "hankel" or (goal.method == "auto" and problem.size > MANY):
+    """Fit one problem; step back to more modes while the passive fit misses the goal.
+
+    Parameters
+    ----------
+    problem, goal
+        What is fitted, and how well.
+    cap
+        Most states, or None.
+    many
+        Whether the coordinates are those of many bodies: a Hankel realisation then comes first.
+    say
+        Called with one line per stage.
+    """
+    if goal.method == "hankel" or (goal.method == "auto" and many):
         realised, reached_quality, _ = fit_hankel(problem, goal, cap, say)
         return GroupFit(realised, problem, reached_quality, HANKEL)
-    candidates, least = _rich_poles(problem, goal, say)
-    kept = _tamed(problem, goal, cap, say) if least > NOISE else []
+    poles, least = _rich_poles(problem, goal, say)
+    candidates = list(poles.values())[-3:]
+    kept = _tamed(problem, goal, cap, poles, say) if least > NOISE else []
     if not kept:
         kept = _passive_rungs(problem, goal, _ladder(problem, goal, cap, candidates, say), say)
         if kept and not goal.met(kept[-1].quality) and least < 0.9:
@@ -64,7 +75,7 @@ def fit_group(
         if kept and goal.met(kept[-1].quality):
             return kept[-1]
     if not kept and least <= NOISE:
-        kept = _tamed(problem, goal, cap, say)
+        kept = _tamed(problem, goal, cap, poles, say)
     if not kept and goal.method == "auto":
         realised, found, passive = fit_hankel(problem, goal, cap, say)
         kept = [GroupFit(realised, problem, found, HANKEL)] if passive else []
@@ -89,9 +100,9 @@ def _passive_rungs(
     """
     kept: list[GroupFit] = []
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
-    rungs = ladder[:: -2 if len(ladder) > 6 else -1] if reachable else ladder[-1:]
-    for modes, lowering in product(rungs, (0.8, 0.9)):
-        passive, reached = passivity.enforce(modes, problem, lowering)
+    rungs = ladder[::-1] if reachable else ladder[-1:]
+    for modes in rungs:
+        passive, reached = _passive(modes, problem, goal)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
@@ -104,7 +115,33 @@ def _passive_rungs(
     return kept
 
 
-def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list[GroupFit]:
+def _passive(
+    modes: Modes, problem: Problem, goal: Goal, thorough: bool = True
+) -> tuple[Modes, bool]:
+    """Make modes passive, by the penalty or else by constraints; tell whether they are.
+
+    Not `thorough`: by the penalty alone, of which constraints win some per cent.
+    """
+
+    def good(trial: Modes) -> bool:
+        return goal.met(prepare.quality(trial, problem, goal.band))
+
+    pressed, reached = press(modes, problem, good)
+    if not thorough or (reached and good(pressed)):
+        return pressed, reached
+    held, kept = passivity.enforce(modes, problem)
+    if reached and not (kept and error(held, problem) < error(pressed, problem)):
+        return pressed, True
+    return held, kept
+
+
+def _tamed(
+    problem: Problem,
+    goal: Goal,
+    cap: int | None,
+    known: Mapping[int, ComplexArray],
+    say: Progress,
+) -> list[GroupFit]:
     """Passive fits of noisy tables: from few common poles, without what only follows the noise.
 
     Real modes of negative sign beyond the last frequency stand for a trend of noise in A, give
@@ -115,7 +152,8 @@ def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list
     for count in (8, 12, 16):
         if 2 * count > problem.samples.omega.size:
             break
-        modes = _first_modes(problem, goal, [best_poles(problem, count)[1]], (1.0,))
+        poles = known[count] if count in known else best_poles(problem, count)[1]
+        modes = _first_modes(problem, goal, [poles], (1.0,))
         if cap is not None:
             while modes.n_states > cap:
                 modes = _pruned(modes, problem, 1)
@@ -125,7 +163,7 @@ def _tamed(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            passive, reached = passivity.enforce(tame, problem, 0.8)
+            passive, reached = _passive(tame, problem, goal, thorough=not found)
             quality = prepare.quality(passive, problem, goal.band)
             say(
                 f"{passive.n_states} states from {count} poles, passive: {reached}, "
@@ -208,20 +246,22 @@ def _first_modes(
     return min(found, key=lambda item: item[0])[1]
 
 
-def _rich_poles(problem: Problem, goal: Goal, say: Progress) -> tuple[list[ComplexArray], float]:
+def _rich_poles(
+    problem: Problem, goal: Goal, say: Progress
+) -> tuple[dict[int, ComplexArray], float]:
     """Raise the number of common poles until vector fits near the goal.
 
     Returns
     -------
     poles, miss
-        Of the last three fits; the least error over its target.
+        Of each number of poles; the least error over its target.
     """
-    found: list[ComplexArray] = []
+    found: dict[int, ComplexArray] = {}
     misses: list[float] = []
     after = 0
     for count in range(4, min(36, problem.samples.omega.size // 2), 4):
         _, poles = best_poles(problem, count)
-        found.append(poles)
+        found[count] = poles
         miss = _vector_miss(poles, problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
         after += miss <= 1.5
@@ -229,7 +269,7 @@ def _rich_poles(problem: Problem, goal: Goal, say: Progress) -> tuple[list[Compl
         noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
         if after >= 3 or miss <= 0.5 or noise:
             break
-    return found[-3:], min(misses, default=np.inf)
+    return found, min(misses, default=np.inf)
 
 
 def best_poles(problem: Problem, count: int) -> tuple[float, ComplexArray]:

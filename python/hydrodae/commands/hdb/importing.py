@@ -18,6 +18,7 @@ from hydrodae.commands.hdb.options import (
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.importing import import_database
+from hydrodae.memory.verdict import CHECKS
 from hydrodae.study.band import working_band
 
 DONE, BAD_DATA = 0, 2
@@ -98,7 +99,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="CHECK",
         action="append",
         default=[],
-        help="write the file although this check found an error; may be repeated",
+        help="write the file although this check found an error, or keep a fit that misses its "
+        "target or is not passive (target, passive); may be repeated",
     )
 
 
@@ -129,7 +131,7 @@ def run(args: argparse.Namespace) -> int:
         database = database.without_coupling()
     print(database.summary())
     print(report)
-    left = report.left(args.accept)
+    left = report.left([name for name in args.accept if name not in CHECKS])
     if left:
         words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
         print(f"{args.output} not written: a check found an error ({words} writes it anyway)")

@@ -12,6 +12,7 @@ from hydrodae.commands.hdb.options import (
 )
 from hydrodae.hdb import files
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.memory.verdict import CHECKS
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -23,6 +24,13 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     fit.add_argument("-o", "--output", metavar="FILE", help="default: into the same file")
     add_fit_options(fit)
+    fit.add_argument(
+        "--accept",
+        choices=CHECKS,
+        action="append",
+        default=[],
+        help="keep a fit although it misses its target, or is not passive; may be repeated",
+    )
 
     kernel = actions.add_parser(
         "kernel", help="add the radiation kernel K(t) for the convolution to a hydro.h5"

@@ -10,6 +10,8 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb import prepare
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.summary import fit_summary, kernel_summary
+from hydrodae.memory.verdict import CHECKS
+from hydrodae.progress import StageLine
 from hydrodae.study.band import working_band
 
 
@@ -113,16 +115,19 @@ def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
         name, equals, text = spec.partition("=")
         if not equals or not prepare.is_fit_name(name):
             raise CaseError(f"fit {spec!r}: expected NAME=SPEC, e.g. flaps=flap1.pitch,flap2.pitch")
-        database = prepare.fit(
-            database,
-            text,
-            name=name,
-            loads=args.loads or None,
-            band=band,
-            states=args.states,
-            target=args.target,
-            uniform=args.uniform,
-            method=args.method,
-        )
+        with StageLine(f"fit {name}") as progress:
+            database = prepare.fit(
+                database,
+                text,
+                name=name,
+                loads=args.loads or None,
+                band=band,
+                states=args.states,
+                target=args.target,
+                uniform=args.uniform,
+                method=args.method,
+                accept=[check for check in args.accept if check in CHECKS],
+                progress=progress,
+            )
         print(f"fit {name}: {fit_summary(database.memory[name])}")
     return database

@@ -1,0 +1,59 @@
+"""What a fit missed, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+PASSIVE_LIMIT = -1e-4
+"""A fit is passive when the smallest eigenvalue of Re H is above this share of the largest."""
+NOISY = -1e-3
+"""Tables whose B has eigenvalues below this share of the largest are told to be noisy."""
+CHECKS = ("passive", "target")
+"""What a fit may miss, by the names under which it can be accepted all the same."""
+
+
+def missed(report: Mapping[str, Any]) -> dict[str, str]:
+    """Return what the fit of this report missed: name in `CHECKS`, and a sentence without subject.
+
+    Fits of other sources, whose reports tell nothing, miss nothing.
+    """
+    found: dict[str, str] = {}
+    if not report.get("passive", True):
+        found["passive"] = (
+            f"is not passive: Re H falls to {report['min_eig_re_h_relative']:.1e} of its largest "
+            f"eigenvalue at {report['min_eig_re_h_omega']:.3g} rad/s (limit {PASSIVE_LIMIT:g}), "
+            f"the data to {report['data_min_eig_relative']:.1e}; a free device may be unstable"
+        )
+    if not report.get("target_met", True):
+        found["target"] = (
+            f"misses its target with {report['n_states']} states: {_errors(report)}{_why(report)}"
+        )
+    return found
+
+
+def _errors(report: Mapping[str, Any]) -> str:
+    """Return the errors and their targets."""
+    low, high = report["band"]
+    inside = f"H is off by {report['h_error_band']:.2g} (rms) in {low:.3g}..{high:.3g} rad/s"
+    if "uniform" in report:
+        return (
+            f"{inside}, at most by {report['h_error_peak']:.2g} of its largest entry "
+            f"(target {report['uniform']:g})"
+        )
+    return (
+        f"{inside}; weighted error {report['weighted_error_band']:.1e} in the band (target "
+        f"{report['target']:g}), {report['weighted_error_outside']:.1e} outside (target "
+        f"{report['target_outside']:g})"
+    )
+
+
+def _why(report: Mapping[str, Any]) -> str:
+    """Name noise as the reason where the tables themselves give energy to the body."""
+    lowest = report["data_min_eig_relative"]
+    if lowest >= NOISY:
+        return ""
+    return (
+        f"; the tables are noisy: B has eigenvalues down to {lowest:.1e} of the largest, and what "
+        "gives energy to the body no passive fit follows"
+    )
