@@ -223,6 +223,9 @@ LinearModel linearize(const model::Scene& scene) {
   add_motions(s, ws, out);
   add_water(s, ws, out);
   note_nonlinear(s, out);
+  for (const model::Controller& c : scene.controllers)
+    out.notes.push_back("the linear model is without the controller " + in_quotes(c.name) +
+                        ": what it writes stays as the case has it");
   add_reactions(s, y, out);
   return out;
 }
