@@ -13,11 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.test_controllers import CART, PI, RATE, Pi
 
 import hydrodae
 from hydrodae import Case, CaseError, SolverError, tcp
 from hydrodae.results import Results
-from tests.python.test_controllers import CART, PI, RATE, Pi
 
 HEAD = struct.Struct("<IIQd")
 
