@@ -2070,7 +2070,7 @@ class ForceTypes(TypedList):
         """
 
 class ControllerTypes(TypedList):
-    """A sampled controller: it reads channels at fixed instants and holds inputs of the scene in between."""
+    """A sampled controller: it reads channels, and holds inputs between its instants."""
 
     def pid(
         self,
@@ -2679,7 +2679,7 @@ class Scene(SceneBase):
         """
     @property
     def controller(self) -> ControllerTypes:
-        """A sampled controller: it reads channels at fixed instants and holds inputs of the scene in between."""
+        """A sampled controller: it reads channels, and holds inputs between its instants."""
     def solver(
         self,
         *,

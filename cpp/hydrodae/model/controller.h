@@ -21,8 +21,7 @@ namespace hydrodae::model {
 /// (zero-order hold).
 struct Controller {
   static constexpr std::string_view doc =
-      "A sampled controller: it reads channels at fixed instants and holds inputs of the scene in "
-      "between.";
+      "A sampled controller: it reads channels, and holds inputs between its instants.";
   std::string name;
   std::string type;
   std::vector<std::string> inputs, outputs;
