@@ -44,7 +44,7 @@ void check_own_keys(const Scene& scene, const Entry& entry, const Controller& c)
   }
 }
 
-void check_table(const Entry& entry, const Controller& c) {
+void check_lookup(const Entry& entry, const Controller& c) {
   if (c.at.size() < 2 || c.at.size() != c.value.size())
     refuse(entry, "at", "'at' and 'value' must have as many numbers, two or more");
   for (std::size_t k = 1; k < c.at.size(); ++k)
@@ -191,7 +191,7 @@ void check_controller(const Scene& scene, const Controller& c) {
   if (c.type == "pid")
     check_pid(entry, c);
   if (c.type == "table")
-    check_table(entry, c);
+    check_lookup(entry, c);
   if (c.type == "latching" && (!c.hold_time || !c.hold_load))
     refuse(entry, c.hold_time ? "hold_load" : "hold_time",
            "a latching controller needs 'hold_time' and 'hold_load'");
