@@ -7,8 +7,9 @@ import subprocess
 import threading
 from pathlib import Path
 
-from hydrodae import tcp
 from tests.python.test_tcp import free_port
+
+from hydrodae import tcp
 
 
 def test_exit_codes_of_the_executable(executable: str, repository: Path, tmp_path: Path) -> None:
