@@ -223,7 +223,7 @@ private:
     for (const run::Controllers::Cost& cost : simulation_.controller_costs())
       statistics_.controllers.push_back(
           {cost.name, cost.calls,
-           cost.calls > 0 ? cost.time / static_cast<double>(cost.calls) : 0.0});
+           cost.calls > 1 ? cost.time / static_cast<double>(cost.calls - 1) : 0.0});
     if (!file_)
       return;
     io::Attributes all =

@@ -42,7 +42,7 @@ struct RunStatistics {
   std::vector<std::pair<std::string, double>> mean_power;
   double mean_power_from = 0.0;
   /// Calls of each controller that is a Python function or another program, and their mean wall
-  /// time [s].
+  /// time without the first, which waits for the program [s].
   struct ControllerCost {
     std::string name;
     long calls = 0;

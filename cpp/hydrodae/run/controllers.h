@@ -54,7 +54,7 @@ public:
   struct Cost {
     std::string name;
     long calls = 0;
-    double time = 0.0; ///< [s]
+    double time = 0.0; ///< of all but the first [s]
   };
   std::vector<Cost> costs() const;
 
