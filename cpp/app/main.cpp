@@ -70,6 +70,13 @@ void print_power(const hydrodae::RunStatistics& statistics) {
     std::printf("\n");
 }
 
+/// "controller pi: 2000 calls, 12 us each"
+void print_controllers(const hydrodae::RunStatistics& statistics) {
+  for (const auto& c : statistics.controllers)
+    std::printf("controller %s: %ld calls, %.3g us each\n", c.name.c_str(), c.calls,
+                1e6 * c.mean_time);
+}
+
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
@@ -90,6 +97,7 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   if (statistics.method.starts_with("auto"))
     std::printf("method %s\n", statistics.method.c_str());
   print_power(statistics);
+  print_controllers(statistics);
   return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
 }
 

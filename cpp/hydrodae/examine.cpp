@@ -9,6 +9,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/run/controllers.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
@@ -230,8 +231,36 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
   return never;
 }
 
+namespace {
+
+/// What controllers read and write, and all that may be written.
+void write_inputs(std::ostream& out, const model::Scene& scene,
+                  const std::vector<Channel>& channels, std::vector<run::Input> inputs) {
+  const auto listed = [](const std::vector<control::Terminal>& terminals) {
+    std::vector<std::string> names;
+    for (const control::Terminal& t : terminals)
+      names.push_back(t.name + " [" + t.unit + "]");
+    return joined(names);
+  };
+  for (const model::Controller& c : scene.controllers) {
+    const control::Terminals found = run::find_terminals(c, channels, inputs);
+    out << "  controller " << c.name << " (" << c.type << "): every " << c.period << " s "
+        << listed(found.inputs) << " -> " << listed(found.outputs);
+    if (c.delay > 0.0)
+      out << ", " << c.delay << " s later";
+    out << "\n";
+  }
+  std::vector<std::string> names;
+  for (const run::Input& input : inputs)
+    names.push_back(input.name + " [" + input.unit + "]");
+  if (!names.empty())
+    out << "  inputs for controllers and programs: " << joined(names) << "\n";
+}
+
+} // namespace
+
 std::string examine(const model::Scene& scene) {
-  const System s = system::build(scene);
+  System s = system::build(scene);
   const system::Pattern pattern = system::find_pattern(s);
   const system::Recorder named(s, 0.0, system::initial_state(s), VectorX::Zero(s.n)); // or refuses
   std::ostringstream out;
@@ -247,6 +276,7 @@ std::string examine(const model::Scene& scene) {
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(s, pattern));
   advise_joints(out, scene);
+  write_inputs(out, scene, named.channels(), run::find_inputs(s));
   for (const std::string& note : s.notes)
     out << "  note: " << note << "\n";
   write_sanity(out, scene, s);

@@ -78,7 +78,9 @@ void write_method(std::ostream& out, const model::Scene& scene) {
   if (scene.solver.method != "auto")
     return;
   try {
-    const run::Simulation start(scene);
+    model::Scene alone = scene; // without other programs
+    alone.controllers.clear();
+    const run::Simulation start(alone);
     const run::MethodOrder& order = start.methods().order();
     out << "  method: auto begins with " << order.methods.front() << ", as " << order.reason;
     for (std::size_t k = 1; k < order.methods.size(); ++k)

@@ -55,6 +55,10 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
     out["mean_power_absorbed"] = total;
     out["mean_power_from"] = s.mean_power_from;
   }
+  for (const RunStatistics::ControllerCost& c : s.controllers) {
+    out["controller_calls." + c.name] = std::int64_t{c.calls};
+    out["controller_mean_time." + c.name] = c.mean_time;
+  }
   return out;
 }
 

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/tcp.h"
 #include "hydrodae/io/output_place.h"
 #include "hydrodae/io/results_rows.h"
 #include "hydrodae/run/checkpoint.h"
@@ -72,9 +74,15 @@ public:
       statistics_.status = march() ? "completed" : "interrupted";
       if (options.verify && statistics_.status == "completed" && !verify())
         statistics_.status = "interrupted";
+      simulation_.close();
       close(statistics_.status == "completed" ? "" : "stopped on request");
+    } catch (const control::Stopped& stopped) {
+      statistics_.status = "interrupted";
+      simulation_.close();
+      close(stopped.what());
     } catch (const std::exception& error) {
       statistics_.status = "failed";
+      simulation_.close(error.what());
       close(error.what());
       throw;
     }
@@ -212,6 +220,10 @@ private:
     statistics_.mean_power_from = simulation_.recorder().averaged_from();
     for (const system::Recorder::Absorbed& pto : simulation_.recorder().absorbed())
       statistics_.mean_power.emplace_back(pto.name, pto.mean_power);
+    for (const run::Controllers::Cost& cost : simulation_.controller_costs())
+      statistics_.controllers.push_back(
+          {cost.name, cost.calls,
+           cost.calls > 1 ? cost.time / static_cast<double>(cost.calls - 1) : 0.0});
     if (!file_)
       return;
     io::Attributes all =
@@ -238,7 +250,11 @@ private:
   double solver_before_ = 0.0, wall_before_ = 0.0; ///< of what was resumed [s]
 };
 
-void check_options(const std::string& path, const RunOptions& options) {
+void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
+  for (const model::Controller& c : scene.controllers)
+    if (options.verify && c.type == "tcp")
+      throw CaseError("a run with controller " + in_quotes(c.name) +
+                      " cannot be verified: the other program would have to begin anew");
   const bool resumable = options.checkpoint >= 0.0 || options.resume;
   if (resumable && path.empty())
     throw CaseError("a checkpoint stands beside the results file: name one");
@@ -249,9 +265,11 @@ void check_options(const std::string& path, const RunOptions& options) {
 
 } // namespace
 
-RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
+RunStatistics simulate(const model::Scene& given, const std::string& output_path,
                        const Progress& progress, const RunOptions& options) {
-  check_options(output_path, options);
+  check_options(given, output_path, options);
+  model::Scene scene = given;
+  cosim::join_tcp(scene);
   if (options.checkpoint >= 0.0)
     run::require_checkpoint_place(output_path);
   if (!output_path.empty())

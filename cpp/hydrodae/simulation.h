@@ -41,6 +41,14 @@ struct RunStatistics {
   /// [s].
   std::vector<std::pair<std::string, double>> mean_power;
   double mean_power_from = 0.0;
+  /// Calls of each controller that is a Python function or another program, and their mean wall
+  /// time without the first, which waits for the program [s].
+  struct ControllerCost {
+    std::string name;
+    long calls = 0;
+    double mean_time = 0.0;
+  };
+  std::vector<ControllerCost> controllers;
   long unknowns = 0;
   long nonzeros = 0;
   std::vector<std::string> notes; ///< what the assembly found worth telling

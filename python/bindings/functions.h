@@ -12,6 +12,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "hydrodae/control/law.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae::bindings {
@@ -19,16 +21,92 @@ namespace hydrodae::bindings {
 namespace py = pybind11;
 
 /// Functions of time by the name of their constraint: t -> (f, f', f''); or laws by the name of
-/// their force: t, x, v -> load.
+/// their force: t, x, v -> load; or controllers by their name: t, inputs ... -> outputs.
 using Functions = std::map<std::string, py::function>;
+
+/// A controller that is a Python function or object. An exception in it waits in `failure` until
+/// the run, which ends on a SolverError, has come back.
+class PythonLaw final : public control::Law {
+public:
+  PythonLaw(std::string name, const py::function& call, std::exception_ptr& failure)
+      : name_(std::move(name)), call_(call), failure_(failure) {
+    guarded(0.0, [&] {
+      if (py::hasattr(call_, "reset"))
+        call_.attr("reset")();
+    });
+  }
+
+  void sample(double t, std::span<const double> in, std::span<double> out) override {
+    guarded(t, [&] {
+      py::tuple arguments(in.size() + 1);
+      arguments[0] = t;
+      for (std::size_t k = 0; k < in.size(); ++k)
+        arguments[k + 1] = in[k];
+      take(call_(*arguments), out);
+    });
+  }
+
+  /// What `state()` returns, for `restore(values)`, where the object has both.
+  void remember(Archive& a) override {
+    std::vector<double> values;
+    guarded(0.0, [&] {
+      const bool has = py::hasattr(call_, "state") && py::hasattr(call_, "restore");
+      if (has && a.saves())
+        values = call_.attr("state")().cast<std::vector<double>>();
+      a(values);
+      if (has && !a.saves())
+        call_.attr("restore")(values);
+    });
+  }
+
+private:
+  template <class Work> void guarded(double t, Work&& work) {
+    const py::gil_scoped_acquire gil;
+    try {
+      work();
+    } catch (...) {
+      failure_ = std::current_exception();
+      throw SolverError(t, "stopped at t = " + number_text(t) + " s: the Python controller " +
+                               in_quotes(name_) + " has failed");
+    }
+  }
+
+  void take(const py::object& answer, std::span<double> out) const {
+    try {
+      if (out.size() == 1 && PyNumber_Check(answer.ptr()) != 0) {
+        out[0] = py::float_(answer).cast<double>();
+        return;
+      }
+      const auto values = answer.cast<std::vector<double>>();
+      if (values.size() == out.size()) {
+        std::copy(values.begin(), values.end(), out.begin());
+        return;
+      }
+    } catch (const std::exception&) { // told below
+    }
+    throw CaseError("controllers: the function of " + in_quotes(name_) + " must return " +
+                    (out.size() == 1 ? "one number" : std::to_string(out.size()) + " numbers") +
+                    ", got " + py::repr(answer).cast<std::string>());
+  }
+
+  std::string name_;
+  const py::function& call_; ///< the map outlives the run
+  std::exception_ptr& failure_;
+};
 
 /// Calls Python from inside the residual. Solvers written in C are on the way: an exception waits
 /// until the run, which ends on values that are no numbers, has come back.
 class PythonFunctions {
 public:
   /// A copy of the scene that has the functions.
-  model::Scene join(const model::Scene& scene, const Functions& drives, const Functions& forces) {
+  model::Scene join(const model::Scene& scene, const Functions& drives, const Functions& forces,
+                    const Functions& controllers = {}) {
     model::Scene out = scene;
+    for (model::Controller& c : out.controllers)
+      if (const auto found = controllers.find(c.name); found != controllers.end())
+        c.make = [this, name = c.name, call = &found->second](const control::Terminals&) {
+          return std::make_unique<PythonLaw>(name, *call, failure_);
+        };
     std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
     for (model::Constraint& c : out.constraints)
       if (const auto found = drives.find(c.name); found != drives.end())

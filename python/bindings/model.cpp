@@ -53,6 +53,16 @@ void bind_model(py::module_& module) {
           },
           "Forces whose law is a Python function.")
       .def_property_readonly(
+          "python_controllers",
+          [](const Scene& s) {
+            std::vector<std::string> out;
+            for (const model::Controller& c : s.controllers)
+              if (c.type == "python")
+                out.push_back(c.name);
+            return out;
+          },
+          "Controllers that are Python functions.")
+      .def_property_readonly(
           "database_path",
           [](const Scene& s) { return s.database ? s.database->path : std::string(); },
           "The hydrodynamic database, \"\" without.")

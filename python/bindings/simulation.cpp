@@ -69,11 +69,11 @@ py::dict as_dict(const RunStatistics& s) {
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
-             const Functions& drives, const Functions& forces, bool verify, double checkpoint,
-             bool resume) {
+             const Functions& drives, const Functions& forces, const Functions& controllers,
+             bool verify, double checkpoint, bool resume) {
   PythonProgress progress(callback);
   PythonFunctions functions;
-  const model::Scene driven = functions.join(scene, drives, forces);
+  const model::Scene driven = functions.join(scene, drives, forces, controllers);
   RunStatistics statistics;
   try {
     const py::gil_scoped_release release;
@@ -116,12 +116,15 @@ void bind_simulation(py::module_& module) {
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
   module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             py::arg("drives"), py::arg("forces") = Functions{}, py::arg("verify") = false,
+             py::arg("drives"), py::arg("forces") = Functions{},
+             py::arg("controllers") = Functions{}, py::arg("verify") = false,
              py::arg("checkpoint") = -1.0, py::arg("resume") = false,
              "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
              "`drives` has a function t -> (f, f', f'') for every constraint in "
              "`scene.python_drives`;\n"
              "`forces` a law t, x, v -> load for every force in `scene.python_forces`;\n"
+             "`controllers` a function t, inputs ... -> outputs for every one in "
+             "`scene.python_controllers`;\n"
              "`verify`: compares the motion with that of a second, more exact run;\n"
              "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
              "from one.\n\n"

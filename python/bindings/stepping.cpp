@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "functions.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/cosim/tcp.h"
 #include "hydrodae/run/simulation.h"
 
 namespace hydrodae::bindings {
@@ -18,9 +19,11 @@ using run::State;
 /// A simulation with the Python functions that drive it.
 class Stepper {
 public:
-  Stepper(const model::Scene& scene, Functions drives, Functions forces)
+  Stepper(const model::Scene& scene, Functions drives, Functions forces, Functions controllers)
       : drives_(std::move(drives)), forces_(std::move(forces)),
-        scene_(functions_.join(scene, drives_, forces_)) {
+        controllers_(std::move(controllers)),
+        scene_(functions_.join(scene, drives_, forces_, controllers_)) {
+    cosim::join_tcp(scene_);
     call([&] { simulation_.emplace(scene_); });
   }
 
@@ -48,6 +51,10 @@ public:
     return out;
   }
 
+  void close() {
+    call([&] { simulation_->close(); });
+  }
+
   void write(const std::string& input, double value) { simulation_->write(input, value); }
 
   const run::Simulation& simulation() const { return *simulation_; }
@@ -68,7 +75,7 @@ private:
     functions_.raise_failure();
   }
 
-  Functions drives_, forces_;
+  Functions drives_, forces_, controllers_;
   PythonFunctions functions_;
   model::Scene scene_;
   std::optional<run::Simulation> simulation_;
@@ -88,6 +95,13 @@ std::map<std::string, double> inputs(const Stepper& s) {
   return out;
 }
 
+std::map<std::string, std::string> input_units(const Stepper& s) {
+  std::map<std::string, std::string> out;
+  for (const run::Input& input : s.simulation().inputs())
+    out[input.name] = input.unit;
+  return out;
+}
+
 } // namespace
 
 void bind_stepping(py::module_& module) {
@@ -101,19 +115,21 @@ void bind_stepping(py::module_& module) {
       .def(py::pickle([](const State& s) { return py::bytes(s.bytes()); },
                       [](const py::bytes& b) { return State::from_bytes(std::string(b)); }));
   py::class_<Stepper>(module, "Stepper", "A run that Python drives, step by step.")
-      .def(py::init<const model::Scene&, Functions, Functions>(), py::arg("scene"),
-           py::arg("drives"), py::arg("forces") = Functions{})
+      .def(py::init<const model::Scene&, Functions, Functions, Functions>(), py::arg("scene"),
+           py::arg("drives"), py::arg("forces") = Functions{}, py::arg("controllers") = Functions{})
       .def("advance", &Stepper::advance, py::arg("limit"),
            "One accepted step, to `limit` [s] at most; returns the time reached.")
       .def("state", &Stepper::state)
       .def("restore", &Stepper::restore, py::arg("state"))
       .def("read", &Stepper::read, py::arg("channel"), "The values of a channel now.")
+      .def("close", &Stepper::close, "Tells controllers that are other programs of the end.")
       .def("write", &Stepper::write, py::arg("input"), py::arg("value"),
            "Holds an input at a value from now on.")
       .def_property_readonly("time", [](const Stepper& s) { return s.simulation().time(); })
       .def_property_readonly("finished", [](const Stepper& s) { return s.simulation().finished(); })
       .def_property_readonly("channels", &channels, "(name, width, unit) of each.")
-      .def_property_readonly("inputs", &inputs, "What each input is held at.");
+      .def_property_readonly("inputs", &inputs, "What each input is held at.")
+      .def_property_readonly("input_units", &input_units, "Unit of each input.");
 }
 
 } // namespace hydrodae::bindings

@@ -32,6 +32,9 @@ class Scene:
     def python_forces(self) -> list[str]:
         """Forces whose law is a Python function."""
     @property
+    def python_controllers(self) -> list[str]:
+        """Controllers that are Python functions."""
+    @property
     def database_path(self) -> str:
         """The hydrodynamic database, "" without."""
     @property
@@ -107,6 +110,7 @@ def simulate(
     progress: Callable[[float, float], bool] | None,
     drives: Mapping[str, Callable[[float], Sequence[float]]],
     forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
+    controllers: Mapping[str, Callable[..., Any]] = ...,
     verify: bool = False,
     checkpoint: float = -1.0,
     resume: bool = False,
@@ -115,6 +119,7 @@ def simulate(
 
     `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`;
     `forces` a law t, x, v -> load for every force in `scene.python_forces`;
+    `controllers` a function t, inputs ... -> outputs for every one in `scene.python_controllers`;
     `verify`: compares the motion with that of a second, more exact run; `checkpoint`: wall time
     between checkpoints [s], negative: none; `resume`: goes on from one.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
@@ -144,6 +149,7 @@ class Stepper:
         scene: Scene,
         drives: Mapping[str, Callable[[float], Sequence[float]]],
         forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
+        controllers: Mapping[str, Callable[..., Any]] = ...,
     ) -> None: ...
     def advance(self, limit: float) -> float:
         """One accepted step, to `limit` [s] at most; returns the time reached."""
@@ -163,3 +169,8 @@ class Stepper:
     @property
     def inputs(self) -> dict[str, float]:
         """What each input is held at."""
+    @property
+    def input_units(self) -> dict[str, str]:
+        """Unit of each input."""
+    def close(self) -> None:
+        """Tells controllers that are other programs of the end."""

@@ -52,6 +52,14 @@ _MorisonSurface = Literal[
     "mean",
     "instantaneous",
 ]
+_TcpProtocol = Literal[
+    "hydrodae",
+    "hotint",
+]
+_TcpRole = Literal[
+    "server",
+    "client",
+]
 _SolverMethod = Literal[
     "auto",
     "ida",
@@ -2061,6 +2069,348 @@ class ForceTypes(TypedList):
             A key or a value is wrong.
         """
 
+class ControllerTypes(TypedList):
+    """A sampled controller: it reads channels, and holds inputs between its instants."""
+
+    def pid(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        delay: float = ...,
+        gain_p: float = ...,
+        gain_i: float = ...,
+        gain_d: float = ...,
+        filter_time: float = ...,
+        target: float = ...,
+        lower: float = ...,
+        upper: float = ...,
+        tracking_time: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "pid".
+
+        u = Kp e + Ki int e + Kd e' with e = target - input; within limits.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        gain_p : number, out per in, default 0
+            Proportional gain Kp.
+        gain_i : number, out per in and s, default 0
+            Integral gain Ki.
+        gain_d : number, out s per in, default 0
+            Derivative gain Kd.
+        filter_time : number, s, default 0
+            Time constant of the filter of first order on the derivative. Allowed: >= 0.
+        target : number, unit of the input, default 0
+            What the input is to be, where no second input tells it.
+        lower : number, unit of the output, optional
+            Least output.
+        upper : number, unit of the output, optional
+            Largest output.
+        tracking_time : number, s, optional
+            Time in which the integral follows an output at its limit (back-calculation);
+            default |Kp / Ki|. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def reactive(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        delay: float = ...,
+        stiffness: float = ...,
+        damping: float = ...,
+        neutral: float = ...,
+        limit: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "reactive".
+
+        u = -K (s - s0) - C s' of a coordinate and its rate.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        stiffness : number, N/m or N m/rad, default 0
+            Stiffness K; negative: it pushes away.
+        damping : number, N s/m or N m s/rad, default 0
+            Damping C.
+        neutral : number, m or rad, default 0
+            Coordinate s0 at which the spring is slack.
+        limit : number, N or N m, optional
+            Largest load, either way. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def resistive(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        delay: float = ...,
+        damping: float = ...,
+        limit: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "resistive".
+
+        u = -C s' of a rate.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        damping : number, N s/m or N m s/rad, default 0
+            Damping C.
+        limit : number, N or N m, optional
+            Largest load, either way. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def latching(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        hold_time: float,
+        hold_load: float,
+    ) -> str:
+        """Add `[[controller]]` with the type "latching".
+
+        Holds a joint by its dry friction from a standstill on, for some time.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        hold_time : number, s
+            How long it holds from the standstill on. Allowed: > 0.
+        hold_load : number, N or N m
+            Largest load that it holds. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def table(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        at: _Numbers,
+        value: _Numbers,
+        delay: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "table".
+
+        u as a function of one channel, straight lines between points.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        at : list of numbers, unit of the input
+            Values of the input, ascending.
+        value : list of numbers, unit of the output
+            Outputs there; beyond the ends those at the ends.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def python(
+        self,
+        name: str,
+        *,
+        outputs: str | Sequence[str],
+        period: float,
+        inputs: str | Sequence[str] = ...,
+        delay: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "python".
+
+        A Python function or object, given to the run.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts, optional
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def tcp(
+        self,
+        name: str,
+        *,
+        outputs: str | Sequence[str],
+        period: float,
+        inputs: str | Sequence[str] = ...,
+        delay: float = ...,
+        protocol: _TcpProtocol = ...,
+        role: _TcpRole = ...,
+        host: str = ...,
+        port: int = ...,
+        timeout: float = ...,
+        connect_timeout: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "tcp".
+
+        Another program, over TCP/IP in lock-step.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts, optional
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        protocol : text, default "hydrodae"
+            hydrodae: a handshake with names and units, then numbered frames; hotint: bare
+            numbers with a flag (docs/tcp.md). Allowed: hydrodae, hotint.
+        role : text, default "server"
+            server: the other program connects to the run; client: the run connects to it.
+            Allowed: server, client.
+        host : text, default "127.0.0.1"
+            Address at which a server listens, or to which a client connects.
+        port : integer, default 50000
+            TCP port. Allowed: 1 to 65535.
+        timeout : number, s, default 10
+            Longest wait for an answer. Allowed: > 0.
+        connect_timeout : number, s, default 60
+            Longest wait for the other program to be there. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+
 class Scene(SceneBase):
     """A scene that is built call by call; `hydrodae.run` and the other functions take it."""
 
@@ -2327,6 +2677,9 @@ class Scene(SceneBase):
         CaseError
             A key or a value is wrong.
         """
+    @property
+    def controller(self) -> ControllerTypes:
+        """A sampled controller: it reads channels, and holds inputs between its instants."""
     def solver(
         self,
         *,

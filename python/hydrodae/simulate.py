@@ -15,6 +15,7 @@ from types import FrameType
 from typing import Any
 
 from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.controllers import Controller, kernel_controllers
 from hydrodae.drives import Drive, Kernel, kernel_drives
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.laws import Force, kernel_forces
@@ -32,6 +33,7 @@ def run(
     progress: Progress | None = None,
     drives: Mapping[str, Drive] | None = None,
     forces: Mapping[str, Force] | None = None,
+    controllers: Mapping[str, Controller] | None = None,
     verify: bool = False,
     checkpoint: float | None = None,
     resume: bool = False,
@@ -60,6 +62,12 @@ def run(
         ``python_wrench``, ``f(t, displacement, twist)`` (six numbers each, earth axes) to force and
         moment [N, N m], by its name. It is called inside the solver: it must depend on its
         arguments alone, and smoothly. Exceptions in it end the run and come back here.
+    controllers : mapping from str to callable, optional
+        Function ``f(t, input_1, ...)`` to one number or a sequence of them for every controller of
+        type ``python``, by its name; or an object with ``__call__``. It is called at its sampling
+        instants only. An object may have ``reset()``, called before the run, and ``state()`` to a
+        list of numbers with ``restore(list)``: these then belong to checkpoints. Exceptions in it
+        end the run and come back here, with what was computed as attribute `results`.
     verify : bool
         Run a second time, at a tenth of the tolerance or half the step, and compare the motion at
         the output samples: `results.statistics` then has ``verified_error``, relative to the size
@@ -89,7 +97,11 @@ def run(
         Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
     """
     case = read_case(case, set)
-    functions = (kernel_drives(case.scene, drives), kernel_forces(case.scene, forces))
+    functions = (
+        kernel_drives(case.scene, drives),
+        kernel_forces(case.scene, forces),
+        kernel_controllers(case.scene, controllers),
+    )
     folder = None
     if output is None:
         if checkpoint is not None or resume:
@@ -105,6 +117,10 @@ def run(
     except SolverError as error:
         error.results = None if _stamp(path) == older else Results(path, owner=folder)
         raise
+    except Exception as error:  # of a function of the caller's
+        if _stamp(path) != older:
+            error.results = Results(path, owner=folder)  # type: ignore[attr-defined]
+        raise
     results = Results(path, owner=folder)
     if status == "interrupted":
         stopped = RunInterrupted(f"stopped at t = {results.end_time:g} s of {case.end_time:g} s")
@@ -117,7 +133,7 @@ def _integrate(
     case: Case,
     path: Path,
     progress: Progress | None,
-    functions: tuple[dict[str, Kernel], dict[str, Force]],
+    functions: tuple[dict[str, Kernel], dict[str, Force], dict[str, Controller]],
     verify: bool,
     checkpoint: float | None,
     resume: bool,

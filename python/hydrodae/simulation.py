@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case, read_case
+from hydrodae.controllers import Controller, kernel_controllers
 from hydrodae.drives import Drive, kernel_drives
 from hydrodae.laws import Force, kernel_forces
 
@@ -28,8 +29,9 @@ class Simulation:
         The case, or the path of its file.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
-    drives, forces : mapping from str to callable, optional
-        Python functions that constraints follow and that are laws of forces; see `hydrodae.run`.
+    drives, forces, controllers : mapping from str to callable, optional
+        Python functions that constraints follow, that are laws of forces, and controllers; see
+        `hydrodae.run`. Controllers are sampled when a step goes on from a sampling instant.
 
     Raises
     ------
@@ -52,13 +54,17 @@ class Simulation:
         set: Mapping[str, Any] | None = None,
         drives: Mapping[str, Drive] | None = None,
         forces: Mapping[str, Force] | None = None,
+        controllers: Mapping[str, Controller] | None = None,
     ) -> None:
         from hydrodae import _core
 
         self._case = read_case(case, set)
         scene = self._case.scene
         self._stepper = _core.Stepper(
-            scene, kernel_drives(scene, drives), kernel_forces(scene, forces)
+            scene,
+            kernel_drives(scene, drives),
+            kernel_forces(scene, forces),
+            kernel_controllers(scene, controllers),
         )
         self._channels = {name: (width, unit) for name, width, unit in self._stepper.channels}
 
@@ -86,12 +92,22 @@ class Simulation:
     def inputs(self) -> dict[str, float]:
         """What `write` may change, with the values that hold now.
 
-        ``forces/NAME/damping``, ``stiffness`` and ``neutral`` of each linear power take-off,
-        ``forces/NAME/force.x`` to ``moment.z`` of each constant load, and in scenes without stops,
-        one-sided joints and dry friction ``constraints/NAME/rate``, the constant part of each rate
-        that a constraint prescribes; SI units and rad.
+        ``forces/NAME/damping``, ``stiffness``, ``neutral`` and ``load`` of each power take-off
+        along a joint, ``force.x`` to ``moment.z`` of each constant load, ``static`` of each dry
+        friction, and in scenes without stops, one-sided joints and dry friction
+        ``constraints/NAME/rate``, the constant part of each rate that a constraint prescribes; SI
+        units and rad. ``hydrodae check`` lists them.
         """
         return self._stepper.inputs
+
+    @property
+    def input_units(self) -> dict[str, str]:
+        """The unit of each of `inputs`."""
+        return self._stepper.input_units
+
+    def close(self) -> None:
+        """Tell controllers that are other programs that the run ends here."""
+        self._stepper.close()
 
     def advance(self, limit: float | None = None) -> float:
         """Make one accepted step.
@@ -142,7 +158,7 @@ class Simulation:
         self._stepper.restore(state)
 
     def read(self, name: str) -> float | NDArray[np.float64]:
-        """Read a channel now; the run does not notice.
+        """Read a channel, or one component of it such as ``velocity.z``; the run does not notice.
 
         Returns
         -------
@@ -155,7 +171,7 @@ class Simulation:
             There is no such channel.
         """
         values = self._stepper.read(name)
-        return values[0] if self._channels[name][0] == 1 else np.array(values)
+        return values[0] if len(values) == 1 else np.array(values)
 
     def write(self, name: str, value: float) -> None:
         """Hold an input at a value from now on, until the next write.

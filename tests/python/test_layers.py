@@ -9,11 +9,11 @@ LAYERS = [
     {"core"},
     {"math"},
     {"sea", "hydro"},
-    {"joint", "element"},
+    {"joint", "element", "control"},
     {"model"},
     {"io", "system"},
     {"solve"},
-    {"run"},
+    {"run", "cosim"},
     {"simulation.h", "analysis.h", "analysis_moorings.h", "examine.h", "run_output.h"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}

@@ -14,7 +14,7 @@ import pytest
 #: Rooms from the lowest to the highest. A room is a module or a folder with all that is in it,
 #: unless a part of it is listed by itself; those of one layer do not import each other.
 LAYERS = [
-    {"errors", "extras", "progress", "units", "version"},
+    {"errors", "extras", "progress", "tcp", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "tables"},
     {"infinity"},
@@ -35,7 +35,7 @@ LAYERS = [
     {"hdb.computing"},
     {"hdb"},
     # one case
-    {"drives", "laws"},
+    {"controllers", "drives", "laws"},
     {"case"},
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},

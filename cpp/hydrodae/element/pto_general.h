@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,10 +15,11 @@ namespace hydrodae::element {
 
 /// Power take-off along the free motion of a joint, of parts that add up, within limits.
 ///
-///   f = -k (s - s0) - F_k(s) - c |s'|^(n-1) s' - F_c(s') - F_0 s' / sqrt(s'^2 + s'_0^2)
+///   f = -k (s - s0) - F_k(s) - c |s'|^(n-1) s' - F_c(s') - F_0 s' / sqrt(s'^2 + s'_0^2) + u
 ///   |f| <= F_max,  |f s'| <= P_max                  [N], or [N m] if the motion is a rotation
 ///
-/// F_k and F_c: curves through measured points, straight beyond their ends. The power absorbed, P =
+/// F_k and F_c: curves through measured points, straight beyond their ends. u: what a controller
+/// asks for, else zero. The power absorbed, P =
 /// -f s', becomes eta P of electric power; power that the machine gives to the device, P < 0, costs
 /// P / eta_m.
 struct PtoGeneral {
@@ -26,6 +28,7 @@ struct PtoGeneral {
       "Power take-off along a joint: springs and dampers linear, by a power or by measured points, "
       "constant load, limits of load and power, efficiencies.";
   static constexpr Port port = Port::along_joint;
+  static constexpr int n_signals = 4;
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;
@@ -39,13 +42,14 @@ struct PtoGeneral {
 
   /// The law that the system evaluates.
   struct Law {
-    double k, s0, c, n, F0, rate0, most, power, eta, eta_motor;
+    double n, F0, rate0, most, power, eta, eta_motor;
     Curve spring, damper;
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       using std::abs, std::exp, std::log, std::sqrt;
+      const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2];
       const S &s = *in.x, &v = *in.v, speed = abs(v);
-      S f = S(-k) * (s - S(s0));
+      S f = S(in.signals[3]) - S(k) * (s - S(s0));
       if (c > 0.0)
         f -= n == 1.0 ? S(c) * v : speed > S(0.0) ? S(c) * exp(S(n - 1.0) * log(speed)) * v : S(0);
       if (F0 > 0.0)
@@ -60,8 +64,8 @@ struct PtoGeneral {
 
     /// Of the springs; what a limit takes from them is not theirs.
     double energy(const In<double>& in) const {
-      const double d = *in.x - s0;
-      double sum = 0.5 * k * d * d;
+      const double d = *in.x - in.signals[2];
+      double sum = 0.5 * in.signals[1] * d * d;
       if (!spring.empty())
         sum += spring.area(*in.x) - spring.area(0.0);
       return sum;
@@ -76,10 +80,7 @@ struct PtoGeneral {
     const auto curve = [](const std::vector<double>& x, const std::vector<double>& y) {
       return x.empty() ? Curve() : Curve(x, y);
     };
-    return {stiffness,
-            neutral,
-            damping,
-            exponent,
+    return {exponent,
             constant,
             reversal_rate.value_or(0.0),
             load_limit.value_or(INFINITY),
@@ -89,6 +90,15 @@ struct PtoGeneral {
             curve(spring_at, spring_load),
             curve(damper_at, damper_load)};
   }
+
+  /// A program may change them while it runs.
+  static std::vector<Signal> inputs() {
+    return {{"damping", "N (s/m)^n or N m (s/rad)^n", 0.0},
+            {"stiffness", "N/m or N m/rad"},
+            {"neutral", "m or rad"},
+            {"load", "N or N m"}};
+  }
+  std::array<double, n_signals> start_signals() const { return {damping, stiffness, neutral, 0.0}; }
 
   static std::vector<Quantity> channels() {
     return {{"electric_power", "W", "Power delivered, after the losses of the machine."}};

@@ -28,6 +28,7 @@ struct PtoHydraulic {
                                           "valves, two gas accumulators, motor.";
   static constexpr Port port = Port::along_joint;
   static constexpr int n_states = 2;
+  static constexpr int n_signals = 1;
   static constexpr std::string_view at_rest_only =
       "its damping there is A (p_H - p_L) / valve_rate, far above that at working rates";
   std::string name;
@@ -50,7 +51,7 @@ struct PtoHydraulic {
   template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
     using std::exp, std::log;
     const S &rate = *in.v, &high = in.z[0], &low = in.z[1], drop = high - low;
-    const S open = opening(rate), flow = S(area) * rate * open - S(motor_conductance) * drop;
+    const S open = opening(rate), flow = S(area) * rate * open - S(in.signals[0]) * drop;
     const S n(polytropic);
     const S gas_high = S(volume_high) * exp(log(S(pressure_high) / high) / n);
     const S gas_low = S(volume_low) * exp(log(S(pressure_low) / low) / n);
@@ -70,9 +71,13 @@ struct PtoHydraulic {
   }
   void observe(const In<double>& in, const Out<const double>&, double* values) const {
     const double drop = in.z[0] - in.z[1];
-    values[0] = motor_conductance * drop;
-    values[1] = motor_conductance * drop * drop;
+    values[0] = in.signals[0] * drop;
+    values[1] = in.signals[0] * drop * drop;
   }
+
+  /// A program may change it while it runs: the displacement of the motor times its speed.
+  static std::vector<Signal> inputs() { return {{"motor_conductance", "m3/(s Pa)", 0.0}}; }
+  std::array<double, n_signals> start_signals() const { return {motor_conductance}; }
 
   /// What is wrong with it, if anything.
   std::optional<Fault> fault() const {

@@ -11,15 +11,15 @@ namespace hydrodae::element {
 
 /// Linear power take-off along the free motion of a joint.
 ///
-///   f(t) = -k (s(t - tau) - s0) - c s'(t - tau)    [N], or [N m] if the motion is a rotation
+///   f(t) = -k (s(t - tau) - s0) - c s'(t - tau) + u    [N], or [N m] if the motion is a rotation
 ///
 /// s is the joint coordinate [m or rad], tau a pure delay [s]; before the start the joint rests
-/// where it starts. Without a delay the absorbed power is P = c s'^2 >= 0 [W]; with one it is
-/// -f(t) s'(t) and may have either sign.
+/// where it starts. u: what a controller asks for, else zero. Without delay and u the absorbed
+/// power is P = c s'^2 >= 0 [W]; with one of them it is -f(t) s'(t) and may have either sign.
 struct PtoLinear {
   static constexpr std::string_view type = "pto_linear";
   static constexpr Port port = Port::along_joint;
-  static constexpr int n_signals = 3;
+  static constexpr int n_signals = 4;
   static constexpr std::string_view doc =
       "Linear power take-off along a joint: f = -k (s - s0) - c s'.";
   std::string name;
@@ -34,8 +34,8 @@ struct PtoLinear {
   const PtoLinear& law() const { return *this; }
 
   template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
-    const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2];
-    *out.load = S(-k) * (*in.x - S(s0)) - S(c) * *in.v;
+    const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2], u = in.signals[3];
+    *out.load = S(-k) * (*in.x - S(s0)) - S(c) * *in.v + S(u);
   }
   template <class J> void jacobian(const In<double>& in, J& j) const {
     j << -in.signals[1], -in.signals[0];
@@ -51,9 +51,10 @@ struct PtoLinear {
   static std::vector<Signal> inputs() {
     return {{"damping", "N s/m or N m s/rad", 0.0},
             {"stiffness", "N/m or N m/rad", 0.0},
-            {"neutral", "m or rad"}};
+            {"neutral", "m or rad"},
+            {"load", "N or N m"}};
   }
-  std::array<double, n_signals> start_signals() const { return {damping, stiffness, neutral}; }
+  std::array<double, n_signals> start_signals() const { return {damping, stiffness, neutral, 0.0}; }
 
   template <class P = PtoLinear> static Fields<P> fields() {
     return {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ namespace hydrodae::element {
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
   static constexpr Port port = Port::along_distance;
+  static constexpr int n_signals = 1;
   static constexpr std::string_view doc =
       "Spring and damper between points of two bodies: f = -k (s - s0) - c s' + f0, s their "
       "distance.";
@@ -37,13 +39,13 @@ struct SpringDamper {
 
   /// The law that the system evaluates, with s0 known.
   struct Law {
-    double stiffness, damping, force, length;
+    double stiffness, damping, length;
     std::vector<double> hardening;
     Curve curve;
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       const S d = *in.x - S(length);
-      S f = S(force) - S(stiffness) * d - S(damping) * *in.v, power = d;
+      S f = S(in.signals[0]) - S(stiffness) * d - S(damping) * *in.v, power = d;
       for (const double k : hardening) {
         power *= d;
         f -= S(k) * power;
@@ -54,7 +56,7 @@ struct SpringDamper {
     }
     double energy(const In<double>& in) const {
       const double d = *in.x - length;
-      double sum = 0.5 * stiffness * d * d - force * d, power = 0.5 * d * d, n = 2.0;
+      double sum = 0.5 * stiffness * d * d - in.signals[0] * d, power = 0.5 * d * d, n = 2.0;
       for (const double k : hardening) {
         power *= n / (n + 1.0) * d;
         n += 1.0;
@@ -66,10 +68,13 @@ struct SpringDamper {
     }
   };
   Law law() const {
-    return {stiffness, damping,
-            force,     length.value_or((point_b - point_a).norm()),
-            hardening, curve_at.empty() ? Curve() : Curve(curve_at, curve_force)};
+    return {stiffness, damping, length.value_or((point_b - point_a).norm()), hardening,
+            curve_at.empty() ? Curve() : Curve(curve_at, curve_force)};
   }
+
+  /// A program may change it while it runs.
+  static std::vector<Signal> inputs() { return {{"force", "N"}}; }
+  std::array<double, n_signals> start_signals() const { return {force}; }
 
   /// What is wrong with it, if anything.
   std::optional<Fault> fault() const {

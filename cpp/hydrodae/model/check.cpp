@@ -90,6 +90,7 @@ void check(const Scene& scene) {
   check_names(forces, "force");
   check_names(names_of(scene.morison), "morison");
   check_names(names_of(scene.waves), "wave");
+  check_names(names_of(scene.controllers), "controller");
 
   for (const Body& body : scene.bodies) {
     if (body.name == ground)
@@ -106,6 +107,8 @@ void check(const Scene& scene) {
     check_marker(scene, marker);
   check_forces(scene);
   check_morison(scene);
+  for (const Controller& controller : scene.controllers)
+    check_controller(scene, controller);
   check_solver(scene);
   check_sea(scene);
   if (scene.hydro && scene.database)

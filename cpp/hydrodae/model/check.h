@@ -13,6 +13,7 @@ void check_constraint(const Scene& scene, const Constraint& constraint);
 void check_marker(const Scene& scene, const Marker& marker);
 void check_forces(const Scene& scene);
 void check_morison(const Scene& scene);
+void check_controller(const Scene& scene, const Controller& controller);
 void check_solver(const Scene& scene);
 void check_sea(const Scene& scene);
 void check_database(const Scene& scene); ///< only called when the scene has one

@@ -31,6 +31,7 @@
 #include "hydrodae/element/spring_damper.h"
 #include "hydrodae/element/viscous_damping.h"
 #include "hydrodae/hydro/database.h"
+#include "hydrodae/model/controller.h"
 #include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/sea/wave.h"
@@ -350,6 +351,7 @@ struct Scene {
   std::string path; ///< "" when it was parsed from a string
   std::vector<std::string> overrides;           ///< "key = value" as given on the command line
   std::map<std::string, std::string> positions; ///< key path -> "file:line:column", for messages
+  std::vector<Controller> controllers;
 };
 
 /// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "hydrodae/joint/types.h"
+#include "hydrodae/model/controller.h"
 #include "hydrodae/sea/wave.h"
 
 namespace hydrodae::model {
@@ -118,6 +119,14 @@ const std::map<std::string, std::string> type_docs = {
     {"constraint.coupler", "Two joint coordinates keep a ratio, as gears, racks and belts do: "
                            "s_b - s_b(0) = ratio (s - s(0))."},
     {"constraint.stop", "A joint coordinate stays within bounds, with impacts."},
+    {"controller.pid", "u = Kp e + Ki int e + Kd e' with e = target - input; within limits."},
+    {"controller.reactive", "u = -K (s - s0) - C s' of a coordinate and its rate."},
+    {"controller.resistive", "u = -C s' of a rate."},
+    {"controller.latching",
+     "Holds a joint by its dry friction from a standstill on, for some time."},
+    {"controller.table", "u as a function of one channel, straight lines between points."},
+    {"controller.python", "A Python function or object, given to the run."},
+    {"controller.tcp", "Another program, over TCP/IP in lock-step."},
     {"wave.regular", "One wave of one period: H/2 cos(w t - k.x + phase)."},
     {"wave.jonswap", "JONSWAP spectrum (Hasselmann et al. 1973)."},
     {"wave.bretschneider", "JONSWAP spectrum with gamma = 1."},
@@ -135,6 +144,7 @@ std::vector<std::string> keys_of_type(const std::string& kind, const std::string
          : kind == "joint.initial" ? joint_initial_keys(type)
          : kind == "constraint"    ? constraint_keys(type)
          : kind == "wave"          ? wave_keys(type)
+         : kind == "controller"    ? controller_keys(type)
                                    : Keys{};
 }
 
@@ -142,6 +152,7 @@ std::vector<std::string> needed_keys(const std::string& kind, const std::string&
   return kind == "joint"        ? needed_joint_keys(type)
          : kind == "constraint" ? needed_constraint_keys(type)
          : kind == "wave"       ? needed_wave_keys(type)
+         : kind == "controller" ? needed_controller_keys(type)
                                 : Keys{};
 }
 

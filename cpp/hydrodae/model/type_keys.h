@@ -6,9 +6,9 @@
 
 namespace hydrodae::model {
 
-/// Keys of a [[joint]], [[constraint]] or [[wave]] of this type, or of the table inside it that
-/// `kind` names ("joint.initial"); empty where the type is unknown, or the kind of entry does not
-/// tell its keys apart by type.
+/// Keys of a [[joint]], [[constraint]], [[controller]] or [[wave]] of this type, or of the table
+/// inside it that `kind` names ("joint.initial"); empty where the type is unknown, or the kind of
+/// entry does not tell its keys apart by type.
 std::vector<std::string> keys_of_type(const std::string& kind, const std::string& type);
 
 /// Those that an entry of this type must have beside what every entry of its kind must have.

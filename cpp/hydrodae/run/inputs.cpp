@@ -26,6 +26,19 @@ void add_forces(system::System& s, std::vector<Input>& out) {
   }
 }
 
+/// What dry friction holds: with it a controller locks a joint where it stands still, and lets go.
+void add_frictions(system::System& s, std::vector<Input>& out) {
+  for (system::SwitchData& friction : s.switches) {
+    if (friction.kind != system::SwitchData::Kind::friction)
+      continue;
+    const auto list = static_cast<std::size_t>(friction.list),
+               law = static_cast<std::size_t>(friction.law);
+    const bool angle = s.motions[static_cast<std::size_t>(friction.motion)].motion.is_angle();
+    out.push_back({"forces/" + s.elements[list].laws->names[law] + "/static", angle ? "N m" : "N",
+                   &friction.static_load, 0.0});
+  }
+}
+
 /// A rate that jumps takes the velocities with it at once, by an impulse of all rows. Stops that
 /// push only, and friction that slips, would have to be asked first.
 void add_rates(system::System& s, std::vector<Input>& out) {
@@ -44,6 +57,7 @@ void add_rates(system::System& s, std::vector<Input>& out) {
 std::vector<Input> find_inputs(system::System& system) {
   std::vector<Input> out;
   add_forces(system, out);
+  add_frictions(system, out);
   add_rates(system, out);
   return out;
 }

@@ -16,10 +16,11 @@ struct Input {
   double least = -INFINITY;
 };
 
-/// The inputs that forces declare: damping, stiffness and neutral coordinate of each linear power
-/// take-off ("forces/pto/damping"), the components of each constant load; where nothing switches,
-/// the constant part of each rate that a constraint prescribes ("constraints/motor/rate"). They
-/// point into `system`.
+/// The inputs that forces declare: damping, stiffness, neutral coordinate and load of each power
+/// take-off along a joint ("forces/pto/damping"), the components of each constant load, ...; what
+/// each dry friction holds at most ("forces/brake/static"); where nothing switches, the constant
+/// part of each rate that a constraint prescribes ("constraints/motor/rate"). They point into
+/// `system`.
 std::vector<Input> find_inputs(system::System& system);
 
 /// Throws CaseError, with the nearest name, where there is no such input.

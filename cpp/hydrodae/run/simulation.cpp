@@ -89,6 +89,12 @@ void Simulation::make_channels() {
   const std::vector<Channel> taken = impacts_.channels();
   channels_.insert(channels_.end(), taken.begin(), taken.end());
   width_ = recorder_->width() + solver_channels.size() + impacts_.width();
+  if (scene_.controllers.empty())
+    return;
+  controllers_ = std::make_unique<Controllers>(scene_, channels_, inputs_);
+  const std::vector<Channel> held = controllers_->outputs();
+  channels_.insert(channels_.end(), held.begin(), held.end());
+  width_ += controllers_->width();
 }
 
 solve::Statistics Simulation::statistics() const {
@@ -104,10 +110,12 @@ void Simulation::advance(double limit, const Inside& inside) {
   if (finished() || !(limit > t_))
     return;
   require_going();
+  take_control();
   take_inputs();
   now_.clear();
   failed_ = true; // until the step is accepted by all
-  const double end = std::min(limit, options_.end_time);
+  const double end =
+      std::min({limit, options_.end_time, controllers_ ? controllers_->next_time() : INFINITY});
   const bool event = take_step(end);
   if (inside)
     inside();
@@ -118,6 +126,7 @@ void Simulation::advance(double limit, const Inside& inside) {
   if (history_)
     history_->append(t_, y_, yp_);
   watch_steps(event, end);
+  event_here_ = event;
   if (event)
     restart();
   failed_ = false;

@@ -9,6 +9,7 @@
 
 #include "hydrodae/core/channel.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/run/controllers.h"
 #include "hydrodae/run/guards.h"
 #include "hydrodae/run/impacts.h"
 #include "hydrodae/run/inputs.h"
@@ -27,6 +28,9 @@ namespace hydrodae::run {
 /// To that end `state` makes the method start anew from it in the run itself, too: one-step methods
 /// go on with their step, order and polynomial and factorise their matrices again; ida begins at
 /// order 1. So a run whose state was taken differs from one left alone, within the tolerance.
+///
+/// Controllers of the scene are sampled when the run goes on from a sampling instant: what is read
+/// there before is what holds up to it.
 class Simulation {
 public:
   /// At the start of the run. Throws ModelError or SolverError when the scene cannot start.
@@ -49,6 +53,10 @@ public:
   /// The guards' last look, at the end of the run. Throws SolverError.
   void finish();
 
+  /// Tells controllers that are other programs that the run ends here; with the message of the
+  /// error that ended it, if any.
+  void close(const std::string& error = "");
+
   /// All that the run is now; see above.
   State state();
 
@@ -65,8 +73,8 @@ public:
   /// One row of all channels at a time inside the step (see `advance`), or now.
   void sample(double t, std::span<double> row);
 
-  /// The values of a channel now: one, three or four. Changes nothing. Throws CaseError, with the
-  /// nearest name, where there is none.
+  /// The values of a channel now: one, three or four; one of a component, "velocity.z". Changes
+  /// nothing. Throws CaseError, with the nearest name, where there is none.
   std::span<const double> read(const std::string& channel);
 
   /// What may be written, by name; see Input.
@@ -83,6 +91,7 @@ public:
   const ImpactOutput& impacts() const { return impacts_; }
   const MethodChoice& methods() const { return methods_; }
   const solve::Switching* switching() const { return switching_.get(); }
+  std::vector<Controllers::Cost> controller_costs() const;
   solve::Statistics statistics() const;
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
   long nonzeros() const { return pattern_.nonzeros(); }
@@ -111,9 +120,12 @@ private:
   void follow_turns();
   void restart_guards();
   void take_inputs();
+  void take_control();
+  std::span<const double> row_now();
   void require_going() const;
   void fill_counts(std::span<double> row) const;
   void remember(Archive& a);
+  void set(const State& state);
 
   model::Scene scene_;
   model::SolverOptions options_; ///< of the method at work; steps as a history carries them
@@ -125,6 +137,8 @@ private:
   VectorX y_, yp_; ///< at the end of the last step
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
+  std::unique_ptr<Controllers> controllers_;    ///< null: none
+  bool event_here_ = false;                     ///< the last step has ended in an event
   bool written_ = false;                        ///< inputs that the motion does not know yet
   bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are

@@ -19,7 +19,8 @@ void Simulation::remember(Archive& a) {
   std::vector<system::SwitchData::State> modes;
   for (const system::SwitchData& element : system_.switches)
     modes.push_back(element.state);
-  a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes, methods_);
+  a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes, methods_,
+    event_here_);
   for (const Input& input : inputs_)
     a(*input.value);
   if (modes.size() != system_.switches.size())
@@ -50,11 +51,19 @@ State Simulation::state() {
     save(out.memory, "switching", *switching_);
   if (history_)
     save(out.memory, "history", *history_);
-  restore(out);
+  if (controllers_)
+    save(out.memory, "controllers", *controllers_);
+  set(out);
   return out;
 }
 
 void Simulation::restore(const State& state) {
+  set(state);
+  if (controllers_)
+    controllers_->restored(t_);
+}
+
+void Simulation::set(const State& state) {
   using hydrodae::restore;
   if (state.scene != fingerprint())
     throw CaseError("the state is of another case, database or version of hydrodae than this run");
@@ -79,6 +88,8 @@ void Simulation::restore(const State& state) {
   follow_turns();
   if (history_)
     restore(memory, "history", *history_);
+  if (controllers_)
+    restore(memory, "controllers", *controllers_);
   if (switching_)
     switching_->resume(t_, y_, yp_);
   make_integrator();

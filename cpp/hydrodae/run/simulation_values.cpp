@@ -18,23 +18,34 @@ void Simulation::fill_counts(std::span<double> row) const {
   *out++ = s.last_step;
   *out++ = s.last_order;
   impacts_.fill(switching_.get(), out);
+  out += impacts_.width();
+  if (controllers_)
+    controllers_->fill(out);
 }
 
-std::span<const double> Simulation::read(const std::string& channel) {
-  take_inputs();
+/// All channels now.
+std::span<const double> Simulation::row_now() {
   if (now_.empty()) {
     now_.resize(width_);
     recorder_->look(y_, yp_, std::span(now_).first(recorder_->width()));
     fill_counts(now_);
   }
+  return now_;
+}
+
+std::span<const double> Simulation::read(const std::string& channel) {
+  take_inputs();
+  const std::span<const double> row = row_now();
   std::size_t column = 0;
   std::vector<std::string> names;
   for (const Channel& c : channels_) {
     if (c.path == channel)
-      return std::span<const double>(now_).subspan(column, static_cast<std::size_t>(c.width));
+      return row.subspan(column, static_cast<std::size_t>(c.width));
     column += static_cast<std::size_t>(c.width);
     names.push_back(c.path);
   }
+  if (const std::size_t dot = channel.rfind('.'); dot != std::string::npos)
+    return row.subspan(find_column(channels_, channel), 1);
   throw CaseError("there is no channel " + in_quotes(channel) + suggestion(channel, names));
 }
 
@@ -45,6 +56,27 @@ void Simulation::write(const std::string& input, double value) {
     return;
   *target.value = value;
   written_ = true;
+}
+
+/// Before the motion goes on: controllers that are due see it, and act on it.
+void Simulation::take_control() {
+  if (!controllers_ || !controllers_->is_due(t_, event_here_))
+    return;
+  take_inputs();
+  failed_ = true; // until all have answered
+  if (controllers_->act(t_, event_here_, row_now()))
+    written_ = true;
+  event_here_ = false;
+  failed_ = false;
+}
+
+void Simulation::close(const std::string& error) {
+  if (controllers_)
+    controllers_->finish(error);
+}
+
+std::vector<Controllers::Cost> Simulation::controller_costs() const {
+  return controllers_ ? controllers_->costs() : std::vector<Controllers::Cost>();
 }
 
 /// Before the motion goes on, or is looked at: accelerations that belong to the inputs.

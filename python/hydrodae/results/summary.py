@@ -29,6 +29,7 @@ def summary(results: Recording) -> str:
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
     lines += _power(results)
+    lines += _controllers(results)
     lines += _impacts(results)
     lines += _work(results)
     lines += [f"  note: {note}" for note in results.notes]
@@ -99,6 +100,18 @@ def _power(results: Recording) -> list[str]:
         parts.append(f"in all {known['mean_power_absorbed']:,.4g} W")
     since = known.get("mean_power_from", 0.0)
     return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
+
+
+def _controllers(results: Recording) -> list[str]:
+    """What each call of a controller outside the kernel took, on average."""
+    head = "controller_calls."
+    lines = []
+    for key, calls in results.statistics.items():
+        if key.startswith(head):
+            name = key.removeprefix(head)
+            mean = float(results.statistics[f"controller_mean_time.{name}"])
+            lines.append(f"  controller {name}: {int(calls)} calls, {1e6 * mean:.3g} us each")
+    return lines
 
 
 def _work(results: Recording) -> list[str]:

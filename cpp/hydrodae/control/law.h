@@ -1,0 +1,58 @@
+#pragma once
+/// What a sampled controller does. It sees numbers at its sampling instants only and answers with
+/// numbers that are held until the next answer; it is never called inside a residual.
+
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+
+namespace hydrodae::control {
+
+/// One number that a controller reads or writes.
+struct Terminal {
+  std::string name, unit; ///< "joints/slide/displacement_rate", "m/s"
+  double start = 0.0;     ///< of what it writes: the value that holds before its first answer
+};
+
+/// What a controller is joined to.
+struct Terminals {
+  std::vector<Terminal> inputs, outputs;
+  double end_time = 0.0; ///< of the run [s]
+};
+
+/// An answer that is to end the run, as a person would (Ctrl-C): not an error.
+struct Stopped : Error {
+  using Error::Error;
+};
+
+class Law {
+public:
+  virtual ~Law() = default;
+
+  /// At a sampling instant.
+  /// @param in   (n_inputs,) SI units
+  /// @param out  (n_outputs,) what was answered last; held from now on, or after the delay
+  /// Throws SolverError where there is no answer, Stopped where the run is to end.
+  virtual void sample(double t, std::span<const double> in, std::span<double> out) = 0;
+
+  /// Is it sampled at the events of stops and dry friction, too?
+  virtual bool hears_events() const { return false; }
+
+  /// The next sampling instant that it asks for after one at `t` [s], in place of a fixed period;
+  /// no number: the period holds.
+  virtual double next_time(double) const { return NAN; }
+
+  /// All that an answer depends on beside its arguments.
+  virtual void remember(Archive&) {}
+
+  /// The run has gone to another time than that of its last step.
+  virtual void restored(double) {}
+
+  /// The run ends: completed, or stopped by the error of this message.
+  virtual void finish(const std::string&) {}
+};
+
+} // namespace hydrodae::control

@@ -1,0 +1,62 @@
+#pragma once
+/// TCP sockets with time limits, for POSIX systems.
+
+#include <cstddef>
+#include <string>
+
+#include "hydrodae/core/error.h"
+
+namespace hydrodae::cosim {
+
+/// A signal (Ctrl-C) came while a socket was waited for.
+struct Interrupted : Error {
+  using Error::Error;
+};
+
+/// A connection. What fails throws Error, and says how; after that it is closed.
+class Socket {
+public:
+  Socket() = default;
+  explicit Socket(int descriptor);
+  Socket(Socket&& other) noexcept;
+  Socket& operator=(Socket&& other) noexcept;
+  ~Socket() { close(); }
+
+  /// Tries until somebody listens at host:port, for `timeout` [s].
+  static Socket connect(const std::string& host, int port, double timeout);
+
+  bool open() const { return descriptor_ >= 0; }
+  void close();
+
+  /// Sends, or receives, exactly so many bytes within `timeout` [s].
+  void send(const void* bytes, std::size_t count, double timeout);
+  void receive(void* bytes, std::size_t count, double timeout);
+
+  /// Have bytes come that nobody has asked for yet?
+  bool has_more() const;
+
+private:
+  void wait(short events, double deadline, double timeout, const char* what);
+  [[noreturn]] void fail(const std::string& message);
+
+  int descriptor_ = -1;
+};
+
+/// A port that is listened at, for one connection at a time.
+class Listener {
+public:
+  /// Throws Error where the address is none, or somebody else has the port.
+  Listener(const std::string& host, int port);
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  ~Listener();
+
+  /// The next connection, within `timeout` [s].
+  Socket accept(double timeout);
+
+private:
+  int descriptor_ = -1;
+  std::string place_; ///< "127.0.0.1:50000"
+};
+
+} // namespace hydrodae::cosim

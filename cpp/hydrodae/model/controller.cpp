@@ -1,0 +1,200 @@
+#include "hydrodae/model/controller.h"
+
+#include <algorithm>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/check.h"
+
+namespace hydrodae::model {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+/// What a type of controller reads and writes.
+struct Arity {
+  std::size_t least_inputs, most_inputs, outputs; ///< outputs 0: one or more
+  const char* meaning;
+};
+
+Arity arity(const std::string& type) {
+  constexpr std::size_t many = 1000;
+  if (type == "pid")
+    return {1, 2, 1, "what it holds at its target, then its target where that is a channel"};
+  if (type == "reactive")
+    return {2, 2, 1, "a coordinate and its rate"};
+  if (type == "resistive")
+    return {1, 1, 1, "a rate"};
+  if (type == "latching")
+    return {1, 1, 1, "the rate of a joint"};
+  if (type == "table")
+    return {1, 1, 1, "the channel of which it is a function"};
+  return {0, many, 0, "channels"};
+}
+
+/// A key of another type of controller would do nothing.
+void check_own_keys(const Scene& scene, const Entry& entry, const Controller& c) {
+  const Keys own = controller_keys(c.type);
+  const std::string head = "controller." + c.name + ".";
+  for (auto at = scene.positions.lower_bound(head);
+       at != scene.positions.end() && at->first.starts_with(head); ++at) {
+    const std::string key = at->first.substr(head.size());
+    if (std::find(own.begin(), own.end(), key) == own.end())
+      refuse(entry, key,
+             "a " + c.type + " controller has no key " + in_quotes(key) + suggestion(key, own));
+  }
+}
+
+void check_lookup(const Entry& entry, const Controller& c) {
+  if (c.at.size() < 2 || c.at.size() != c.value.size())
+    refuse(entry, "at", "'at' and 'value' must have as many numbers, two or more");
+  for (std::size_t k = 1; k < c.at.size(); ++k)
+    if (!(c.at[k] > c.at[k - 1]))
+      refuse(entry, "at", "'at' must ascend");
+}
+
+void check_pid(const Entry& entry, const Controller& c) {
+  if (c.lower && c.upper && *c.lower > *c.upper)
+    refuse(entry, "lower", "'lower' is above 'upper'");
+  const bool limited = c.lower || c.upper;
+  if (limited && c.gain_i != 0.0 && c.gain_p == 0.0 && !c.tracking_time)
+    refuse(entry, "tracking_time",
+           "an integral within limits needs the key 'tracking_time', as there is no gain_p to take "
+           "it from");
+}
+
+} // namespace
+
+Fields<Controller> Controller::fields() {
+  using C = Controller;
+  return {
+      {"name", &C::name, "-", "Name of the controller in the results.", true},
+      {"type",
+       &C::type,
+       "-",
+       "Kind of controller.",
+       true,
+       any_value,
+       {"pid", "reactive", "resistive", "latching", "table", "python", "tcp"}},
+      {"inputs", &C::inputs, "-",
+       "Channels that it reads, as in the results; of a vector one component: "
+       "\"bodies/float/velocity.z\"."},
+      {"outputs", &C::outputs, "-",
+       "Inputs of the scene that it writes, such as \"forces/pto/load\" (hydrodae check lists "
+       "them).",
+       true},
+      {"period", &C::period, "s", "Time T between two sampling instants; the first is the start.",
+       true, more_than(0, longest_time)},
+      {"delay", &C::delay, "s", "Time from a sampling instant to the one when its answer holds.",
+       false, at_least(0, longest_time)},
+      {"gain_p", &C::gain_p, "out per in", "Proportional gain Kp."},
+      {"gain_i", &C::gain_i, "out per in and s", "Integral gain Ki."},
+      {"gain_d", &C::gain_d, "out s per in", "Derivative gain Kd."},
+      {"filter_time", &C::filter_time, "s",
+       "Time constant of the filter of first order on the derivative.", false, at_least(0)},
+      {"target", &C::target, "unit of the input",
+       "What the input is to be, where no second input tells it."},
+      {"lower", &C::lower, "unit of the output", "Least output."},
+      {"upper", &C::upper, "unit of the output", "Largest output."},
+      {"tracking_time", &C::tracking_time, "s",
+       "Time in which the integral follows an output at its limit (back-calculation); default "
+       "|Kp / Ki|.",
+       false, more_than(0)},
+      {"stiffness", &C::stiffness, "N/m or N m/rad", "Stiffness K; negative: it pushes away."},
+      {"damping", &C::damping, "N s/m or N m s/rad", "Damping C."},
+      {"neutral", &C::neutral, "m or rad", "Coordinate s0 at which the spring is slack."},
+      {"limit", &C::limit, "N or N m", "Largest load, either way.", false, more_than(0)},
+      {"hold_time", &C::hold_time, "s", "How long it holds from the standstill on.", false,
+       more_than(0)},
+      {"hold_load", &C::hold_load, "N or N m", "Largest load that it holds.", false, more_than(0)},
+      {"at", &C::at, "unit of the input", "Values of the input, ascending."},
+      {"value", &C::value, "unit of the output",
+       "Outputs there; beyond the ends those at the ends."},
+      {"protocol",
+       &C::protocol,
+       "-",
+       "hydrodae: a handshake with names and units, then numbered frames; hotint: bare numbers "
+       "with a flag (docs/tcp.md).",
+       false,
+       any_value,
+       {"hydrodae", "hotint"}},
+      {"role",
+       &C::role,
+       "-",
+       "server: the other program connects to the run; client: the run connects to it.",
+       false,
+       any_value,
+       {"server", "client"}},
+      {"host", &C::host, "-", "Address at which a server listens, or to which a client connects."},
+      {"port", &C::port, "-", "TCP port.", false, between(1, 65535)},
+      {"timeout", &C::timeout, "s", "Longest wait for an answer.", false, more_than(0, 1e6)},
+      {"connect_timeout", &C::connect_timeout, "s",
+       "Longest wait for the other program to be there.", false, more_than(0, 1e6)},
+  };
+}
+
+Keys controller_keys(const std::string& type) {
+  Keys keys = {"name", "type", "inputs", "outputs", "period", "delay"};
+  const auto with = [&](const Keys& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+  };
+  if (type == "pid")
+    return with(
+        {"gain_p", "gain_i", "gain_d", "filter_time", "target", "lower", "upper", "tracking_time"});
+  if (type == "reactive")
+    return with({"stiffness", "damping", "neutral", "limit"});
+  if (type == "resistive")
+    return with({"damping", "limit"});
+  if (type == "latching") {
+    keys.pop_back(); // it acts at once
+    return with({"hold_time", "hold_load"});
+  }
+  if (type == "table")
+    return with({"at", "value"});
+  if (type == "python")
+    return keys;
+  if (type == "tcp")
+    return with({"protocol", "role", "host", "port", "timeout", "connect_timeout"});
+  return {};
+}
+
+Keys needed_controller_keys(const std::string& type) {
+  if (type == "latching")
+    return {"inputs", "hold_time", "hold_load"};
+  if (type == "table")
+    return {"inputs", "at", "value"};
+  return type == "python" || type == "tcp" ? Keys{} : Keys{"inputs"};
+}
+
+bool is_outside(const Controller& controller) {
+  return controller.type == "python" || controller.type == "tcp";
+}
+
+void check_controller(const Scene& scene, const Controller& c) {
+  const Entry entry{"controller", c.name};
+  check_own_keys(scene, entry, c);
+  const Arity a = arity(c.type);
+  if (c.inputs.size() < a.least_inputs || c.inputs.size() > a.most_inputs)
+    refuse(entry, "inputs",
+           "'inputs' of a " + c.type + " controller must name " + a.meaning + "; it has " +
+               std::to_string(c.inputs.size()));
+  if (c.outputs.empty() || (a.outputs > 0 && c.outputs.size() != a.outputs))
+    refuse(entry, "outputs",
+           a.outputs > 0 ? "a " + c.type + " controller has one output" : "it has no output");
+  for (std::size_t k = 0; k < c.outputs.size(); ++k)
+    for (const Controller& other : scene.controllers)
+      for (std::size_t i = 0; i < other.outputs.size(); ++i)
+        if (other.outputs[i] == c.outputs[k] && (&other != &c || i != k))
+          refuse(entry, "outputs",
+                 in_quotes(c.outputs[k]) + " is written twice" +
+                     (&other != &c ? ", by controller " + in_quotes(other.name) + " too" : ""));
+  if (c.type == "pid")
+    check_pid(entry, c);
+  if (c.type == "table")
+    check_lookup(entry, c);
+  if (c.type == "latching" && (!c.hold_time || !c.hold_load))
+    refuse(entry, c.hold_time ? "hold_load" : "hold_time",
+           "a latching controller needs 'hold_time' and 'hold_load'");
+}
+
+} // namespace hydrodae::model

@@ -1,0 +1,241 @@
+#include "hydrodae/run/controllers.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "hydrodae/control/latching.h"
+#include "hydrodae/control/pid.h"
+#include "hydrodae/control/reactive.h"
+#include "hydrodae/control/table.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+std::unique_ptr<control::Law> make_pid(const model::Controller& c) {
+  control::Pid::Gains g;
+  g.p = c.gain_p;
+  g.i = c.gain_i;
+  g.d = c.gain_d;
+  g.target = c.target;
+  g.period = c.period;
+  g.filter_time = c.filter_time;
+  const double own = c.gain_p != 0.0 && c.gain_i != 0.0 ? std::abs(c.gain_p / c.gain_i) : INFINITY;
+  g.tracking_time = c.tracking_time.value_or(own);
+  g.lower = c.lower.value_or(-INFINITY);
+  g.upper = c.upper.value_or(INFINITY);
+  return std::make_unique<control::Pid>(g);
+}
+
+std::unique_ptr<control::Law> make_law(const model::Controller& c,
+                                       const control::Terminals& terminals) {
+  if (c.make)
+    return c.make(terminals);
+  if (model::is_outside(c))
+    throw ModelError("controller." + c.name,
+                     "controller " + in_quotes(c.name) +
+                         " is a Python function, which nobody "
+                         "gave; run the case as hydrodae.run(case, controllers={\"" +
+                         c.name + "\": function})");
+  const double limit = c.limit.value_or(INFINITY);
+  if (c.type == "pid")
+    return make_pid(c);
+  if (c.type == "reactive")
+    return std::make_unique<control::Reactive>(c.stiffness, c.damping, c.neutral, limit);
+  if (c.type == "resistive")
+    return std::make_unique<control::Resistive>(c.damping, limit);
+  if (c.type == "latching")
+    return std::make_unique<control::Latching>(*c.hold_load, *c.hold_time, c.period);
+  return std::make_unique<control::Table>(c.at, c.value);
+}
+
+/// The channel behind a name with a component, "velocity.z"; its own name where it has one number.
+const Channel* find_channel(const std::vector<Channel>& channels, const std::string& name,
+                            std::size_t& column) {
+  static const std::string of_three = "xyz", of_four = "wxyz";
+  column = 0;
+  for (const Channel& c : channels) {
+    if (c.width == 1 && c.path == name)
+      return &c;
+    const std::string& letters = c.width == 4 ? of_four : of_three;
+    if (c.width > 1 && name.size() == c.path.size() + 2 && name.starts_with(c.path) &&
+        name[c.path.size()] == '.')
+      if (const std::size_t k = letters.find(name.back()); k < static_cast<std::size_t>(c.width)) {
+        column += k;
+        return &c;
+      }
+    column += static_cast<std::size_t>(c.width);
+  }
+  return nullptr;
+}
+
+} // namespace
+
+std::size_t find_column(const std::vector<Channel>& channels, const std::string& name) {
+  std::size_t column = 0;
+  if (find_channel(channels, name, column))
+    return column;
+  std::vector<std::string> names;
+  for (const Channel& c : channels)
+    for (int k = 0; k < c.width; ++k)
+      names.push_back(c.width == 1 ? c.path : c.path + "." + (c.width == 4 ? "wxyz" : "xyz")[k]);
+  throw CaseError("there is no channel " + in_quotes(name) + " of one number" +
+                  suggestion(name, names));
+}
+
+control::Terminals find_terminals(const model::Controller& controller,
+                                  const std::vector<Channel>& channels,
+                                  std::vector<Input>& inputs) {
+  control::Terminals out;
+  std::string key = "inputs";
+  try {
+    for (const std::string& name : controller.inputs) {
+      std::size_t column = find_column(channels, name); // or refuses
+      out.inputs.push_back({name, find_channel(channels, name, column)->unit, 0.0});
+    }
+    key = "outputs";
+    for (const std::string& name : controller.outputs) {
+      const Input& input = input_named(inputs, name);
+      out.outputs.push_back({name, input.unit, *input.value});
+    }
+  } catch (const CaseError& error) {
+    throw ModelError("controller." + controller.name + "." + key,
+                     "controller " + in_quotes(controller.name) + ": " + error.what());
+  }
+  return out;
+}
+
+Controllers::Controllers(const model::Scene& scene, const std::vector<Channel>& channels,
+                         std::vector<Input>& inputs) {
+  for (const model::Controller& c : scene.controllers) {
+    One one;
+    one.name = one.cost.name = c.name;
+    one.period = c.period;
+    one.delay = c.delay;
+    one.outside = model::is_outside(c);
+    control::Terminals terminals = find_terminals(c, channels, inputs);
+    terminals.end_time = scene.solver.end_time;
+    for (const std::string& name : c.inputs)
+      one.columns.push_back(find_column(channels, name));
+    for (const std::string& name : c.outputs) {
+      one.inputs.push_back(&input_named(inputs, name));
+      one.out.push_back(*one.inputs.back()->value);
+    }
+    one.in.resize(one.columns.size());
+    one.law = make_law(c, terminals);
+    all_.push_back(std::move(one));
+  }
+}
+
+double Controllers::next_time() const {
+  double first = INFINITY;
+  for (const One& one : all_)
+    first = std::min({first, one.next, one.late.empty() ? INFINITY : one.late.front().first});
+  return first;
+}
+
+bool Controllers::One::is_due(double t, bool event) const {
+  return next <= t || (event && law->hears_events());
+}
+
+bool Controllers::is_due(double t, bool event) const {
+  return next_time() <= t || std::any_of(all_.begin(), all_.end(),
+                                         [&](const One& one) { return one.is_due(t, event); });
+}
+
+bool Controllers::act(double t, bool event, std::span<const double> row) {
+  for (One& one : all_)
+    if (one.is_due(t, event))
+      one.sample(t, row);
+  bool changed = false;
+  for (One& one : all_)
+    changed = one.write(t) || changed;
+  return changed;
+}
+
+/// The k-th instant is k T, without the rounding of a sum.
+void Controllers::One::sample(double t, std::span<const double> row) {
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    in[k] = row[columns[k]];
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point before = Clock::now();
+  law->sample(t, in, out);
+  if (cost.calls++ > 0) // the first waits for another program to be there
+    cost.time += std::chrono::duration<double>(Clock::now() - before).count();
+  for (std::size_t k = 0; k < out.size(); ++k)
+    try {
+      check_value(*inputs[k], out[k]);
+    } catch (const CaseError& error) {
+      throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
+                               in_quotes(name) + ": " + error.what());
+    }
+  if (next <= t)
+    ++count;
+  const double own = law->next_time(t);
+  next = std::isnan(own) ? static_cast<double>(count) * period : own;
+  late.emplace_back(t + delay, out);
+}
+
+/// @returns whether an input has another value now
+bool Controllers::One::write(double t) {
+  bool changed = false;
+  for (; !late.empty() && late.front().first <= t; late.pop_front())
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      changed = changed || *inputs[k]->value != late.front().second[k];
+      *inputs[k]->value = late.front().second[k];
+    }
+  return changed;
+}
+
+std::vector<Channel> Controllers::outputs() const {
+  std::vector<Channel> out;
+  for (const One& one : all_)
+    for (std::size_t k = 0; k < one.inputs.size(); ++k)
+      out.push_back({"controllers/" + one.name + "/output" +
+                         (one.inputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
+                     1, one.inputs[k]->unit, "-",
+                     "What the controller holds " + one.inputs[k]->name + " at."});
+  return out;
+}
+
+std::size_t Controllers::width() const {
+  std::size_t sum = 0;
+  for (const One& one : all_)
+    sum += one.inputs.size();
+  return sum;
+}
+
+void Controllers::fill(double*& out) const {
+  for (const One& one : all_)
+    for (const Input* input : one.inputs)
+      *out++ = *input->value;
+}
+
+std::vector<Controllers::Cost> Controllers::costs() const {
+  std::vector<Cost> out;
+  for (const One& one : all_)
+    if (one.outside)
+      out.push_back(one.cost);
+  return out;
+}
+
+void Controllers::restored(double t) {
+  for (One& one : all_)
+    one.law->restored(t);
+}
+
+void Controllers::finish(const std::string& error) {
+  for (One& one : all_)
+    one.law->finish(error);
+}
+
+void Controllers::One::remember(Archive& a) { a(next, count, out, late, *law); }
+
+void Controllers::remember(Archive& a) {
+  for (One& one : all_)
+    one.remember(a);
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,88 @@
+#pragma once
+/// The sampled controllers of a run: when they are due, what they read, what they hold.
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hydrodae/control/law.h"
+#include "hydrodae/core/channel.h"
+#include "hydrodae/model/scene.h"
+#include "hydrodae/run/inputs.h"
+
+namespace hydrodae::run {
+
+/// Column of one number of a row of channels: "joints/slide/displacement", or one component of a
+/// vector, "bodies/float/velocity.z" (of a quaternion w, x, y, z). Throws CaseError, with the
+/// nearest name, where there is none.
+std::size_t find_column(const std::vector<Channel>& channels, const std::string& name);
+
+/// What a controller reads and writes, by the names that it has. Throws ModelError with the nearest
+/// name where there is no such channel or input.
+control::Terminals find_terminals(const model::Controller& controller,
+                                  const std::vector<Channel>& channels, std::vector<Input>& inputs);
+
+/// Each controller is sampled at 0, T, 2 T, ..., where the steps of the run end; its answers hold
+/// from then on, or after its delay. All that are due at one instant see the same row, before any
+/// of their answers. One that hears events is sampled behind each event, too.
+class Controllers {
+public:
+  /// Throws ModelError where a controller names what there is not.
+  Controllers(const model::Scene& scene, const std::vector<Channel>& channels,
+              std::vector<Input>& inputs);
+
+  bool empty() const { return all_.empty(); }
+
+  /// The next instant at which something is due [s].
+  double next_time() const;
+
+  bool is_due(double t, bool event) const;
+
+  /// Samples those that are due at t [s], and writes what holds from t on.
+  /// @param row  all channels at t
+  /// @returns whether an input has another value now
+  bool act(double t, bool event, std::span<const double> row);
+
+  /// What each holds: columns of the results.
+  std::vector<Channel> outputs() const;
+  std::size_t width() const;
+  void fill(double*& out) const;
+
+  /// Wall time of the calls, where a controller is not one of the kernel's own.
+  struct Cost {
+    std::string name;
+    long calls = 0;
+    double time = 0.0; ///< of all but the first [s]
+  };
+  std::vector<Cost> costs() const;
+
+  void restored(double t);
+  void finish(const std::string& error);
+  void remember(Archive& a);
+
+private:
+  struct One {
+    std::string name;
+    double period = 0.0, delay = 0.0;
+    bool outside = false;
+    std::unique_ptr<control::Law> law;
+    std::vector<std::size_t> columns; ///< that it reads
+    std::vector<Input*> inputs;       ///< that it writes
+    double next = 0.0;                ///< sampling instant [s]
+    long count = 0;                   ///< of sampling instants
+    std::vector<double> in, out;
+    std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
+    Cost cost;
+
+    bool is_due(double t, bool event) const;
+    void sample(double t, std::span<const double> row);
+    bool write(double t);
+    void remember(Archive& a);
+  };
+
+  std::vector<One> all_;
+};
+
+} // namespace hydrodae::run

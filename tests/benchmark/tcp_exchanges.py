@@ -1,0 +1,78 @@
+"""Exchanges a second between a run and a controller over TCP/IP on this machine.
+
+python tests/benchmark/tcp_exchanges.py
+
+The time of an exchange is what the run waits for an answer: two frames, two ways through the
+kernel of the operating system, and the controller; the least mean of ten runs, as other work on
+the machine only adds to it. Controllers: hydrodae.tcp in another process,
+both protocols, and the C program of cases/control where there is a compiler.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import hydrodae
+
+ROOT = Path(__file__).resolve().parents[2]
+CLIENT = """
+import sys
+from hydrodae import tcp
+bare = (1, 1) if sys.argv[2] == "hotint" else None
+with tcp.connect(port=int(sys.argv[1]), hotint=bare) as run:
+    answer = run.answer
+    for _, (rate,) in run:
+        answer(-600.0 * rate)
+"""
+
+
+def free_port() -> int:
+    """Return a port that nobody has."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return int(server.getsockname()[1])
+
+
+def measure(command: list[str], protocol: str, exchanges: int) -> float:
+    """Return the mean wall time of an exchange, s."""
+    port = free_port()
+    values = {
+        "controller.pi.port": port,
+        "controller.pi.protocol": protocol,
+        "controller.pi.period": 1e-3,
+        "solver.end_time": 1e-3 * exchanges,
+        "output.step": 1.0,
+    }
+    words = [str(port) if word == "PORT" else word for word in command]
+    with subprocess.Popen(words) as client:
+        results = hydrodae.run(ROOT / "cases" / "control" / "case_tcp.toml", set=values)
+        client.wait(10)
+    return float(results.statistics["controller_mean_time.pi"])
+
+
+def main(exchanges: int) -> int:
+    """Measure and print a line for each controller."""
+    python = [sys.executable, "-c", CLIENT, "PORT"]
+    runs = [
+        ("Python", "hydrodae", [*python, "hydrodae"]),
+        ("Python", "hotint", [*python, "hotint"]),
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        if compiler := shutil.which("cc"):
+            program = os.path.join(folder, "client")
+            source = ROOT / "cases" / "control" / "client.c"
+            subprocess.run([compiler, "-O2", str(source), "-o", program], check=True)
+            runs.append(("C", "hotint", [program, "PORT"]))
+        for name, protocol, command in runs:
+            time = min(measure(command, protocol, exchanges) for _ in range(10))
+            print(f"{name:7} {protocol:9} {1e6 * time:6.1f} us  {1 / time:8,.0f} exchanges/s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))

@@ -1,0 +1,297 @@
+"""Sampled controllers: the kernel's own, Python functions, and what a case says of them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae import Case, CaseError, Simulation, SolverError
+from hydrodae.results import Results
+
+CART = """
+title = "Cart on a spring"
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = {{ displacement = [0.5, 0.0, 0.0] }}
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "spring"
+type = "pto_linear"
+joint = "slide"
+stiffness = 8.0
+[[force]]
+name = "pto"
+type = "pto_general"
+joint = "slide"
+[[controller]]
+name = "pi"
+type = "{type}"
+inputs = [{inputs}]
+outputs = ["forces/pto/load"]
+period = {period}
+{keys}
+[solver]
+method = "radau"
+end_time = 5.0
+rtol = 1e-9
+[output]
+step = 0.05
+"""
+RATE, PLACE = '"joints/slide/displacement_rate"', '"joints/slide/displacement"'
+PI = "gain_p = 1.3\ngain_i = 0.7\ngain_d = 0.05\nfilter_time = 0.2\nlower = -0.5\nupper = 0.6"
+
+
+def case(type: str, keys: str = "", inputs: str = RATE, period: float = 0.1) -> Case:
+    return Case.from_text(CART.format(type=type, keys=keys, inputs=inputs, period=period))
+
+
+class Pi:
+    """The PID of the kernel in Python, with limits and back-calculation."""
+
+    def __init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        self.memory = [0.0, 0.0, 0.0, 0.0]  # began, error, slope, integral
+
+    def state(self) -> list[float]:
+        return list(self.memory)
+
+    def restore(self, values: list[float]) -> None:
+        self.memory = list(values)
+
+    def __call__(self, _time: float, rate: float) -> float:
+        began, before, slope, integral = self.memory
+        e, period, filtered = -rate, 0.1, 0.2
+        if began:
+            slope = filtered / (filtered + period) * slope + (e - before) / (filtered + period)
+        wanted = 1.3 * e + integral + 0.05 * slope
+        out = min(max(wanted, -0.5), 0.6)
+        integral += period * (0.7 * e + (out - wanted) / (1.3 / 0.7))
+        self.memory = [1.0, e, slope, integral]
+        return out
+
+
+def sampled_cart(law: Any) -> np.ndarray[Any, Any]:
+    """Displacements at the sampling instants: m x'' + k x = u, u held, by the exact exponential."""
+    w, k, period = 2.0, 8.0, 0.1
+    x, v, out = 0.5, 0.0, [0.5]
+    for i in range(50):
+        rest = law(i * period, x, v) / k
+        c, s = math.cos(w * period), math.sin(w * period)
+        x, v = rest + (x - rest) * c + v / w * s, -w * (x - rest) * s + v * c
+        out.append(x)
+    return np.array(out)
+
+
+def test_a_pid_holds_its_output_between_the_instants() -> None:
+    """Against the exact motion under piecewise constant forces."""
+    results = hydrodae.run(case("pid", PI))
+    law = Pi()
+    exact = sampled_cart(lambda t, x, v: law(t, v))
+    np.testing.assert_allclose(results["joints/slide/displacement"].values[::2], exact, atol=3e-8)
+    held = results["controllers/pi/output"].values
+    assert held.min() == -0.5
+    assert held.max() == 0.6
+    np.testing.assert_array_equal(held[1:-1:2], held[2::2])  # inside a period, and at its end
+
+
+@pytest.mark.parametrize(
+    ("type", "inputs", "keys", "law"),
+    [
+        (
+            "reactive",
+            f"{PLACE}, {RATE}",
+            "stiffness = -2.0\ndamping = 1.5\nneutral = 0.1\nlimit = 0.9",
+            lambda _, x, v: min(max(2.0 * (x - 0.1) - 1.5 * v, -0.9), 0.9),
+        ),
+        ("resistive", RATE, "damping = 1.5", lambda _, x, v: -1.5 * v),
+        (
+            "table",
+            PLACE,
+            "at = [-0.2, 0.0, 0.3]\nvalue = [1.0, 0.0, -0.6]",
+            lambda _, x, v: float(np.interp(x, [-0.2, 0.0, 0.3], [1.0, 0.0, -0.6])),
+        ),
+    ],
+)
+def test_laws_of_the_kernel(type: str, inputs: str, keys: str, law: Any) -> None:
+    results = hydrodae.run(case(type, keys, inputs))
+    exact = sampled_cart(law)
+    np.testing.assert_allclose(results["joints/slide/displacement"].values[::2], exact, atol=3e-8)
+
+
+def test_a_python_controller_equals_the_kernels_own() -> None:
+    own = hydrodae.run(case("pid", PI))
+    python = hydrodae.run(case("python"), controllers={"pi": Pi()})
+    for name in ("joints/slide/displacement", "controllers/pi/output"):
+        np.testing.assert_allclose(python[name], own[name], atol=1e-12)
+    assert python.statistics["controller_calls.pi"] == 50
+    assert "controller pi: 50 calls" in python.summary()
+
+
+def test_an_answer_holds_after_its_delay() -> None:
+    """A delay longer than the period: several answers are on their way."""
+    given = case("python", "delay = 0.25")
+    results = hydrodae.run(given, controllers={"pi": lambda t, _: t + 1.0})
+    held = results["controllers/pi/output"].values
+    time = results.time
+    expected = np.where(time > 0.25 + 1e-9, 1.0 + 0.1 * np.floor((time - 0.25 - 1e-9) / 0.1), 0.0)
+    np.testing.assert_allclose(held, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("type", "keys"), [("pid", PI), ("pid", PI + "\ndelay = 0.17"), ("python", "")]
+)
+@pytest.mark.parametrize("method", ["radau", "ida"])
+def test_rollback_and_another_process_go_on_bit_for_bit(type: str, keys: str, method: str) -> None:
+    given = case(type, keys)
+    given.set("solver.method", method)
+    law = {"pi": Pi()} if type == "python" else {}
+    simulation = Simulation(given, controllers=law)
+    while simulation.time < 2.13:
+        simulation.advance(2.13)
+    saved = simulation.state()
+
+    def rest(run: Simulation) -> list[float]:
+        out = []
+        while not run.finished:
+            names = ("joints/slide/displacement", "controllers/pi/output")
+            out += [run.advance(), *(float(run.read(name)) for name in names)]
+        return out
+
+    went_on = rest(simulation)
+    simulation.restore(saved)
+    assert rest(simulation) == went_on
+    other = Simulation(given, controllers={"pi": Pi()} if law else None)
+    other.restore(saved)
+    assert rest(other) == went_on
+
+
+def test_a_resumed_run_equals_one_that_was_not_cut_off(tmp_path: Path) -> None:
+    given = case("python")
+    whole = hydrodae.run(given, tmp_path / "a.h5", controllers={"pi": Pi()}, checkpoint=0)
+    cut: dict[str, Any] = {"output": tmp_path / "b.h5", "checkpoint": 0}
+    with pytest.raises(hydrodae.RunInterrupted):
+        hydrodae.run(given, **cut, controllers={"pi": Pi()}, progress=lambda t, _: t < 2.4)
+    resumed = hydrodae.run(given, **cut, controllers={"pi": Pi()}, resume=True)
+    for name in ("joints/slide/displacement", "controllers/pi/output"):
+        np.testing.assert_array_equal(resumed[name], whole[name])
+
+
+def test_an_exception_ends_the_run_and_comes_back(tmp_path: Path) -> None:
+    def broken(time: float, _: float) -> float:
+        if time > 2.0:
+            raise ZeroDivisionError("the controller has a bug")
+        return 0.0
+
+    with pytest.raises(ZeroDivisionError, match="has a bug") as caught:
+        hydrodae.run(case("python"), tmp_path / "r.h5", controllers={"pi": broken})
+    assert any(entry.name == "broken" for entry in caught.traceback)
+    results: Results = caught.value.results  # type: ignore[attr-defined]
+    assert results.status == "failed"
+    assert 1.9 < results.end_time < 2.2
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [((1.0, 2.0), "must return one number"), ("x", "must return one"), (None, "must return one")],
+)
+def test_answers_of_another_shape(answer: Any, message: str) -> None:
+    with pytest.raises(CaseError, match=message):
+        hydrodae.run(case("python"), controllers={"pi": lambda *_: answer})
+
+
+def test_an_answer_that_is_no_number() -> None:
+    with pytest.raises(SolverError, match="controller 'pi': input 'forces/pto/load'"):
+        hydrodae.run(case("python"), controllers={"pi": lambda *_: math.nan})
+
+
+@pytest.mark.parametrize(
+    ("type", "keys", "inputs", "message"),
+    [
+        ("pid", "gain = 1.0", RATE, "unknown key 'gain'"),
+        ("pid", "damping = 1.0", RATE, "a pid controller has no key 'damping'"),
+        ("pid", "", f"{RATE}, {RATE}, {RATE}", "what it holds at its target"),
+        ("pid", "gain_i = 1.0\nupper = 1.0", RATE, "needs the key 'tracking_time'"),
+        ("reactive", "", RATE, "a coordinate and its rate; it has 1"),
+        ("table", "at = [1.0, 0.0]\nvalue = [0.0, 1.0]", RATE, "'at' must ascend"),
+        ("pidd", "", RATE, "did you mean 'pid'"),
+    ],
+)
+def test_cases_that_are_refused(type: str, keys: str, inputs: str, message: str) -> None:
+    with pytest.raises(CaseError, match=message):
+        case(type, keys, inputs)
+
+
+def test_names_that_there_are_not() -> None:
+    with pytest.raises(CaseError, match="did you mean 'joints/slide/displacement_rate'"):
+        hydrodae.check(case("pid", "", '"joints/slide/displacement_rat"'))
+    wrong = CART.replace("forces/pto/load", "forces/pto/lod")
+    with pytest.raises(CaseError, match="did you mean 'forces/pto/load'"):
+        hydrodae.check(Case.from_text(wrong.format(type="pid", keys="", inputs=RATE, period=0.1)))
+    with pytest.raises(CaseError, match="which nobody gave"):
+        hydrodae.run(case("python"))
+    with pytest.raises(CaseError, match="'pj' is no controller of type python"):
+        hydrodae.run(case("python"), controllers={"pj": Pi()})
+
+
+def test_the_check_lists_inputs_with_units() -> None:
+    text = hydrodae.check(case("pid"))
+    assert "every 0.1 s joints/slide/displacement_rate [m/s] -> forces/pto/load [N]" in text
+    assert "forces/pto/damping [N (s/m)^n]" in text
+
+
+def test_one_component_of_a_vector() -> None:
+    simulation = Simulation(case("resistive", "damping = 1.5", '"bodies/cart/velocity.x"'))
+    simulation.advance()
+    velocity = simulation.read("bodies/cart/velocity")
+    assert simulation.read("bodies/cart/velocity.x") == velocity[0]  # type: ignore[index]
+
+
+LATCH = """
+[[force]]
+name = "latch"
+type = "dry_friction"
+joint = "slide"
+static = 100.0
+kinetic = 0.0
+"""
+
+
+def test_latching_locks_at_rest_and_lets_go() -> None:
+    """Half swings at w = 2 rad/s from one turning point to the next, then a hold of 0.4 s."""
+    text = CART.format(
+        type="latching", inputs=RATE, period=0.05, keys="hold_time = 0.4\nhold_load = 100.0"
+    )
+    text = text.replace("forces/pto/load", "forces/latch/static").replace(
+        "[[controller]]", LATCH + "[[controller]]"
+    )
+    text = text.replace("displacement = [0.5, 0.0, 0.0]", "velocity = [1.0, 0.0, 0.0]")
+    results = hydrodae.run(Case.from_text(text))
+    quarter, half = math.pi / 4, math.pi / 2
+
+    def place(t: float) -> float:
+        if t < quarter:
+            return 0.5 * math.sin(2.0 * t)
+        since, sign = t - quarter, 0.5
+        while since > 0.4 + half:
+            since, sign = since - 0.4 - half, -sign
+        return sign * (math.cos(2.0 * (since - 0.4)) if since > 0.4 else 1.0)
+
+    exact = [place(t) for t in results.time]
+    np.testing.assert_allclose(results["joints/slide/displacement"], exact, atol=2e-6)
