@@ -82,9 +82,7 @@ class LinearModel:
         return other
 
     def with_law_slopes_taken_out(self, names: Sequence[str]) -> LinearModel:
-        """Return the same linearised case without the dampers at rest of some forces.
-
-        Of friction with bristles its state goes as well.
+        """Return the same linearised case without the dampers, and bristles, of some forces.
 
         Parameters
         ----------
@@ -259,10 +257,9 @@ class LinearModel:
         load = self.excitation(w, heading)
         if force is not None:
             load = load + force
-        z = self.dynamic_stiffness_at(w)
+        free, z = self._free, self.dynamic_stiffness_at(w)
         if damping is not None:
             z = z + 1j * w[:, None, None] * damping
-        free = self._free
         xi = np.linalg.solve(free.T @ z @ free, (load @ free)[:, :, None])[:, :, 0] @ free.T
         # G^T lambda = Z xi - F has a solution: the constraints left are independent.
         rest = (z @ xi[:, :, None])[:, :, 0] - load
