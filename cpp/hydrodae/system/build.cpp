@@ -160,6 +160,7 @@ System build(const model::Scene& scene, bool with_excitation) {
   assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
            body_starts(scene));
   take_mean_yaw(scene, s);
+  start_laws(s);
   if (with_excitation) {
     note_axes(scene, s);
     add_sea(scene, s);

@@ -1,0 +1,255 @@
+#include "hydrodae/element/line_statics.h"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/math/catenary.h"
+
+namespace hydrodae::element {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+double net_weight(const LineModel& m, const LineNode& node) {
+  return node.mass * m.gravity - (m.wet ? node.lift + node.body_lift : 0.0);
+}
+
+/// The catenary of the same weights between these ends, the lower one first: segments as parts,
+/// half of each node's weight on either side.
+Catenary like(const LineModel& m, bool turned, bool bed) {
+  Catenary out;
+  const auto n = static_cast<std::size_t>(m.n());
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = turned ? n - 1 - k : k;
+    const LineSegment& seg = m.segments[i];
+    const double w = 0.5 * (net_weight(m, m.nodes[i]) * (i == 0 ? 2.0 : 1.0) +
+                            net_weight(m, m.nodes[i + 1]) * (i + 1 == n ? 2.0 : 1.0));
+    out.parts.push_back({seg.length, w / seg.length, seg.stiffness});
+  }
+  out.loads.assign(n - 1, 0.0);
+  out.bed = bed;
+  return out;
+}
+
+/// Straight from the first end to the second, with a sag that makes it about as long as it is.
+void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
+  const double all = m.nodes.back().at, chord = (b - a).norm();
+  double weight = 0.0;
+  for (const LineNode& node : m.nodes)
+    weight += net_weight(m, node);
+  const double sag = 0.6 * std::sqrt(std::max(0.0, all * all - chord * chord)) *
+                     (weight > 0.0 ? 1.0 : weight < 0.0 ? -1.0 : 0.0);
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const double s = m.nodes[static_cast<std::size_t>(i)].at / all;
+    places.segment<3>(3 * (i - 1)) = a + s * (b - a) - 4.0 * sag * s * (1.0 - s) * Vector3::UnitZ();
+  }
+}
+
+/// By the catenary; false where there is none.
+bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
+  const bool turned = b[2] < a[2];
+  const Vector3 &low = turned ? b : a, &high = turned ? a : b;
+  const bool bed = low[2] <= m.bed + 0.01 * m.nodes.back().at;
+  const Catenary line = like(m, turned, bed);
+  for (const LinePart& part : line.parts)
+    if (part.weight == 0.0 || (bed && part.weight < 0.0))
+      return false;
+  const Vector3 d = high - low;
+  const double X = std::hypot(d[0], d[1]);
+  const CatenaryHold found = hold(line, X, d[2]);
+  if (!std::isfinite(found.vertical) || !std::isfinite(found.horizontal))
+    return false;
+  const Vector3 e = X > 0.0 ? Vector3(d[0] / X, d[1] / X, 0.0) : Vector3(1.0, 0.0, 0.0);
+  std::vector<double> s;
+  for (const LineNode& node : m.nodes)
+    s.push_back(turned ? m.nodes.back().at - node.at : node.at);
+  if (turned)
+    std::reverse(s.begin(), s.end());
+  const std::vector<LinePoint> points = profile(line, found, X, s);
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const LinePoint& p = points[static_cast<std::size_t>(turned ? m.n() - i : i)];
+    places.segment<3>(3 * (i - 1)) = low + p.x * e + p.z * Vector3::UnitZ();
+  }
+  return places.allFinite();
+}
+
+/// Down, or up, from end A, and along the seabed.
+void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX& places) {
+  Vector3 e(towards[0] - a[0], towards[1] - a[1], 0.0);
+  e = e.norm() > 0.0 ? Vector3(e.normalized()) : Vector3(1.0, 0.0, 0.0);
+  double weight = 0.0;
+  for (const LineNode& node : m.nodes)
+    weight += net_weight(m, node);
+  const double room = weight >= 0.0 ? std::max(0.0, a[2] - m.bed) : HUGE_VAL;
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const double s = m.nodes[static_cast<std::size_t>(i)].at, down = std::min(s, room);
+    places.segment<3>(3 * (i - 1)) =
+        a + (s - down) * e - (weight >= 0.0 ? down : -down) * Vector3::UnitZ();
+  }
+}
+
+/// Accelerations of the nodes at rest, and what they follow from.
+class Rest {
+public:
+  Rest(const LineModel& m, const sea::WaveField& sea, const double* x)
+      : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())), z(VectorX::Zero(6 * m.n_unknown())),
+        load(VectorX::Zero(3 * m.n_points())), rates_(z.size()), force_(3 * (m.n() + 1)),
+        sparsity_(line_sparsity(m)), values_(static_cast<Index>(sparsity_.size())) {}
+
+  void place(const VectorX& places) {
+    for (int i = 0; i < m_.n_unknown(); ++i)
+      z.segment<3>(6 * i) = places.segment<3>(3 * i);
+  }
+  VectorX accelerations() {
+    evaluate_line<double>(view(), sea_, 0.0, force_.data(), load.data(), rates_.data());
+    VectorX out(3 * m_.n_unknown());
+    for (int i = 0; i < m_.n_unknown(); ++i)
+      out.segment<3>(3 * i) = rates_.segment<3>(6 * i + 3);
+    return out;
+  }
+  /// -d accelerations / d places + sigma; by the ends' places, and the loads by both.
+  Sparse matrix(double sigma) {
+    line_jacobian(view(), sea_, 0.0, rates_.data(), blocks_, values_.data());
+    std::vector<Eigen::Triplet<double>> entries;
+    const int w = 3 * m_.n_points(), n = 3 * m_.n_unknown();
+    by_end = MatrixX::Zero(n, w);
+    load_by_end = MatrixX::Zero(w, w);
+    load_by_node = MatrixX::Zero(w, n);
+    for (std::size_t k = 0; k < sparsity_.size(); ++k) {
+      const auto [row, column] = sparsity_[k];
+      const int r = row - w, c = column - 2 * w;
+      const double value = values_[static_cast<Index>(k)];
+      if ((r >= 0 && r % 6 < 3) || (c >= 0 && c % 6 >= 3) || (c < 0 && column >= w))
+        continue; // rows of places, columns of velocities
+      const int i = 3 * (r / 6) + r % 6 - 3, j = 3 * (c / 6) + c % 6;
+      if (r >= 0 && c >= 0)
+        entries.emplace_back(i, j, -value);
+      else if (r >= 0)
+        by_end(i, column) = value;
+      else if (c >= 0)
+        load_by_node(row, j) = value;
+      else
+        load_by_end(row, column) = value;
+    }
+    for (int i = 0; i < n; ++i)
+      entries.emplace_back(i, i, sigma);
+    Sparse out(n, n);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  }
+  double largest_tension() const {
+    double most = 0.0;
+    for (int k = 0; k < m_.n(); ++k)
+      most = std::max(most, std::abs(segment_pull<double>(view(), k).tension));
+    return most;
+  }
+  LineView<double> view() const { return {m_, x_, still_.data(), z.data()}; }
+
+private:
+  const LineModel& m_;
+  const sea::WaveField& sea_;
+  const double* x_;
+  VectorX still_;
+
+public:
+  VectorX z, load;
+  MatrixX by_end, load_by_end, load_by_node;
+
+private:
+  VectorX rates_, force_;
+  std::vector<std::array<int, 2>> sparsity_;
+  VectorX values_;
+  LineBlocks blocks_;
+};
+
+/// Largest force that is not in balance, over the mass.
+double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoeff() : HUGE_VAL; }
+
+void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::string& name) {
+  constexpr int most_steps = 500;
+  double shortest = HUGE_VAL, heaviest = 0.0;
+  for (const LineSegment& seg : m.segments)
+    shortest = std::min(shortest, seg.length);
+  double stiffest = 0.0, least_mass = HUGE_VAL, reach = m.nodes.back().at;
+  for (std::size_t k = 0; k < m.segments.size(); ++k)
+    stiffest = std::max(stiffest, m.segments[k].stiffness / m.segments[k].length);
+  for (const LineNode& node : m.nodes) {
+    heaviest = std::max(heaviest, node.mass);
+    least_mass = std::min(least_mass, node.mass);
+  }
+  // What rounding of the places leaves.
+  reach += places.cwiseAbs().maxCoeff();
+  const double floor = 20.0 * 2.2e-16 * reach * stiffest / least_mass,
+               g = m.gravity > 0.0 ? m.gravity : 1.0, start = g / shortest;
+  double sigma = 0.0, before = HUGE_VAL;
+  rest.place(places);
+  VectorX a = rest.accelerations();
+  double now = largest_of(a);
+  Eigen::SparseLU<Sparse> lu;
+  for (int step = 0; step < most_steps; ++step) {
+    const bool settled = now <= std::max(1e-11 * g, floor);
+    if (settled && (now >= 0.5 * before || now <= 1e-13 * g || step > 100))
+      return;
+    lu.compute(rest.matrix(sigma));
+    VectorX change = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : VectorX();
+    const bool sound = change.size() > 0 && change.allFinite();
+    const double most = sound ? change.cwiseAbs().maxCoeff() : 0.0;
+    if (sound && most > 0.5 * shortest)
+      change *= 0.5 * shortest / most;
+    const VectorX tried = sound ? VectorX(places + change) : places;
+    rest.place(tried);
+    const VectorX next = rest.accelerations();
+    const double then = sound ? largest_of(next) : HUGE_VAL;
+    if (then <= 2.0 * now || settled) {
+      if (settled && then >= now) {
+        rest.place(places);
+        rest.accelerations();
+        return;
+      }
+      sigma *= std::clamp(then / now, 0.1, 1.5);
+      if (sigma < 1e-6 * start)
+        sigma = 0.0;
+      places = tried;
+      a = next;
+      before = now;
+      now = then;
+    } else {
+      sigma = std::max(5.0 * sigma, start);
+      rest.place(places);
+      rest.accelerations();
+    }
+  }
+  throw ModelError("force." + name,
+                   "line " + in_quotes(name) + " finds no rest where its ends are: the largest " +
+                       "acceleration that is left is " + number_text(now) + " m/s2");
+}
+
+} // namespace
+
+LineAtRest line_at_rest(const LineModel& m, const sea::WaveField& sea, const double* x,
+                        const Vector3& free_end, const std::string& name, bool with_slope) {
+  const Vector3 a = Eigen::Map<const Vector3>(x);
+  VectorX places(3 * m.n_unknown());
+  if (m.free_end) {
+    drop(m, a, free_end, places);
+  } else {
+    const Vector3 b = Eigen::Map<const Vector3>(x + 3);
+    if (!hang(m, a, b, places))
+      straight(m, a, b, places);
+  }
+  for (int i = 0; i < m.n_unknown(); ++i)
+    places[3 * i + 2] = std::max(places[3 * i + 2], m.bed);
+  Rest rest(m, sea, x);
+  find_rest(m, rest, places, name);
+  LineAtRest out{rest.z, rest.load, {}, rest.largest_tension()};
+  if (with_slope) {
+    Eigen::SparseLU<Sparse> lu(rest.matrix(0.0));
+    out.slope = rest.load_by_end + rest.load_by_node * MatrixX(lu.solve(rest.by_end));
+  }
+  return out;
+}
+
+} // namespace hydrodae::element
