@@ -28,6 +28,7 @@ from hydrodae.version import version
 
 if TYPE_CHECKING:
     from hydrodae import hdb
+    from hydrodae.line_types import LineType, line_type
     from hydrodae.mooring import Catenary, catenary
     from hydrodae.scene import Scene
     from hydrodae.study.band import working_band
@@ -46,6 +47,7 @@ __all__ = [
     "Catenary",
     "DatabaseError",
     "HydrodaeError",
+    "LineType",
     "Results",
     "ResultsError",
     "RunInterrupted",
@@ -58,6 +60,7 @@ __all__ = [
     "equilibrium",
     "hdb",
     "ladder",
+    "line_type",
     "rao",
     "recommend",
     "run",
@@ -69,6 +72,8 @@ __all__ = [
 _LATER = {
     "Catenary": "mooring",
     "catenary": "mooring",
+    "LineType": "line_types",
+    "line_type": "line_types",
     "Scene": "scene",
     "chart": "study.chart",
     "check": "study.check",

@@ -16,7 +16,7 @@ import pytest
 LAYERS = [
     {"errors", "extras", "progress", "units", "version"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
-    {"curve", "damaged", "irf", "mooring", "tables"},
+    {"curve", "damaged", "irf", "line_types", "mooring", "tables"},
     {"infinity"},
     {"memory", "results", "schema"},
     {"panels", "post"},

@@ -115,8 +115,8 @@ std::optional<Fault> Line::fault(const Surroundings& around) const {
                              "[kg/m3] in [environment], or a hydrodynamic database"};
   const double bed = -seabed_depth.value_or(around.water.depth);
   if (seabed && seabed_depth && *seabed_depth > 1.001 * around.water.depth)
-    return Fault{"seabed_depth", "the water is only " + number_text(around.water.depth) +
-                                     " m deep"};
+    return Fault{"seabed_depth",
+                 "the water is only " + number_text(around.water.depth) + " m deep"};
   if (seabed && std::isfinite(bed))
     for (const auto& [body, point] : ends())
       if (point[2] < bed - 1e-3 * std::abs(bed))
@@ -133,7 +133,8 @@ Fields<Line> Line::fields() {
       {"body_b", &L::body_b, "-", "Body of end B, or ground."},
       {"point_a", &L::point_a, "m", "End A in the reference pose, world axes.", true},
       {"point_b", &L::point_b, "m",
-       "End B in the reference pose, world axes; of a free end: towards where it lies on the seabed."},
+       "End B in the reference pose, world axes; of a free end: towards where it lies on the "
+       "seabed."},
       {"free_end", &L::free_end, "-", "Whether end B is free."},
       {"length", &L::length, "m", "Unstretched lengths of the parts, from A to B.", true,
        more_than(0)},
@@ -149,8 +150,9 @@ Fields<Line> Line::fields() {
       {"damping_ratio", &L::damping_ratio, "-",
        "In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a segment.",
        false, at_least(0)},
-      {"bending_stiffness", &L::bending_stiffness, "N m2", "Bending stiffnesses EI; ends turn "
-                                                           "freely.",
+      {"bending_stiffness", &L::bending_stiffness, "N m2",
+       "Bending stiffnesses EI; ends turn "
+       "freely.",
        false, at_least(0)},
       {"drag", &L::drag, "-", "C_d: drag across the line, over D.", false, at_least(0)},
       {"drag_axial", &L::drag_axial, "-", "C_dt: drag along the line, over pi D.", false,
@@ -159,8 +161,9 @@ Fields<Line> Line::fields() {
        "C_a across the line; the inertia force is rho V (1 + C_a).", false, at_least(0)},
       {"added_mass_axial", &L::added_mass_axial, "-", "C_at: added mass along the line.", false,
        at_least(0)},
-      {"breaking_load", &L::breaking_load, "N", "Breaking loads of the parts; reported, nothing "
-                                                "breaks.",
+      {"breaking_load", &L::breaking_load, "N",
+       "Breaking loads of the parts; reported, nothing "
+       "breaks.",
        false, more_than(0)},
       {"pretension", &L::pretension, "N",
        "Tension at B in the reference pose; the length of the first part follows from it.", false,

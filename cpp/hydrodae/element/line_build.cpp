@@ -12,8 +12,8 @@ namespace hydrodae::element {
 
 namespace {
 
-constexpr double lies_deep = 0.1;   ///< of D, without a stiffness of the bed
-constexpr double thin_line = 0.01;  ///< depth of a line without a diameter [m]
+constexpr double lies_deep = 0.1;  ///< of D, without a stiffness of the bed
+constexpr double thin_line = 0.01; ///< depth of a line without a diameter [m]
 
 /// One part of a line.
 struct Part {
@@ -27,10 +27,11 @@ Part part_of(const Line& of, std::size_t i, double length) {
     return Line::of_part(values, i, otherwise);
   };
   const double l = length / get(of.segments, 20.0), m = get(of.mass), EA = get(of.stiffness);
-  const double C = of.damping_ratio.empty() ? get(of.damping)
-                                            : get(of.damping_ratio) * l * std::sqrt(EA * m);
-  return {l,  m, get(of.diameter), EA, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
-          of, i};
+  const double C =
+      of.damping_ratio.empty() ? get(of.damping) : get(of.damping_ratio) * l * std::sqrt(EA * m);
+  return {
+      l,  m, get(of.diameter), EA, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
+      of, i};
 }
 
 /// Half a segment goes with a node.
@@ -67,8 +68,8 @@ void add_half(const Part& p, const Surroundings& around, double bed, LineNode& n
 void attach(const Line& of, const Surroundings& around, double stretched, LineModel& m) {
   for (std::size_t k = 0; k < of.attachment_at.size(); ++k) {
     const double at = of.attachment_at[k] + stretched;
-    const auto node = std::min_element(
-        m.nodes.begin(), m.nodes.end(), [&](const LineNode& a, const LineNode& b) {
+    const auto node =
+        std::min_element(m.nodes.begin(), m.nodes.end(), [&](const LineNode& a, const LineNode& b) {
           return std::abs(a.at - at) < std::abs(b.at - at);
         });
     const auto get = [&](const std::vector<double>& values) {
@@ -101,11 +102,11 @@ LineModel line_model(const Line& of, const Surroundings& around, double first) {
   for (std::size_t i = 0; i < of.length.size(); ++i) {
     const Part p = part_of(of, i, i == 0 ? first : of.length[i]);
     const auto n = static_cast<int>(Line::of_part(of.segments, i, 20.0));
-    const double weight = std::abs(p.mass * around.gravity - around.density * around.gravity *
-                                                                 0.25 * pi * p.diameter * p.diameter);
+    const double weight =
+        std::abs(p.mass * around.gravity -
+                 around.density * around.gravity * 0.25 * pi * p.diameter * p.diameter);
     for (int k = 0; k < n; ++k) {
-      m.segments.push_back(
-          {p.l, p.EA, p.damping, std::max(weight * p.l / p.EA, 1e-6), p.strength});
+      m.segments.push_back({p.l, p.EA, p.damping, std::max(weight * p.l / p.EA, 1e-6), p.strength});
       add_half(p, around, m.bed, m.nodes.back());
       LineNode next;
       next.at = m.nodes.back().at + p.l;
@@ -183,19 +184,21 @@ LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
   shape = {Port::points, 3 * m.n_points(), 6 * m.n_unknown(), 0};
   sparsity = line_sparsity(m);
   tells_unknowns = false;
-  lost = "the drag of dynamic lines is zero in the linear model, but for the slope that the current "
-         "gives it, and the loads of waves on them are not in it";
-  channels = {{"tension", "N", "Tension at end B: size of the load on it; 0 of a free end."},
-              {"tension_anchor", "N", "Tension at end A: size of the load on it."},
-              {"tension_max", "N", "Largest tension along the line."},
-              {"tension_ratio", "-", "Largest tension over breaking load along the line."},
-              {"energy", "J",
-               "Of the line: kinetic, stretch, bending, in the seabed, height by the weight in water."},
-              {"power_water", "W", "Power that the water takes, buoyancy apart."},
-              {"power_damping", "W", "Power that the internal damping takes."},
-              {"power_seabed", "W", "Power that damping and friction of the seabed take."},
-              {"position", "m", "Places of the nodes from A to B, (x, y, z) each.", 3 * (m.n() + 1)},
-              {"tension_along", "N", "Tensions of the segments from A to B.", m.n()}};
+  lost =
+      "the drag of dynamic lines is zero in the linear model, but for the slope that the current "
+      "gives it, and the loads of waves on them are not in it";
+  channels = {
+      {"tension", "N", "Tension at end B: size of the load on it; 0 of a free end."},
+      {"tension_anchor", "N", "Tension at end A: size of the load on it."},
+      {"tension_max", "N", "Largest tension along the line."},
+      {"tension_ratio", "-", "Largest tension over breaking load along the line."},
+      {"energy", "J",
+       "Of the line: kinetic, stretch, bending, in the seabed, height by the weight in water."},
+      {"power_water", "W", "Power that the water takes, buoyancy apart."},
+      {"power_damping", "W", "Power that the internal damping takes."},
+      {"power_seabed", "W", "Power that damping and friction of the seabed take."},
+      {"position", "m", "Places of the nodes from A to B, (x, y, z) each.", 3 * (m.n() + 1)},
+      {"tension_along", "N", "Tensions of the segments from A to B.", m.n()}};
   for (const LineModel& line : models_)
     for (int i = 1; i <= line.n_unknown(); ++i)
       for (const char* what : {"position", "velocity"})

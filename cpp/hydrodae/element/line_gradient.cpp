@@ -19,7 +19,8 @@ template <class Visit> void for_each_line_block(const LineModel& m, Visit&& visi
   }
 }
 
-/// F += f_a[m] q_a ..., with a = x_i - x_(i-1) and b = x_(i+1) - x_i of the energy c (1 - e_a . e_b):
+/// F += f_a[m] q_a ..., with a = x_i - x_(i-1) and b = x_(i+1) - x_i of the energy c (1 - e_a .
+/// e_b):
 ///   H_aa = c (s P_a + e_a p^T + p e_a^T) / a^2,   p = P_a e_b,   H_ab = -c P_a P_b / (a b)
 void add_bending(double c, int i, const SegmentPull<double>& a, const SegmentPull<double>& b,
                  LineBlocks& K) {
@@ -51,9 +52,8 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     const Plus<double> s = plus<double>((p.length - seg.length) / seg.length, seg.slack);
     const double c = seg.damping / seg.length;
     const Vector3 turned = P * (at.velocity(k + 1) - at.velocity(k)) / p.length;
-    const Vector3 T_d =
-        (seg.stiffness * s.slope + c * p.rate * s.curvature) / seg.length * p.e +
-        c * s.slope * turned;
+    const Vector3 T_d = (seg.stiffness * s.slope + c * p.rate * s.curvature) / seg.length * p.e +
+                        c * s.slope * turned;
     const Matrix3 B = p.e * T_d.transpose() + p.tension / p.length * P,
                   D = c * s.slope * p.e * p.e.transpose();
     const auto here = static_cast<std::size_t>(k), next = here + 1;
@@ -83,8 +83,8 @@ void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const V
   const double r = std::sqrt(v.head<2>().squaredNorm() + slip_speed * slip_speed);
   const Eigen::Vector2d h = v.head<2>() / r;
   by_x.block<2, 1>(0, 2) += node.friction * k * s.slope * h;
-  by_v.topLeftCorner<2, 2>() -= node.friction * k * s.value / r *
-                                (Eigen::Matrix2d::Identity() - h * h.transpose());
+  by_v.topLeftCorner<2, 2>() -=
+      node.friction * k * s.value / r * (Eigen::Matrix2d::Identity() - h * h.transpose());
 }
 
 /// Derivatives of the force of the water: by the node's place and velocity, and by its tangent.

@@ -60,8 +60,8 @@ double line_energy(const LineView<double>& at) {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     const LineNode& node = m.nodes[static_cast<std::size_t>(k)];
     const Vector3 d = at.place(k + 1) - at.place(k), e = d.normalized();
-    out += seg.stiffness * seg.length *
-           plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
+    out +=
+        seg.stiffness * seg.length * plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
     if (k > 0 && node.bending > 0.0)
       out += node.bending * (1.0 - before.dot(e));
     before = e;

@@ -42,8 +42,8 @@ private:
 
   sea::WaveField water_, still_; ///< with the waves and without
   std::vector<LineModel> models_;
-  std::vector<bool> waves_;            ///< of each line
-  std::vector<Vector3> free_ends_;     ///< towards which free ends lie
+  std::vector<bool> waves_;        ///< of each line
+  std::vector<Vector3> free_ends_; ///< towards which free ends lie
 };
 
 } // namespace hydrodae::element

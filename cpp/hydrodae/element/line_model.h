@@ -28,11 +28,11 @@ struct LineSegment {
 };
 
 struct LineNode {
-  double at = 0.0;       ///< unstretched length from A [m]
-  double mass = 0.0;     ///< [kg]
-  double bending = 0.0;  ///< EI / l [N m]
-  MorisonSegment line;   ///< the water on the line
-  MorisonSegment body;   ///< and on what is attached
+  double at = 0.0;                    ///< unstretched length from A [m]
+  double mass = 0.0;                  ///< [kg]
+  double bending = 0.0;               ///< EI / l [N m]
+  MorisonSegment line;                ///< the water on the line
+  MorisonSegment body;                ///< and on what is attached
   double lift = 0.0, body_lift = 0.0; ///< rho g V of both [N]
   double bed_stiffness = 0.0;         ///< k [N/m]
   double bed_damping = 0.0;           ///< c [N s/m]
@@ -55,7 +55,8 @@ struct LineModel {
   bool is_end(int i) const { return i == 0 || (i == n() && !free_end); }
 };
 
-inline constexpr double slip_speed = 0.01; ///< v_s, and in which the damping of the bed begins [m/s]
+inline constexpr double slip_speed =
+    0.01; ///< v_s, and in which the damping of the bed begins [m/s]
 
 /// max(0, x), twice differentiable: it bends where |x| < w, a polynomial of degree four.
 template <class S> struct Plus {
@@ -121,8 +122,8 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   return out;
 }
 
-/// The water at a node, and how much of the node and of its attachment is in it. Beneath the bed the
-/// water moves as at the bed.
+/// The water at a node, and how much of the node and of its attachment is in it. Beneath the bed
+/// the water moves as at the bed.
 template <class S> struct NodeWater {
   Vec3<S> t;
   sea::FluidPoint<S> fluid;
@@ -163,8 +164,8 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
   return f;
 }
 
-template <class S> Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x,
-                                     const Vec3<S>& v) {
+template <class S>
+Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, const Vec3<S>& v) {
   using std::sqrt;
   Vec3<S> f = Vec3<S>::Zero();
   const Plus<S> s = plus<S>(S(m.bed) - x[2], node.bed_width);

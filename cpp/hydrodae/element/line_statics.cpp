@@ -41,7 +41,9 @@ void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& p
   for (const LineNode& node : m.nodes)
     weight += net_weight(m, node);
   const double sag = 0.6 * std::sqrt(std::max(0.0, all * all - chord * chord)) *
-                     (weight > 0.0 ? 1.0 : weight < 0.0 ? -1.0 : 0.0);
+                     (weight > 0.0   ? 1.0
+                      : weight < 0.0 ? -1.0
+                                     : 0.0);
   for (int i = 1; i <= m.n_unknown(); ++i) {
     const double s = m.nodes[static_cast<std::size_t>(i)].at / all;
     places.segment<3>(3 * (i - 1)) = a + s * (b - a) - 4.0 * sag * s * (1.0 - s) * Vector3::UnitZ();
@@ -95,9 +97,10 @@ void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX&
 class Rest {
 public:
   Rest(const LineModel& m, const sea::WaveField& sea, const double* x)
-      : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())), z(VectorX::Zero(6 * m.n_unknown())),
-        load(VectorX::Zero(3 * m.n_points())), rates_(z.size()), force_(3 * (m.n() + 1)),
-        sparsity_(line_sparsity(m)), values_(static_cast<Index>(sparsity_.size())) {}
+      : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())),
+        z(VectorX::Zero(6 * m.n_unknown())), load(VectorX::Zero(3 * m.n_points())),
+        rates_(z.size()), force_(3 * (m.n() + 1)), sparsity_(line_sparsity(m)),
+        values_(static_cast<Index>(sparsity_.size())) {}
 
   void place(const VectorX& places) {
     for (int i = 0; i < m_.n_unknown(); ++i)
