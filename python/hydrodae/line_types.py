@@ -9,7 +9,8 @@ from hydrodae.errors import CaseError
 
 # Coefficients over the nominal diameter d, as in MoorPy (NREL, MoorProps_default.yaml): mass and
 # stiffness of chains after DNV-OS-E301; drag after DNV-OS-E301, turned to the diameter of the same
-# volume; added mass after Bureau Veritas NR 493 (2021). Of fibre ropes the stiffness is a multiple
+# volume, along the line over d (a force of type `line` takes it over pi d); added mass after Bureau
+# Veritas NR 493 (2021). Of fibre ropes the stiffness is a multiple
 # of the breaking load.
 #                    mass/d2  D/d   EA/d2   Cd     Cdt    Ca   Cat
 _CHAINS = {
@@ -101,7 +102,8 @@ def line_type(material: str, diameter: float, *, grade: str = "R4") -> LineType:
             raise CaseError(f"line_type: no grade {grade!r}; there are: {', '.join(_GRADES)}")
         m, volume, ea, cd, cdt, ca, cat = _CHAINS[material]
         strength = _GRADES[grade] * d**2 * (44.0 - 80.0 * d)
-        return LineType(m * d**2, volume * d, ea * d**2, strength, cd, cdt, ca, cat)
+        along = cdt / math.pi
+        return LineType(m * d**2, volume * d, ea * d**2, strength, cd, along, ca, cat)
     if material == "wire":
         m, volume, ea, mbl, cd = _WIRE
         return LineType(m * d**2, volume * d, ea * d**2, mbl * d**2, cd, 0.0, 1.0, 0.0)

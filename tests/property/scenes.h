@@ -208,7 +208,7 @@ inline std::vector<element::Line> random_lines(Random& random) {
   line.length = {1.5, 1.4};
   line.segments = {2, 3};
   line.mass = {1.5, 0.8};
-  line.diameter = {0.3, 0.2};
+  line.diameter = {0.03, 0.02};
   line.stiffness = {300.0, 200.0};
   line.damping = {3.0, 2.0};
   line.bending_stiffness = {2.0};
@@ -218,7 +218,7 @@ inline std::vector<element::Line> random_lines(Random& random) {
   line.added_mass_axial = {0.2};
   line.attachment_at = {0.75, 1.5};
   line.attachment_mass = {0.1, 0.3};
-  line.attachment_volume = {0.2, 0.0};
+  line.attachment_volume = {2e-4, 0.0};
   line.attachment_drag_area = {0.1, 0.05};
   line.attachment_added_mass = {0.5, 0.0};
   line.seabed_depth = 0.9;

@@ -172,7 +172,7 @@ private:
 double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoeff() : HUGE_VAL; }
 
 void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::string& name) {
-  constexpr int most_steps = 500;
+  constexpr int most_steps = 2000, patience = 20;
   double shortest = HUGE_VAL, heaviest = 0.0;
   for (const LineSegment& seg : m.segments)
     shortest = std::min(shortest, seg.length);
@@ -187,7 +187,8 @@ void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::strin
   reach += places.cwiseAbs().maxCoeff();
   const double floor = 20.0 * 2.2e-16 * reach * stiffest / least_mass,
                g = m.gravity > 0.0 ? m.gravity : 1.0, start = g / shortest;
-  double sigma = 0.0, before = HUGE_VAL;
+  double sigma = 0.0, before = HUGE_VAL, best = HUGE_VAL, least_sigma = start;
+  int stale = 0;
   rest.place(places);
   VectorX a = rest.accelerations();
   double now = largest_of(a);
@@ -196,6 +197,13 @@ void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::strin
     const bool settled = now <= std::max(1e-11 * g, floor);
     if (settled && (now >= 0.5 * before || now <= 1e-13 * g || step > 100))
       return;
+    stale = now < 0.9 * best ? 0 : stale + 1;
+    best = std::min(best, now);
+    if (stale > patience) { // it goes to and fro across a kink: shorter steps
+      stale = 0;
+      sigma = least_sigma;
+      least_sigma *= 10.0;
+    }
     lu.compute(rest.matrix(sigma));
     VectorX change = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : VectorX();
     const bool sound = change.size() > 0 && change.allFinite();
@@ -248,8 +256,12 @@ LineAtRest line_at_rest(const LineModel& m, const sea::WaveField& sea, const dou
   Rest rest(m, sea, x);
   find_rest(m, rest, places, name);
   LineAtRest out{rest.z, rest.load, {}, rest.largest_tension()};
-  if (with_slope) {
+  if (with_slope) { // a slack piece has no stiffness of its own across
     Eigen::SparseLU<Sparse> lu(rest.matrix(0.0));
+    for (double sigma = 1e-9; lu.info() != Eigen::Success && sigma < 1.0; sigma *= 10.0)
+      lu.compute(rest.matrix(sigma));
+    if (lu.info() != Eigen::Success)
+      throw ModelError("force." + name, "line " + in_quotes(name) + " has no stiffness at rest");
     out.slope = rest.load_by_end + rest.load_by_node * MatrixX(lu.solve(rest.by_end));
   }
   return out;
