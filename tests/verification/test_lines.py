@@ -299,7 +299,8 @@ drive = {{ time = {times}, values = {heave} }}
         f'body_b = "fairlead"\npoint_a = [{anchor}.0, 0.0, -{depth}.0]\n'
         f"point_b = [0.0, 0.0, 0.0]\nlength = [{length}.0]\nsegments = [{n}]\nmass = [390.0]\n"
         "diameter = [0.252]\nstiffness = [1.674e9]\ndamping_ratio = [1.0]\ndrag = [1.37]\n"
-        f"drag_axial = [{0.64 / math.pi!r}]\nadded_mass = [1.0]\nseabed_stiffness = 1e5\nseabed_damping = 1e4\n"
+        f"drag_axial = [{0.64 / math.pi!r}]\nadded_mass = [1.0]\n"
+        "seabed_stiffness = 1e5\nseabed_damping = 1e4\n"
         "seabed_friction = 0.5"
     )
     run = hydrodae.run(case(text, "end_time = 29.9\nrtol = 1e-3", 0.1))

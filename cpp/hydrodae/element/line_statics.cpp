@@ -171,6 +171,32 @@ private:
 /// Largest force that is not in balance, over the mass.
 double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoeff() : HUGE_VAL; }
 
+/// Plain Newton with limited steps. Where EA is large the accelerations grow before they shrink, so
+/// they say nothing of a step.
+/// @returns whether it came to rest
+bool find_directly(Rest& rest, VectorX& places, double longest, double enough, double floor) {
+  constexpr int most_steps = 40;
+  Eigen::SparseLU<Sparse> lu;
+  double before = HUGE_VAL;
+  for (int step = 0; step < most_steps; ++step) {
+    rest.place(places);
+    const VectorX a = rest.accelerations();
+    const double now = largest_of(a);
+    if (now <= enough || (now <= floor && now >= 0.5 * before))
+      return true;
+    before = now;
+    lu.compute(rest.matrix(0.0));
+    if (!std::isfinite(now) || lu.info() != Eigen::Success)
+      return false;
+    VectorX change = lu.solve(a);
+    const double most = largest_of(change);
+    if (!std::isfinite(most))
+      return false;
+    places += std::min(1.0, longest / most) * change;
+  }
+  return false;
+}
+
 void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::string& name) {
   constexpr int most_steps = 2000, patience = 20;
   double shortest = HUGE_VAL, heaviest = 0.0;
@@ -189,6 +215,10 @@ void find_rest(const LineModel& m, Rest& rest, VectorX& places, const std::strin
                g = m.gravity > 0.0 ? m.gravity : 1.0, start = g / shortest;
   double sigma = 0.0, before = HUGE_VAL, best = HUGE_VAL, least_sigma = start;
   int stale = 0;
+  const VectorX first = places;
+  if (find_directly(rest, places, shortest, 1e-13 * g, std::max(1e-11 * g, floor)))
+    return;
+  places = first;
   rest.place(places);
   VectorX a = rest.accelerations();
   double now = largest_of(a);
