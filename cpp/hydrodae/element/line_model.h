@@ -191,8 +191,8 @@ template <class S> NodeMass<S> node_mass(const LineNode& node, const S& line, co
 /// Forces of the segments and of bending into `force` (3 (N + 1),).
 template <class S> void add_elastic(const LineView<S>& at, S* force) {
   const int n = at.m.n();
-  Vec3<S> e_before, d_before;
-  S l_before(0);
+  Vec3<S> e_before = Vec3<S>::Zero();
+  S l_before(1);
   const auto on = [&](int i) { return Eigen::Map<Vec3<S>>(force + 3 * i); };
   for (int k = 0; k < n; ++k) {
     const SegmentPull<S> p = segment_pull<S>(at, k);

@@ -13,6 +13,10 @@ struct LineAtRest {
   double tension = 0; ///< the largest [N]
 };
 
+/// About where a line hangs between its ends (line_build.cpp): as a catenary, where there is one,
+/// or with a free end straight down and along the seabed towards `free_end`; (3 n_unknown,).
+VectorX line_shape(const LineModel& model, const double* x, const Vector3& free_end);
+
 /// Newton's method on the places of the nodes from the shape of a catenary, with steps that shrink
 /// where it does not converge (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer.
 /// Anal. 35 (1998) 508). Friction of the seabed does not act at rest. Throws ModelError about
