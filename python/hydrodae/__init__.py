@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao
     from hydrodae.study.sensitivity import sensitivity
-    from hydrodae.study.sweep import sweep
     from hydrodae.study.spectral import spectral
+    from hydrodae.study.sweep import sweep
 
     __version__: str
 
@@ -65,8 +65,8 @@ __all__ = [
     "recommend",
     "run",
     "sensitivity",
-    "sweep",
     "spectral",
+    "sweep",
     "working_band",
 ]
 

@@ -2068,6 +2068,127 @@ class ForceTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def line(
+        self,
+        name: str,
+        *,
+        point_a: _Numbers,
+        length: _Numbers,
+        mass: _Numbers,
+        stiffness: _Numbers,
+        body_a: str = ...,
+        body_b: str = ...,
+        point_b: _Numbers = ...,
+        free_end: bool = ...,
+        segments: _Numbers = ...,
+        diameter: _Numbers = ...,
+        damping: _Numbers = ...,
+        damping_ratio: _Numbers = ...,
+        bending_stiffness: _Numbers = ...,
+        drag: _Numbers = ...,
+        drag_axial: _Numbers = ...,
+        added_mass: _Numbers = ...,
+        added_mass_axial: _Numbers = ...,
+        breaking_load: _Numbers = ...,
+        pretension: float = ...,
+        attachment_at: _Numbers = ...,
+        attachment_mass: _Numbers = ...,
+        attachment_volume: _Numbers = ...,
+        attachment_drag_area: _Numbers = ...,
+        attachment_added_mass: _Numbers = ...,
+        seabed: bool = ...,
+        seabed_depth: float = ...,
+        seabed_stiffness: float = ...,
+        seabed_damping: float = ...,
+        seabed_friction: float = ...,
+        waves: bool = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "line".
+
+        Dynamic mooring line: masses on elastic segments in the water, with a seabed.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        body_a : text, default "ground"
+            Body of end A, or ground.
+        body_b : text, default "ground"
+            Body of end B, or ground.
+        point_a : 3 numbers, m
+            End A in the reference pose, world axes.
+        point_b : 3 numbers, m, default [0, 0, 0]
+            End B in the reference pose, world axes; of a free end: towards where it lies on the
+            seabed.
+        free_end : true or false, default false
+            Whether end B is free.
+        length : list of numbers, m
+            Unstretched lengths of the parts, from A to B. Allowed: > 0.
+        segments : list of numbers, optional
+            Segments of each part; 20 by default. Allowed: 1 to 5000.
+        mass : list of numbers, kg/m
+            Masses per unstretched length, dry. Allowed: > 0.
+        diameter : list of numbers, m, optional
+            Diameters D of cylinders of the same volume; 0, the default: no buoyancy, no drag
+            and no added mass. Allowed: >= 0.
+        stiffness : list of numbers, N
+            Axial stiffnesses EA of the parts. Allowed: > 0.
+        damping : list of numbers, N s, optional
+            Axial dampings C: tension C strain'. Allowed: >= 0.
+        damping_ratio : list of numbers, optional
+            In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a
+            segment. Allowed: >= 0.
+        bending_stiffness : list of numbers, N m2, optional
+            Bending stiffnesses EI; ends turn freely. Allowed: >= 0.
+        drag : list of numbers, optional
+            C_d: drag across the line, over D. Allowed: >= 0.
+        drag_axial : list of numbers, optional
+            C_dt: drag along the line, over pi D. Allowed: >= 0.
+        added_mass : list of numbers, optional
+            C_a across the line; the inertia force is rho V (1 + C_a). Allowed: >= 0.
+        added_mass_axial : list of numbers, optional
+            C_at: added mass along the line. Allowed: >= 0.
+        breaking_load : list of numbers, N, optional
+            Breaking loads of the parts; reported, nothing breaks. Allowed: > 0.
+        pretension : number, N, optional
+            Tension at B in the reference pose; the length of the first part follows from it.
+            Allowed: > 0.
+        attachment_at : list of numbers, m, optional
+            Unstretched lengths from A at which clumps and buoys hang, each between two
+            segments. Allowed: >= 0.
+        attachment_mass : list of numbers, kg, optional
+            Their masses. Allowed: >= 0.
+        attachment_volume : list of numbers, m3, optional
+            Their volumes. Allowed: >= 0.
+        attachment_drag_area : list of numbers, m2, optional
+            Their drag areas C_d A. Allowed: >= 0.
+        attachment_added_mass : list of numbers, optional
+            Their added-mass coefficients C_a, over the volume. Allowed: >= 0.
+        seabed : true or false, default true
+            Whether the seabed carries the line, where there is one.
+        seabed_depth : number, m, optional
+            Depth of the seabed; default: that of the water. Allowed: > 0.
+        seabed_stiffness : number, N/m3, optional
+            Normal stiffness of the seabed, over D; default: the line lies a tenth of D deep.
+            Allowed: > 0.
+        seabed_damping : number, N s/m3, default 0
+            Normal damping of the seabed, over D, on the way down. Allowed: >= 0.
+        seabed_friction : number, default 0
+            Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at
+            rest. Allowed: >= 0.
+        waves : true or false, default true
+            Whether the line feels the waves; it always feels the current.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
 
 class ControllerTypes(TypedList):
     """A sampled controller: it reads channels, and holds inputs between its instants."""

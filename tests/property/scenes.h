@@ -209,6 +209,44 @@ template <int w> const hydrodae_law* smooth_library_law() {
   return &law;
 }
 
+/// Lines of two parts with bending, a buoy and a clump, partly in the air and on the bed, and one
+/// with a free end.
+inline std::vector<element::Line> random_lines(Random& random) {
+  element::Line line;
+  line.name = "line";
+  line.body_a = "a";
+  line.body_b = "b";
+  line.point_a = Vector3(0.1, 0.2, -0.4) + 0.1 * random.vector();
+  line.point_b = Vector3(2.2, 0.1, 0.3) + 0.1 * random.vector();
+  line.length = {1.5, 1.4};
+  line.segments = {2, 3};
+  line.mass = {1.5, 0.8};
+  line.diameter = {0.03, 0.02};
+  line.stiffness = {300.0, 200.0};
+  line.damping = {3.0, 2.0};
+  line.bending_stiffness = {2.0};
+  line.drag = {1.2};
+  line.drag_axial = {0.3};
+  line.added_mass = {1.0};
+  line.added_mass_axial = {0.2};
+  line.attachment_at = {0.75, 1.5};
+  line.attachment_mass = {0.1, 0.3};
+  line.attachment_volume = {2e-4, 0.0};
+  line.attachment_drag_area = {0.1, 0.05};
+  line.attachment_added_mass = {0.5, 0.0};
+  line.seabed_depth = 0.9;
+  line.seabed_stiffness = 40.0;
+  line.seabed_damping = 5.0;
+  line.seabed_friction = 0.5;
+  element::Line hanging = line;
+  hanging.name = "hanging";
+  hanging.free_end = true;
+  hanging.bending_stiffness.clear();
+  hanging.segments = {2, 2};
+  hanging.attachment_at = {0.75, 2.9};
+  return {line, hanging};
+}
+
 /// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
 /// it can have one.
 inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
@@ -234,6 +272,8 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
             if (presses)
               list.push_back(pressed_friction<Law>(random));
           }
+          if constexpr (std::is_same_v<Law, element::Line>)
+            list = random_lines(random);
           if constexpr (requires(Law law) { law.upper; })
             for (Law& law : list)
               law.upper = -0.2; // beyond it

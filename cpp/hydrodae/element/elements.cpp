@@ -18,6 +18,8 @@ void Elements::report(double, const double*, const double* out, double* loads) c
 }
 
 AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
+  if (const auto still = list.statics())
+    return at_rest(*still, law, x);
   const auto n = list.size(), states = static_cast<std::size_t>(list.shape.n_states);
   const Index in_size = list.shape.n_in(), out_size = list.shape.n_out(), w = list.shape.width;
   if (list.shape.in_water())

@@ -17,6 +17,7 @@
 ///
 /// The power of a load is load . v in all but the last.
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -57,12 +58,18 @@ struct Unknown {
   double rate = 0.0; ///< size of what the law answers where it counts; 0: of a state the scale over
                      ///< the time of the body, of an algebraic unknown the scale
   bool algebraic = false;
+  bool absolute = false; ///< the scale alone says what counts, not its value, nor how far the
+                         ///< bodies move
 };
 
 /// What a law reports beside its load.
 struct Quantity {
   std::string_view name, unit, doc;
+  int width = 1;
 };
+
+/// Points of a law with a sparse Jacobian, at most.
+inline constexpr std::size_t most_sparse_points = 2;
 
 /// A number that a law is given from outside, held until it is written again; without a name: by
 /// the system itself.
@@ -145,9 +152,24 @@ public:
   std::vector<Signal> inputs;          ///< of each law (n_signals,)
   std::vector<double> signals;         ///< what they are at the start (n n_signals,)
   bool timed = false;                  ///< do loads depend on the time by themselves?
+  bool tells_unknowns = true;          ///< are they reported one by one?
+  std::vector<std::array<int, 2>> sparsity; ///< of laws on points: (row, column) of each entry of the
+                                            ///< Jacobian that can differ from 0; empty: all can
   std::vector<Schedule> schedules;
 
   std::size_t size() const { return names.size(); }
+  /// Numbers of the Jacobian of one law.
+  std::size_t jacobian_size() const {
+    return sparsity.empty() ? static_cast<std::size_t>(shape.n_out() * shape.n_columns())
+                            : sparsity.size();
+  }
+  /// Numbers of `channels` of one law.
+  std::size_t channel_size() const {
+    std::size_t n = 0;
+    for (const Quantity& q : channels)
+      n += static_cast<std::size_t>(q.width);
+    return n;
+  }
 
   /// @param in       (n n_in,)
   /// @param signals  (n n_signals,)
@@ -157,14 +179,15 @@ public:
   /// The same on dual numbers: the oracle of tests.
   virtual void evaluate(double t, const Dual* in, const double* signals, Dual* out) const = 0;
 
-  /// @param jacobian  (n n_out n_columns,) d out / d in of each law, column by column
+  /// @param jacobian  (n jacobian_size,) d out / d in of each law, column by column, or in the order
+  /// of `sparsity`
   virtual void jacobian(double t, const double* in, const double* signals,
                         double* jacobian) const = 0;
 
   /// Stored energy of each law [J] (n,), that a potential gives back.
   virtual void energy(const double* in, const double* signals, double* joules) const = 0;
 
-  /// Values of `channels` (n n_channels,); `out`: of `evaluate`.
+  /// Values of `channels` (n channel_size,); `out`: of `evaluate`.
   virtual void observe(double t, const double* in, const double* signals, const double* out,
                        double* values) const = 0;
 
@@ -174,6 +197,13 @@ public:
 
   /// Does this law have a load that has no slope at rest (so that no linear model has it)?
   virtual bool lost_at_rest(std::size_t law) const = 0;
+
+  /// The same whose unknowns start at rest where the laws are, in calm water; null: they start as
+  /// declared. `in`: as in `evaluate`, its unknowns are not read. Throws ModelError.
+  virtual std::shared_ptr<const Elements> started(const double*) const { return nullptr; }
+  /// Laws without unknowns, with the loads of these laws at rest in calm water; null: they are the
+  /// same.
+  virtual std::shared_ptr<const Elements> statics() const { return nullptr; }
 
   // Of what feels the waves:
   virtual WavesFelt waves() const { return {}; }         ///< without any: nothing

@@ -19,6 +19,14 @@ bool check_motion(const Scene& scene, const Entry& entry, const std::string& nam
   return coordinate.value_or(motions.front()).starts_with("angle");
 }
 
+/// The ends of a line may both be on the ground, or on one body.
+void check_line(const Scene& scene, const Entry& entry, const element::Line& line) {
+  std::vector<std::string> names = names_of(scene.bodies);
+  names.emplace_back(ground);
+  check_reference(entry, "body_a", line.body_a, names, "body");
+  check_reference(entry, "body_b", line.body_b, names, "body");
+}
+
 /// What a force refers to is read off its members: `body` names a body, `joint` a joint, `body_a`
 /// and `body_b` the two ends.
 template <class Force> void check_force(const Scene& scene, const Force& force) {
@@ -39,7 +47,9 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
   if constexpr (requires { force.fault(); })
     if (const std::optional<Fault> fault = force.fault())
       refuse(entry, fault->key, fault->message);
-  if constexpr (requires { force.body_a; }) {
+  if constexpr (std::is_same_v<Force, element::Line>) {
+    check_line(scene, entry, force);
+  } else if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
     if constexpr (requires { force.point_a; })
       if (coincide(force.point_a, force.point_b))

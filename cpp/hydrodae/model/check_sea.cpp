@@ -95,14 +95,16 @@ void check_wave(const Scene& scene, const sea::Wave& wave) {
 void check_sea(const Scene& scene) {
   for (const sea::Wave& wave : scene.waves)
     check_wave(scene, wave);
-  if (!scene.waves.empty() && !scene.hydro && scene.morison.empty())
+  const bool slender =
+      !scene.morison.empty() || !std::get<std::vector<element::Line>>(scene.forces).empty();
+  if (!scene.waves.empty() && !scene.hydro && !slender)
     throw ModelError("wave." + scene.waves.front().name,
-                     "waves need a hydrodynamic database or Morison elements to act on: the table "
-                     "[hydro] is missing");
+                     "waves need a hydrodynamic database, Morison elements or lines to act on: the "
+                     "table [hydro] is missing");
   if (scene.sea.phase == "moving" && (scene.waves.empty() || !scene.hydro))
     throw ModelError("sea.phase", "phase = \"moving\" is about waves on bodies of the hydrodynamic "
                                   "database, and there are none");
-  if (!scene.sea.current.isZero(0.0) && scene.morison.empty())
+  if (!scene.sea.current.isZero(0.0) && !slender)
     throw ModelError("sea.current", "a current acts on [[morison]] elements, and there is none");
   if (scene.sea.ramp > 0.0 && scene.waves.empty())
     throw ModelError("sea.ramp", "there is no [[wave]] to ramp up");

@@ -20,6 +20,7 @@
 #include "hydrodae/element/friction_lugre.h"
 #include "hydrodae/element/friction_stribeck.h"
 #include "hydrodae/element/library_law.h"
+#include "hydrodae/element/line.h"
 #include "hydrodae/element/mooring_matrix.h"
 #include "hydrodae/element/morison.h"
 #include "hydrodae/element/pto_general.h"
@@ -321,7 +322,7 @@ using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<eleme
                           std::vector<element::PtoRotary>, std::vector<element::FrictionStribeck>,
                           std::vector<element::EndStop>, std::vector<element::Rope>,
                           std::vector<element::CatenaryLine>, std::vector<element::LibraryLoad>,
-                          std::vector<element::LibraryWrench>>;
+                          std::vector<element::LibraryWrench>, std::vector<element::Line>>;
 
 struct Scene {
   // Written once, in scene.cpp: every list of forces is copied and freed there.

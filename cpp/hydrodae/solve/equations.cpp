@@ -106,15 +106,15 @@ void Equations::weights(const VectorX& y, VectorX& w) const {
 }
 
 double largest_by_group(const system::System& s, const double* squares, VectorX& sums) {
-  sums.setZero(s.n_groups);
+  sums.setZero(s.n_error_groups());
   for (Index i = 0; i < s.lambda0; ++i)
-    sums[s.group[static_cast<std::size_t>(i)]] += squares[i];
+    sums[s.error_group[static_cast<std::size_t>(i)]] += squares[i];
   return sums.allFinite() ? std::sqrt(sums.cwiseQuotient(s.group_size).maxCoeff()) : INFINITY;
 }
 
 double Equations::norm(const VectorX& w, const VectorX& e) const {
   const Index n = system.lambda0;
-  if (system.n_groups <= 1)
+  if (system.n_error_groups() <= 1)
     return std::sqrt(w.head(n).cwiseProduct(e.head(n)).squaredNorm() /
                      static_cast<double>(std::max<Index>(n, 1)));
   squares_ = w.head(n).cwiseProduct(e.head(n)).cwiseAbs2();

@@ -39,6 +39,20 @@ void take_start(System& s, const VectorX& y) {
     s.motions[static_cast<std::size_t>(m)].start = system::motion_row<double>(s, ws, m).value;
 }
 
+/// Puts laws at rest in the place of those that have states for it.
+/// @returns whether there are any
+bool take_statics(System& s) {
+  bool any = false;
+  for (system::ElementList& list : s.elements)
+    if (auto statics = list.laws->statics()) {
+      list.laws = std::move(statics);
+      any = true;
+    }
+  if (any)
+    system::lay_out(s);
+  return any;
+}
+
 /// Notes a direction, free of the constraints, in which the forces drive the scene away.
 void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
@@ -119,6 +133,7 @@ void note_switches(System& s) {
 VectorX move_to_equilibrium(System& system) {
   System s = system; // without waves
   system::calm(s);
+  const bool less = take_statics(s);
   VectorX y = system::initial_state(s);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
@@ -139,7 +154,13 @@ VectorX move_to_equilibrium(System& system) {
   note_switches(system);
   note_instability(system, m, system::displacement_scale(s));
   take_start(system, y);
-  return y;
+  if (!less)
+    return y;
+  system::start_laws(system);
+  VectorX all = system::initial_state(system);
+  all.head(s.z0) = y.head(s.z0);
+  all.tail(s.n - s.lambda0) = y.tail(s.n - s.lambda0);
+  return all;
 }
 
 VectorX settle(const model::Scene& scene, System& s) {

@@ -26,7 +26,7 @@ LinearMatrices linear_matrices(const system::System& system, const system::Patte
                                const VectorX& y);
 
 /// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,
-/// with the states of forces (pressures, say) held at theirs, and with the smallest motion along
+/// with the states of forces (pressures, say) held at theirs, dynamic lines at rest, and with the smallest motion along
 /// directions in which nothing holds a body. Moves the start of the system there, at rest, and
 /// returns y with the reactions. An unstable pose is noted. Throws ModelError when there is no
 /// equilibrium near, or velocities are given.

@@ -140,7 +140,7 @@ private:
 
   N_Vector new_vector() const {
     N_Vector v = made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
-    if (system.n_groups > 1)
+    if (system.n_error_groups() > 1)
       v->ops->nvwrmsnormmask = norm_by_group; // its clones take it over
     return v;
   }
@@ -216,7 +216,7 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
         system.is_algebraic(i) || (system.formulation == system::Formulation::index_3 &&
                                    i >= system.u0 && i < system.z0)
             ? 0.0 // in index 3 the velocities behave like multipliers
-            : 1.0 + system.group[static_cast<std::size_t>(i)];
+            : 1.0 + system.error_group[static_cast<std::size_t>(i)];
   memory.reset(made(IDACreate(context.get()), "IDACreate"));
   void* ida = memory.get();
   check(IDASetErrHandlerFn(

@@ -51,7 +51,7 @@ bool StageNewton::residuals(double t, double h, const VectorX& y0, const MatrixX
 /// from these linearly; in a singular pose they are not unique, and say nothing.
 double StageNewton::size(const VectorX& w, const MatrixX& dZ) const {
   const Index d = e_.system.lambda0;
-  if (e_.system.n_groups <= 1)
+  if (e_.system.n_error_groups() <= 1)
     return std::sqrt((dZ.topRows(d).array().colwise() * w.head(d).array()).square().sum() /
                      static_cast<double>(std::max<Index>(d * rk_.stages, 1)));
   const VectorX squares =

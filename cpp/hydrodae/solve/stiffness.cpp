@@ -14,7 +14,7 @@ namespace {
 VectorX full_scales(const system::System& s) {
   VectorX out = s.scale.head(s.lambda0);
   for (Index i = 0; i < s.lambda0; ++i)
-    if (const int g = s.group[static_cast<std::size_t>(i)]; g >= 0)
+    if (const int g = s.group[static_cast<std::size_t>(i)]; g >= 0 && !s.is_absolute(i))
       out[i] /= s.motion_scale[g];
   return out;
 }

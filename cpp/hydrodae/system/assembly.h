@@ -116,6 +116,8 @@ template <class Sink> struct Assembly {
                      const element::Shape& shape, Index z);
   void law_by_reaction(const PortData& data, const PortGradient<1, 12>& port,
                        const double* jacobian, const element::Shape& shape, Index z);
+  void sparse_law_of_points(const PortData& port, const double* load, const double* values,
+                            const element::Elements& laws, Index z);
   void law_states(const double* jacobian, const element::Shape& shape, Index z);
   void law_in_water(int body, const double* jacobian, bool feels_rates);
 

@@ -122,6 +122,63 @@ void Assembly<Sink>::law_of_points(const PortData& port, const double* load, con
   }
 }
 
+/// The same by the entries of the Jacobian that the list tells.
+template <class Sink>
+void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* load,
+                                          const double* values, const element::Elements& laws,
+                                          Index z) {
+  using Matrix36 = Eigen::Matrix<double, 3, 6>;
+  const element::Shape& shape = laws.shape;
+  const int w = shape.width;
+  std::array<PointGradient, element::most_sparse_points> seen;
+  for (std::size_t a = 0; a < port.points.size(); ++a)
+    if (const joint::Marker& point = port.points[a]; point.body >= 0) {
+      seen[a] = point_gradient(state(point.body), point.point, load + 3 * a);
+      load_by_displacement(point.body, point.body, seen[a].turn);
+    }
+  for (int k = 0; k < shape.n_states - shape.n_algebraic; ++k)
+    sink.by_yp(z + k, z + k, 1.0);
+  // What the motion of one body does: rows (1, 6) by its displacement and its velocity.
+  const auto of_motion = [&](int column, double value, auto&& emit) {
+    const bool rate = column >= w;
+    const int at = rate ? column - w : column;
+    const auto a = static_cast<std::size_t>(at / 3);
+    if (const int body = port.points[a].body; body >= 0) {
+      const RowVector6 by_x = value * (rate ? seen[a].V : seen[a].A).row(at % 3);
+      emit(body, by_x, RowVector6(rate ? RowVector6(value * seen[a].A.row(at % 3))
+                                       : RowVector6(RowVector6::Zero())));
+    }
+  };
+  for (const auto& [row, column] : laws.sparsity) {
+    const double value = *values++;
+    if (row >= w) {
+      if (column >= 2 * w)
+        sink.by_y(z + row - w, z + column - 2 * w, -value);
+      else
+        of_motion(column, -value, [&](int body, const RowVector6& by_x, const RowVector6& by_v) {
+          displacement_columns(z + row - w, body, by_x);
+          velocity_columns(z + row - w, body, by_v);
+        });
+      continue;
+    }
+    const joint::Marker& loaded = port.points[static_cast<std::size_t>(row / 3)];
+    if (loaded.body < 0)
+      continue;
+    const BodyData& body = s.bodies[loaded.body];
+    const Matrix36& arm = seen[static_cast<std::size_t>(row / 3)].A;
+    for (int c = 0; c < body.n_active; ++c) {
+      const double lost = -value * arm(row % 3, body.active[c]);
+      if (column >= 2 * w)
+        sink.by_y(body.u0 + c, z + column - 2 * w, lost);
+      else
+        of_motion(column, lost, [&](int other, const RowVector6& by_x, const RowVector6& by_v) {
+          displacement_columns(body.u0 + c, other, by_x);
+          velocity_columns(body.u0 + c, other, by_v);
+        });
+    }
+  }
+}
+
 /// Of a load in the water, whose Jacobian is by the tangent coordinates of its body.
 template <class Sink>
 void Assembly<Sink>::law_in_water(int body, const double* jacobian, bool feels_rates) {
@@ -151,7 +208,9 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
   const Vector12* rows = scratch.rows.data();
   Index z = list.z0;
   for (const PortData& port : list.ports) {
-    if (shape.port == Port::points) {
+    if (!list.laws->sparsity.empty()) {
+      sparse_law_of_points(port, load, J, *list.laws, z);
+    } else if (shape.port == Port::points) {
       law_of_points(port, load, J, shape, z);
     } else if (shape.in_water()) {
       law_in_water(port.body, J, shape.feels_rates);
@@ -177,7 +236,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
     }
     in += shape.n_in();
     load += shape.n_out();
-    J += shape.n_columns() * shape.n_out();
+    J += list.laws->jacobian_size();
     z += shape.n_states;
   }
 }

@@ -161,6 +161,7 @@ System build(const model::Scene& scene, bool with_excitation) {
            body_starts(scene));
   find_reactions(s);
   take_mean_yaw(scene, s);
+  start_laws(s);
   if (with_excitation) {
     note_axes(scene, s);
     add_sea(scene, s);

@@ -12,7 +12,9 @@
 #include "hydrodae/element/laws.h"
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/math/rotation.h"
+#include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/elements.h"
 #include "hydrodae/system/initial_pose.h"
 
 namespace hydrodae::system {
@@ -127,9 +129,18 @@ template <class F> std::vector<std::vector<F>> alike(const std::vector<F>& force
   }
 }
 
+element::Surroundings surroundings(const model::Scene& scene) {
+  const model::Water w = model::water(scene);
+  return {scene.environment.gravity, w.density,
+          sea::WaveField(model::wave_components(scene), w.depth, scene.sea.ramp, scene.sea.current)};
+}
+
 template <class F>
-std::shared_ptr<const element::Elements> make_laws(const std::vector<F>& forces) {
-  if constexpr (requires { F::list(forces); })
+std::shared_ptr<const element::Elements> make_laws([[maybe_unused]] const model::Scene& scene,
+                                                   const std::vector<F>& forces) {
+  if constexpr (requires(const element::Surroundings& around) { F::list(forces, around); })
+    return F::list(forces, surroundings(scene));
+  else if constexpr (requires { F::list(forces); })
     return F::list(forces);
   else
     return std::make_shared<const element::Laws<F>>(forces);
@@ -146,7 +157,7 @@ void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s
       if (force.pressed())
         list.ports.back().bearing = force.bearing();
   }
-  list.laws = make_laws(completed);
+  list.laws = make_laws(scene, completed);
   list.signals = list.laws->signals;
   s.elements.push_back(std::move(list));
   if constexpr (std::is_same_v<F, element::DryFriction>)
@@ -210,6 +221,27 @@ void add_elements(const model::Scene& scene, System& s) {
   };
   std::apply([&](const auto&... list) { (add(list), ...); }, scene.forces);
   add_buoyancy(scene, s);
+}
+
+void start_laws(System& s) {
+  Workspace<double> ws(s);
+  bool known = false;
+  VectorX y;
+  for (ElementList& list : s.elements) {
+    if (list.laws->shape.port != Port::points || list.laws->shape.n_states == 0)
+      continue;
+    if (!known) {
+      y = initial_state(s);
+      unpack<double>(s, y.data(), y.data(), ws.bodies);
+      known = true;
+    }
+    ElementScratch<double>& scratch = ws.elements[index_of(s, list)];
+    gather<double>(s, list, ws, y.data(), scratch);
+    if (auto started = list.laws->started(scratch.in.data()))
+      list.laws = std::move(started);
+  }
+  if (known)
+    lay_out(s);
 }
 
 void set_hydrostatics(const model::Scene& scene, System& s) {

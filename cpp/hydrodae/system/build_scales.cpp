@@ -144,11 +144,13 @@ void set_scales(System& s) {
     Index z = block.first;
     for (const element::Unknown& u : block.unknowns) {
       s.scale[z] = u.scale;
+      s.relative[z] = u.absolute ? 0.0 : 1.0;
       s.row_scale[z++] = u.rate > 0.0 ? u.rate : u.algebraic ? u.scale : u.scale / time;
     }
   }
   for (Index i = 0; i < s.lambda0; ++i)
-    s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
+    if (!s.is_absolute(i))
+      s.scale[i] *= s.motion_scale[s.group[static_cast<std::size_t>(i)]];
   for (const BodyData& b : s.bodies) {
     if (b.group < 0)
       continue;

@@ -37,13 +37,13 @@ void add_channels(const System& s, const element::Elements& laws, std::size_t la
       port.motion >= 0 && s.motions[static_cast<std::size_t>(port.motion)].motion.is_angle();
   add_port_channels(s, laws, port, head, out);
   const auto n = static_cast<std::size_t>(laws.shape.n_states);
-  for (std::size_t z = 0; z < n; ++z) {
+  for (std::size_t z = 0; z < n && laws.tells_unknowns; ++z) {
     const element::Unknown& u = laws.unknowns[law * n + z];
     out.push_back(
         {head + u.name, 1, element::unit_along(u.unit, angle), "-", "State of the force."});
   }
   for (const element::Quantity& q : laws.channels)
-    out.push_back({head + std::string(q.name), 1, element::unit_along(q.unit, angle), "-",
+    out.push_back({head + std::string(q.name), q.width, element::unit_along(q.unit, angle), "-",
                    std::string(q.doc)});
 }
 

@@ -90,9 +90,7 @@ JacobianWorkspace::JacobianWorkspace(const System& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
-    most =
-        std::max(most, list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_columns() *
-                                                                    list.laws->shape.n_out()));
+    most = std::max(most, list.laws->size() * list.laws->jacobian_size());
   element_jacobian.resize(most);
 }
 

@@ -109,8 +109,13 @@ void set_groups(System& s) {
   for (const StateBlock& block : s.states)
     std::fill_n(s.group.begin() + block.first, block.unknowns.size(),
                 block.body < 0 ? 0 : s.bodies[static_cast<std::size_t>(block.body)].group);
-  s.group_size = VectorX::Zero(s.n_groups);
-  for (const int group : s.group)
+  s.error_group = s.group;
+  int n = s.n_groups;
+  for (const StateBlock& block : s.states)
+    if (!block.unknowns.empty() && block.unknowns.front().absolute)
+      std::fill_n(s.error_group.begin() + block.first, block.unknowns.size(), n++);
+  s.group_size = VectorX::Zero(n);
+  for (const int group : s.error_group)
     ++s.group_size[group];
 }
 

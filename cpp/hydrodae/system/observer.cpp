@@ -52,7 +52,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   out_.elements.resize(own);
   for (const ElementList& list : s_.elements) {
     const element::Elements& laws = *list.laws;
-    const std::size_t each = std::max(1 + laws.channels.size(), 6 * (1 + laws.parts.size()));
+    const std::size_t each = std::max(1 + laws.channel_size(), 6 * (1 + laws.parts.size()));
     element_values_.resize(std::max(element_values_.size(), laws.size() * each));
     if (!in_waves_ && laws.waves().omega.size() > 0)
       in_waves_ = &laws;

@@ -61,6 +61,7 @@ void Observer::observe(const ElementList& list, const double* y) {
   const double *in = scratch.in.data(), *load = scratch.out.data();
   laws.evaluate(ws_.time, in, list.signals.data(), scratch.out.data());
   observe_ports(list, scratch);
+  const std::size_t values = laws.channel_size();
   double *energy = element_values_.data(), *declared = energy + laws.size();
   laws.energy(in, list.signals.data(), energy);
   laws.observe(ws_.time, in, list.signals.data(), load, declared);
@@ -77,9 +78,10 @@ void Observer::observe(const ElementList& list, const double* y) {
     }
     if (laws.absorbs)
       *own_++ = power_absorbed(laws.shape, port, in, load, rows);
-    own_ = std::copy_n(in + laws.shape.n_in() - laws.shape.n_states, laws.shape.n_states, own_);
-    own_ = std::copy_n(declared, laws.channels.size(), own_);
-    declared += laws.channels.size();
+    if (laws.tells_unknowns)
+      own_ = std::copy_n(in + laws.shape.n_in() - laws.shape.n_states, laws.shape.n_states, own_);
+    own_ = std::copy_n(declared, values, own_);
+    declared += values;
     rows += element::has_rows(laws.shape.port) ? laws.shape.width : 0;
     in += laws.shape.n_in();
     load += laws.shape.n_out();

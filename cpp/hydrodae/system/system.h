@@ -220,7 +220,8 @@ struct System {
   std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
   std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
-  VectorX group_size;                 ///< (n_groups,) how many of these each has
+  std::vector<int> error_group; ///< (lambda0,) those, but of absolute states of a law one of its own
+  VectorX group_size;           ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
   VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
@@ -232,6 +233,9 @@ struct System {
   std::vector<std::string> row_names; ///< (n,) of the equations
   std::vector<std::string> notes;     ///< what the build found worth telling
 
+  Index n_error_groups() const { return group_size.size(); }
+  /// A state whose scale does not follow the motion.
+  bool is_absolute(Index i) const { return i >= z0 && i < lambda0 && relative[i] == 0.0; }
   bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }
   bool has_memory() const { return memory0 < lambda0; }
   bool has_waves() const; ///< that any of the elements feels

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi, sqrt
+from typing import NamedTuple
 
 from hydrodae.errors import CaseError
 
@@ -38,6 +39,9 @@ class LineType:
     stiffness_at_sea : tuple of float or None
         Of polyester and nylon: EA at wave frequency is the first [N] plus the second [-] times the
         mean tension.
+    drag, drag_axial, added_mass, added_mass_axial : float
+        Coefficients of Morison's equation over `volume_diameter`, as a force of type `line` takes
+        them: drag of DNV-OS-E301, added mass of Bureau Veritas NR 493 (2021).
     """
 
     name: str
@@ -47,6 +51,23 @@ class LineType:
     stiffness: float
     breaking_load: float
     stiffness_at_sea: tuple[float, float] | None = None
+    drag: float = 0.0
+    drag_axial: float = 0.0
+    added_mass: float = 0.0
+    added_mass_axial: float = 0.0
+
+    def keys(self) -> dict[str, float]:
+        """Keys of a force of type `line`."""
+        return {
+            "mass": self.mass,
+            "diameter": self.volume_diameter,
+            "stiffness": self.stiffness,
+            "breaking_load": self.breaking_load,
+            "drag": self.drag,
+            "drag_axial": self.drag_axial,
+            "added_mass": self.added_mass,
+            "added_mass_axial": self.added_mass_axial,
+        }
 
     def weight(self, density: float = 1025.0, gravity: float = 9.81) -> float:
         """Weight in water per unstretched length [N/m], as forces of type `catenary` take it.
@@ -61,6 +82,13 @@ class LineType:
         return (self.mass - density * 0.25 * pi * self.volume_diameter**2) * gravity
 
 
+class _Water(NamedTuple):
+    drag: float
+    drag_axial: float
+    added_mass: float
+    added_mass_axial: float
+
+
 def chain(diameter: float, *, studs: bool = False) -> LineType:
     """Chain of grade R4, by the diameter of its bar [m].
 
@@ -72,11 +100,12 @@ def chain(diameter: float, *, studs: bool = False) -> LineType:
     d = _checked(diameter, 0.3)
     breaking = (-2.19e9 * d + 1.21e9) * d**2 + 9.11e2 * d
     if studs:
-        return LineType(
-            f"studlink chain {d:g} m", d, 1.89 * d, 21.9e3 * d**2, 88.0e9 * d**2, breaking
-        )
-    stiffness = (-3.93e7 * d + 85.6e9) * d**2
-    return LineType(f"studless chain {d:g} m", d, 1.80 * d, 20.0e3 * d**2, stiffness, breaking)
+        mass, stiffness = 21.9e3 * d**2, 88.0e9 * d**2
+        name, volume, water = f"studlink chain {d:g} m", 1.89 * d, _Water(1.376, 0.741 / pi, 1, 0.5)
+    else:
+        mass, stiffness = 20.0e3 * d**2, (-3.93e7 * d + 85.6e9) * d**2
+        name, volume, water = f"studless chain {d:g} m", 1.8 * d, _Water(1.333, 0.639 / pi, 1, 0.5)
+    return LineType(name, d, volume, mass, stiffness, breaking, **water._asdict())
 
 
 def studless_chain(diameter: float) -> LineType:
@@ -92,21 +121,23 @@ def studlink_chain(diameter: float) -> LineType:
 def wire(diameter: float) -> LineType:
     """Six-strand wire rope, by its diameter [m]. Raises CaseError as `chain` does."""
     d = _checked(diameter)
-    return LineType(f"wire rope {d:g} m", d, 1.18 * d, 5293.0 * d**2, 97.1e9 * d**2, 1022e6 * d**2)
+    water = _Water(1.021, 0.0, 1.0, 0.0)
+    mass, stiffness, breaking = 5293.0 * d**2, 97.1e9 * d**2, 1022e6 * d**2
+    return LineType(f"wire rope {d:g} m", d, 1.18 * d, mass, stiffness, breaking, **water._asdict())
 
 
 def polyester(diameter: float) -> LineType:
     """Polyester rope, by its diameter [m]. Raises CaseError as `chain` does."""
     d = _checked(diameter)
     breaking = 308e6 * d**2
-    return _fibre("polyester", d, 679.0, 1380.0, breaking, (14.0, 11.6, 40.0))
+    return _fibre("polyester", d, 679.0, 1380.0, breaking, (14.0, 11.6, 40.0), 2.021)
 
 
 def nylon(diameter: float) -> LineType:
     """Nylon rope, by its diameter [m]. Raises CaseError as `chain` does."""
     d = _checked(diameter)
     breaking = (230e6 * d + 207e6) * d**2
-    return _fibre("nylon", d, 585.0, 1140.0, breaking, (5.0, 2.08, 39.0))
+    return _fibre("nylon", d, 585.0, 1140.0, breaking, (5.0, 2.08, 39.0), 1.979)
 
 
 def _fibre(
@@ -116,6 +147,7 @@ def _fibre(
     density: float,
     breaking: float,
     stiffness: tuple[float, float, float],
+    drag: float,
 ) -> LineType:
     """A rope of a material with this density [kg/m3]; stiffnesses over the breaking load."""
     mass = mass_per_square * d**2
@@ -128,6 +160,7 @@ def _fibre(
         static * breaking,
         breaking,
         (at_rest * breaking, by_tension),
+        **_Water(drag, 0.0, 1.1, 0.15)._asdict(),
     )
 
 

@@ -1,0 +1,310 @@
+/// From the keys of a line to its numbers.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/element/line_list.h"
+#include "hydrodae/element/line_statics.h"
+#include "hydrodae/math/catenary.h"
+
+namespace hydrodae::element {
+
+namespace {
+
+constexpr double lies_deep = 0.1;  ///< of D, without a stiffness of the bed
+constexpr double thin_line = 0.01; ///< depth of a line without a diameter [m]
+
+/// One part of a line.
+struct Part {
+  double l, mass, diameter, EA, damping, EI, strength;
+  const Line& of;
+  std::size_t index;
+};
+
+Part part_of(const Line& of, std::size_t i, double length) {
+  const auto get = [&](const std::vector<double>& values, double otherwise = 0.0) {
+    return Line::of_part(values, i, otherwise);
+  };
+  const double l = length / get(of.segments, 20.0), m = get(of.mass), EA = get(of.stiffness);
+  const double C =
+      of.damping_ratio.empty() ? get(of.damping) : get(of.damping_ratio) * l * std::sqrt(EA * m);
+  return {
+      l,  m, get(of.diameter), EA, C, get(of.bending_stiffness), get(of.breaking_load, INFINITY),
+      of, i};
+}
+
+/// Half a segment goes with a node.
+void add_half(const Part& p, const Surroundings& around, double bed, LineNode& node) {
+  const auto get = [&](const std::vector<double>& values) {
+    return Line::of_part(values, p.index);
+  };
+  const double half = 0.5 * p.l, D = p.diameter, rho = around.density;
+  const double volume = 0.25 * pi * D * D * half;
+  node.mass += p.mass * half;
+  node.lift += rho * around.gravity * volume;
+  MorisonSegment& m = node.line;
+  m.radius = std::max(m.radius, 0.5 * D);
+  m.half_length += 0.5 * half;
+  m.drag += 0.5 * rho * get(p.of.drag) * D * half;
+  m.drag_axial += 0.5 * rho * get(p.of.drag_axial) * pi * D * half;
+  m.mass_fluid += rho * volume * (1.0 + get(p.of.added_mass));
+  m.mass_body += rho * volume * get(p.of.added_mass);
+  m.mass_axial += rho * volume * get(p.of.added_mass_axial);
+  if (!std::isfinite(bed))
+    return;
+  const double weight = p.mass * around.gravity - rho * around.gravity * volume / half;
+  const double carried = weight > 0.0 ? weight : p.mass * around.gravity;
+  const double width = D > 0.0 ? D : thin_line;
+  const double k = p.of.seabed_stiffness ? *p.of.seabed_stiffness * width
+                                         : carried / (D > 0.0 ? lies_deep * D : thin_line);
+  node.bed_stiffness += k * half;
+  node.bed_damping += p.of.seabed_damping * width * half;
+  node.bed_width = std::max(node.bed_width, carried / k);
+  node.friction = p.of.seabed_friction;
+}
+
+/// Clumps and buoys, as spheres of their volume.
+void attach(const Line& of, const Surroundings& around, double stretched, LineModel& m) {
+  for (std::size_t k = 0; k < of.attachment_at.size(); ++k) {
+    const double at = of.attachment_at[k] + stretched;
+    const auto node =
+        std::min_element(m.nodes.begin(), m.nodes.end(), [&](const LineNode& a, const LineNode& b) {
+          return std::abs(a.at - at) < std::abs(b.at - at);
+        });
+    const auto get = [&](const std::vector<double>& values) {
+      return values.empty() ? 0.0 : values[k];
+    };
+    const double V = get(of.attachment_volume), rho = around.density,
+                 area = get(of.attachment_drag_area);
+    node->mass += get(of.attachment_mass);
+    node->body_lift += rho * around.gravity * V;
+    const double radius = V > 0.0 ? std::cbrt(0.75 * V / pi) : std::sqrt(area / pi);
+    node->body.radius = std::max(node->body.radius, radius);
+    node->body.drag += 0.5 * rho * area;
+    node->body.mass_fluid += rho * V * (1.0 + get(of.attachment_added_mass));
+    node->body.mass_body += rho * V * get(of.attachment_added_mass);
+  }
+}
+
+} // namespace
+
+LineModel line_model(const Line& of, const Surroundings& around, double first) {
+  LineModel m;
+  m.gravity = around.gravity;
+  m.wet = around.density > 0.0;
+  m.free_end = of.free_end;
+  m.bends = (of.shape() & 2) != 0;
+  const double depth = of.seabed_depth.value_or(around.water.depth);
+  if (of.seabed && std::isfinite(depth))
+    m.bed = -depth;
+  m.nodes.emplace_back();
+  for (std::size_t i = 0; i < of.length.size(); ++i) {
+    const Part p = part_of(of, i, i == 0 ? first : of.length[i]);
+    const auto n = static_cast<int>(Line::of_part(of.segments, i, 20.0));
+    const double weight =
+        std::abs(p.mass * around.gravity -
+                 around.density * around.gravity * 0.25 * pi * p.diameter * p.diameter);
+    for (int k = 0; k < n; ++k) {
+      m.segments.push_back({p.l, p.EA, p.damping, std::max(weight * p.l / p.EA, 1e-6), p.strength});
+      add_half(p, around, m.bed, m.nodes.back());
+      LineNode next;
+      next.at = m.nodes.back().at + p.l;
+      m.nodes.push_back(next);
+      add_half(p, around, m.bed, m.nodes.back());
+    }
+    for (std::size_t node = m.nodes.size() - static_cast<std::size_t>(n); node < m.nodes.size();
+         ++node)
+      m.nodes[node].bending = p.EI / p.l;
+  }
+  // Where two parts meet, the softer in series: EI / l is that of half of either.
+  for (std::size_t k = 1; k + 1 < m.nodes.size(); ++k) {
+    const auto EI_of = [&](std::size_t node) { return m.nodes[node].bending; };
+    const double before = EI_of(k), after = EI_of(k + 1);
+    if (m.segments[k - 1].length != m.segments[k].length || before != after)
+      m.nodes[k].bending = before > 0.0 && after > 0.0 ? 2.0 / (1.0 / before + 1.0 / after) : 0.0;
+  }
+  m.nodes.back().bending = 0.0;
+  attach(of, around, first - of.length[0], m);
+  return m;
+}
+
+namespace {
+
+double net_weight(const LineModel& m, const LineNode& node) {
+  return node.mass * m.gravity - (m.wet ? node.lift + node.body_lift : 0.0);
+}
+
+/// The catenary of the same weights between these ends, the lower one first: segments as parts,
+/// half of each node's weight on either side.
+Catenary like(const LineModel& m, bool turned, bool bed) {
+  Catenary out;
+  const auto n = static_cast<std::size_t>(m.n());
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = turned ? n - 1 - k : k;
+    const LineSegment& seg = m.segments[i];
+    const double w = 0.5 * (net_weight(m, m.nodes[i]) * (i == 0 ? 2.0 : 1.0) +
+                            net_weight(m, m.nodes[i + 1]) * (i + 1 == n ? 2.0 : 1.0));
+    out.parts.push_back({seg.length, w / seg.length, seg.stiffness});
+  }
+  out.loads.assign(n - 1, 0.0);
+  out.bed = bed;
+  return out;
+}
+
+/// Straight from the first end to the second, with a sag that makes it about as long as it is.
+void straight(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
+  const double all = m.nodes.back().at, chord = (b - a).norm();
+  double weight = 0.0;
+  for (const LineNode& node : m.nodes)
+    weight += net_weight(m, node);
+  const double sag = 0.6 * std::sqrt(std::max(0.0, all * all - chord * chord)) *
+                     (weight > 0.0   ? 1.0
+                      : weight < 0.0 ? -1.0
+                                     : 0.0);
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const double s = m.nodes[static_cast<std::size_t>(i)].at / all;
+    places.segment<3>(3 * (i - 1)) = a + s * (b - a) - 4.0 * sag * s * (1.0 - s) * Vector3::UnitZ();
+  }
+}
+
+/// By the catenary; false where there is none.
+bool hang(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
+  const bool turned = b[2] < a[2];
+  const Vector3 &low = turned ? b : a, &high = turned ? a : b;
+  const bool bed = low[2] <= m.bed + 0.01 * m.nodes.back().at;
+  const Catenary line = like(m, turned, bed);
+  for (const LinePart& part : line.parts)
+    if (part.weight == 0.0 || (bed && part.weight < 0.0))
+      return false;
+  const Vector3 d = high - low;
+  const double X = std::hypot(d[0], d[1]);
+  const CatenaryHold found = hold(line, X, d[2]);
+  if (!std::isfinite(found.vertical) || !std::isfinite(found.horizontal))
+    return false;
+  const Vector3 e = X > 0.0 ? Vector3(d[0] / X, d[1] / X, 0.0) : Vector3(1.0, 0.0, 0.0);
+  std::vector<double> s;
+  for (const LineNode& node : m.nodes)
+    s.push_back(turned ? m.nodes.back().at - node.at : node.at);
+  if (turned)
+    std::reverse(s.begin(), s.end());
+  const std::vector<LinePoint> points = profile(line, found, X, s);
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const LinePoint& p = points[static_cast<std::size_t>(turned ? m.n() - i : i)];
+    places.segment<3>(3 * (i - 1)) = low + p.x * e + p.z * Vector3::UnitZ();
+  }
+  return places.allFinite();
+}
+
+/// Down, or up, from end A, and along the seabed.
+void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX& places) {
+  Vector3 e(towards[0] - a[0], towards[1] - a[1], 0.0);
+  e = e.norm() > 0.0 ? Vector3(e.normalized()) : Vector3(1.0, 0.0, 0.0);
+  double weight = 0.0;
+  for (const LineNode& node : m.nodes)
+    weight += net_weight(m, node);
+  const double room = weight >= 0.0 ? std::max(0.0, a[2] - m.bed) : HUGE_VAL;
+  for (int i = 1; i <= m.n_unknown(); ++i) {
+    const double s = m.nodes[static_cast<std::size_t>(i)].at, down = std::min(s, room);
+    places.segment<3>(3 * (i - 1)) =
+        a + (s - down) * e - (weight >= 0.0 ? down : -down) * Vector3::UnitZ();
+  }
+}
+
+/// The length of the first part by which the tension at B is the one asked for.
+double tightened(const Line& of, const Surroundings& around) {
+  Eigen::Matrix<double, 6, 1> x;
+  x << of.point_a, of.point_b;
+  sea::WaveField still = around.water;
+  still.terms.clear();
+  const auto tension = [&](double first) {
+    return line_at_rest(line_model(of, around, first), still, x.data(), of.point_b, of.name, false)
+        .load.tail<3>()
+        .norm();
+  };
+  double chord = (of.point_b - of.point_a).norm(), others = 0.0;
+  for (std::size_t i = 1; i < of.length.size(); ++i)
+    others += of.length[i];
+  double low = std::max(0.5 * (chord - others), 1e-3 * of.length[0]), high = of.length[0] + chord;
+  const double most = tension(low), least = tension(high);
+  if (!(*of.pretension <= most && *of.pretension >= least))
+    throw ModelError("force." + of.name + ".pretension",
+                     "force " + in_quotes(of.name) +
+                         ": no length of the first part gives this tension at B: between " +
+                         number_text(least) + " N and " + number_text(most) + " N can be had");
+  for (int k = 0; k < 50; ++k) {
+    const double middle = 0.5 * (low + high);
+    (tension(middle) > *of.pretension ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+} // namespace
+
+VectorX line_shape(const LineModel& m, const double* x, const Vector3& free_end) {
+  const Vector3 a = Eigen::Map<const Vector3>(x);
+  VectorX places(3 * m.n_unknown());
+  if (m.free_end) {
+    drop(m, a, free_end, places);
+  } else {
+    const Vector3 b = Eigen::Map<const Vector3>(x + 3);
+    if (!hang(m, a, b, places))
+      straight(m, a, b, places);
+  }
+  for (int i = 0; i < m.n_unknown(); ++i)
+    places[3 * i + 2] = std::max(places[3 * i + 2], m.bed);
+  return places;
+}
+
+std::shared_ptr<const Elements> Line::list(const std::vector<Line>& lines,
+                                           const Surroundings& around) {
+  return std::make_shared<const LineList>(lines, around);
+}
+
+LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
+    : water_(around.water), still_(around.water) {
+  still_.terms.clear();
+  for (const Line& line : lines) {
+    if (const std::optional<Fault> wrong = line.fault(around))
+      throw ModelError("force." + line.name + "." + wrong->key,
+                       "force " + in_quotes(line.name) + ": " + wrong->message);
+    models_.push_back(
+        line_model(line, around, line.pretension ? tightened(line, around) : line.length[0]));
+    names.push_back(line.name);
+    waves_.push_back(line.waves);
+    free_ends_.push_back(line.point_b);
+  }
+  const LineModel& m = models_.front();
+  type = Line::type;
+  shape = {Port::points, 3 * m.n_points(), 6 * m.n_unknown(), 0};
+  sparsity = line_sparsity(m);
+  tells_unknowns = false;
+  lost =
+      "the drag of dynamic lines is zero in the linear model, but for the slope that the current "
+      "gives it, and the loads of waves on them are not in it";
+  channels = {
+      {"tension", "N", "Tension at end B: size of the load on it; 0 of a free end."},
+      {"tension_anchor", "N", "Tension at end A: size of the load on it."},
+      {"tension_max", "N", "Largest tension along the line."},
+      {"tension_ratio", "-", "Largest tension over breaking load along the line."},
+      {"energy", "J",
+       "Of the line: kinetic, stretch, bending, in the seabed, height by the weight in water."},
+      {"power_water", "W", "Power that the water takes, buoyancy apart."},
+      {"power_damping", "W", "Power that the internal damping takes."},
+      {"power_seabed", "W", "Power that damping and friction of the seabed take."},
+      {"position", "m", "Places of the nodes from A to B, (x, y, z) each.", 3 * (m.n() + 1)},
+      {"tension_along", "N", "Tensions of the segments from A to B.", m.n()}};
+  for (const LineModel& line : models_)
+    for (int i = 1; i <= line.n_unknown(); ++i)
+      for (const char* what : {"position", "velocity"})
+        for (const char* c : {"_x", "_y", "_z"}) {
+          Unknown u;
+          u.name = "node_" + std::to_string(i) + "_" + what + c;
+          u.unit = what[0] == 'p' ? "m" : "m/s";
+          u.absolute = true;
+          unknowns.push_back(u);
+        }
+}
+
+} // namespace hydrodae::element

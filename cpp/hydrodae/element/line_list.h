@@ -1,0 +1,49 @@
+#pragma once
+/// All lines of a scene that have as many segments, in the water that they feel.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/element/elements.h"
+#include "hydrodae/element/line.h"
+#include "hydrodae/element/line_model.h"
+
+namespace hydrodae::element {
+
+/// The numbers of a line.
+/// @param first unstretched length of its first part [m]
+LineModel line_model(const Line& line, const Surroundings& around, double first);
+
+/// Allocates nothing after a first call; for several threads at once.
+class LineList final : public Elements {
+public:
+  LineList(const std::vector<Line>& lines, const Surroundings& around);
+
+  void evaluate(double t, const double* in, const double*, double* out) const override;
+  void evaluate(double t, const Dual* in, const double*, Dual* out) const override;
+  void jacobian(double t, const double* in, const double*, double* jacobian) const override;
+  void energy(const double* in, const double*, double* joules) const override;
+  void observe(double t, const double* in, const double*, const double* out,
+               double* values) const override;
+  bool lost_at_rest(std::size_t law) const override;
+  std::shared_ptr<const Elements> started(const double* in) const override;
+  std::shared_ptr<const Elements> statics() const override;
+  WavesFelt waves() const override;
+  double elevation(double t) const override;
+  std::shared_ptr<const Elements> calm() const override;
+  std::shared_ptr<const Elements> stirred(const std::function<double()>& draw) const override;
+
+private:
+  template <class S> void loads(double t, const S* in, S* out) const;
+  const sea::WaveField& sea_of(std::size_t law) const { return waves_[law] ? water_ : still_; }
+  template <class S> LineView<S> view(std::size_t law, const S* in) const {
+    return {models_[law], in, in + shape.width, in + 2 * shape.width};
+  }
+
+  sea::WaveField water_, still_; ///< with the waves and without
+  std::vector<LineModel> models_;
+  std::vector<bool> waves_;        ///< of each line
+  std::vector<Vector3> free_ends_; ///< towards which free ends lie
+};
+
+} // namespace hydrodae::element

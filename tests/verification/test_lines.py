@@ -1,0 +1,377 @@
+"""Dynamic mooring lines against closed forms, independent eigenvalues and other codes' series."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae.errors import CaseError
+from hydrodae.frequency import LinearModel
+
+# Something that moves: a case needs a body that does.
+IDLE = """
+[[body]]
+name = "idle"
+motion = ["surge"]
+mass = 1.0
+center_of_gravity = [0.0, 50.0, 0.0]
+[[force]]
+type = "mooring_matrix"
+name = "holds"
+body = "idle"
+stiffness = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+"""
+
+
+def line(keys: str, name: str = "line") -> str:
+    return f'\n[[force]]\ntype = "line"\nname = "{name}"\n{keys}\n'
+
+
+def case(text: str, solver: str = "end_time = 1.0", output: float = 0.1) -> hydrodae.Case:
+    return hydrodae.Case.from_text(f"{text}\n[solver]\n{solver}\n[output]\nstep = {output}\n")
+
+
+def at_rest(text: str, channel: str) -> np.ndarray:
+    return np.asarray(hydrodae.Simulation(case(text)).read(channel))
+
+
+def frequencies(keys: str, environment: str = "") -> tuple[np.ndarray, np.ndarray]:
+    """Of a line with fixed ends in the x-z plane: in the plane and across, from its stiffness."""
+    model = LinearModel(case(environment + IDLE + line(keys)))._model
+    a = np.asarray(model["state_by_state"])
+    n = len(a) // 6
+    places = np.array([6 * i + c for i in range(n) for c in range(3)])
+    k = -a[np.ix_(places + 3, places)]
+    across = np.arange(n) * 3 + 1
+    inside = np.setdiff1d(np.arange(3 * n), across)
+    return tuple(
+        np.sqrt(np.sort(np.linalg.eigvals(k[np.ix_(rows, rows)]).real)) for rows in (inside, across)
+    )
+
+
+def test_the_static_shape_tends_to_the_catenary_as_h_squared() -> None:
+    exact = hydrodae.catenary(80.0, 30.0, 100.0, 98.1, 1e6, seabed=False)
+    errors = []
+    for n in (20, 40, 80):
+        keys = (
+            "point_a = [0.0, 0.0, 0.0]\npoint_b = [80.0, 0.0, 30.0]\nlength = [100.0]\n"
+            f"segments = [{n}]\nmass = [10.0]\nstiffness = [1e6]"
+        )
+        errors.append(float(at_rest(IDLE + line(keys), "forces/line/tension")) / exact.tension - 1)
+    assert abs(errors[-1]) < 3e-5
+    assert np.diff(np.log2(np.abs(errors))) == pytest.approx([-2.0, -2.0], abs=0.05)
+
+
+def test_frequencies_of_sagging_cables_of_as_many_masses(reference: Path) -> None:
+    cases = json.loads((reference / "rope" / "cable_frequencies.json").read_text())["cases"]
+    for c in cases:
+        keys = (
+            f"point_a = [0.0, 0.0, 0.0]\npoint_b = [{c['X']}, 0.0, {c['Z']}]\n"
+            f"length = [{c['L0']}]\nsegments = [50]\nmass = [{c['mu']}]\nstiffness = [{c['EA']}]"
+        )
+        inside, across = frequencies(keys)
+        lumped = c["lumped"]["50"]
+        assert inside[:6] == pytest.approx(lumped["inplane"], rel=2e-6), c["name"]
+        assert across[:6] == pytest.approx(lumped["out_of_plane"], rel=2e-6), c["name"]
+
+
+def test_frequencies_of_a_hanging_chain_of_as_many_masses(reference: Path) -> None:
+    d = json.loads((reference / "rope" / "hanging_chain.json").read_text())
+    keys = (
+        "point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [5.0]\nsegments = [20]\n"
+        "mass = [2.0]\nstiffness = [1e8]"
+    )
+    _, across = frequencies(keys)
+    assert across[:6] == pytest.approx(d["discrete_lumped"]["20"], rel=2e-6)
+
+
+def test_frequencies_of_a_taut_string_of_as_many_masses(reference: Path) -> None:
+    d = json.loads((reference / "rope" / "taut_string.json").read_text())
+    keys = (
+        "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\n"
+        f"length = [{d['L0_unstretched']!r}]\nsegments = [20]\n"
+        f"mass = [{d['mu0_unstretched']!r}]\nstiffness = [{d['EA']!r}]"
+    )
+    _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
+    assert across[:8] == pytest.approx(d["transverse_omega_lumped"]["20"], rel=1e-9)
+
+
+def test_a_stiff_line_bends_as_a_beam() -> None:
+    """Simply supported: omega = (n pi / L)^2 sqrt(EI / m), and with the error of h^2."""
+    errors = []
+    for n in (20, 40):
+        keys = (
+            "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\nlength = [10.0]\n"
+            f"segments = [{n}]\nmass = [3.0]\nstiffness = [1e4]\nbending_stiffness = [5e3]"
+        )
+        _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
+        exact = (np.arange(1, 4) * math.pi / 10.0) ** 2 * math.sqrt(5e3 / 3.0)
+        errors.append(across[:3] / exact - 1.0)
+    assert np.abs(errors[1]).max() < 5e-3
+    assert errors[0] / errors[1] == pytest.approx([4.0] * 3, rel=0.05)
+
+
+HANGING = """
+[[body]]
+name = "weight"
+motion = ["heave"]
+mass = 1000.0
+center_of_gravity = [0.0, 0.0, -10.0]
+initial = { displacement = [0.0, 0.0, -0.4] }
+"""
+
+
+def test_a_light_taut_line_is_a_rope() -> None:
+    """A weight bounces on either; EA = 2e5 N, 10 m."""
+    rope = """
+[[force]]
+type = "rope"
+name = "line"
+bodies = ["ground", "weight"]
+points = [[0.0, 0.0, 0.0], [0.0, 0.0, -10.0]]
+stiffness = 2e5
+length = 10.0
+"""
+    keys = (
+        'body_b = "weight"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [0.0, 0.0, -10.0]\n'
+        "length = [10.0]\nsegments = [5]\nmass = [0.001]\nstiffness = [2e5]"
+    )
+    options = 'end_time = 3.0\nmethod = "radau"\nrtol = 1e-6'
+    a, b = (
+        hydrodae.run(case(HANGING + force, options, 0.05))["bodies/weight/position"].values[:, 2]
+        for force in (rope, line(keys))
+    )
+    assert np.ptp(a) > 0.1
+    assert b == pytest.approx(a, abs=2e-5 * float(np.ptp(a)) + 1e-5)
+
+
+def chain(segments: int, extra: str = "") -> str:
+    return (
+        'body_b = "buoy"\npoint_a = [-385.0, 0.0, -50.0]\npoint_b = [0.0, 0.0, 0.0]\n'
+        f"length = [400.0]\nsegments = [{segments}]\nmass = [140.0]\ndiameter = [0.15]\n"
+        f"stiffness = [5e7]\n{extra}\n"
+    )
+
+
+WATER = "[environment]\nwater_density = 1025.0\nwater_depth = 50.0\n"
+WEIGHT = 140.0 * 9.81 - 1025.0 * 9.81 * 0.25 * math.pi * 0.15**2
+
+DRIVEN = """
+[[body]]
+name = "buoy"
+motion = ["surge"]
+mass = 2e5
+center_of_gravity = [0.0, 0.0, 0.0]
+[[constraint]]
+name = "moves"
+type = "coordinate"
+body = "buoy"
+coordinate = "surge"
+drive = { amplitude = 4.0, period = PERIOD, ramp = PERIOD }
+"""
+
+
+def test_slow_motion_is_that_of_a_catenary() -> None:
+    """Some metres in 600 s; the bed is stiff, the drag small."""
+    keys = chain(40, "drag = [1.0]\nadded_mass = [1.0]\ndamping_ratio = [0.5]")
+    text = WATER + DRIVEN.replace("PERIOD", "600.0") + line(keys)
+    run = hydrodae.run(case(text, "end_time = 900.0", 5.0))
+    surge = run["bodies/buoy/position"].values[:, 0]
+    exact = [hydrodae.catenary(385.0 + x, 50.0, 400.0, WEIGHT, 5e7).tension for x in surge]
+    assert np.ptp(exact) > 0.5 * min(exact)
+    assert run["forces/line/tension"].values == pytest.approx(exact, rel=0.02)
+
+
+def test_what_goes_in_is_stored_or_spent() -> None:
+    """Work on the line = change of what it stores + what water, damping and seabed take."""
+    keys = chain(
+        20,
+        "drag = [1.2]\ndrag_axial = [0.1]\nadded_mass = [1.0]\ndamping_ratio = [0.5]\n"
+        "seabed_damping = 1e4\nseabed_friction = 0.4",
+    )
+    text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
+    run = hydrodae.run(case(text, "end_time = 24.0\nrtol = 1e-5", 0.01))
+    stored = run["forces/line/energy"].values
+    power = sum(run[f"forces/line/power_{k}"].values for k in ("water", "damping", "seabed"))
+    spent = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * 0.01)])
+    given = -run["energy/work/line"].values
+    size = np.abs(given).max()
+    assert spent[-1] > 0.05 * size
+    assert given == pytest.approx(stored - stored[0] + spent, abs=2e-3 * size)
+    for part in ("damping", "seabed"):
+        assert run[f"forces/line/power_{part}"].values.min() > -1e-6 * size
+
+
+@pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
+def test_methods_agree(method: str) -> None:
+    keys = chain(8, "drag = [1.2]\nadded_mass = [1.0]\ndamping_ratio = [0.5]")
+    text = WATER + DRIVEN.replace("PERIOD", "10.0") + line(keys)
+    runs = [
+        hydrodae.run(case(text, f'end_time = 4.0\nmethod = "{m}"\nrtol = 1e-6', 0.2))
+        for m in ("radau", method)
+    ]
+    a, b = (run["forces/line/tension"].values for run in runs)
+    assert b == pytest.approx(a, rel=1e-3)
+
+
+def test_equilibrium_of_three_lines_includes_their_nodes() -> None:
+    """A buoy with too little weight rises until dynamic lines hold it as catenaries do."""
+    heave = []
+    for kind in ("line", "catenary"):
+        text = (
+            WATER
+            + """
+[[body]]
+name = "buoy"
+motion = ["surge", "sway", "heave"]
+mass = 2e5
+center_of_gravity = [0.0, 0.0, 0.0]
+[[force]]
+type = "constant_load"
+name = "lift"
+body = "buoy"
+force = [2e4, 0.0, 3.4e6]
+[[force]]
+type = "mooring_matrix"
+name = "water"
+body = "buoy"
+stiffness = [0.0, 0.0, 5e5, 0.0, 0.0, 0.0]
+"""
+        )
+        if kind == "catenary":
+            text = text.replace(WATER, "")
+        for k in range(3):
+            c, s = 385.0 * math.cos(2 * math.pi * k / 3), 385.0 * math.sin(2 * math.pi * k / 3)
+            if kind == "line":
+                keys = chain(40).replace("-385.0, 0.0,", f"{c!r}, {s!r},")
+                text += line(keys, f"line{k}")
+            else:
+                text += f"""
+[[force]]
+type = "catenary"
+name = "line{k}"
+body_b = "buoy"
+point_a = [{c!r}, {s!r}, -50.0]
+point_b = [0.0, 0.0, 0.0]
+length = [400.0]
+weight = [{WEIGHT!r}]
+stiffness = [5e7]
+"""
+        simulation = hydrodae.Simulation(case(text, 'end_time = 1.0\nstart = "equilibrium"'))
+        heave.append(np.asarray(simulation.read("bodies/buoy/position")))
+        before = float(simulation.read("forces/line0/tension"))
+        while not simulation.finished:
+            simulation.advance()
+        assert float(simulation.read("forces/line0/tension")) == pytest.approx(before, rel=1e-6)
+    assert heave[0] == pytest.approx(heave[1], abs=0.01)
+
+
+def orcaflex(reference: Path, depth: int, motion: str) -> tuple[np.ndarray, np.ndarray]:
+    """Computed and OrcaFlex's tension at the fairlead [kN], from t = 0 every 0.1 s."""
+    anchor, length, n = {50: (400, 410, 41), 200: (700, 760, 76), 600: (1500, 1700, 170)}[depth]
+    folder = reference / "lines"
+    with (folder / f"orcaflex_motion_ZZP1_{motion}.csv").open() as file:
+        rows = [[float(x) for x in row] for row in list(csv.reader(file))[1:]]
+    times = [row[0] + 10.0 for row in rows]
+    heave = [row[3] for row in rows]
+    text = f"""
+[environment]
+water_density = 1025.0
+water_depth = {depth}
+[[body]]
+name = "fairlead"
+motion = ["heave"]
+mass = 1e6
+center_of_gravity = [0.0, 0.0, 0.0]
+[[constraint]]
+name = "moves"
+type = "coordinate"
+body = "fairlead"
+coordinate = "heave"
+drive = {{ time = {times}, values = {heave} }}
+""" + line(
+        f'body_b = "fairlead"\npoint_a = [{anchor}.0, 0.0, -{depth}.0]\n'
+        f"point_b = [0.0, 0.0, 0.0]\nlength = [{length}.0]\nsegments = [{n}]\nmass = [390.0]\n"
+        "diameter = [0.252]\nstiffness = [1.674e9]\ndamping_ratio = [1.0]\ndrag = [1.37]\n"
+        f"drag_axial = [{0.64 / math.pi!r}]\nadded_mass = [1.0]\n"
+        "seabed_stiffness = 1e5\nseabed_damping = 1e4\n"
+        "seabed_friction = 0.5"
+    )
+    run = hydrodae.run(case(text, "end_time = 29.9\nrtol = 1e-3", 0.1))
+    with (folder / f"orcaflex_WD{depth:04d}_ZZP1_{motion}.csv").open() as file:
+        theirs = np.array([float(row[3]) for row in list(csv.reader(file))[1:]])
+    ours = run["forces/line/tension"].values[100:] / 1e3
+    n = min(len(ours), len(theirs))
+    return ours[:n], theirs[:n]
+
+
+@pytest.mark.parametrize(
+    ("depth", "motion", "bar"),
+    [
+        (50, "A1", 0.15),  # most of it at rest: 1.4 % more tension than other codes
+        (50, "A2", 0.13),
+        (200, "A1", 0.06),
+        (200, "A2", 0.05),
+        (600, "A1", 0.065),
+        (600, "A2", 0.05),
+    ],
+)
+def test_tensions_of_orcaflex(reference: Path, depth: int, motion: str, bar: float) -> None:
+    """Largest difference over the range, from slack to snap. Their axial drag is over D."""
+    ours, theirs = orcaflex(reference, depth, motion)
+    assert np.abs(ours - theirs).max() < bar * np.ptp(theirs)
+
+
+def test_a_jumper_with_bending_hangs_as_that_of_lowe_and_langley() -> None:
+    """Published loads at rest: top (11.40, 45.71) kN, bottom (11.40, 24.04) kN, within 0.2 kN."""
+    keys = (
+        "point_a = [-100.0, 0.0, -55.0]\npoint_b = [0.0, 0.0, -5.0]\nlength = [170.0]\n"
+        "segments = [68]\nmass = [165.0]\ndiameter = [0.396]\nstiffness = [5e8]\n"
+        "bending_stiffness = [1.208e5]"
+    )
+    environment = "[environment]\nwater_density = 1000.0\nwater_depth = 100.0\ngravity = 9.807\n"
+    simulation = hydrodae.Simulation(case(environment + IDLE + line(keys)))
+    top, bottom = math.hypot(11400.0, 45710.0), math.hypot(11400.0, 24040.0)
+    assert float(simulation.read("forces/line/tension")) == pytest.approx(top, abs=200.0)
+    assert float(simulation.read("forces/line/tension_anchor")) == pytest.approx(bottom, abs=200.0)
+
+
+def test_lines_that_make_no_sense_are_refused() -> None:
+    good = "point_a = [0.0, 0.0, 0.0]\npoint_b = [8.0, 0.0, 0.0]\nlength = [10.0]\nmass = [1.0]\n"
+    good += "stiffness = [1e5]\n"
+    for more, message in [
+        ("segments = [2.5]", "whole number"),
+        ("drag = [1.0, 1.0]", "as many as parts"),
+        ("damping = [1.0]\ndamping_ratio = [1.0]", "either"),
+        ("attachment_at = [0.7]\nattachment_mass = [1.0]", "nearest end is at 0.5 m"),
+        ("diameter = [0.1]", "density of the water"),
+        ("free_end = true\npretension = 10.0", "no pretension"),
+        ('body_a = "buoyy"', "no body"),
+    ]:
+        with pytest.raises(CaseError, match=message):
+            hydrodae.Simulation(case(IDLE + line(good + more)))
+
+
+def test_a_line_takes_the_keys_of_a_line_type() -> None:
+    """Steel and fibre have their densities in the volume that the keys tell."""
+    kinds = hydrodae.mooring
+    for kind, density in (
+        (kinds.studless_chain(0.1), 7850.0),
+        (kinds.polyester(0.2), 1380.0),
+        (kinds.nylon(0.2), 1140.0),
+    ):
+        keys = kind.keys()
+        area = 0.25 * math.pi * keys["diameter"] ** 2
+        assert keys["mass"] / area == pytest.approx(density, rel=0.01)
+        assert keys["drag"] > 0.0
+        ends = "point_a = [0.0, 0.0, -20.0]\npoint_b = [8.0, 0.0, -10.0]\nlength = [15.0]\n"
+        sea = "[environment]\nwater_density = 1025.0\nwater_depth = 30.0\n"
+        text = ends + "".join(f"{key} = [{value}]\n" for key, value in keys.items())
+        tension = hydrodae.Simulation(case(sea + IDLE + line(text))).read("forces/line/tension")
+        assert tension > kind.weight() * 10.0
