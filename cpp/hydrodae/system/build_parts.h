@@ -69,7 +69,8 @@ void set_coupler_offsets(const model::Scene& scene, System& system);
 /// The forces of the case with their ports (build_elements.cpp).
 void add_elements(const model::Scene& scene, System& system);
 
-/// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws ModelError.
+/// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws
+/// ModelError.
 void start_laws(System& system);
 
 /// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws
