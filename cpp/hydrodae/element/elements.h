@@ -145,16 +145,16 @@ public:
   Work work = Work::spent;       ///< of the loads
   std::string_view at_rest_only; ///< why its slope at rest tells little; empty: it does not
   std::string lost; ///< of laws that `lost_at_rest`: what a linear model lacks, in words
-  std::vector<std::string_view> parts; ///< of a load on a body, that are reported beside it
-  std::vector<std::string> names;      ///< (n,)
-  std::vector<Unknown> unknowns;       ///< (n n_states,)
-  std::vector<Quantity> channels;      ///< of each law
-  std::vector<Signal> inputs;          ///< of each law (n_signals,)
-  std::vector<double> signals;         ///< what they are at the start (n n_signals,)
-  bool timed = false;                  ///< do loads depend on the time by themselves?
-  bool tells_unknowns = true;          ///< are they reported one by one?
-  std::vector<std::array<int, 2>> sparsity; ///< of laws on points: (row, column) of each entry of the
-                                            ///< Jacobian that can differ from 0; empty: all can
+  std::vector<std::string_view> parts;      ///< of a load on a body, that are reported beside it
+  std::vector<std::string> names;           ///< (n,)
+  std::vector<Unknown> unknowns;            ///< (n n_states,)
+  std::vector<Quantity> channels;           ///< of each law
+  std::vector<Signal> inputs;               ///< of each law (n_signals,)
+  std::vector<double> signals;              ///< what they are at the start (n n_signals,)
+  bool timed = false;                       ///< do loads depend on the time by themselves?
+  bool tells_unknowns = true;               ///< are they reported one by one?
+  std::vector<std::array<int, 2>> sparsity; ///< of laws on points: (row, column) of each entry of
+                                            ///< the Jacobian that can differ from 0; empty: all can
   std::vector<Schedule> schedules;
 
   std::size_t size() const { return names.size(); }
@@ -179,8 +179,8 @@ public:
   /// The same on dual numbers: the oracle of tests.
   virtual void evaluate(double t, const Dual* in, const double* signals, Dual* out) const = 0;
 
-  /// @param jacobian  (n jacobian_size,) d out / d in of each law, column by column, or in the order
-  /// of `sparsity`
+  /// @param jacobian  (n jacobian_size,) d out / d in of each law, column by column, or in the
+  /// order of `sparsity`
   virtual void jacobian(double t, const double* in, const double* signals,
                         double* jacobian) const = 0;
 

@@ -13,7 +13,7 @@ struct LineAtRest {
   double tension = 0; ///< the largest [N]
 };
 
-/// About where a line hangs between its ends (line_build.cpp): as a catenary, where there is one,
+/// About where a line hangs between its ends (line_shape.cpp): as a catenary, where there is one,
 /// or with a free end straight down and along the seabed towards `free_end`; (3 n_unknown,).
 VectorX line_shape(const LineModel& model, const double* x, const Vector3& free_end);
 

@@ -26,10 +26,10 @@ LinearMatrices linear_matrices(const system::System& system, const system::Patte
                                const VectorX& y);
 
 /// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,
-/// with the states of forces (pressures, say) held at theirs, dynamic lines at rest, and with the smallest motion along
-/// directions in which nothing holds a body. Moves the start of the system there, at rest, and
-/// returns y with the reactions. An unstable pose is noted. Throws ModelError when there is no
-/// equilibrium near, or velocities are given.
+/// with the states of forces (pressures, say) held at theirs, dynamic lines at rest, and with the
+/// smallest motion along directions in which nothing holds a body. Moves the start of the system
+/// there, at rest, and returns y with the reactions. An unstable pose is noted. Throws ModelError
+/// when there is no equilibrium near, or velocities are given.
 VectorX move_to_equilibrium(system::System& system);
 
 /// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.

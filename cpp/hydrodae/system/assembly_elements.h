@@ -145,8 +145,9 @@ void Assembly<Sink>::sparse_law_of_points(const PortData& port, const double* lo
     const auto a = static_cast<std::size_t>(at / 3);
     if (const int body = port.points[a].body; body >= 0) {
       const RowVector6 by_x = value * (rate ? seen[a].V : seen[a].A).row(at % 3);
-      emit(body, by_x, RowVector6(rate ? RowVector6(value * seen[a].A.row(at % 3))
-                                       : RowVector6(RowVector6::Zero())));
+      emit(body, by_x,
+           RowVector6(rate ? RowVector6(value * seen[a].A.row(at % 3))
+                           : RowVector6(RowVector6::Zero())));
     }
   };
   for (const auto& [row, column] : laws.sparsity) {

@@ -72,7 +72,8 @@ void add_elements(const model::Scene& scene, System& system);
 /// The reactions of joints that laws feel, once it is known which rows are kept (reactions.cpp).
 /// Throws ModelError where a joint does not tell what presses, or not alone.
 void find_reactions(System& system);
-/// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws ModelError.
+/// States of laws that start at rest, where the bodies start (build_elements.cpp). Throws
+/// ModelError.
 void start_laws(System& system);
 
 /// Buoyancy and linear hydrostatics of all wet bodies, turned by their mean yaws

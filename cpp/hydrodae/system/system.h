@@ -220,8 +220,8 @@ struct System {
   std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
   std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
-  std::vector<int> error_group; ///< (lambda0,) those, but of absolute states of a law one of its own
-  VectorX group_size;           ///< (n_error_groups,) how many of these each has
+  std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
+  VectorX group_size;                 ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
   VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
