@@ -174,7 +174,9 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            passive, reached = _passive(tame, problem, goal, thorough=not found or problem.size <= FEW)
+            passive, reached = _passive(
+                tame, problem, goal, thorough=not found or problem.size <= FEW
+            )
             quality = prepare.quality(passive, problem, goal.band)
             say(
                 f"{passive.n_states} states from {count} poles, passive: {reached}, "
