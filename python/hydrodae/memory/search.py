@@ -113,7 +113,7 @@ def _passive_rungs(
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[::-1] if reachable else ladder[-1:]
     for modes in rungs:
-        passive, reached = _passive(modes, problem, goal)
+        passive, reached = made_passive(modes, problem, goal)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
@@ -126,7 +126,7 @@ def _passive_rungs(
     return kept
 
 
-def _passive(
+def made_passive(
     modes: Modes, problem: Problem, goal: Goal, thorough: bool = True
 ) -> tuple[Modes, bool]:
     """Make modes passive, by the penalty or else by constraints; tell whether they are.
@@ -174,7 +174,7 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            passive, reached = _passive(
+            passive, reached = made_passive(
                 tame, problem, goal, thorough=not found or problem.size <= FEW
             )
             quality = prepare.quality(passive, problem, goal.band)
