@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from hydrodae.memory import data as prepare
 from hydrodae.memory import symmetry
 from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
-from hydrodae.memory.modes import AnyArray, IntArray, Modes, Problem
-from hydrodae.memory.search import MANY, GroupFit, fit_problem
+from hydrodae.memory.modes import AnyArray, IntArray, Modes, Problem, refine
+from hydrodae.memory.search import MANY, GroupFit, fit_problem, made_passive
 from hydrodae.memory.symmetry import Block
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
@@ -20,8 +20,12 @@ SYMMETRIC = 0.3
 """Share of the goal that a table may miss a symmetry by."""
 ALIKE = 1.5
 """Coordinates of one kind are scaled alike where their scales, sorted, differ by no more."""
-TIGHTENED = 2
+TIGHTENED = 4
 """Rounds of fits of the blocks."""
+SAFE = 0.94
+"""Share of a goal that a fit must meet, as errors are told against tables with noise."""
+NEAR = 1.3
+"""Error over its target from which a refit of all blocks together may reach it."""
 WEAK = 3.0
 """A block whose size is this many times below its share has its goal relaxed."""
 KINDS = {"surge": "along", "sway": "along", "roll": "tilt", "pitch": "tilt"}
@@ -71,7 +75,7 @@ def fit_group(
             return FittedGroup(fit, alike[group], tuple(blocks), array.lost.all)
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
-    fit = fit_problem(problem, goal, cap, group.size > MANY, say)
+    fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
 
 
@@ -196,6 +200,11 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
         found = prepare.quality(modes, array.measured, goal.band)
         miss = goal.miss(found)
         say(f"all blocks: {modes.n_states} states, {miss:.2f} of the target error")
+        if 1.0 < miss < NEAR and array.whole.size <= MANY:
+            fit = _refitted(modes, array, goal)
+            if fit is not None:
+                say(f"refitted together: {goal.miss(fit.quality):.2f} of the target error")
+                return fit
         if not 1.0 < miss < 3.0 or not all(
             own.met(fit.quality) for own, fit in zip(goals, fits, strict=True)
         ):
@@ -203,6 +212,17 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
         share *= 0.9 / miss
     largest = max(fits, key=lambda fit: fit.modes.n_states)
     return GroupFit(modes, array.whole, found, largest.method)
+
+
+def _refitted(modes: Modes, array: _Array, goal: Goal) -> GroupFit | None:
+    """Refit the modes of all blocks together; None where that does not reach the goal.
+
+    The weights of the whole, entry by entry, are others than those of the blocks.
+    """
+    free, _ = refine(modes, array.whole, 20, 1e-3)
+    passive, reached = made_passive(free, array.whole, goal)
+    found = prepare.quality(passive, array.measured, goal.band)
+    return GroupFit(passive, array.whole, found) if reached and goal.met(found) else None
 
 
 def _fit_block(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,6 +29,8 @@ NOISE = 2.0
 HANKEL = "Hankel realisation of K(t)"
 MANY = 12
 """Groups of more coordinates than this get a Hankel realisation: modes would take too long."""
+FEW = 3
+"""Groups of no more coordinates than this are always tried with constraints, too: that is cheap."""
 NEARLY = 1.3
 """Where no fit meets the goal, one within this factor of the best with fewer states is taken."""
 
@@ -85,7 +87,16 @@ def fit_problem(
     # noise: of fits that are nearly as good the one with the fewest states, unless they are given
     limit = (NEARLY if cap is None else 1.0) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
-    return min(near, key=lambda fit: fit.modes.n_states)
+    return _polished(min(near, key=lambda fit: fit.modes.n_states), goal)
+
+
+def _polished(fit: GroupFit, goal: Goal) -> GroupFit:
+    """Refit passive modes with constraints, which lie nearer to the best fit than a penalty."""
+    modes, reached = passivity.enforce(fit.modes, fit.problem)
+    found = prepare.quality(modes, fit.problem, goal.band)
+    if not reached or goal.distance(found) > goal.distance(fit.quality):
+        return fit
+    return replace(fit, modes=modes, quality=found)
 
 
 def _passive_rungs(
@@ -102,7 +113,7 @@ def _passive_rungs(
     reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[::-1] if reachable else ladder[-1:]
     for modes in rungs:
-        passive, reached = _passive(modes, problem, goal)
+        passive, reached = made_passive(modes, problem, goal)
         found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
@@ -115,7 +126,7 @@ def _passive_rungs(
     return kept
 
 
-def _passive(
+def made_passive(
     modes: Modes, problem: Problem, goal: Goal, thorough: bool = True
 ) -> tuple[Modes, bool]:
     """Make modes passive, by the penalty or else by constraints; tell whether they are.
@@ -163,7 +174,9 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            passive, reached = _passive(tame, problem, goal, thorough=not found)
+            passive, reached = made_passive(
+                tame, problem, goal, thorough=not found or problem.size <= FEW
+            )
             quality = prepare.quality(passive, problem, goal.band)
             say(
                 f"{passive.n_states} states from {count} poles, passive: {reached}, "

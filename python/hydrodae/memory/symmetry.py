@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import eigh, qr
 
 from hydrodae.memory.modes import AnyArray, IntArray
 from hydrodae.memory.vector_fitting import Array, ComplexArray
@@ -156,11 +156,21 @@ def _decomposed(commuting: Array, tries: int = 12) -> list[Block]:
     return _joined(best[1], coupling)
 
 
+def _aligned(basis: Array) -> Array:
+    """Return the orthonormal basis (n, nb) of the same space that lies nearest to coordinates.
+
+    The weights of a fit, entry by entry, depend on the basis: that of an eigensolver is arbitrary.
+    """
+    picked = qr(basis.T, mode="r", pivoting=True)[1][: basis.shape[1]]
+    left, _, right = np.linalg.svd(basis[np.sort(picked)])
+    return np.asarray(basis @ (left @ right).T)
+
+
 def _joined(parts: list[Array], coupling: Array) -> list[Block]:
     """Collect equal blocks: X couples their bases by a multiple of a rotation."""
     groups: list[list[Array]] = []
     least = 0.02 * np.linalg.norm(coupling, 2)
-    for basis in parts:
+    for basis in map(_aligned, parts):
         for group in groups:
             if group[0].shape != basis.shape:
                 continue
