@@ -199,8 +199,6 @@ def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, p
     With mu 2 e / L = k < 1, m s'' = F / (1 + k sign(s' s'')); from k = 1 on there is no solution
     against the motion, and there are two along it (Painleve).
     """
-    if kind == "dry" and method not in ("ida", "radau", "explicit_rk"):
-        pytest.skip("events are located by these")
     offset, length, speed = 0.4, 0.5, 3.0
     mu = part * length / (2.0 * offset)
     law = DRY if kind == "dry" else STRIBECK
