@@ -947,6 +947,7 @@ class JointTypes(TypedList):
         length: float = ...,
         one_sided: bool = ...,
         restitution: float = ...,
+        contact_time: float = ...,
     ) -> str:
         """Add `[[joint]]` with the type "distance".
 
@@ -973,6 +974,9 @@ class JointTypes(TypedList):
         restitution : number, optional
             Rate of the distance after a one-sided joint becomes taut over the rate before; 0,
             the default: no rebound. Allowed: 0 to 1.
+        contact_time : number, s, optional
+            How long an impact of a one-sided joint is taken to last, for its peak force; see
+            that of a stop. Allowed: > 0.
 
         Returns
         -------
@@ -1164,6 +1168,7 @@ class ConstraintTypes(TypedList):
         lower_deg: float = ...,
         upper_deg: float = ...,
         restitution: float = ...,
+        contact_time: float = ...,
     ) -> str:
         """Add `[[constraint]]` with the type "stop".
 
@@ -1189,6 +1194,10 @@ class ConstraintTypes(TypedList):
         restitution : number, optional
             Rate after an impact over the rate before; 0, the default: no rebound. Allowed: 0 to
             1.
+        contact_time : number, s, optional
+            How long an impact is taken to last: half a sine of this length has the impulse J at
+            a peak force of pi J / (2 contact_time), which the results then list. The motion
+            does not know of it. Allowed: > 0.
 
         Returns
         -------
@@ -1415,9 +1424,16 @@ class ForceTypes(TypedList):
         name: str,
         *,
         joint: str,
-        static: float,
         coordinate: str = ...,
+        static: float = ...,
         kinetic: float = ...,
+        static_coefficient: float = ...,
+        kinetic_coefficient: float = ...,
+        preload: float = ...,
+        length: float = ...,
+        radius: float = ...,
+        radius_axial: float = ...,
+        small_force: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "dry_friction".
 
@@ -1432,10 +1448,30 @@ class ForceTypes(TypedList):
         coordinate : text, optional
             Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
             one.
-        static : number, N or N m
-            Largest load that sticking holds. Allowed: > 0.
+        static : number, N or N m, optional
+            Largest load F_s of sticking, without the viscous part; or `static_coefficient`.
+            Allowed: > 0.
         kinetic : number, N or N m, optional
-            Load while slipping; default: as `static`. Allowed: >= 0.
+            Load F_c of slip, without the viscous part; default: as `static`. Allowed: >= 0.
+        static_coefficient : number, optional
+            In place of `static`: F_s over what the reaction of the joint presses with. Allowed:
+            > 0.
+        kinetic_coefficient : number, optional
+            In place of `kinetic`: F_c over the same; default: as `static_coefficient`. Allowed:
+            >= 0.
+        preload : number, N, default 0
+            Force by which the bearing is pressed beside the reaction. Allowed: >= 0.
+        length : number, m, optional
+            Distance along the axis of the two bearings, about the joint's point on body B,
+            which share the moment across the axis. Allowed: > 0.
+        radius : number, m, optional
+            Of an angle: at which the bearing rubs. Of a displacement: at which it holds the
+            moment about the axis. Allowed: > 0.
+        radius_axial : number, m, optional
+            Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
+        small_force : number, N, optional
+            Size that a force which presses has where it is zero, so that friction stays smooth;
+            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
 
         Returns
         -------
@@ -1508,12 +1544,19 @@ class ForceTypes(TypedList):
         name: str,
         *,
         joint: str,
-        static: float,
         stribeck_rate: float,
         bristle_stiffness: float,
         bristle_damping: float,
         coordinate: str = ...,
+        static: float = ...,
         kinetic: float = ...,
+        static_coefficient: float = ...,
+        kinetic_coefficient: float = ...,
+        preload: float = ...,
+        length: float = ...,
+        radius: float = ...,
+        radius_axial: float = ...,
+        small_force: float = ...,
         viscous: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "friction_lugre".
@@ -1530,12 +1573,32 @@ class ForceTypes(TypedList):
         coordinate : text, optional
             Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
             one.
-        static : number, N or N m
-            Largest load F_s that sticking holds. Allowed: > 0.
+        static : number, N or N m, optional
+            Largest load F_s of sticking, without the viscous part; or `static_coefficient`.
+            Allowed: > 0.
         kinetic : number, N or N m, optional
-            Load F_c of fast slip, without the viscous part; default: as `static`. Allowed: > 0.
+            Load F_c of slip, without the viscous part; default: as `static`. Allowed: > 0.
+        static_coefficient : number, optional
+            In place of `static`: F_s over what the reaction of the joint presses with. Allowed:
+            > 0.
+        kinetic_coefficient : number, optional
+            In place of `kinetic`: F_c over the same; default: as `static_coefficient`. Allowed:
+            > 0.
+        preload : number, N, default 0
+            Force by which the bearing is pressed beside the reaction. Allowed: >= 0.
+        length : number, m, optional
+            Distance along the axis of the two bearings, about the joint's point on body B,
+            which share the moment across the axis. Allowed: > 0.
+        radius : number, m, optional
+            Of an angle: at which the bearing rubs. Of a displacement: at which it holds the
+            moment about the axis. Allowed: > 0.
+        radius_axial : number, m, optional
+            Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
+        small_force : number, N, optional
+            Size that a force which presses has where it is zero, so that friction stays smooth;
+            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
         stribeck_rate : number, m/s or rad/s
-            Rate s'_s over which the load falls from `static` to `kinetic`. Allowed: > 0.
+            Rate s'_s over which the load falls from F_s to F_c. Allowed: > 0.
         bristle_stiffness : number, N/m or N m/rad
             Stiffness sigma_0. Allowed: > 0.
         bristle_damping : number, N s/m or N m s/rad
@@ -1785,10 +1848,17 @@ class ForceTypes(TypedList):
         name: str,
         *,
         joint: str,
-        static: float,
         creep_rate: float,
         coordinate: str = ...,
+        static: float = ...,
         kinetic: float = ...,
+        static_coefficient: float = ...,
+        kinetic_coefficient: float = ...,
+        preload: float = ...,
+        length: float = ...,
+        radius: float = ...,
+        radius_axial: float = ...,
+        small_force: float = ...,
         stribeck_rate: float = ...,
         viscous: float = ...,
     ) -> str:
@@ -1806,16 +1876,35 @@ class ForceTypes(TypedList):
         coordinate : text, optional
             Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
             one.
-        static : number, N or N m
-            Largest load F_s without the viscous part. Allowed: > 0.
+        static : number, N or N m, optional
+            Largest load F_s of sticking, without the viscous part; or `static_coefficient`.
+            Allowed: > 0.
+        kinetic : number, N or N m, optional
+            Load F_c of slip, without the viscous part; default: as `static`. Allowed: >= 0.
+        static_coefficient : number, optional
+            In place of `static`: F_s over what the reaction of the joint presses with. Allowed:
+            > 0.
+        kinetic_coefficient : number, optional
+            In place of `kinetic`: F_c over the same; default: as `static_coefficient`. Allowed:
+            >= 0.
+        preload : number, N, default 0
+            Force by which the bearing is pressed beside the reaction. Allowed: >= 0.
+        length : number, m, optional
+            Distance along the axis of the two bearings, about the joint's point on body B,
+            which share the moment across the axis. Allowed: > 0.
+        radius : number, m, optional
+            Of an angle: at which the bearing rubs. Of a displacement: at which it holds the
+            moment about the axis. Allowed: > 0.
+        radius_axial : number, m, optional
+            Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
+        small_force : number, N, optional
+            Size that a force which presses has where it is zero, so that friction stays smooth;
+            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
         creep_rate : number, m/s or rad/s
             Rate s'_0 below which it is viscous: some thousandth of the rates at work. Allowed:
             > 0.
-        kinetic : number, N or N m, optional
-            Load F_c of fast slip, without the viscous part; default: as `static`. Allowed: >=
-            0.
         stribeck_rate : number, m/s or rad/s, optional
-            Rate s'_s over which the load falls from `static` to `kinetic`; default: ten times
+            Rate s'_s over which the load falls from F_s to F_c; default: ten times
             `creep_rate`. Allowed: > 0.
         viscous : number, N s/m or N m s/rad, default 0
             Viscous damping sigma. Allowed: >= 0.

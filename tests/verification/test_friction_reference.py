@@ -122,7 +122,7 @@ length = {p["l0"]}
 [solver]
 end_time = {p["T"]}
 rtol = 1e-8
-{METHODS[method].replace("0.002", "0.0002").replace("0.01", "0.001")}
+{METHODS[method].replace("0.002", "2e-5").replace("0.01", "2e-5")}
 [output]
 step = 0.0005
 """

@@ -20,8 +20,8 @@ namespace hydrodae::element {
 ///   N = preload + |F_1| + |F_2| (+ |M_z| / radius)        on a displacement [N]
 ///   N = radius (preload + |F_1| + |F_2|) + radius_axial |F_z|        on an angle [N m]
 ///
-/// with |x| = sqrt(x.x + small^2), smooth where nothing presses. A radius or length of zero: the
-/// joint takes no such moment.
+/// with |x| = sqrt(x.x + small^2) on the bearings and sqrt(x^2 + small^2) - small of single loads,
+/// smooth where nothing presses. A radius or length of zero: the joint takes no such moment.
 struct Bearing {
   bool turns = false;
   double preload = 0.0, length = 0.0, radius = 0.0, radius_axial = 0.0, small = 0.0;
@@ -30,6 +30,9 @@ struct Bearing {
     using std::sqrt;
     return sqrt(x * x + y * y + S(small * small));
   }
+
+  /// The same of a load that is often zero, where it is zero.
+  template <class S> S single(const S& x) const { return size<S>(x, S(0)) - S(small); }
 
   /// Preload and forces across the axis on both bearings [N]. @param r  (6,) reaction on B
   template <class S> S across(const S* r) const {
@@ -43,9 +46,9 @@ struct Bearing {
   template <class S> S load(const S* r) const {
     S sum = turns ? S(radius) * across(r) : across(r);
     if (turns && radius_axial > 0.0)
-      sum += S(radius_axial) * size<S>(r[2], S(0));
+      sum += S(radius_axial) * single<S>(r[2]);
     if (!turns && radius > 0.0)
-      sum += size<S>(r[5] / S(radius), S(0));
+      sum += single<S>(r[5] / S(radius));
     return sum;
   }
 };
@@ -74,7 +77,7 @@ struct FrictionLoads {
   }
 
   Bearing bearing() const {
-    constexpr double little = 1e-4; // of the weight
+    constexpr double little = 1e-5; // of the weight
     return {turns,
             preload,
             length.value_or(0.0),
@@ -140,8 +143,8 @@ struct FrictionLoads {
          "Of an angle: at which the thrust along the axis rubs; 0: it does not.", false,
          at_least(0)},
         {"small_force", &F::small_force, "N",
-         "Size that a force which presses has where it is zero, so that friction stays smooth; "
-         "default: 1e-4 of the weight of the lighter body that moves.",
+         "Size that a force on a bearing has where it is zero, so that friction stays smooth; "
+         "default: 1e-5 of the weight of the lighter body that moves.",
          false, more_than(0)},
     };
   }

@@ -137,7 +137,7 @@ std::string SaddlePoint::Pressed::jam(const system::System& s) const {
     const std::string joint = in_quotes(s.joints[static_cast<std::size_t>(own.joint)].name);
     out =
         "friction " + in_quotes(own.component) + " jams joint " + joint + ": its coefficient " +
-        rounded_text(coefficient) + " is not below " + rounded_text(1.0 / pressing) +
+        rounded_text(coefficient, 4) + " is not below " + rounded_text(1.0 / pressing, 4) +
         ", from which on friction presses the joint by as much as it takes, so that no motion "
         "or more than one follows. Lower the coefficient, or place the bearing better (longer, or "
         "nearer to the line of the load)";
