@@ -84,11 +84,10 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     REQUIRE(difference(small_yp, by_yp, s.u0, s.u0, s.n_u, s.n_u) < 1e-12);
     REQUIRE(difference(small_y, by_y, s.lambda0, 0, s.n_lambda, s.n) < 1e-12);
     // Friction that a reaction presses is beside the gradients there.
-    const bool pressed =
-        std::any_of(s.elements.begin(), s.elements.end(),
-                    [](const auto& list) { return list.laws->shape.n_reaction > 0; });
-    REQUIRE((pressed ||
-             difference(small_y, by_y, s.u0, s.lambda0, s.n_u, s.n_lambda) < 1e-12));
+    const bool pressed = std::any_of(s.elements.begin(), s.elements.end(), [](const auto& list) {
+      return list.laws->shape.n_reaction > 0;
+    });
+    REQUIRE((pressed || difference(small_y, by_y, s.u0, s.lambda0, s.n_u, s.n_lambda) < 1e-12));
     ++scenes;
   }
   CHECK(scenes >= 3 * static_cast<int>(joint::joint_types().size()));
