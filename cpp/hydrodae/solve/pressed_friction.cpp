@@ -9,9 +9,9 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr int most_steps = 60;
-constexpr double solved = 1e-13;  ///< of the largest load
-constexpr double rounded = 1e-10; ///< likewise, where it gets no smaller
+constexpr int most_balance_steps = 60;
+constexpr double load_balanced = 1e-13; ///< of the largest load
+constexpr double load_rounded = 1e-10;  ///< likewise, where it gets no smaller
 
 } // namespace
 
@@ -87,7 +87,7 @@ bool SaddlePoint::Pressed::balance(const system::System& s, double t) {
   evaluate(s, t, at_rest);
   load = at_rest;
   double before = INFINITY, part = 1.0; // of the step that is taken
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_balance_steps; ++i) {
     reaction = start;
     for (Index m = 0; m < n; ++m)
       reaction += sensitivity.col(m) * (load[m] - at_rest[m]);
@@ -96,7 +96,8 @@ bool SaddlePoint::Pressed::balance(const system::System& s, double t) {
     const double size = gap.cwiseAbs().maxCoeff(), whole = answer.cwiseAbs().maxCoeff();
     if (!std::isfinite(size))
       return false;
-    if (size <= solved * whole || (i > 3 && size >= 0.5 * before && size <= rounded * whole))
+    if (size <= load_balanced * whole ||
+        (i > 3 && size >= 0.5 * before && size <= load_rounded * whole))
       return true;
     if (size > before && part > 1e-3) { // not so far
       part *= 0.5;
