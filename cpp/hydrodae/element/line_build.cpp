@@ -43,6 +43,7 @@ void add_half(const Part& p, const Surroundings& around, double bed, LineNode& n
   const double volume = 0.25 * pi * D * D * half;
   node.mass += p.mass * half;
   node.lift += rho * around.gravity * volume;
+  node.displaced += rho * volume;
   MorisonSegment& m = node.line;
   m.radius = std::max(m.radius, 0.5 * D);
   m.half_length += 0.5 * half;

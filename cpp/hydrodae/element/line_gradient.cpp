@@ -92,15 +92,21 @@ struct WaterGradient {
   Matrix3 by_x = Matrix3::Zero(), by_v = Matrix3::Zero(), by_t = Matrix3::Zero();
 };
 
-void add_morison(const MorisonSegment& law, double lift, const Vector3& t, double above,
-                 const Vector3& u, const Vector3& a, const sea::FluidPoint<double>& f,
+void add_morison(const MorisonSegment& law, double lift, double displaced, const Vector3& t,
+                 double above, const Vector3& u, const Vector3& a, const sea::FluidPoint<double>& f,
                  const sea::FluidGradient& g, WaterGradient& out) {
   if (law.radius == 0.0)
     return;
   double by_height = 0.0, by_axis_z = 0.0;
   const double wet = wet_part<double>(law, above, t[2], &by_height, &by_axis_z);
-  const MorisonGradient d = morison_gradient(law, t, u, f.acceleration, a);
-  const Vector3 dry = morison_force<double>(law, t, u, f.acceleration, a) + lift * Vector3::UnitZ();
+  MorisonGradient d = morison_gradient(law, t, u, f.acceleration, a);
+  Vector3 dry = morison_force<double>(law, t, u, f.acceleration, a) + lift * Vector3::UnitZ();
+  if (displaced > 0.0) { // rho V (t . a_f) t
+    const double along = t.dot(f.acceleration);
+    dry += displaced * along * t;
+    d.by_fluid += displaced * t * t.transpose();
+    d.by_axis += displaced * (along * Matrix3::Identity() + t * f.acceleration.transpose());
+  }
   const Vector3 up = Vector3::UnitZ() - g.elevation;
   out.by_x += wet * (d.by_velocity * g.velocity + d.by_fluid * g.acceleration) +
               by_height * dry * up.transpose();
@@ -119,8 +125,8 @@ NodeWater<double> add_water(const LineView<double>& at, const sea::WaveField& se
   const Vector3 u = w.fluid.velocity - at.velocity(i);
   const double above = at.place(i)[2] - w.fluid.elevation;
   WaterGradient d, attached;
-  add_morison(node.line, node.lift, w.t, above, u, a, w.fluid, g, d);
-  add_morison(node.body, node.body_lift, Vector3::Zero(), above, u, a, w.fluid, g, attached);
+  add_morison(node.line, node.lift, node.displaced, w.t, above, u, a, w.fluid, g, d);
+  add_morison(node.body, node.body_lift, 0.0, Vector3::Zero(), above, u, a, w.fluid, g, attached);
   K.by_place[k][2] += d.by_x + attached.by_x;
   K.by_velocity[k][1] += d.by_v + attached.by_v;
   const int low = std::max(i - 1, 0), high = std::min(i + 1, at.m.n());

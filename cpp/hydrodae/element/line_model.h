@@ -34,6 +34,7 @@ struct LineNode {
   MorisonSegment line;                ///< the water on the line
   MorisonSegment body;                ///< and on what is attached
   double lift = 0.0, body_lift = 0.0; ///< rho g V of both [N]
+  double displaced = 0.0;             ///< rho V: waves press along the line too, as at rest [kg]
   double bed_stiffness = 0.0;         ///< k [N/m]
   double bed_damping = 0.0;           ///< c [N s/m]
   double bed_width = 0.0;             ///< half of that in which s(d) bends [m]
@@ -157,7 +158,8 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
   const Vec3<S> u = w.fluid.velocity - v, none = Vec3<S>::Zero();
   Vec3<S> f = none;
   if (node.line.radius > 0.0)
-    f = w.line * morison_force<S>(node.line, w.t, u, w.fluid.acceleration, a);
+    f = w.line * (morison_force<S>(node.line, w.t, u, w.fluid.acceleration, a) +
+                  S(node.displaced) * w.t.cwiseProduct(w.fluid.acceleration).sum() * w.t);
   if (node.body.radius > 0.0)
     f += w.body * morison_force<S>(node.body, none, u, w.fluid.acceleration, a);
   f[2] += w.line * S(node.lift) + w.body * S(node.body_lift);

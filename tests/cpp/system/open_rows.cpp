@@ -15,6 +15,15 @@ using namespace hydrodae::tests;
 
 namespace {
 
+/// Dry friction of 0.5 N or N m.
+void add_friction(model::Scene& scene, const std::string& joint) {
+  element::DryFriction friction;
+  friction.name = "dry";
+  friction.joint = joint;
+  friction.static_load = 0.5;
+  std::get<std::vector<element::DryFriction>>(scene.forces).push_back(friction);
+}
+
 model::Joint jointed(const std::string& type, const std::string& name, const std::string& a,
                      const std::string& b, const Vector3& point) {
   model::Joint j;
@@ -87,8 +96,7 @@ TEST_CASE("open stops, slack ropes and dry friction are no redundant rows") {
   rope.length = 3.0;
   rope.one_sided = true;
   scene.joints.push_back(rope);
-  std::get<std::vector<element::DryFriction>>(scene.forces)
-      .push_back({"dry", "lower", {}, 0.5, {}});
+  add_friction(scene, "lower");
   const system::System s = system::build(scene);
   CHECK(s.n_lambda == 5);
   CHECK(dropped_rows(s) == 5);
@@ -131,8 +139,7 @@ TEST_CASE("what the joints hold stays where it is, with stops and friction on it
       CAPTURE(method);
       model::Scene scene = locked();
       scene.constraints = {stop("s", "hinge", upper)};
-      std::get<std::vector<element::DryFriction>>(scene.forces)
-          .push_back({"dry", "hinge", {}, 0.5, {}});
+      add_friction(scene, "hinge");
       scene.solver.method = method;
       CHECK(system::build(scene).n_lambda == 6);
       CHECK(simulate(scene, "", {}).status == "completed");

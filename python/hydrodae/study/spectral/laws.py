@@ -36,6 +36,11 @@ def law_of(force: Table) -> Law | None:
         )
     if kind == "pto_general":
         return _general(force)
+    if "static_coefficient" in force:
+        raise CaseError(
+            f"force {force['name']!r}: friction pressed by the reaction of its joint has no linear "
+            "equivalent here; give a constant 'static' load, or run it in the time domain"
+        )
     if kind == "dry_friction":
         kinetic = float(force.get("kinetic", force["static"]))
         return lambda v: kinetic * np.sign(v)
