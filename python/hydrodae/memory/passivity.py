@@ -36,6 +36,8 @@ CONSTRAIN_BELOW = 2e-3
 """Local minima of the eigenvalues below this share of the largest are held as constraints."""
 
 
+REFINED, BETWEEN = 8, 13
+"""Lowest minima that are looked at between the points of the grid, and points for each."""
 ACCEPTED = -5e-5
 """When the iterations end above the floor, modes down to this share count as passive."""
 
@@ -73,7 +75,24 @@ def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=np.inf)
     lowest = (values <= padded[:-2]) & (values <= padded[2:]) & (values < below * largest)
     at, branch = np.nonzero(lowest)
-    return Minima(omega[at], vectors[at, :, branch], float(values[:, 0].min()), largest)
+    between = _between(omega, values[:, 0])
+    inner_values, inner_vectors = np.linalg.eigh(impedance(modes, between).real)
+    best = inner_values[:, 0].reshape(-1, BETWEEN).argmin(axis=1)
+    best += BETWEEN * np.arange(best.size)
+    best = best[inner_values[best, 0] < below * largest]
+    return Minima(
+        np.concatenate([omega[at], between[best]]),
+        np.concatenate([vectors[at, :, branch], inner_vectors[best, :, 0]]),
+        float(inner_values[:, 0].min(initial=values[:, 0].min())),
+        largest,
+    )
+
+
+def _between(omega: Array, values: Array) -> Array:
+    """Return frequencies around the lowest local minima of values (nw,), some for each."""
+    inner = np.flatnonzero((values[1:-1] <= values[:-2]) & (values[1:-1] <= values[2:])) + 1
+    inner = inner[np.argsort(values[inner], kind="stable")[:REFINED]]
+    return np.linspace(omega[inner - 1], omega[inner + 1], BETWEEN, axis=1).ravel()
 
 
 def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Array, Array]:

@@ -33,6 +33,8 @@ FEW = 3
 """Groups of no more coordinates than this are always tried with constraints, too: that is cheap."""
 NEARLY = 1.3
 """Where no fit meets the goal, one within this factor of the best with fewer states is taken."""
+EQUAL = 1.04
+"""Likewise where the number of states is given: errors that are the same."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +86,8 @@ def fit_problem(
     if not kept:
         modes = _ladder(problem, goal, cap, candidates, say)[-1]
         return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
-    # noise: of fits that are nearly as good the one with the fewest states, unless they are given
-    limit = (NEARLY if cap is None else 1.0) * min(goal.distance(fit.quality) for fit in kept)
+    # noise: of fits that are nearly as good the one with the fewest states
+    limit = (NEARLY if cap is None else EQUAL) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
     return _polished(min(near, key=lambda fit: fit.modes.n_states), goal)
 
