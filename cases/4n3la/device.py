@@ -159,7 +159,7 @@ def main() -> int:
     parser.add_argument("which", choices=["regular", "irregular"])
     parser.add_argument("-o", "--output", type=Path, required=True)
     given = parser.parse_args()
-    scene = {"regular": regular, "irregular": irregular}[given.which]()
+    scene = regular() if given.which == "regular" else irregular()
     given.output.write_text(scene.to_toml())
     return 0
 

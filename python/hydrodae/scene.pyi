@@ -1470,8 +1470,8 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force which presses has where it is zero, so that friction stays smooth;
-            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
+            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
 
         Returns
         -------
@@ -1595,8 +1595,8 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force which presses has where it is zero, so that friction stays smooth;
-            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
+            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
         stribeck_rate : number, m/s or rad/s
             Rate s'_s over which the load falls from F_s to F_c. Allowed: > 0.
         bristle_stiffness : number, N/m or N m/rad
@@ -1898,8 +1898,8 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force which presses has where it is zero, so that friction stays smooth;
-            default: 1e-4 of the weight of the lighter body that moves. Allowed: > 0.
+            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
         creep_rate : number, m/s or rad/s
             Rate s'_0 below which it is viscous: some thousandth of the rates at work. Allowed:
             > 0.
@@ -2734,6 +2734,8 @@ class Scene(SceneBase):
         products_of_inertia: _Numbers = ...,
         principal_axes_deg: _Numbers = ...,
         hydro: str = ...,
+        volume: float = ...,
+        center_of_buoyancy: _Numbers = ...,
         initial: BodyInitial = ...,
     ) -> str:
         """Add `[[body]]`.
@@ -2761,6 +2763,12 @@ class Scene(SceneBase):
             reference pose; inertia then holds the principal moments.
         hydro : text, optional
             Name of this body in the hydrodynamic database; without it the body is dry.
+        volume : number, m3, optional
+            Volume of a body without `hydro` that is and stays under water: it has the buoyancy
+            rho g V. Allowed: > 0.
+        center_of_buoyancy : 3 numbers, m, optional
+            Centre of that volume in the reference pose, world axes; default: the centre of
+            gravity.
         initial : dict, optional
             Start of the body, relative to its reference pose. Keys: displacement [m],
             rotation_deg [deg], velocity [m/s], angular_velocity [rad/s].

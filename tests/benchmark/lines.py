@@ -74,8 +74,8 @@ def main() -> None:
         for method, rtol in RUNS:
             try:
                 tension, steps, spent = run(n, method, rtol)
-            except hydrodae.HydrodaeError as error:
-                print(f"{n:4d}  {method:11s} {rtol:g}: {error}")
+            except hydrodae.HydrodaeError as reason:
+                print(f"{n:4d}  {method:11s} {rtol:g}: {reason}")
                 continue
             error = float(np.abs(tension - exact).max() / np.ptp(exact))
             print(f"{n:4d}  {method:11s} {rtol:6g} {steps:8.1f} {spent:7.2f} {error:9.1e}")

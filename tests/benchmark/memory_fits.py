@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMES = (
@@ -20,7 +21,7 @@ NAMES = (
 )  # fmt: skip
 
 
-def problem(name: str) -> tuple[object, list[str], dict[str, object]]:
+def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:
     """Return the table, the coordinates that move, and the options of the fit."""
     import numpy as np
     from tests.verification.point_absorbers import array_table, hexagon, star
@@ -31,14 +32,14 @@ def problem(name: str) -> tuple[object, list[str], dict[str, object]]:
     tables = folder / "hdb"
     planar = ("surge", "heave", "pitch")
     if name == "sphere":
-        options = {"band": (0.3, 3.0), "target": 1e-4}
+        options: dict[str, Any] = {"band": (0.3, 3.0), "target": 1e-4}
         return hdb.read(ROOT / "cases" / "sphere" / "hydro.h5"), ["sphere.heave"], options
     if name == "f3of_flaps":
         labels = [f"flap{i}.{dof}" for i in (1, 2) for dof in planar]
         return hdb.read(ROOT / "cases" / "f3of" / "hydro.h5"), labels, {}
     if name in ("star", "hexagon"):
         layout = {"star": star, "hexagon": hexagon}[name]()
-        table = array_table(layout, np.arange(0.1, 8.01, 0.1))
+        table: Any = array_table(layout, np.arange(0.1, 8.01, 0.1))
         return table, list(table.coordinates), {"band": (1.0, 6.0), "uniform": 0.01}
     if name == "4n3la":
         table = hdb.read(tables / "own" / "4n3la.nc")

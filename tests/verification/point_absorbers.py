@@ -56,7 +56,7 @@ def array_table(
         size = np.sqrt(np.einsum("wii->wi", damping).max(axis=0))
         damping = damping + 0.5 * noise * (error + error.transpose(0, 2, 1)) * size * size[:, None]
     labels = [f"b{i + 1}.{dof}" for i in range(len(positions)) for dof in DOFS]
-    keep = [i for i, label in enumerate(labels) if label.split(".")[1] in dofs]
+    keep = np.array([i for i, label in enumerate(labels) if label.split(".")[1] in dofs])
     pick = np.ix_(np.arange(omega.size), keep, keep)
     return Table(tuple(labels[i] for i in keep), omega, added_mass[pick], damping[pick])
 

@@ -7,6 +7,7 @@ where i w is one, so that none on the imaginary axis means positive at all frequ
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ RADIATING = ("surge", "sway", "heave", "roll", "pitch")
 
 def scales(table: Table) -> np.ndarray:
     """Roots of the largest damping, (n,)."""
-    return np.sqrt(np.einsum("wii->wi", table.radiation_damping).max(axis=0))
+    return np.asarray(np.sqrt(np.einsum("wii->wi", table.radiation_damping).max(axis=0)))
 
 
 def state_space(memory: ExponentialMemory, scale: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -61,7 +62,7 @@ def crossings(memory: ExponentialMemory, scale: np.ndarray, lift: float) -> np.n
     )
     values = np.linalg.eigvals(hamiltonian)
     on_axis = np.abs(values.real) < 1e-9 * np.abs(values).max()
-    return np.abs(values[on_axis].imag)
+    return np.asarray(np.abs(values[on_axis].imag))
 
 
 def largest(memory: ExponentialMemory, scale: np.ndarray) -> float:
@@ -184,7 +185,7 @@ def test_noise_is_symmetrised() -> None:
 def test_a_fit_that_misses_its_target_is_refused(repository: Path) -> None:
     """Unless it is accepted by name; with a number of states the best of so many is taken."""
     database = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
-    options = {"band": (0.3, 3.0), "target": 1e-7, "method": "hankel"}
+    options: dict[str, Any] = {"band": (0.3, 3.0), "target": 1e-7, "method": "hankel"}
     with pytest.raises(DatabaseError, match=r"misses its target .* Not kept: .* --accept target"):
         hdb.fit(database, "sphere.heave", **options)
     with pytest.warns(MemoryFitWarning, match="misses its target"):

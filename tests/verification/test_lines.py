@@ -198,7 +198,8 @@ def test_what_goes_in_is_stored_or_spent() -> None:
     text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
     run = hydrodae.run(case(text, "end_time = 24.0\nrtol = 1e-5", 0.01))
     stored = run["forces/line/energy"].values
-    power = sum(run[f"forces/line/power_{k}"].values for k in ("water", "damping", "seabed"))
+    powers = [run[f"forces/line/power_{k}"].values for k in ("water", "damping", "seabed")]
+    power = np.sum(powers, axis=0)
     spent = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * 0.01)])
     given = -run["energy/work/line"].values
     size = np.abs(given).max()

@@ -39,7 +39,9 @@ def force_on_fairlead(d: Array, length: float = LENGTH, w: float = WEIGHT) -> Ar
         return np.array([0.0, 0.0, -w * hung])
 
     def lift_at(pull: float) -> float:
-        return brentq(lambda v: reach(pull, v, length, w)[1] - z, 1e-9, 1e9, xtol=1e-9, rtol=1e-14)
+        return float(
+            brentq(lambda v: reach(pull, v, length, w)[1] - z, 1e-9, 1e9, xtol=1e-9, rtol=1e-14)
+        )
 
     pull = brentq(lambda h: reach(h, lift_at(h), length, w)[0] - x, 1e-6, 1e8, rtol=1e-14)
     return np.array([-pull * d[0] / x, -pull * d[1] / x, -lift_at(pull)])
@@ -173,7 +175,7 @@ def test_random_scenes(seed: int) -> None:
         total = load - [0.0, 0.0, 5e5 * at[2]]
         for k in range(count):
             total = total + force_on_fairlead(at - anchors[k], float(lengths[k]))
-        return total / 1e5
+        return np.asarray(total / 1e5)
 
     assert np.max(np.abs(forces(found))) < 1e-6
     other = root(forces, found + rng.normal(size=3) * [0.5, 0.5, 0.05], tol=1e-12)
