@@ -131,6 +131,7 @@ class Kernel:
             end_time=10.0,
             python_drives=[],
             python_forces=[],
+            python_controllers=[],
             summary=lambda: f"3 bodies, 2 joints, paths from {directory}",
         )
 
@@ -141,12 +142,14 @@ class Kernel:
         progress: Callable[[float, float], bool],
         drives: dict[str, Any],
         forces: dict[str, Any],
+        controllers: dict[str, Any],
         verify: bool = False,
         checkpoint: float = -1.0,
         resume: bool = False,
     ) -> dict[str, Any]:
         assert not drives
         assert not forces
+        assert not controllers
         assert not verify
         self.runs += 1
         times, status, message = [0.0], "completed", ""

@@ -238,12 +238,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             dimension, labels = _COMPONENTS[values.shape[1]]
             dims.append(dimension)
             coords[dimension] = labels
-        elif values.ndim == 2:  # numbers along a line
+        elif values.ndim == 2 and name.startswith("forces/"):  # numbers along a line
             dims.append(f"along_{values.shape[1]}")
         if len(dims) != values.ndim or len(values) != len(self._time):
             raise ResultsError(
                 f"{self.path}: channel {name} has shape {values.shape}, expected "
-                f"({len(self._time)},) or ({len(self._time)}, n)"
+                f"({len(self._time)},), ({len(self._time)}, 3) or ({len(self._time)}, 4)"
             )
         return xarray.DataArray(values, coords, dims, name=name, attrs=attributes)
 

@@ -78,7 +78,8 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "water_depth"},
       {"[solver]", "[solvr]",
        "case.toml:34:2: unknown key 'solvr' in the case; did you mean 'solver'? (valid: title, "
-       "environment, hydro, sea, wave, body, joint, constraint, marker, force, morison, solver, "
+       "environment, hydro, sea, wave, body, joint, constraint, marker, force, morison, "
+       "controller, solver, "
        "output)"},
       {"angle_deg", "angle_dg",
        "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
