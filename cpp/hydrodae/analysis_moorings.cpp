@@ -65,32 +65,62 @@ void put_apart(const Slope& at, Mooring& out) {
   out.damping = spread(by_rate);
 }
 
+/// Of each law of a list; of those with nodes as they rest where the ends are.
+std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double* in,
+                                  const double* out) {
+  const std::shared_ptr<const element::Elements> still = list.laws->statics();
+  const element::Elements& laws = still ? *still : *list.laws;
+  const element::Shape &given = list.laws->shape, &shape = laws.shape;
+  const auto n_in = static_cast<std::size_t>(shape.n_in()),
+             n_out = static_cast<std::size_t>(shape.n_out());
+  std::vector<double> seen, loads;
+  if (still) { // places and velocities of the ends alone
+    for (std::size_t k = 0; k < laws.size(); ++k, in += given.n_in())
+      seen.insert(seen.end(), in, in + shape.n_in());
+    loads.resize(laws.size() * n_out);
+    laws.evaluate(0.0, seen.data(), list.signals.data(), loads.data());
+    in = seen.data();
+    out = loads.data();
+  }
+  std::vector<double> J(laws.size() * n_out * n_in);
+  laws.jacobian(0.0, in, list.signals.data(), J.data());
+  std::vector<Slope> found;
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    found.push_back(slope(shape, out + k * n_out, J.data() + k * n_out * n_in));
+  return found;
+}
+
+/// Its channels of one number each.
+void add_channels(const element::Elements& laws, const double* values, Mooring& m) {
+  for (const element::Quantity& channel : laws.channels) {
+    if (channel.width == 1) {
+      m.channels.emplace_back(channel.name);
+      m.units.emplace_back(channel.unit);
+      m.values.conservativeResize(m.values.size() + 1);
+      m.values[m.values.size() - 1] = *values;
+    }
+    values += channel.width;
+  }
+}
+
 void add_list(const System& s, const system::ElementList& list, system::Workspace<double>& ws,
               const VectorX& y, std::vector<Mooring>& out) {
   const element::Elements& laws = *list.laws;
   const element::Shape& shape = laws.shape;
-  const auto n_in = static_cast<std::size_t>(shape.n_in()),
-             n_out = static_cast<std::size_t>(shape.n_out());
   system::ElementScratch<double>& scratch = ws.elements[system::index_of(s, list)];
   system::gather<double>(s, list, ws, y.data(), scratch);
   const double* in = scratch.in.data();
-  std::vector<double> J(laws.size() * n_out * n_in), values(laws.size() * laws.channels.size());
+  std::vector<double> values(laws.size() * laws.channel_size());
   laws.evaluate(0.0, in, list.signals.data(), scratch.out.data());
-  laws.jacobian(0.0, in, list.signals.data(), J.data());
   laws.observe(0.0, in, list.signals.data(), scratch.out.data(), values.data());
-  const auto n_channels = static_cast<Index>(laws.channels.size());
+  const std::vector<Slope> slopes = slopes_at_rest(list, in, scratch.out.data());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     Mooring m;
     m.name = laws.names[k];
     m.type = laws.type;
     const system::PortData& port = list.ports[k];
-    const Slope at = slope(shape, scratch.out.data() + k * n_out, J.data() + k * n_out * n_in);
-    m.values =
-        Eigen::Map<const VectorX>(values.data() + static_cast<Index>(k) * n_channels, n_channels);
-    for (const element::Quantity& channel : laws.channels) {
-      m.channels.emplace_back(channel.name);
-      m.units.emplace_back(channel.unit);
-    }
+    const Slope& at = slopes[k];
+    add_channels(laws, values.data() + k * laws.channel_size(), m);
     if (shape.port == element::Port::along_distance) {
       const system::JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
       add_point(ws, j.A, m);
@@ -98,8 +128,8 @@ void add_list(const System& s, const system::ElementList& list, system::Workspac
       put_apart(at, m);
       m.channels.emplace_back("force");
       m.units.emplace_back("N");
-      m.values.conservativeResize(n_channels + 1);
-      m.values[n_channels] = at.load[0];
+      m.values.conservativeResize(m.values.size() + 1);
+      m.values[m.values.size() - 1] = at.load[0];
     } else {
       for (const joint::Marker& point : port.points)
         add_point(ws, point, m);

@@ -371,7 +371,7 @@ def test_a_line_takes_the_keys_of_a_line_type() -> None:
         area = 0.25 * math.pi * keys["diameter"] ** 2
         assert keys["mass"] / area == pytest.approx(density, rel=0.01)
         assert keys["drag"] > 0.0
-        ends = "point_a = [0.0, 0.0, -20.0]\npoint_b = [8.0, 0.0, -10.0]\nlength = [15.0]\n"
+        ends = "point_a = [0.0, 0.0, -20.0]\npoint_b = [8.0, 0.0, -10.0]\nlength = [12.7]\n"
         sea = "[environment]\nwater_density = 1025.0\nwater_depth = 30.0\n"
         text = ends + "".join(f"{key} = [{value}]\n" for key, value in keys.items())
         tension = hydrodae.Simulation(case(sea + IDLE + line(text))).read("forces/line/tension")
