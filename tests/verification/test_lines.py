@@ -343,6 +343,32 @@ def test_a_jumper_with_bending_hangs_as_that_of_lowe_and_langley() -> None:
     assert float(simulation.read("forces/line/tension_anchor")) == pytest.approx(bottom, abs=200.0)
 
 
+@pytest.mark.parametrize(("number", "heading", "phase"), [(4, 0.0, 230.0), (5, 45.0, 165.0)])
+def test_a_jumper_in_waves_of_lowe_and_langley(
+    reference: Path, number: int, heading: float, phase: float
+) -> None:
+    """Tension at the top in regular waves of 5 m, within 1 kN of 12 kN from least to most.
+
+    Without the pressure of the waves along the line the range would be half of that.
+    """
+    text = (
+        "[environment]\nwater_density = 1000.0\nwater_depth = 100.0\ngravity = 9.807\n"
+        f'[sea]\nramp = 20.0\n[[wave]]\nname = "w"\ntype = "regular"\nheight = 10.0\n'
+        f"period = 10.0\nheading_deg = {heading}\nphase_deg = {-phase}\n"
+    )
+    keys = (
+        "point_a = [-100.0, 0.0, -55.0]\npoint_b = [0.0, 0.0, -5.0]\nlength = [170.0]\n"
+        "segments = [68]\nmass = [165.0]\ndiameter = [0.396]\nstiffness = [5e8]\n"
+        "bending_stiffness = [1.208e5]\ndrag = [1.0]\nadded_mass = [1.0]\ndamping_ratio = [0.5]"
+    )
+    run = hydrodae.run(case(text + IDLE + line(keys), "end_time = 50.0\nrtol = 1e-4"))
+    theirs = np.loadtxt(
+        reference / "lines" / f"lowe_langley_case{number}.csv", delimiter=",", skiprows=1
+    )
+    ours = np.interp(theirs[:, 0] + 20.0, run.time, run["forces/line/tension"].values / 1e3)
+    assert np.abs(ours - theirs[:, 1]).max() < 1.0
+
+
 def test_lines_that_make_no_sense_are_refused() -> None:
     good = "point_a = [0.0, 0.0, 0.0]\npoint_b = [8.0, 0.0, 0.0]\nlength = [10.0]\nmass = [1.0]\n"
     good += "stiffness = [1e5]\n"
