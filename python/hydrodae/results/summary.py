@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.results.recording import Recording
+from hydrodae.results.recording import Recording, ResultsError
 from hydrodae.units import displayed
 
 
@@ -64,6 +64,8 @@ def _methods(results: Recording) -> list[str]:
     """The methods that "auto" has taken, when and why."""
     columns = ("methods", "method_from", "method_reason")
     texts = [str(results.statistics.get(key, "")).splitlines() for key in columns]
+    if len({len(text) for text in texts}) > 1:
+        raise ResultsError(f"{results.path}: the methods of its parts are damaged")
     parts, before = [], ""
     for name, start, reason in zip(*texts, strict=True):
         since = f"{name} from t = {start} s because {before} gave up: {reason}"
