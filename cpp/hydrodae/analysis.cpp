@@ -17,10 +17,10 @@ namespace hydrodae {
 
 namespace {
 
-using system::System;
+using system::Regime;
 
 /// Row (1, n_u) of a gradient by the virtual displacements of the two bodies of a joint.
-Eigen::RowVectorXd joint_row(const System& s, const system::JointData& j,
+Eigen::RowVectorXd joint_row(const Regime& s, const system::JointData& j,
                              const joint::Vector12& gradient) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(s.n_u);
   for (int side = 0; side < 2; ++side) {
@@ -39,7 +39,7 @@ void add_row(MatrixX& matrix, const Eigen::RowVectorXd& row) {
   matrix.bottomRows<1>() = row;
 }
 
-void add_bodies(const System& s, const system::Workspace<double>& ws, const VectorX& y,
+void add_bodies(const Regime& s, const system::Workspace<double>& ws, const VectorX& y,
                 LinearModel& out) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const system::BodyData& b = s.bodies[i];
@@ -55,7 +55,7 @@ void add_bodies(const System& s, const system::Workspace<double>& ws, const Vect
   }
 }
 
-void add_hydro_map(const model::Scene& scene, const System& s, const system::Workspace<double>& ws,
+void add_hydro_map(const model::Scene& scene, const Regime& s, const system::Workspace<double>& ws,
                    LinearModel& out) {
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
@@ -79,7 +79,7 @@ void add_hydro_map(const model::Scene& scene, const System& s, const system::Wor
   }
 }
 
-void add_motions(const System& s, const system::Workspace<double>& ws, LinearModel& out) {
+void add_motions(const Regime& s, const system::Workspace<double>& ws, LinearModel& out) {
   for (std::size_t m = 0; m < s.motions.size(); ++m) {
     const system::JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
     if (j.hidden)
@@ -105,7 +105,7 @@ void add_motions(const System& s, const system::Workspace<double>& ws, LinearMod
 }
 
 /// All reactions (6 n_joints,) of the joints that are reported.
-VectorX reactions(const System& s, system::Observer& observer, const VectorX& y) {
+VectorX reactions(const Regime& s, system::Observer& observer, const VectorX& y) {
   const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
   VectorX out(0);
   for (std::size_t j = 0; j < s.joints.size(); ++j) {
@@ -119,7 +119,7 @@ VectorX reactions(const System& s, system::Observer& observer, const VectorX& y)
 
 /// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
 /// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
-void add_reactions(const System& s, const VectorX& y, LinearModel& out) {
+void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
   system::Observer observer(s);
   for (const system::JointData& j : s.joints)
     if (!j.hidden)
@@ -146,7 +146,7 @@ void add_reactions(const System& s, const VectorX& y, LinearModel& out) {
 }
 
 /// What the motion of the water does, point by point.
-void add_water(const System& s, const system::Workspace<double>& ws, LinearModel& out) {
+void add_water(const Regime& s, const system::Workspace<double>& ws, LinearModel& out) {
   system::for_each_law(
       s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
         if (!list.laws->shape.in_water())
@@ -165,10 +165,10 @@ void add_water(const System& s, const system::Workspace<double>& ws, LinearModel
 }
 
 /// What limits or damps large motions has no part in a linear model.
-void note_nonlinear(const System& s, LinearModel& out) {
+void note_nonlinear(const Regime& s, LinearModel& out) {
   std::vector<std::string> stops;
   for (const system::SwitchData& element : s.switches)
-    if (element.kind == system::SwitchData::Kind::stop && !element.holds())
+    if (element.kind == system::SwitchData::Kind::stop && !s.holds(element))
       stops.push_back(s.couplers[static_cast<std::size_t>(element.coupler)].name);
   if (!stops.empty())
     out.notes.push_back("stops and one-sided joints are open in the linear model: " +
@@ -198,11 +198,12 @@ LinearModel linearize(const model::Scene& scene) {
     still.hydro->frequency.reset();
     still.hydro->memory_length.reset();
   }
-  System s = system::build(still, false);
-  s.hydro.added_mass.setZero();
-  s.hydro.added_mass_all.setZero();
-  const VectorX y = solve::settle(still, s);
-  system::note_axes(scene, s);
+  system::System system = system::build(still, false);
+  system.hydro.added_mass.setZero();
+  system.hydro.added_mass_all.setZero();
+  const auto [y, modes] = solve::settle(still, system);
+  system::note_axes(scene, system);
+  const Regime s(system, modes);
   const solve::LinearMatrices m = solve::linear_matrices(s, system::find_pattern(s), y);
   LinearModel out;
   out.mass = m.mass;
@@ -213,7 +214,7 @@ LinearModel linearize(const model::Scene& scene) {
   out.state_by_state = m.state_by_state;
   out.state_by_xi = m.state_by_xi;
   out.state_by_rate = m.state_by_rate;
-  out.notes = s.notes;
+  out.notes = system.notes;
   out.water_depth = model::water(scene).depth;
   out.gravity = model::water(scene).gravity;
   out.hydro_map = out.motion_map = out.damper_map = MatrixX(0, s.n_u);

@@ -8,7 +8,7 @@ namespace hydrodae {
 
 namespace {
 
-using system::System;
+using system::Regime;
 
 bool moors(const element::Elements& laws) {
   return laws.shape.port == element::Port::points ||
@@ -66,8 +66,8 @@ void put_apart(const Slope& at, Mooring& out) {
 }
 
 /// Of each law of a list; of those with nodes as they rest where the ends are.
-std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double* in,
-                                  const double* out) {
+std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double* signals,
+                                  const double* in, const double* out) {
   const std::shared_ptr<const element::Elements> still = list.laws->statics();
   const element::Elements& laws = still ? *still : *list.laws;
   const element::Shape &given = list.laws->shape, &shape = laws.shape;
@@ -78,12 +78,12 @@ std::vector<Slope> slopes_at_rest(const system::ElementList& list, const double*
     for (std::size_t k = 0; k < laws.size(); ++k, in += given.n_in())
       seen.insert(seen.end(), in, in + shape.n_in());
     loads.resize(laws.size() * n_out);
-    laws.evaluate(0.0, seen.data(), list.signals.data(), loads.data());
+    laws.evaluate(0.0, seen.data(), signals, loads.data());
     in = seen.data();
     out = loads.data();
   }
   std::vector<double> J(laws.size() * n_out * n_in);
-  laws.jacobian(0.0, in, list.signals.data(), J.data());
+  laws.jacobian(0.0, in, signals, J.data());
   std::vector<Slope> found;
   for (std::size_t k = 0; k < laws.size(); ++k)
     found.push_back(slope(shape, out + k * n_out, J.data() + k * n_out * n_in));
@@ -103,7 +103,7 @@ void add_channels(const element::Elements& laws, const double* values, Mooring& 
   }
 }
 
-void add_list(const System& s, const system::ElementList& list, system::Workspace<double>& ws,
+void add_list(const Regime& s, const system::ElementList& list, system::Workspace<double>& ws,
               const VectorX& y, std::vector<Mooring>& out) {
   const element::Elements& laws = *list.laws;
   const element::Shape& shape = laws.shape;
@@ -111,9 +111,9 @@ void add_list(const System& s, const system::ElementList& list, system::Workspac
   system::gather<double>(s, list, ws, y.data(), scratch);
   const double* in = scratch.in.data();
   std::vector<double> values(laws.size() * laws.channel_size());
-  laws.evaluate(0.0, in, list.signals.data(), scratch.out.data());
-  laws.observe(0.0, in, list.signals.data(), scratch.out.data(), values.data());
-  const std::vector<Slope> slopes = slopes_at_rest(list, in, scratch.out.data());
+  laws.evaluate(0.0, in, s.held(list), scratch.out.data());
+  laws.observe(0.0, in, s.held(list), scratch.out.data(), values.data());
+  const std::vector<Slope> slopes = slopes_at_rest(list, s.held(list), in, scratch.out.data());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     Mooring m;
     m.name = laws.names[k];
@@ -147,7 +147,7 @@ void add_list(const System& s, const system::ElementList& list, system::Workspac
 
 } // namespace
 
-std::vector<Mooring> moorings(const System& s, system::Workspace<double>& ws, const VectorX& y) {
+std::vector<Mooring> moorings(const Regime& s, system::Workspace<double>& ws, const VectorX& y) {
   std::vector<Mooring> out;
   for (const system::ElementList& list : s.elements)
     if (moors(*list.laws))

@@ -9,7 +9,7 @@ namespace hydrodae {
 /// All ropes, lines, springs between points and mooring matrices, in the order of the case file
 /// within each type.
 /// @param ws  unpacked at y
-std::vector<Mooring> moorings(const system::System& system, system::Workspace<double>& ws,
+std::vector<Mooring> moorings(const system::Regime& regime, system::Workspace<double>& ws,
                               const VectorX& y);
 
 } // namespace hydrodae

@@ -165,9 +165,9 @@ void write_costs(std::ostream& out, std::vector<ElementCost> costs) {
 } // namespace
 
 std::vector<bool> never_excited(const System& given, const system::Pattern& pattern) {
-  System s = given;
-  s.starts.clear();
-  stir_drives(s);
+  System stirred_system = given;
+  stir_drives(stirred_system);
+  const system::Regime s(stirred_system);
   const VectorX start = system::initial_state(s), size = system::displacement_scale(s);
   VectorX time(s.n_u);
   for (const system::BodyData& b : s.bodies)
@@ -182,12 +182,12 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
   int quiet = 0;
   for (int round = 0; round < 40 && quiet < 3; ++round) {
     VectorX y = start, step = VectorX::Zero(s.n_u), yp;
-    stir_waves(given, s, draw);
+    stir_waves(given, stirred_system, draw);
     if (round > 0) {
       for (std::size_t k = 0; k < s.couplers.size(); ++k) { // what a drive does later
-        system::CouplerData& c = s.couplers[k];
-        if (c.kept() && !c.velocity_level && c.drive.amplitude != 0.0)
-          c.drive.constant = given_drives[k] + draw() * s.row_scale[c.mu];
+        system::CouplerData& c = stirred_system.couplers[k];
+        if (s.holds(c) && !c.velocity_level && c.drive.amplitude != 0.0)
+          c.drive.constant = given_drives[k] + draw() * s.row_scale[s.mu(c)];
       }
       for (Index k = 0; k < s.n_u; ++k)
         if (!never[static_cast<std::size_t>(k)]) {
@@ -260,7 +260,8 @@ void write_inputs(std::ostream& out, const model::Scene& scene,
 } // namespace
 
 std::string examine(const model::Scene& scene) {
-  System s = system::build(scene);
+  const System built = system::build(scene);
+  system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
   const system::Recorder named(s, 0.0, system::initial_state(s), VectorX::Zero(s.n)); // or refuses
   std::ostringstream out;
@@ -274,10 +275,10 @@ std::string examine(const model::Scene& scene) {
       << " constraint rows\n";
   write_method(out, scene);
   write_costs(out, element_costs(s, pattern));
-  advise_bodies(out, s, never_excited(s, pattern));
+  advise_bodies(out, s, never_excited(built, pattern));
   advise_joints(out, scene);
   write_inputs(out, scene, named.channels(), run::find_inputs(s));
-  for (const std::string& note : s.notes)
+  for (const std::string& note : built.notes)
     out << "  note: " << note << "\n";
   write_sanity(out, scene, s);
   return out.str();

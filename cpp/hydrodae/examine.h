@@ -21,7 +21,7 @@ struct ElementCost {
 /// Joints and constraints first (their nonzeros are those of their multipliers), then bodies, the
 /// radiation memory, and what couples bodies directly. The nonzeros add up to those of the
 /// Jacobian.
-std::vector<ElementCost> element_costs(const system::System& system,
+std::vector<ElementCost> element_costs(const system::Regime& regime,
                                        const system::Pattern& pattern);
 
 /// Velocity coordinates (n_u,) that stay at zero: from the start, moved at random along those

@@ -8,10 +8,10 @@ namespace hydrodae {
 
 namespace {
 
-using system::System;
+using system::Regime;
 
 /// Of each unknown: its element, and in `elements` all of them with what they have.
-std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& elements) {
+std::vector<int> owner_of_unknowns(const Regime& s, std::vector<ElementCost>& elements) {
   std::vector<int> owner(static_cast<std::size_t>(s.n), -1);
   const auto take = [&](Index i, Index ElementCost::* count) {
     owner[static_cast<std::size_t>(i)] = static_cast<int>(elements.size()) - 1;
@@ -22,18 +22,18 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
       continue;
     elements.push_back({"joint " + j.name});
     for (const system::RowData& row : j.rows)
-      if (row.kept()) {
-        take(row.lambda, &ElementCost::multipliers);
-        take(row.mu, &ElementCost::multipliers);
+      if (s.holds(row)) {
+        take(s.lambda(row), &ElementCost::multipliers);
+        take(s.mu(row), &ElementCost::multipliers);
       }
   }
   for (const system::CouplerData& c : s.couplers) {
     elements.push_back({"constraint " + c.name});
-    if (!c.kept())
+    if (!s.holds(c))
       continue;
-    take(c.lambda, &ElementCost::multipliers);
+    take(s.lambda(c), &ElementCost::multipliers);
     if (!c.velocity_level)
-      take(c.mu, &ElementCost::multipliers);
+      take(s.mu(c), &ElementCost::multipliers);
   }
   for (const system::BodyData& b : s.bodies) {
     elements.push_back({"body " + b.name});
@@ -41,8 +41,8 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
       take(b.q0 + k, &ElementCost::unknowns);
     for (int k = 0; k < b.n_active; ++k)
       take(b.u0 + k, &ElementCost::unknowns);
-    if (b.sigma >= 0)
-      take(b.sigma, &ElementCost::unknowns);
+    if (s.sigma(b) >= 0)
+      take(s.sigma(b), &ElementCost::unknowns);
   }
   for (const system::StateBlock& block : s.states) {
     elements.push_back({block.owner});
@@ -54,7 +54,7 @@ std::vector<int> owner_of_unknowns(const System& s, std::vector<ElementCost>& el
 
 } // namespace
 
-std::vector<ElementCost> element_costs(const System& s, const system::Pattern& pattern) {
+std::vector<ElementCost> element_costs(const Regime& s, const system::Pattern& pattern) {
   std::vector<ElementCost> elements;
   const std::vector<int> owner = owner_of_unknowns(s, elements);
   std::size_t joints = 0; // how many of the elements have multipliers

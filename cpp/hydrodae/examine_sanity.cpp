@@ -41,7 +41,7 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
                   [](const model::Constraint& c) { return c.type == "coordinate"; });
   if (driven && std::any_of(given.couplers.begin(), given.couplers.end(), moves))
     return out; // it never rests
-  if (!wet || given.n_u + given.n_lambda > most_coordinates)
+  if (!wet || given.n_u + system::Regime(given).n_lambda > most_coordinates)
     return out;
   System s = given;
   s.notes.clear();

@@ -40,9 +40,9 @@ public:
   Session(const model::Scene& scene, const Progress& progress, solve::Verification* other = nullptr)
       : progress_(progress), other_(other), simulation_(scene),
         limits_(system::linear_limits(scene, simulation_.system())), row_(simulation_.width()) {
-    statistics_.unknowns = simulation_.system().n;
+    statistics_.unknowns = simulation_.regime().n;
     statistics_.nonzeros = simulation_.nonzeros();
-    statistics_.notes = simulation_.system().notes;
+    statistics_.notes = simulation_.notes();
     statistics_.setup_time = seconds_since(started_);
   }
 
@@ -70,7 +70,7 @@ public:
     checkpoint_ = options.checkpoint;
     try {
       if (options.verify)
-        own_ = std::make_unique<solve::Verification>(simulation_.system());
+        own_ = std::make_unique<solve::Verification>(simulation_.regime());
       statistics_.status = march() ? "completed" : "interrupted";
       if (options.verify && statistics_.status == "completed" && !verify())
         statistics_.status = "interrupted";

@@ -130,7 +130,8 @@ int main(int argc, char** argv) {
   const bool compares = argc > 2; // with the whole matrix, too
   const int n = argc > 1 ? std::atoi(argv[1]) : 10;
   const model::Scene scene = array_of(n);
-  const system::System s = system::build(scene);
+  const system::System built = system::build(scene);
+  const system::Regime s(built);
   const system::Pattern whole = system::find_pattern(s), less = solve::condensed(s, whole);
   const VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
   system::JacobianWorkspace ws(s);

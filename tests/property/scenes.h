@@ -378,7 +378,7 @@ inline std::vector<NamedScene> all_scenes() {
 }
 
 /// Random accepted points before `now`, where the system depends on its past; null elsewhere.
-inline std::unique_ptr<system::History> random_history(system::System& s, Random& random,
+inline std::unique_ptr<system::History> random_history(system::Regime& s, Random& random,
                                                        double now) {
   if (!system::has_past(s))
     return nullptr;
@@ -414,7 +414,7 @@ inline void turn_mean_axes(system::System& s) {
 }
 
 /// Unknowns far from any special value; quaternions off the unit sphere by some per cent.
-inline VectorX random_state(const system::System& s, Random& random) {
+inline VectorX random_state(const system::Regime& s, Random& random) {
   VectorX y = system::initial_state(s);
   for (Index i = 0; i < s.n; ++i) {
     const bool of_law = i >= s.z0 && i < s.memory0; // a pressure stays positive

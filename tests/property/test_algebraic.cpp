@@ -15,6 +15,7 @@
 namespace {
 
 using namespace hydrodae;
+using system::Regime;
 using system::System;
 
 /// f = -k1 e - d w,   0 = k1 e - k2 (s - e) - c (s - e)^3,   w' = s' - w
@@ -71,7 +72,7 @@ System on_series(const SeriesSprings& springs) {
   list.laws = std::make_shared<const element::Laws<SeriesSprings>>(std::vector{springs});
   list.ports = s.elements.front().ports;
   s.elements.push_back(list);
-  system::lay_out(s);
+  system::number(s);
   return s;
 }
 
@@ -84,7 +85,7 @@ MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
 }
 
 /// y at the end of a second, and at 0.5 s.
-std::array<VectorX, 2> run(const System& s, const std::string& method) {
+std::array<VectorX, 2> run(const Regime& s, const std::string& method) {
   model::SolverOptions options;
   options.method = method;
   options.rtol = 1e-8;
@@ -111,7 +112,8 @@ TEST_CASE("the Jacobian holds the row of an algebraic unknown") {
   SeriesSprings springs;
   springs.hardening = 50.0;
   springs.damping = 7.0;
-  const System s = on_series(springs);
+  const System built = on_series(springs);
+  const Regime s(built);
   const Index e = s.z0 + 1;
   CHECK(s.is_algebraic(e));
   CHECK_FALSE(s.is_algebraic(s.z0));
@@ -137,10 +139,12 @@ TEST_CASE("the Jacobian holds the row of an algebraic unknown") {
 TEST_CASE("two springs in series are one in the linear model and at rest") {
   const SeriesSprings springs;
   System one = system::build(weight(springs.stiffness())), two = on_series(springs);
-  const VectorX rest_one = solve::move_to_equilibrium(one), rest = solve::move_to_equilibrium(two);
+  const VectorX rest_one = solve::move_to_equilibrium(one).y,
+                rest = solve::move_to_equilibrium(two).y;
+  const Regime of_one(one), of_two(two);
   CHECK(rest.head(two.n_q).isApprox(rest_one.head(one.n_q), 1e-10));
-  const auto a = solve::linear_matrices(one, system::find_pattern(one), rest_one),
-             b = solve::linear_matrices(two, system::find_pattern(two), rest);
+  const auto a = solve::linear_matrices(of_one, system::find_pattern(of_one), rest_one),
+             b = solve::linear_matrices(of_two, system::find_pattern(of_two), rest);
   CHECK((a.stiffness - b.stiffness).norm() < 1e-9 * a.stiffness.norm());
   CHECK((a.damping - b.damping).norm() < 1e-9);
   CHECK(b.state_by_state.rows() == 1); // the slip
@@ -154,7 +158,7 @@ TEST_CASE("every method carries an algebraic unknown") {
   for (const char* method :
        {"ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}) {
     CAPTURE(method);
-    const auto single = run(one, method), series = run(two, method);
+    const auto single = run(Regime(one), method), series = run(Regime(two), method);
     for (std::size_t k = 0; k < 2; ++k) {
       const double size = single[k].head(one.z0).norm();
       CHECK((single[k].head(one.z0) - series[k].head(two.z0)).norm() < 1e-5 * size);

@@ -12,6 +12,7 @@
 namespace {
 
 using namespace hydrodae;
+using system::Regime;
 using system::System;
 
 constexpr double instant = 0.7; // of a wave that is neither at its crest nor at its trough [s]
@@ -25,7 +26,7 @@ MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
 }
 
 /// Exact derivative of the residual along unknown `column` of y or of y'.
-VectorX derivative(const System& s, const VectorX& y, const VectorX& yp, Index column, bool by_yp) {
+VectorX derivative(const Regime& s, const VectorX& y, const VectorX& yp, Index column, bool by_yp) {
   VecX<Dual> dy = y.cast<Dual>(), dyp = yp.cast<Dual>(), r(s.n);
   (by_yp ? dyp : dy)[column].b = 1.0;
   system::Workspace<Dual> ws(s);
@@ -43,8 +44,9 @@ TEST_CASE("the Jacobian is exact in all blocks") {
   int scenes = 0;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    System s = system::build(named.scene);
-    test::turn_mean_axes(s);
+    System built = system::build(named.scene);
+    test::turn_mean_axes(built);
+    Regime s(built);
     const auto history = test::random_history(s, random, instant);
     const system::Pattern pattern = system::find_pattern(s);
     const VectorX y = test::random_state(s, random);

@@ -11,9 +11,10 @@
 namespace {
 
 using namespace hydrodae;
+using system::Regime;
 using system::System;
 
-VectorX evaluate(const System& s, system::Workspace<double>& ws, const VectorX& y,
+VectorX evaluate(const Regime& s, system::Workspace<double>& ws, const VectorX& y,
                  const VectorX& yp) {
   VectorX r(s.n);
   system::residual<double>(s, ws, 0.0, y.data(), yp.data(), r.data());
@@ -26,7 +27,8 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
   test::Random random;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    System s = system::build(named.scene);
+    const System built = system::build(named.scene);
+    Regime s(built);
     const auto history = test::random_history(s, random, -0.01);
     const system::Pattern pattern = system::find_pattern(s);
     system::Workspace<double> used(s), fresh(s);
@@ -55,7 +57,8 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
 TEST_CASE("the consistent start satisfies all equations") {
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System s = system::build(named.scene);
+    const System built = system::build(named.scene);
+    const Regime s(built);
     const system::Pattern pattern = system::find_pattern(s);
     VectorX y = system::initial_state(s), yp;
     REQUIRE_NOTHROW(solve::consistent_start(s, pattern, y, yp));
@@ -73,13 +76,14 @@ TEST_CASE("added mass conserves energy in all axes: power of its load is minus d
     model::Scene scene = test::two_bodies(*joint::find_joint_type("spherical"), {"rigid"}, random);
     test::add_hydro(scene, axes, "none", random);
     scene.joints.clear();
-    System s = system::build(scene);
-    test::turn_mean_axes(s);
+    System built = system::build(scene);
+    test::turn_mean_axes(built);
+    const Regime s(built);
     // Positions, velocities and accelerations at random; q' as the kinematics demand.
     VectorX y = test::random_state(s, random), yp = test::random_state(s, random);
     for (const system::BodyData& b : s.bodies) {
       y.segment<4>(b.q0 + 3).normalize();
-      y[b.sigma] = 0.0;
+      y[s.sigma(b)] = 0.0;
     }
     system::Workspace<double> ws(s);
     VectorX rest = yp;

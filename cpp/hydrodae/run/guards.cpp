@@ -12,7 +12,7 @@ namespace hydrodae::run {
 namespace {
 
 /// "largest reactions ..." at y, for messages.
-std::string reactions(const system::System& s, const VectorX& y) {
+std::string reactions(const system::Regime& s, const VectorX& y) {
   if (s.n_lambda == 0)
     return "";
   VectorX values = VectorX::Zero(s.n);
@@ -23,7 +23,7 @@ std::string reactions(const system::System& s, const VectorX& y) {
 
 class EnergyCheck : public Guard {
 public:
-  EnergyCheck(const system::System& s, solve::EnergyGuard guard, PoseWatch& watch)
+  EnergyCheck(const system::Regime& s, solve::EnergyGuard guard, PoseWatch& watch)
       : s_(s), guard_(std::move(guard)), watch_(watch) {}
   void check(const Step& step) override {
     guard_.check(
@@ -36,7 +36,7 @@ public:
   void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
 
 private:
-  const system::System& s_;
+  const system::Regime& s_;
   solve::EnergyGuard guard_;
   PoseWatch& watch_;
 };
@@ -67,7 +67,7 @@ private:
 
 class DriftCheck : public Guard {
 public:
-  DriftCheck(const system::System& s, PoseWatch& watch)
+  DriftCheck(const system::Regime& s, PoseWatch& watch)
       : s_(s), guard_(std::make_unique<solve::DriftGuard>(s)), watch_(watch) {}
   void check(const Step& step) override {
     guard_->check(step.end, step.y, step.yp);
@@ -77,7 +77,7 @@ public:
   void restart(const Step&) override { guard_ = std::make_unique<solve::DriftGuard>(s_); }
 
 private:
-  const system::System& s_;
+  const system::Regime& s_;
   std::unique_ptr<solve::DriftGuard> guard_;
   PoseWatch& watch_;
 };
@@ -102,7 +102,7 @@ private:
 /// Friction that its joint presses, against Painleve's paradox.
 class JamCheck : public Guard {
 public:
-  JamCheck(const system::System& s, const system::Pattern& pattern) : s_(s), pattern_(pattern) {
+  JamCheck(const system::Regime& s, const system::Pattern& pattern) : s_(s), pattern_(pattern) {
     begin();
   }
   void check(const Step& step) override {
@@ -122,14 +122,14 @@ private:
     equations_ = std::make_unique<solve::Equations>(s_, pattern_, 1.0);
     saddle_ = std::make_unique<solve::SaddlePoint>(*equations_);
   }
-  const system::System& s_;
+  const system::Regime& s_;
   const system::Pattern& pattern_;
   std::unique_ptr<solve::Equations> equations_;
   std::unique_ptr<solve::SaddlePoint> saddle_;
   VectorX y_, yp_;
 };
 
-bool has_pressed_friction(const system::System& s) {
+bool has_pressed_friction(const system::Regime& s) {
   return std::any_of(s.elements.begin(), s.elements.end(), [](const system::ElementList& list) {
     return list.laws->shape.n_reaction > 0;
   });
@@ -137,7 +137,7 @@ bool has_pressed_friction(const system::System& s) {
 
 } // namespace
 
-PoseWatch::PoseWatch(const system::System& s, const model::SolverOptions& options, const VectorX& y,
+PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y,
                      bool wanted)
     : s_(s), method_(options.method) {
   if (wanted && solve::has_loop(s))
@@ -182,7 +182,7 @@ void PoseWatch::remember(Archive& a) {
     a(*guard_);
 }
 
-std::vector<std::unique_ptr<Guard>> make_guards(const system::System& system,
+std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const model::SolverOptions& options,
                                                 const VectorX& y, const Judges& judges,
                                                 std::unique_ptr<PoseWatch>& watch) {

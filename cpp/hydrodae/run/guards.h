@@ -51,7 +51,7 @@ class PoseWatch {
 public:
   /// @param y pose of the start, taken for a regular one
   /// @param wanted some guard will ask
-  PoseWatch(const system::System& system, const model::SolverOptions& options, const VectorX& y,
+  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y,
             bool wanted);
 
   /// Of short steps one in four is looked at, since the way through such a pose takes more; long
@@ -69,7 +69,7 @@ public:
   void remember(Archive& a);
 
 private:
-  const system::System& s_;
+  const system::Regime& s_;
   std::string method_;
   std::unique_ptr<solve::PoseGuard> guard_; ///< null: nothing to watch
   long asked_ = 0;                          ///< times that a singular pose would have mattered
@@ -87,7 +87,7 @@ struct Judges {
 /// velocities that jump, constraints that drift, piled up errors.
 /// @param watch takes the watch over singular poses, which outlives the guards
 /// @param y pose of the start
-std::vector<std::unique_ptr<Guard>> make_guards(const system::System& system,
+std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const model::SolverOptions& options,
                                                 const VectorX& y, const Judges& judges,
                                                 std::unique_ptr<PoseWatch>& watch);

@@ -9,9 +9,10 @@ namespace hydrodae::run {
 
 namespace {
 
-void add_forces(system::System& s, std::vector<Input>& out) {
-  for (system::ElementList& list : s.elements) {
-    double* value = list.signals.data();
+void add_forces(system::Regime& s, std::vector<Input>& out) {
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const system::ElementList& list = s.elements[i];
+    double* value = s.signals[i].data();
     for (std::size_t k = 0; k < list.ports.size(); ++k) {
       const int motion = list.ports[k].motion;
       const bool angle =
@@ -27,38 +28,39 @@ void add_forces(system::System& s, std::vector<Input>& out) {
 }
 
 /// What dry friction holds: with it a controller locks a joint where it stands still, and lets go.
-void add_frictions(system::System& s, std::vector<Input>& out) {
-  for (system::SwitchData& friction : s.switches) {
+void add_frictions(system::Regime& s, std::vector<Input>& out) {
+  for (const system::SwitchData& friction : s.switches) {
     if (friction.kind != system::SwitchData::Kind::friction)
       continue;
     const auto list = static_cast<std::size_t>(friction.list),
                law = static_cast<std::size_t>(friction.law);
     const bool angle = s.motions[static_cast<std::size_t>(friction.motion)].motion.is_angle();
     out.push_back({"forces/" + s.elements[list].laws->names[law] + "/static", angle ? "N m" : "N",
-                   &friction.static_load, 0.0});
+                   &s.static_loads[friction.number], 0.0});
   }
 }
 
 /// A rate that jumps takes the velocities with it at once, by an impulse of all rows. Stops that
 /// push only, and friction that slips, would have to be asked first.
-void add_rates(system::System& s, std::vector<Input>& out) {
+void add_rates(system::Regime& s, std::vector<Input>& out) {
   if (!s.switches.empty())
     return;
-  for (system::CouplerData& c : s.couplers) {
+  for (std::size_t k = 0; k < s.couplers.size(); ++k) {
+    const system::CouplerData& c = s.couplers[k];
     const auto motion = static_cast<std::size_t>(c.terms.front().motion);
     if (c.velocity_level && c.terms.size() == 1)
       out.push_back({"constraints/" + c.name + "/rate",
-                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &c.drive.constant});
+                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &s.rates[k]});
   }
 }
 
 } // namespace
 
-std::vector<Input> find_inputs(system::System& system) {
+std::vector<Input> find_inputs(system::Regime& regime) {
   std::vector<Input> out;
-  add_forces(system, out);
-  add_frictions(system, out);
-  add_rates(system, out);
+  add_forces(regime, out);
+  add_frictions(regime, out);
+  add_rates(regime, out);
   return out;
 }
 

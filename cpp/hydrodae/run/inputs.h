@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::run {
 
 struct Input {
   std::string name; ///< "forces/pto/damping"
   std::string unit;
-  double* value = nullptr; ///< in the system
+  double* value = nullptr; ///< in the regime
   double least = -INFINITY;
 };
 
@@ -20,8 +20,8 @@ struct Input {
 /// take-off along a joint ("forces/pto/damping"), the components of each constant load, ...; what
 /// each dry friction holds at most ("forces/brake/static"); where nothing switches, the constant
 /// part of each rate that a constraint prescribes ("constraints/motor/rate"). They point into
-/// `system`.
-std::vector<Input> find_inputs(system::System& system);
+/// `regime`.
+std::vector<Input> find_inputs(system::Regime& regime);
 
 /// Throws CaseError, with the nearest name, where there is no such input.
 Input& input_named(std::vector<Input>& inputs, const std::string& name);

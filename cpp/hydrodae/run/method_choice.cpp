@@ -28,7 +28,7 @@ std::string core_of(const std::string& message) {
 }
 
 /// Is there anything but joints, weights and constant loads in each group of bodies?
-bool may_damp(const system::System& s) {
+bool may_damp(const system::Regime& s) {
   std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
   const auto mark = [&](const system::BodyData* body) {
     if (body && body->group >= 0)
@@ -42,7 +42,7 @@ bool may_damp(const system::System& s) {
   return std::all_of(damped.begin(), damped.end(), [](bool d) { return d; });
 }
 
-std::string find_costly(const system::System& s) {
+std::string find_costly(const system::Regime& s) {
   for (const system::CouplerData& c : s.couplers)
     if (c.drive.python)
       return "a drive of Python";
@@ -74,7 +74,7 @@ MethodOrder order_methods(const SceneTraits& traits) {
   return {{"explicit_rk", "radau", "ida"}, "nothing is stiff"};
 }
 
-SceneTraits find_traits(const system::System& s, const system::Pattern& pattern,
+SceneTraits find_traits(const system::Regime& s, const system::Pattern& pattern,
                         const model::SolverOptions& options, const VectorX& y, const VectorX& yp) {
   SceneTraits out;
   out.fastest_rate = solve::fastest_rate(s, pattern, 0.0, y, yp);

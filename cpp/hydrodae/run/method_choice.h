@@ -42,7 +42,7 @@ struct MethodOrder {
 MethodOrder order_methods(const SceneTraits& traits);
 
 /// Of a scene at its start, where y, y' are consistent.
-SceneTraits find_traits(const system::System& system, const system::Pattern& pattern,
+SceneTraits find_traits(const system::Regime& system, const system::Pattern& pattern,
                         const model::SolverOptions& options, const VectorX& y, const VectorX& yp);
 
 /// The method at work in a run, those before it and those that are left. Each method is given up

@@ -32,27 +32,37 @@ constexpr double step_edge = 0.02;
 
 } // namespace
 
-Simulation::Simulation(model::Scene scene)
-    : scene_(std::move(scene)), options_(scene_.solver), system_(solve::starting_system(scene_)),
-      pattern_(system::find_pattern(system_)), y_(system::initial_state(system_)),
-      inputs_(find_inputs(system_)) {
-  solve::consistent_start(system_, pattern_, y_, yp_);
-  system::take_time_scales(system_, y_, yp_);
-  forcing_ = std::make_unique<system::Forcing>(system_, options_.end_time, scene_.output.step);
-  scale_ = std::make_unique<system::MotionScale>(system_, pattern_, y_, yp_, forcing_->motion(),
+Simulation::Start Simulation::begin(const model::Scene& scene) {
+  Start start{solve::starting_system(scene), {}, {}, {}};
+  const system::Regime regime(start.system);
+  start.pattern = system::find_pattern(regime);
+  start.y = system::initial_state(regime);
+  solve::consistent_start(regime, start.pattern, start.y, start.yp);
+  system::take_time_scales(start.system, start.y, start.yp);
+  return start;
+}
+
+Simulation::Simulation(model::Scene scene) : Simulation(begin(scene), std::move(scene)) {}
+
+Simulation::Simulation(Start start, model::Scene&& scene)
+    : scene_(std::move(scene)), options_(scene_.solver), system_(std::move(start.system)),
+      pattern_(std::move(start.pattern)), y_(std::move(start.y)), yp_(std::move(start.yp)),
+      notes_(system_.notes), inputs_(find_inputs(regime_)) {
+  forcing_ = std::make_unique<system::Forcing>(regime_, options_.end_time, scene_.output.step);
+  scale_ = std::make_unique<system::MotionScale>(regime_, pattern_, y_, yp_, forcing_->motion(),
                                                  scene_.sea.ramp, options_.rtol);
   if (!system_.switches.empty()) {
-    switching_ = std::make_unique<solve::Switching>(system_, options_.rtol);
+    switching_ = std::make_unique<solve::Switching>(regime_, options_.rtol);
     switching_->settle(0.0, y_, yp_);
   }
   formulate();
   begin_history();
   choose_method();
   make_integrator();
-  trust_ = std::make_unique<solve::Trust>(system_, pattern_, options_, y_, yp_);
-  recorder_ = std::make_unique<system::Recorder>(system_, 0.0, y_, yp_);
+  trust_ = std::make_unique<solve::Trust>(regime_, pattern_, options_, y_, yp_);
+  recorder_ = std::make_unique<system::Recorder>(regime_, 0.0, y_, yp_);
   recorder_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
-  guards_ = make_guards(system_, options_, y_, {*scale_, *trust_, pattern_}, poses_);
+  guards_ = make_guards(regime_, options_, y_, {*scale_, *trust_, pattern_}, poses_);
   make_channels();
 }
 
@@ -64,11 +74,11 @@ void Simulation::formulate() {
       {"index_2", Formulation::index_2},
       {"index_3", Formulation::index_3},
       {"index_1", Formulation::index_1}};
-  system_.formulation = formulations.at(options_.formulation);
+  regime_.formulation = formulations.at(options_.formulation);
   if (options_.baumgarte_time > 0.0)
-    system_.baumgarte_rate = 1.0 / options_.baumgarte_time;
-  if (system_.formulation != Formulation::stabilised || switching_)
-    pattern_ = system::find_pattern(system_);
+    regime_.baumgarte_rate = 1.0 / options_.baumgarte_time;
+  if (regime_.formulation != Formulation::stabilised || switching_)
+    pattern_ = system::find_pattern(regime_);
 }
 
 /// The past of a scene that depends on it begins at the start, and limits the steps.
@@ -77,10 +87,10 @@ void Simulation::begin_history() {
     return;
   const std::string note = system::limit_steps(system_, options_);
   if (!note.empty())
-    system_.notes.push_back(note);
-  history_ = std::make_unique<system::History>(system_);
+    notes_.push_back(note);
+  history_ = std::make_unique<system::History>(regime_);
   history_->append(0.0, y_, yp_);
-  system_.history = history_.get();
+  regime_.history = history_.get();
 }
 
 void Simulation::make_channels() {
@@ -236,18 +246,18 @@ void Simulation::restart() {
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
-    struck = solve::make_consistent(system_, t_, y_, yp_);
+    struck = solve::make_consistent(regime_, t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
-  for (std::size_t k = 0; struck && k < system_.switches.size(); ++k)
+  for (std::size_t k = 0; struck && k < regime_.switches.size(); ++k)
     if (!switching_->struck()[k].impacts.empty())
       trust_->strike(
-          system::moving_body(system_, system::joint_of(system_, system_.switches[k].motion))
+          system::moving_body(regime_, system::joint_of(regime_, regime_.switches[k].motion))
               ->mechanism);
   if (history_)
     history_->append(t_, y_, yp_);
   if (!finished()) {
     before_start_ += integrator_->statistics();
-    pattern_ = system::find_pattern(system_);
+    pattern_ = system::find_pattern(regime_);
     make_integrator();
     restart_guards();
   }
@@ -257,8 +267,7 @@ void Simulation::restart() {
 /// What is made from now on knows on which turn the angles are.
 void Simulation::follow_turns() {
   const system::Turns& turns = recorder_->turns();
-  for (std::size_t m = 0; m < turns.value.size(); ++m)
-    system_.motions[m].start = turns.value[m];
+  regime_.nearby = turns.value;
   if (switching_)
     switching_->follow(turns);
 }

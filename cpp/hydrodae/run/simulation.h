@@ -87,6 +87,8 @@ public:
   // What a results file tells of a run.
   const model::Scene& scene() const { return scene_; }
   const system::System& system() const { return system_; }
+  const system::Regime& regime() const { return regime_; }
+  const std::vector<std::string>& notes() const { return notes_; } ///< of the start
   const system::Recorder& recorder() const { return *recorder_; }
   const ImpactOutput& impacts() const { return impacts_; }
   const MethodChoice& methods() const { return methods_; }
@@ -101,6 +103,14 @@ public:
 
 private:
   friend class hydrodae::Archive;
+  /// Of a scene: its system, and a consistent start.
+  struct Start {
+    system::System system;
+    system::Pattern pattern;
+    VectorX y, yp;
+  };
+  static Start begin(const model::Scene& scene);
+  Simulation(Start start, model::Scene&& scene);
   void formulate();
   void begin_history();
   void make_channels();
@@ -132,9 +142,11 @@ private:
   MethodChoice methods_{options_.method};
   bool approaches_events_ = false; ///< with steps that end there
   std::string fingerprint_;        ///< empty: not asked for yet
-  system::System system_;
+  const system::System system_;
+  system::Regime regime_{system_}; ///< what holds now
   system::Pattern pattern_;
   VectorX y_, yp_; ///< at the end of the last step
+  std::vector<std::string> notes_;
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
   std::unique_ptr<Controllers> controllers_;    ///< null: none

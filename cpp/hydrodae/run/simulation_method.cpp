@@ -10,7 +10,7 @@ namespace hydrodae::run {
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
   if (options_.method == "auto")
-    methods_ = MethodChoice(order_methods(find_traits(system_, pattern_, options_, y_, yp_)));
+    methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();
 }
 
@@ -28,7 +28,7 @@ void Simulation::use_method() {
 void Simulation::make_integrator() {
   for (;;) {
     try {
-      integrator_ = solve::make_integrator(system_, pattern_, options_, t_, y_, yp_);
+      integrator_ = solve::make_integrator(regime_, pattern_, options_, t_, y_, yp_);
       return;
     } catch (const SolverError& error) {
       if (!methods_.chosen())
@@ -82,7 +82,7 @@ void Simulation::watch_steps(bool event, double end) {
   const double h = t_ - step_start_,
                longest = options_.max_step > 0.0 ? 0.9 * options_.max_step : INFINITY;
   const bool own = !event && t_ < end && t_ < bound_ && h < longest;
-  methods_.accept(h, solve::motion_rate(system_, y_), own);
+  methods_.accept(h, solve::motion_rate(regime_, y_), own);
 }
 
 } // namespace hydrodae::run

@@ -16,9 +16,7 @@ const std::string& Simulation::fingerprint() {
 }
 
 void Simulation::remember(Archive& a) {
-  std::vector<system::SwitchData::State> modes;
-  for (const system::SwitchData& element : system_.switches)
-    modes.push_back(element.state);
+  std::vector<system::Regime::Mode> modes = regime_.modes;
   a(step_start_, last_start_, event_near_, quadrature_nodes_, before_start_, modes, methods_,
     event_here_);
   for (const Input& input : inputs_)
@@ -26,7 +24,7 @@ void Simulation::remember(Archive& a) {
   if (modes.size() != system_.switches.size())
     throw Error("the state has other switches than the scene");
   for (std::size_t k = 0; k < modes.size() && !a.saves(); ++k)
-    system::set_state(system_, system_.switches[k], modes[k]);
+    system::set_mode(regime_, system_.switches[k], modes[k]);
 }
 
 State Simulation::state() {
@@ -78,13 +76,13 @@ void Simulation::set(const State& state) {
   use_method();
   restore(memory, "recorder", *recorder_);
   if (switching_) {
-    system::lay_out(system_);
+    system::lay_out(regime_);
     restore(memory, "switching", *switching_);
   }
   restore(memory, "scales", *scale_);
-  if (y_.size() != system_.n || yp_.size() != system_.n)
+  if (y_.size() != regime_.n || yp_.size() != regime_.n)
     throw Error("the state has other unknowns than the scene");
-  pattern_ = system::find_pattern(system_);
+  pattern_ = system::find_pattern(regime_);
   follow_turns();
   if (history_)
     restore(memory, "history", *history_);

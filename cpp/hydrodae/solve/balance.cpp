@@ -19,26 +19,26 @@ namespace hydrodae::solve {
 namespace {
 
 using system::BodyData;
-using system::System;
+using system::Regime;
 
 constexpr double longest = 3.0; ///< largest step, in length scales
 constexpr int most_steps = 200, most_creeping_steps = 1000;
 
 /// Gaps of all rows at position level, in the order of lambda; the others 0.
-VectorX gaps_of(const System& s, const VectorX& r) {
+VectorX gaps_of(const Regime& s, const VectorX& r) {
   VectorX gaps = VectorX::Zero(s.n_lambda);
-  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
-    if (lambda != system::redundant && !velocity_level)
-      gaps[lambda - s.lambda0] = r[mu];
+  system::for_each_row(s, [&](const system::Row& row, bool velocity_level) {
+    if (s.holds(row) && !velocity_level)
+      gaps[s.lambda(row) - s.lambda0] = r[s.mu(row)];
   });
   return gaps;
 }
 
-VectorX gap_sizes(const System& s) {
+VectorX gap_sizes(const Regime& s) {
   VectorX sizes = VectorX::Ones(s.n_lambda);
-  system::for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
-    if (lambda != system::redundant)
-      sizes[lambda - s.lambda0] = s.row_scale[velocity_level ? lambda : mu];
+  system::for_each_row(s, [&](const system::Row& row, bool velocity_level) {
+    if (s.holds(row))
+      sizes[s.lambda(row) - s.lambda0] = s.row_scale[velocity_level ? s.lambda(row) : s.mu(row)];
   });
   return sizes;
 }
@@ -48,7 +48,7 @@ struct CoordinateName {
   std::string text, unit;
 };
 
-CoordinateName coordinate_name(const System& s, Index u) {
+CoordinateName coordinate_name(const Regime& s, Index u) {
   for (const BodyData& b : s.bodies) {
     const Index k = u - (b.u0 - s.u0);
     if (k < 0 || k >= b.n_active)
@@ -63,7 +63,7 @@ CoordinateName coordinate_name(const System& s, Index u) {
 
 /// Coordinates of the motions, free of the constraints, that a force drives and that have no
 /// stiffness: K d = 0 but d . f != 0.
-std::vector<std::string> unrestored(const System& s, const LinearMatrices& m,
+std::vector<std::string> unrestored(const Regime& s, const LinearMatrices& m,
                                     const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
   MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
@@ -92,7 +92,7 @@ std::vector<std::string> unrestored(const System& s, const LinearMatrices& m,
   return out;
 }
 
-std::string off_balance(const System& s, const LinearMatrices& m, const VectorX& scale) {
+std::string off_balance(const Regime& s, const LinearMatrices& m, const VectorX& scale) {
   Index worst = 0;
   m.forces.cwiseQuotient(s.row_scale.segment(s.u0, s.n_u).cwiseMax(1e-300))
       .cwiseAbs()
@@ -121,7 +121,7 @@ struct Balance {
 /// Finds the static pose; scratch and scales of one search.
 class Search {
 public:
-  explicit Search(const System& system)
+  explicit Search(const Regime& system)
       : s_(system), pattern_(system::find_pattern(system)),
         scale_(system::displacement_scale(system)), sizes_(gap_sizes(system)),
         weights_(system.row_scale.segment(system.u0, system.n_u).cwiseMax(1e-300)),
@@ -221,7 +221,7 @@ public:
   }
 
 private:
-  const System& s_;
+  const Regime& s_;
   const system::Pattern pattern_;
   const VectorX scale_, sizes_, weights_, units_;
   system::Workspace<double> ws_;
@@ -230,20 +230,20 @@ private:
 };
 
 /// Rows that a drive moves have no static pose.
-void refuse_motion(const System& s, const VectorX& y) {
+void refuse_motion(const Regime& s, const VectorX& y) {
   system::Workspace<double> ws(s);
   VectorX r(s.n);
   const VectorX rest = VectorX::Zero(s.n);
   system::residual<double>(s, ws, 0.0, y.data(), rest.data(), r.data());
   for (const system::CouplerData& c : s.couplers)
-    if (c.kept() && std::abs(r[c.lambda]) > 0.0)
+    if (s.holds(c) && std::abs(r[s.lambda(c)]) > 0.0)
       throw ModelError("constraint." + c.name,
                        "constraint '" + c.name + "' moves at the start: there is no equilibrium");
 }
 
 } // namespace
 
-LinearMatrices balance(const System& s, VectorX& y) {
+LinearMatrices balance(const Regime& s, VectorX& y) {
   Search search(s);
   const VectorX start = y;
   Balance found = search.newton(y);

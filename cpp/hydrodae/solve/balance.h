@@ -16,6 +16,6 @@ constexpr double balanced = 1e-10; ///< of weights and lengths: what counts as z
 /// in implicit Euler steps that grow from one length scale to Newton's step (pseudo-transient
 /// continuation: Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508). That way ends in stable
 /// poses, however lines go from slack to taut on it. Throws ModelError when neither gets there.
-LinearMatrices balance(const system::System& system, VectorX& y);
+LinearMatrices balance(const system::Regime& system, VectorX& y);
 
 } // namespace hydrodae::solve

@@ -38,7 +38,7 @@ int stages_of(Family family, int order) {
 
 class Collocation : public Integrator {
 public:
-  Collocation(const system::System& system, const system::Pattern& pattern,
+  Collocation(const system::Regime& system, const system::Pattern& pattern,
               const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, options.rtol),
         family_(family_of(options.method)), fixed_(options.step > 0.0),
@@ -82,12 +82,12 @@ private:
   void choose_order(double error);
   const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
   void evaluate(double x, VectorX& y) const;
-  static void evaluate(const system::System& s, const RungeKutta& rk, const VectorX& start,
+  static void evaluate(const system::Regime& s, const RungeKutta& rk, const VectorX& start,
                        const MatrixX& Z, double x, VectorX& y);
   void evaluate_rates(double x, VectorX& yp) const;
   [[noreturn]] void fail(const std::string& reason);
 
-  const system::System& s_;
+  const system::Regime& s_;
   const system::Pattern pattern_; ///< of Newton's matrix
   Equations e_;
   const Family family_;
@@ -147,7 +147,7 @@ void Collocation::evaluate(double x, VectorX& y) const {
   evaluate(s_, last(), y0_, Z_, x, y); // of the last step: the order may have changed since
 }
 
-void Collocation::evaluate(const system::System& s_, const RungeKutta& rk, const VectorX& start,
+void Collocation::evaluate(const system::Regime& s_, const RungeKutta& rk, const VectorX& start,
                            const MatrixX& Z_, double x, VectorX& y) {
   const bool with_start = rk.family != Family::lobatto_iiic;
   y = start;
@@ -285,16 +285,16 @@ void Collocation::find_driven() {
   std::vector<bool> driven(static_cast<std::size_t>(s_.n_groups));
   for (const system::CouplerData& c : s_.couplers) {
     if (const int g = group_of(system::joint_of(s_, c));
-        c.kept() && (c.velocity_level || c.drive.moves() || c.drive.rate != 0.0) && g >= 0) {
+        s_.holds(c) && (c.velocity_level || c.drive.moves() || c.drive.rate != 0.0) && g >= 0) {
       driven[static_cast<std::size_t>(g)] = true;
-      driven_.emplace_back(stabilised && !c.velocity_level ? c.mu : c.lambda, g);
+      driven_.emplace_back(stabilised && !c.velocity_level ? s_.mu(c) : s_.lambda(c), g);
     }
   }
   for (const system::JointData& j : s_.joints)
     if (const int g = group_of(j); stabilised && g >= 0 && driven[static_cast<std::size_t>(g)])
       for (const system::RowData& row : j.rows)
-        if (row.kept() && row.mu >= 0)
-          driven_.emplace_back(row.mu, g);
+        if (s_.holds(row) && s_.mu(row) >= 0)
+          driven_.emplace_back(s_.mu(row), g);
 }
 
 /// What the polynomial of the step leaves of the driven constraints between its stages, in units of
@@ -506,7 +506,7 @@ void Collocation::remember(Archive& a) {
 
 } // namespace
 
-std::unique_ptr<Integrator> make_collocation(const system::System& system,
+std::unique_ptr<Integrator> make_collocation(const system::Regime& system,
                                              const system::Pattern& pattern,
                                              const model::SolverOptions& options, double t0,
                                              const VectorX& y, const VectorX& yp) {

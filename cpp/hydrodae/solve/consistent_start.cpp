@@ -11,7 +11,7 @@ namespace hydrodae::solve {
 
 namespace {
 
-using system::System;
+using system::Regime;
 
 constexpr double largest_gap = 1e-6; ///< gaps above this part of their scale are refused
 constexpr double start_balanced = 1e-8;
@@ -31,7 +31,7 @@ bool tied(const joint::JointType& type, int axis) {
 }
 
 /// Throws when the row at velocity level (`lambda`) or position level (`mu`) does not hold.
-void check_row(const System& s, const VectorX& r, const std::string& key, Index lambda, Index mu,
+void check_row(const Regime& s, const VectorX& r, const std::string& key, Index lambda, Index mu,
                bool angle) {
   auto refuse = [&](Index row, const char* verb, const char* unit) {
     throw ModelError(key, s.row_names[row] + " " + verb + " " + number_text(r[row]) +
@@ -44,15 +44,15 @@ void check_row(const System& s, const VectorX& r, const std::string& key, Index 
 }
 
 /// Joints must be closed, on the right branch, and stay closed with the velocities given.
-void check_constraints(const System& s, const VectorX& y, const VectorX& r) {
+void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
   system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
   for (const system::JointData& j : s.joints) {
     const std::string key = "joint." + j.name;
     for (const system::RowData& row : j.rows)
-      if (row.kept())
-        check_row(s, r, key, row.lambda, row.mu, row.kind.kind == joint::BasicRow::Kind::perp);
+      if (s.holds(row))
+        check_row(s, r, key, s.lambda(row), s.mu(row), row.kind.kind == joint::BasicRow::Kind::perp);
     // Rows of perpendicular axes also vanish when B is flipped. Axes that the joint ties stay
     // aligned: those of which no row of the type measures the angle between like axes.
     const auto g = system::joint_geometry<double>(j, ws.bodies);
@@ -61,15 +61,15 @@ void check_constraints(const System& s, const VectorX& y, const VectorX& r) {
         throw ModelError(key, "joint '" + j.name + "' starts flipped by 180 degrees");
   }
   for (const system::CouplerData& c : s.couplers)
-    if (c.kept())
-      check_row(s, r, "constraint." + c.name, c.lambda, c.velocity_level ? -1 : c.mu,
+    if (s.holds(c))
+      check_row(s, r, "constraint." + c.name, s.lambda(c), c.velocity_level ? -1 : s.mu(c),
                 s.motions[c.terms.front().motion].motion.is_angle());
 }
 
 /// Velocities that keep all rows again, where they are more than rounding off. An impulse acts over
 /// the mean of the rates before and after, those of a drive among them.
 /// @returns the work of the rows [J]; nothing: the velocities stay as they are
-std::optional<double> jump(const System& s, double t, SaddlePoint& saddle, VectorX& y) {
+std::optional<double> jump(const Regime& s, double t, SaddlePoint& saddle, VectorX& y) {
   constexpr double least_jump = 1e-9; // of the rates that count as one
   VectorX struck = y, before;
   const VectorX impulses = saddle.strike(t, struck, VectorX::Zero(s.n_lambda), before);
@@ -79,14 +79,14 @@ std::optional<double> jump(const System& s, double t, SaddlePoint& saddle, Vecto
   y = struck;
   double work = 0.5 * impulses.dot(before);
   for (const system::CouplerData& c : s.couplers)
-    if (c.kept())
-      work += impulses[c.lambda - s.lambda0] * c.drive(t)[c.velocity_level ? 0 : 1];
+    if (s.holds(c))
+      work += impulses[s.lambda(c) - s.lambda0] * s.drive(c, t)[c.velocity_level ? 0 : 1];
   return work;
 }
 
 } // namespace
 
-void consistent_start(const System& s, const system::Pattern& pattern, VectorX& y, VectorX& yp) {
+void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& y, VectorX& yp) {
   y.tail(s.n - s.lambda0).setZero();
   yp = VectorX::Zero(s.n);
   system::Workspace<double> ws(s);
@@ -103,7 +103,7 @@ void consistent_start(const System& s, const system::Pattern& pattern, VectorX& 
                            "each other, or a body that moves has no mass");
 }
 
-std::optional<double> make_consistent(System& s, double t, VectorX& y, VectorX& yp) {
+std::optional<double> make_consistent(Regime& s, double t, VectorX& y, VectorX& yp) {
   const system::Formulation formulation = s.formulation;
   s.formulation = system::Formulation::stabilised;
   const system::Pattern pattern = system::find_pattern(s);

@@ -13,13 +13,13 @@ namespace hydrodae::solve {
 ///
 /// Throws ModelError naming the joint and its gap when the joints are not closed at the start, or
 /// the velocities part them; SolverError when the matrix is singular.
-void consistent_start(const system::System& system, const system::Pattern& pattern, VectorX& y,
+void consistent_start(const system::Regime& system, const system::Pattern& pattern, VectorX& y,
                       VectorX& yp);
 
 /// Rates and reactions that belong to the positions, velocities and loads of an accepted instant,
 /// whatever formulation is integrated; velocities that drives do not allow any more jump by
 /// impulses of the rows. Throws SolverError where there are none.
 /// @returns the work of all rows through their impulses [J] where velocities jumped
-std::optional<double> make_consistent(system::System& system, double t, VectorX& y, VectorX& yp);
+std::optional<double> make_consistent(system::Regime& system, double t, VectorX& y, VectorX& yp);
 
 } // namespace hydrodae::solve

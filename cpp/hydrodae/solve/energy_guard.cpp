@@ -31,7 +31,7 @@ double guard_at_singular_poses(const model::SolverOptions& options) {
 
 } // namespace
 
-EnergyGuard::EnergyGuard(const system::System& system, const model::SolverOptions& options)
+EnergyGuard::EnergyGuard(const system::Regime& system, const model::SolverOptions& options)
     : s_(system), rtol_(options.rtol), part_(options.energy_guard.value_or(usual)),
       at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)),
       guided_(system::guided_mechanisms(system)) {}

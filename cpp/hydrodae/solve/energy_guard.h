@@ -11,7 +11,7 @@ namespace hydrodae::solve {
 
 class EnergyGuard {
 public:
-  EnergyGuard(const system::System& system, const model::SolverOptions& options);
+  EnergyGuard(const system::Regime& system, const model::SolverOptions& options);
 
   /// Is less allowed at singular poses of closed loops than elsewhere?
   bool minds_singular_poses() const { return at_singular_ < part_; }
@@ -38,7 +38,7 @@ private:
   double allowed(int mechanism) const;
   std::string members(std::size_t mechanism) const;
 
-  const system::System& s_;
+  const system::Regime& s_;
   double rtol_, part_, at_singular_;
   std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
 };

@@ -31,7 +31,7 @@ void ProgressGuard::fail(double t, double gained, const std::string& diagnosis) 
                            " s (a singular pose?)" + diagnosis);
 }
 
-Equations::Equations(const system::System& s, const system::Pattern& p, double tolerance)
+Equations::Equations(const system::Regime& s, const system::Pattern& p, double tolerance)
     : system(s), pattern(p), rtol(tolerance), parts(p), workspace_(s), jacobian_workspace_(s) {
   find_multipliers();
 }
@@ -105,7 +105,7 @@ void Equations::weights(const VectorX& y, VectorX& w) const {
   w = (rtol * (system.scale.array() + system.relative.array() * y.array().abs())).inverse();
 }
 
-double largest_by_group(const system::System& s, const double* squares, VectorX& sums) {
+double largest_by_group(const system::Regime& s, const double* squares, VectorX& sums) {
   sums.setZero(s.n_error_groups());
   for (Index i = 0; i < s.lambda0; ++i)
     sums[s.error_group[static_cast<std::size_t>(i)]] += squares[i];

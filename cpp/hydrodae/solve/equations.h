@@ -11,9 +11,9 @@ namespace hydrodae::solve {
 
 class Equations {
 public:
-  Equations(const system::System& system, const system::Pattern& pattern, double rtol);
+  Equations(const system::Regime& system, const system::Pattern& pattern, double rtol);
 
-  const system::System& system;
+  const system::Regime& system;
   const system::Pattern& pattern;
   const double rtol;
   system::JacobianParts parts; ///< of the last `jacobian`
@@ -74,7 +74,7 @@ private:
 
 /// Square root of the mean of `squares` (lambda0,) over the group where it is largest; `sums` is
 /// scratch.
-double largest_by_group(const system::System& system, const double* squares, VectorX& sums);
+double largest_by_group(const system::Regime& system, const double* squares, VectorX& sums);
 
 /// "a (2.1), b (0.4)": the three largest entries of `values` by name.
 std::string worst(const VectorX& values, const std::vector<std::string>& names);

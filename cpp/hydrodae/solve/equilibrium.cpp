@@ -18,12 +18,13 @@ namespace hydrodae::solve {
 namespace {
 
 using system::BodyData;
+using system::Regime;
 using system::System;
 
 /// Takes positions from y into the start of the bodies and motions, at rest.
 void take_start(System& s, const VectorX& y) {
   system::Workspace<double> ws(s);
-  const VectorX rest = VectorX::Zero(s.n);
+  const VectorX rest = VectorX::Zero(y.size());
   system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     BodyData& b = s.bodies[i];
@@ -49,7 +50,7 @@ bool take_statics(System& s) {
       any = true;
     }
   if (any)
-    system::lay_out(s);
+    system::number(s);
   return any;
 }
 
@@ -82,46 +83,46 @@ double size_of(const System& s, int motion) {
 
 /// Closes the stop that y violates most, or else opens the one that pulls most; false when every
 /// stop agrees with y. Dry friction stays open: it holds any pose near.
-bool correct_stops(System& s, const VectorX& y) {
-  using State = system::SwitchData::State;
+bool correct_stops(Regime& s, const VectorX& y) {
+  using State = Regime::Mode;
   system::Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
   system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
   double worst = 0.0;
-  system::SwitchData* which = nullptr;
+  const system::SwitchData* which = nullptr;
   State next = State::open;
-  const auto propose = [&](double wrong, system::SwitchData& element, State state) {
+  const auto propose = [&](double wrong, const system::SwitchData& element, State state) {
     if (wrong > worst) {
       worst = wrong;
       which = &element;
       next = state;
     }
   };
-  for (system::SwitchData& element : s.switches) {
-    if (element.kind != system::SwitchData::Kind::stop || element.holds())
+  for (const system::SwitchData& element : s.switches) {
+    if (element.kind != system::SwitchData::Kind::stop || s.holds(element))
       continue;
     const double value = system::motion_row<double>(s, ws, element.motion).value;
     const double little = 1e-9 * size_of(s, element.motion);
     propose(value - element.upper - little, element, State::upper);
     propose(element.lower - value - little, element, State::lower);
   }
-  for (system::SwitchData& element : s.switches) {
-    if (!element.holds() || worst > 0.0)
+  for (const system::SwitchData& element : s.switches) {
+    if (!s.holds(element) || worst > 0.0)
       continue;
-    const Index row = s.couplers[static_cast<std::size_t>(element.coupler)].lambda;
+    const Index row = s.lambda(s.couplers[static_cast<std::size_t>(element.coupler)]);
     const double pull = y[row] / s.scale[row];
-    propose((element.state == State::upper ? pull : -pull) - balanced, element, State::open);
+    propose((s.mode(element) == State::upper ? pull : -pull) - balanced, element, State::open);
   }
   if (which)
-    system::set_state(s, *which, next);
+    system::set_mode(s, *which, next);
   return which != nullptr;
 }
 
 /// What a linear model about the equilibrium has to know.
-void note_switches(System& s) {
+void note_switches(const Regime& rows, System& s) {
   for (const system::SwitchData& element : s.switches) {
     const std::string& name = s.couplers[static_cast<std::size_t>(element.coupler)].name;
-    if (element.holds())
+    if (rows.holds(element))
       s.notes.push_back("'" + name + "' holds its bound in the equilibrium");
     if (element.kind == system::SwitchData::Kind::friction)
       s.notes.push_back("dry friction '" + name + "' is left out of the equilibrium");
@@ -130,46 +131,42 @@ void note_switches(System& s) {
 
 } // namespace
 
-VectorX move_to_equilibrium(System& system) {
+Rest move_to_equilibrium(System& system) {
   System s = system; // without waves
   system::calm(s);
   const bool less = take_statics(s);
-  VectorX y = system::initial_state(s);
+  Regime rows(s);
+  VectorX y = system::initial_state(rows);
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
                                      "initial velocities");
-  LinearMatrices m = balance(s, y);
-  for (std::size_t pass = 0; correct_stops(s, y); ++pass) {
+  LinearMatrices m = balance(rows, y);
+  for (std::size_t pass = 0; correct_stops(rows, y); ++pass) {
     if (pass > 4 * s.switches.size())
       throw ModelError("solver.start", "no static equilibrium that all stops agree with");
-    system::lay_out(s);
-    const VectorX head = y.head(s.lambda0);
-    y.setZero(s.n);
-    y.head(s.lambda0) = head;
-    m = balance(s, y);
+    system::lay_out(rows);
+    system::resize(rows, y);
+    m = balance(rows, y);
   }
-  for (std::size_t k = 0; k < s.switches.size(); ++k)
-    system::set_state(system, system.switches[k], s.switches[k].state);
-  system::lay_out(system);
-  note_switches(system);
+  note_switches(rows, system);
   note_instability(system, m, system::displacement_scale(s));
   take_start(system, y);
   if (!less)
-    return y;
+    return {y, rows.modes};
   system::start_laws(system);
-  VectorX all = system::initial_state(system);
+  VectorX all = system::initial_state(Regime(system, rows.modes));
   all.head(s.z0) = y.head(s.z0);
-  all.tail(s.n - s.lambda0) = y.tail(s.n - s.lambda0);
-  return all;
+  all.tail(rows.n - rows.lambda0) = y.tail(rows.n - rows.lambda0);
+  return {all, rows.modes};
 }
 
-VectorX settle(const model::Scene& scene, System& s) {
+Rest settle(const model::Scene& scene, System& s) {
   constexpr int most_passes = 20;
   for (int pass = 0; pass < most_passes; ++pass) {
     const std::size_t notes = s.notes.size();
-    const VectorX y = move_to_equilibrium(s);
+    Rest rest = move_to_equilibrium(s);
     if (!system::take_mean_yaw(scene, s))
-      return y;
+      return rest;
     s.notes.resize(notes);
   }
   throw ModelError("solver.start", "no static equilibrium near the start: the yaw of the bodies, "

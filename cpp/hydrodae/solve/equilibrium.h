@@ -22,18 +22,24 @@ struct LinearMatrices {
 };
 
 /// At (t = 0, y, y' = 0); y must be at rest.
-LinearMatrices linear_matrices(const system::System& system, const system::Pattern& pattern,
+LinearMatrices linear_matrices(const system::Regime& regime, const system::Pattern& pattern,
                                const VectorX& y);
+
+/// A scene at rest.
+struct Rest {
+  VectorX y; ///< with the reactions
+  std::vector<system::Regime::Mode> modes; ///< (n_switches,) which stops hold
+};
 
 /// Newton's method on forces(q, lambda) = 0, g(q) = 0 from the start of the system, without waves,
 /// with the states of forces (pressures, say) held at theirs, dynamic lines at rest, and with the
 /// smallest motion along directions in which nothing holds a body. Moves the start of the system
-/// there, at rest, and returns y with the reactions. An unstable pose is noted. Throws ModelError
-/// when there is no equilibrium near, or velocities are given.
-VectorX move_to_equilibrium(system::System& system);
+/// there. An unstable pose is noted. Throws ModelError when there is no equilibrium near, or
+/// velocities are given.
+Rest move_to_equilibrium(system::System& system);
 
 /// `move_to_equilibrium`, with the mean yaw of the hydrodynamic bodies that of the equilibrium.
-VectorX settle(const model::Scene& scene, system::System& system);
+Rest settle(const model::Scene& scene, system::System& system);
 
 /// `build`, with the start moved to the equilibrium where the scene asks for it.
 system::System starting_system(const model::Scene& scene);

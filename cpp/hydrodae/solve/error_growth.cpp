@@ -11,7 +11,7 @@ constexpr double rough = 0.5; ///< change of the equations from which on growth 
 constexpr double doubtful = 0.15;
 } // namespace
 
-ErrorGrowth::ErrorGrowth(const system::System& s, const system::Pattern& pattern, double t,
+ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, bool coherent, int every)
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(y), yp_(yp),
       growth_(VectorX::Ones(s.n_groups)), fade_(growth_), change_(VectorX::Zero(s.n_groups)),

@@ -41,7 +41,7 @@ public:
   /// @param every so many steps the error is carried along at first; where the equations change
   ///   much between two such looks, down to a quarter of that, where little, up to four times as
   ///   many
-  ErrorGrowth(const system::System& system, const system::Pattern& pattern, double t,
+  ErrorGrowth(const system::Regime& system, const system::Pattern& pattern, double t,
               const VectorX& y, const VectorX& yp, Error error, bool coherent, int every);
 
   /// y and y' at a time inside the last step.
@@ -79,7 +79,7 @@ private:
   double between_rough(Index group, double level);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
 
-  const system::System& s_;
+  const system::Regime& s_;
   Equations e_;
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;

@@ -24,7 +24,7 @@ const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 
 class ExplicitRk : public Integrator {
 public:
-  ExplicitRk(const system::System& system, const system::Pattern& pattern,
+  ExplicitRk(const system::Regime& system, const system::Pattern& pattern,
              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
@@ -154,7 +154,7 @@ const VectorX& ExplicitRk::step_error() {
 
 /// The same for the positions of each body, relative to the scales.
 void ExplicitRk::estimate(double h) {
-  const system::System& s = e_.system;
+  const system::Regime& s = e_.system;
   auto sizes = [&](std::span<const double> weights) {
     combine(h, weights);
     return body_sizes(s, stage_.head(s.n_q));
@@ -315,7 +315,7 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
 
 } // namespace
 
-std::unique_ptr<Integrator> make_explicit_rk(const system::System& system,
+std::unique_ptr<Integrator> make_explicit_rk(const system::Regime& system,
                                              const system::Pattern& pattern,
                                              const model::SolverOptions& options, double t0,
                                              const VectorX& y, const VectorX& yp) {

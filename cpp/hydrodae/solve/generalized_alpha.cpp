@@ -28,7 +28,7 @@ constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the err
 /// c_q = gamma / (beta h).
 class GeneralizedAlpha : public Integrator {
 public:
-  GeneralizedAlpha(const system::System& system, const system::Pattern& pattern,
+  GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
                    const model::SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
       : s_(system), e_(system, pattern, newton_tolerance), lu_(pattern.column_start, pattern.row),
@@ -64,7 +64,7 @@ private:
   bool newton(double t, double h);
   [[noreturn]] void fail(const std::string& reason);
 
-  const system::System& s_;
+  const system::Regime& s_;
   Equations e_;
   SparseLu<double> lu_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
@@ -270,7 +270,7 @@ void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
 
 } // namespace
 
-std::unique_ptr<Integrator> make_generalized_alpha(const system::System& system,
+std::unique_ptr<Integrator> make_generalized_alpha(const system::Regime& system,
                                                    const system::Pattern& pattern,
                                                    const model::SolverOptions& options, double t0,
                                                    const VectorX& y, const VectorX& yp) {

@@ -7,7 +7,7 @@
 
 namespace hydrodae::solve {
 
-std::unique_ptr<Integrator> make_generalized_alpha(const system::System& system,
+std::unique_ptr<Integrator> make_generalized_alpha(const system::Regime& system,
                                                    const system::Pattern& pattern,
                                                    const model::SolverOptions& options, double t0,
                                                    const VectorX& y, const VectorX& yp);

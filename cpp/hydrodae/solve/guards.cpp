@@ -21,7 +21,7 @@ constexpr double singular = 1e-2;    ///< of the best independence of the rows s
 constexpr double window = 3e-3;      ///< of the shortest time scale of a body
 
 /// The mechanism of each row of the constraints.
-std::vector<int> row_mechanisms(const system::System& s) {
+std::vector<int> row_mechanisms(const system::Regime& s) {
   std::vector<int> out(static_cast<std::size_t>(s.n_lambda));
   const auto take = [&](const system::JointData& j, Index lambda) {
     if (const system::BodyData* body = system::moving_body(s, j))
@@ -29,22 +29,22 @@ std::vector<int> row_mechanisms(const system::System& s) {
   };
   for (const system::JointData& j : s.joints)
     for (const system::RowData& row : j.rows)
-      if (row.kept())
-        take(j, row.lambda);
+      if (s.holds(row))
+        take(j, s.lambda(row));
   for (const system::CouplerData& c : s.couplers)
-    if (c.kept())
-      take(system::joint_of(s, c), c.lambda);
+    if (s.holds(c))
+      take(system::joint_of(s, c), s.lambda(c));
   return out;
 }
 
-system::System stabilised(system::System s) {
+system::Regime stabilised(system::Regime s) {
   s.formulation = system::Formulation::stabilised;
   return s;
 }
 
 } // namespace
 
-bool has_loop(const system::System& s) {
+bool has_loop(const system::Regime& s) {
   const int ground = static_cast<int>(s.bodies.size());
   std::vector<int> root(s.bodies.size() + 1);
   std::iota(root.begin(), root.end(), 0);
@@ -71,7 +71,7 @@ bool has_loop(const system::System& s) {
   return false;
 }
 
-DriftGuard::DriftGuard(const system::System& system)
+DriftGuard::DriftGuard(const system::Regime& system)
     : stabilised_(stabilised(system)), workspace_(stabilised_), residual_(system.n) {}
 
 void DriftGuard::check(double t, const VectorX& y, const VectorX& yp) {
@@ -105,7 +105,7 @@ void DriftGuard::fail(double t, Index row, const std::string& where) const {
                            "keeps them");
 }
 
-PoseGuard::PoseGuard(const system::System& system, const VectorX& y)
+PoseGuard::PoseGuard(const system::Regime& system, const VectorX& y)
     : stabilised_(stabilised(system)), pattern_(system::find_pattern(stabilised_)),
       equations_(stabilised_, pattern_, 1.0), saddle_(equations_),
       mechanism_(row_mechanisms(stabilised_)),
@@ -125,7 +125,7 @@ bool PoseGuard::near_singular(double t, const VectorX& y, const VectorX& yp) {
   return (now.array() <= singular * best_.array()).any();
 }
 
-BranchGuard::BranchGuard(const system::System& system)
+BranchGuard::BranchGuard(const system::Regime& system)
     : s_(system), mass_(system.n_u), mechanism_(static_cast<std::size_t>(system.n_u)),
       active_(has_loop(system)) {
   window_ = HUGE_VAL;
@@ -178,7 +178,7 @@ void BranchGuard::check(double t, const VectorX& y) {
   past_.emplace_back(t, u);
 }
 
-StepGuard::StepGuard(const system::System& system, double allowed, double end)
+StepGuard::StepGuard(const system::Regime& system, double allowed, double end)
     : s_(system), allowed_(allowed), end_(end),
       sums_(VectorX::Zero(static_cast<Index>(system.bodies.size()))) {
   for (const system::BodyData& b : s_.bodies)

@@ -10,12 +10,12 @@
 namespace hydrodae::solve {
 
 /// Do the joints close a loop through moving bodies and the ground?
-bool has_loop(const system::System& system);
+bool has_loop(const system::Regime& system);
 
 /// Both levels of the constraints: in formulations that do not keep them they drift apart.
 class DriftGuard {
 public:
-  explicit DriftGuard(const system::System& system);
+  explicit DriftGuard(const system::Regime& system);
 
   /// Throws SolverError when a gap is above a hundredth of its scale.
   void check(double t, const VectorX& y, const VectorX& yp);
@@ -30,7 +30,7 @@ public:
 private:
   [[noreturn]] void fail(double t, Index row, const std::string& where) const;
 
-  system::System stabilised_; ///< the same equations with both levels as rows
+  system::Regime stabilised_; ///< the same equations with both levels as rows
   system::Workspace<double> workspace_;
   VectorX residual_;
   Index worst_ = 0; ///< row of the widest gap of the positions
@@ -40,7 +40,7 @@ private:
 class PoseGuard {
 public:
   /// Takes the pose of y for a regular one; the constraints of `system` in any formulation.
-  PoseGuard(const system::System& system, const VectorX& y);
+  PoseGuard(const system::Regime& system, const VectorX& y);
 
   /// Are the rows of the constraints of any mechanism a hundred times nearer to dependence on each
   /// other than in its best pose seen?
@@ -51,7 +51,7 @@ public:
 private:
   VectorX independence(double t, const VectorX& y, const VectorX& yp);
 
-  system::System stabilised_; ///< the same equations with both levels as rows
+  system::Regime stabilised_; ///< the same equations with both levels as rows
   system::Pattern pattern_;
   Equations equations_;
   SaddlePoint saddle_;
@@ -64,7 +64,7 @@ private:
 /// within 0.003 time scales on a wrong branch, below 0.01 otherwise.
 class BranchGuard {
 public:
-  explicit BranchGuard(const system::System& system);
+  explicit BranchGuard(const system::Regime& system);
 
   /// Throws SolverError when the velocities jumped within the last window.
   void check(double t, const VectorX& y);
@@ -80,7 +80,7 @@ public:
 private:
   VectorX energies(const VectorX& u) const;
 
-  const system::System& s_;
+  const system::Regime& s_;
   VectorX mass_;               ///< (n_u,) of each velocity
   std::vector<int> mechanism_; ///< likewise
   bool active_ = false;
@@ -95,7 +95,7 @@ class StepGuard {
 public:
   /// @param allowed sum at which the run ends [-], an angle or a displacement over the body's lever
   /// @param end of the run [s]
-  StepGuard(const system::System& system, double allowed, double end);
+  StepGuard(const system::Regime& system, double allowed, double end);
 
   /// Throws SolverError when the errors add up to more than is allowed.
   /// @param h, order, errors: length [s] of the last step, order of the method, its errors by body
@@ -104,7 +104,7 @@ public:
   void remember(Archive& a) { a(sums_); }
 
 private:
-  const system::System& s_;
+  const system::Regime& s_;
   double allowed_, end_, window_ = 0.0;
   VectorX sums_; ///< (n_bodies,), fading
 };

@@ -97,7 +97,7 @@ double norm_by_group(N_Vector x, N_Vector w, N_Vector id) {
 
 class Ida : public Integrator {
 public:
-  Ida(const system::System& s, const system::Pattern& p, const model::SolverOptions& options,
+  Ida(const system::Regime& s, const system::Pattern& p, const model::SolverOptions& options,
       double t0, const VectorX& y0, const VectorX& yp0)
       : system(s), pattern(condensed(s, p)), rtol(share * options.rtol),
         equations(s, pattern, rtol), newton{{s, pattern}}, good(y0), good_rate(yp0), t_good(t0),
@@ -113,7 +113,7 @@ public:
   void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
 
 private:
-  const system::System& system;
+  const system::Regime& system;
   const system::Pattern pattern; ///< of Newton's matrix
   double rtol;
   Equations equations;
@@ -369,7 +369,7 @@ Statistics Ida::statistics() const {
 
 } // namespace
 
-std::unique_ptr<Integrator> make_ida(const system::System& system, const system::Pattern& pattern,
+std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
                                      const model::SolverOptions& options, double t0,
                                      const VectorX& y, const VectorX& yp) {
   return std::make_unique<Ida>(system, pattern, options, t0, y, yp);

@@ -7,7 +7,7 @@
 namespace hydrodae::solve {
 
 /// Throws SolverError when SUNDIALS refuses.
-std::unique_ptr<Integrator> make_ida(const system::System& system, const system::Pattern& pattern,
+std::unique_ptr<Integrator> make_ida(const system::Regime& system, const system::Pattern& pattern,
                                      const model::SolverOptions& options, double t0,
                                      const VectorX& y, const VectorX& yp);
 

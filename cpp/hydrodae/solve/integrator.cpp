@@ -8,7 +8,7 @@
 
 namespace hydrodae::solve {
 
-std::unique_ptr<Integrator> make_integrator(const system::System& system,
+std::unique_ptr<Integrator> make_integrator(const system::Regime& system,
                                             const system::Pattern& pattern,
                                             const model::SolverOptions& options, double t0,
                                             const VectorX& y, const VectorX& yp) {

@@ -55,7 +55,7 @@ public:
 
 /// The integrator that `options.method` names, at time `t0` [s] with consistent y, y'. The system
 /// and the pattern must outlive it. Throws SolverError when the method cannot start.
-std::unique_ptr<Integrator> make_integrator(const system::System& system,
+std::unique_ptr<Integrator> make_integrator(const system::Regime& system,
                                             const system::Pattern& pattern,
                                             const model::SolverOptions& options, double t0,
                                             const VectorX& y, const VectorX& yp);

@@ -7,13 +7,13 @@
 
 namespace hydrodae::solve {
 
-using system::System;
+using system::Regime;
 
 namespace {
 
 /// Takes the algebraic unknowns out of the states, z_a = -A_aa^-1 (A_ad z_d + B_a xi + D_a xi'), so
 /// that stiffness, damping and the loads of the others hold what they carry.
-void take_out_algebraic(const System& s, LinearMatrices& m) {
+void take_out_algebraic(const Regime& s, LinearMatrices& m) {
   std::vector<Index> a, d;
   for (Index z = s.z0; z < s.memory0; ++z)
     (s.is_algebraic(z) ? a : d).push_back(z - s.z0);
@@ -34,7 +34,7 @@ void take_out_algebraic(const System& s, LinearMatrices& m) {
 
 } // namespace
 
-LinearMatrices linear_matrices(const System& s, const system::Pattern& pattern, const VectorX& y) {
+LinearMatrices linear_matrices(const Regime& s, const system::Pattern& pattern, const VectorX& y) {
   const VectorX rest = VectorX::Zero(s.n);
   system::JacobianWorkspace ws(s);
   system::JacobianParts parts(pattern);

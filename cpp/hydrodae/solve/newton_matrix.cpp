@@ -9,7 +9,7 @@ using system::HydroBody;
 using system::HydroData;
 
 template <class Scalar>
-NewtonMatrix<Scalar>::NewtonMatrix(const system::System& s, const system::Pattern& pattern)
+NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
     : s_(s), lu_(pattern.column_start, pattern.row) {
   const HydroData& h = s.hydro;
   if (!s.has_memory())

@@ -20,7 +20,7 @@ namespace hydrodae::solve {
 template <class Scalar> class NewtonMatrix {
 public:
   /// `pattern`: of Part::condensed, or any where there is no memory. Both must outlive it.
-  NewtonMatrix(const system::System& system, const system::Pattern& pattern);
+  NewtonMatrix(const system::Regime& system, const system::Pattern& pattern);
 
   /// False when the matrix is singular or holds values that are not finite. The parts are read
   /// until the next call. `careful`: see SparseLu.
@@ -41,7 +41,7 @@ private:
   void add_memory();
   void divide(Eigen::Ref<MatrixS> z) const;
 
-  const system::System& s_;
+  const system::Regime& s_;
   const system::JacobianParts* parts_ = nullptr;
   SparseLu<Scalar> lu_;
   std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
@@ -55,7 +55,7 @@ private:
 };
 
 /// `pattern` without the radiation memory: what a NewtonMatrix is made of.
-inline system::Pattern condensed(const system::System& s, const system::Pattern& pattern) {
+inline system::Pattern condensed(const system::Regime& s, const system::Pattern& pattern) {
   return s.has_memory() ? system::find_pattern(s, system::Part::condensed) : pattern;
 }
 

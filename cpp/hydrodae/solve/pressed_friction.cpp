@@ -15,7 +15,7 @@ constexpr double load_rounded = 1e-10;  ///< likewise, where it gets no smaller
 
 } // namespace
 
-std::unique_ptr<SaddlePoint::Pressed> SaddlePoint::Pressed::find(const system::System& s) {
+std::unique_ptr<SaddlePoint::Pressed> SaddlePoint::Pressed::find(const system::Regime& s) {
   std::vector<Law> laws;
   for (std::size_t i = 0; i < s.elements.size(); ++i)
     if (s.elements[i].laws->shape.n_reaction > 0)
@@ -35,7 +35,7 @@ std::unique_ptr<SaddlePoint::Pressed> SaddlePoint::Pressed::find(const system::S
   return out;
 }
 
-void SaddlePoint::Pressed::add_along(const system::System& s, std::size_t k, double size,
+void SaddlePoint::Pressed::add_along(const system::Regime& s, std::size_t k, double size,
                                      VectorX& rows) const {
   const joint::Vector12& row = ws.state.elements[laws[k].list].rows[laws[k].law];
   const system::JointData& j = s.joints[static_cast<std::size_t>(port(s, k).joint)];
@@ -49,16 +49,16 @@ void SaddlePoint::Pressed::add_along(const system::System& s, std::size_t k, dou
   }
 }
 
-void SaddlePoint::Pressed::see(const system::System& s, std::size_t k, const double* solution,
+void SaddlePoint::Pressed::see(const system::Regime& s, std::size_t k, const double* solution,
                                double* out) const {
   const system::JointData& j = s.joints[static_cast<std::size_t>(port(s, k).joint)];
   Eigen::Map<Vector6> sum(out);
   sum.setZero();
   for (const system::PortData::Pressing& p : port(s, k).reaction)
-    sum -= p.on_b * solution[s.n_u + j.rows[p.row].lambda - s.lambda0];
+    sum -= p.on_b * solution[s.n_u + s.lambda(j.rows[p.row]) - s.lambda0];
 }
 
-void SaddlePoint::Pressed::evaluate(const system::System& s, double t, VectorX& f) {
+void SaddlePoint::Pressed::evaluate(const system::Regime& s, double t, VectorX& f) {
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const element::Shape& shape = list(s, k).laws->shape;
     double* in = ws.state.elements[laws[k].list].in.data() +
@@ -70,8 +70,8 @@ void SaddlePoint::Pressed::evaluate(const system::System& s, double t, VectorX& 
     const element::Shape& shape = own.laws->shape;
     system::ElementScratch<double>& scratch = ws.state.elements[laws[k].list];
     if (laws[k].law == 0) { // once a list
-      own.laws->evaluate(t, scratch.in.data(), own.signals.data(), scratch.out.data());
-      own.laws->jacobian(t, scratch.in.data(), own.signals.data(), ws.element_jacobian.data());
+      own.laws->evaluate(t, scratch.in.data(), s.held(own), scratch.out.data());
+      own.laws->jacobian(t, scratch.in.data(), s.held(own), ws.element_jacobian.data());
     }
     const std::size_t size = static_cast<std::size_t>(shape.n_out() * shape.n_columns());
     const Eigen::Map<const MatrixX> J(ws.element_jacobian.data() + laws[k].law * size,
@@ -81,7 +81,7 @@ void SaddlePoint::Pressed::evaluate(const system::System& s, double t, VectorX& 
   }
 }
 
-bool SaddlePoint::Pressed::balance(const system::System& s, double t) {
+bool SaddlePoint::Pressed::balance(const system::Regime& s, double t) {
   const auto n = static_cast<Index>(laws.size());
   reaction.setZero();
   evaluate(s, t, at_rest);
@@ -116,7 +116,7 @@ bool SaddlePoint::Pressed::balance(const system::System& s, double t) {
   return false;
 }
 
-std::string SaddlePoint::Pressed::jam(const system::System& s) const {
+std::string SaddlePoint::Pressed::jam(const system::Regime& s) const {
   std::string out;
   double worst = 1.0;
   for (std::size_t k = 0; k < laws.size(); ++k) {

@@ -32,32 +32,32 @@ struct SaddlePoint::Pressed {
   VectorX answer, gap, step; ///< (n,) scratch of `balance`
   VectorX rhs, x;            ///< (n_u + n_lambda,) without these loads
 
-  explicit Pressed(const system::System& s) : ws(s) {}
+  explicit Pressed(const system::Regime& s) : ws(s) {}
 
   /// Of all laws that feel the reaction of their joint; null: there is none.
-  static std::unique_ptr<Pressed> find(const system::System& s);
+  static std::unique_ptr<Pressed> find(const system::Regime& s);
 
-  const system::ElementList& list(const system::System& s, std::size_t k) const {
+  const system::ElementList& list(const system::Regime& s, std::size_t k) const {
     return s.elements[laws[k].list];
   }
-  const system::PortData& port(const system::System& s, std::size_t k) const {
+  const system::PortData& port(const system::Regime& s, std::size_t k) const {
     return list(s, k).ports[laws[k].law];
   }
 
   /// Adds a load along the joint of law k to the rows of the bodies.
-  void add_along(const system::System& s, std::size_t k, double size, VectorX& rows) const;
+  void add_along(const system::Regime& s, std::size_t k, double size, VectorX& rows) const;
 
   /// Reaction (6,) on the joint of law k in a solution.
-  void see(const system::System& s, std::size_t k, const double* solution, double* out) const;
+  void see(const system::Regime& s, std::size_t k, const double* solution, double* out) const;
 
   /// Newton's method for phi; false where it finds none.
-  bool balance(const system::System& s, double t);
+  bool balance(const system::Regime& s, double t);
 
   /// Loads f(r) of all laws, and their slopes.
-  void evaluate(const system::System& s, double t, VectorX& f);
+  void evaluate(const system::Regime& s, double t, VectorX& f);
 
   /// The law that is nearest to jamming beyond its limit, in words; empty: none.
-  std::string jam(const system::System& s) const;
+  std::string jam(const system::Regime& s) const;
 };
 
 } // namespace hydrodae::solve

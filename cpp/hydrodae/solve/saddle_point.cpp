@@ -141,8 +141,8 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   for (const Rate& rate : rates_)
     rhs_[rate.row] -= parts_.by_y[rate.from] * yp[rate.column];
   for (const system::CouplerData& c : s_.couplers)
-    if (c.kept()) // the explicit time derivative of the velocity row: -f'' or -f'
-      rhs_[c.lambda - s_.lambda0 + s_.n_u] += c.drive(t)[c.velocity_level ? 1 : 2];
+    if (s_.holds(c)) // the explicit time derivative of the velocity row: -f'' or -f'
+      rhs_[s_.lambda(c) - s_.lambda0 + s_.n_u] += s_.drive(c, t)[c.velocity_level ? 1 : 2];
   if (!factorise())
     return false;
   solve(x_);
@@ -218,9 +218,10 @@ bool SaddlePoint::project(double t, VectorX& y) {
       return false;
     rhs_.setZero();
     double gap = 0.0;
-    system::for_each_row(s_, [&](Index lambda, Index mu, bool velocity_level) {
-      if (lambda == system::redundant || velocity_level)
+    system::for_each_row(s_, [&](const system::Row& row, bool velocity_level) {
+      if (!s_.holds(row) || velocity_level)
         return;
+      const Index lambda = s_.lambda(row), mu = s_.mu(row);
       rhs_[lambda - s_.lambda0 + s_.n_u] = -residual_[mu];
       gap = std::max(gap, std::abs(residual_[mu]) / s_.row_scale[mu]);
     });

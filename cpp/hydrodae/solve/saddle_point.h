@@ -67,7 +67,7 @@ private:
   };
 
   Equations& e_;
-  const system::System& s_;
+  const system::Regime& s_;
   system::Pattern pattern_;     ///< of what accelerations need
   system::JacobianParts parts_; ///< on it
   Index n_ = 0;                 ///< n_u + n_lambda

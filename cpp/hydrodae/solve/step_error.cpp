@@ -19,7 +19,7 @@ VectorX legendre(int n, double x) {
 
 } // namespace
 
-VectorX body_sizes(const system::System& s, const VectorX& dq) {
+VectorX body_sizes(const system::Regime& s, const VectorX& dq) {
   VectorX sizes(static_cast<Index>(s.bodies.size()));
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const system::BodyData& b = s.bodies[i];
@@ -33,7 +33,7 @@ VectorX body_sizes(const system::System& s, const VectorX& dq) {
   return sizes;
 }
 
-VectorX to_positions(const system::System& s, const VectorX& y, const VectorX& tangent) {
+VectorX to_positions(const system::Regime& s, const VectorX& y, const VectorX& tangent) {
   VectorX dq = VectorX::Zero(s.n_q);
   for (const system::BodyData& b : s.bodies) {
     const bool free = b.rotation == system::BodyData::Rotation::free;
@@ -48,7 +48,7 @@ VectorX to_positions(const system::System& s, const VectorX& y, const VectorX& t
 }
 
 /// Body by body the error along v.
-void StageError::take_pattern(const system::System& s, const VectorX& v, const VectorX& errors) {
+void StageError::take_pattern(const system::Regime& s, const VectorX& v, const VectorX& errors) {
   const VectorX sizes = body_sizes(s, v);
   pattern_ = v;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -70,7 +70,7 @@ StageError::StageError(const RungeKutta& rk)
   last_ = values.inverse().bottomRows(2);
 }
 
-VectorX StageError::operator()(const system::System& s, double h, const VectorX& start,
+VectorX StageError::operator()(const system::Regime& s, double h, const VectorX& start,
                                const MatrixX& stages, double time_scale) {
   const auto q = stages.topRows(s.n_q);
   const Index n = stages.cols();

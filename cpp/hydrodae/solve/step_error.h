@@ -3,7 +3,7 @@
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/solve/runge_kutta.h"
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::solve {
 
@@ -12,11 +12,11 @@ inline constexpr double summed_time_scales = 10.0;
 
 /// Size of a small change dq (n_q,) of the positions, body by body (n_bodies,): the angle, or the
 /// displacement over the body's lever [-].
-VectorX body_sizes(const system::System& system, const VectorX& dq);
+VectorX body_sizes(const system::Regime& system, const VectorX& dq);
 
 /// A small change of the positions (n_q,) from one along the velocities (n_u,): quaternions change
 /// by E(p) times the angle.
-VectorX to_positions(const system::System& system, const VectorX& y, const VectorX& tangent);
+VectorX to_positions(const system::Regime& system, const VectorX& y, const VectorX& tangent);
 
 /// Error of one step of a collocation method of order p, from the rates q' of its stages. In
 /// Legendre polynomials on the step q' has coefficients v_k, known up to a degree d. Those of
@@ -32,7 +32,7 @@ public:
   /// @param start q' (n_q,) at the start of the step; stages: Y' (n, s) at the stages
   /// @param time_scale longest of the bodies [s]; the ratio of coefficients is averaged over it
   /// @returns (n_bodies,) error of the positions as body_sizes measures it
-  VectorX operator()(const system::System& system, double h, const VectorX& start,
+  VectorX operator()(const system::Regime& system, double h, const VectorX& start,
                      const MatrixX& stages, double time_scale);
 
   /// The same as a change of the positions (n_q,): the pattern of the last coefficient known.
@@ -41,7 +41,7 @@ public:
   void remember(Archive& a) { a(before_, highest_, below_); }
 
 private:
-  void take_pattern(const system::System& system, const VectorX& v, const VectorX& errors);
+  void take_pattern(const system::Regime& system, const VectorX& v, const VectorX& errors);
 
   VectorX pattern_;
   int order_, degree_;

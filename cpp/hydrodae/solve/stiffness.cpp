@@ -11,7 +11,7 @@ namespace {
 
 /// What counts as one of each position, velocity and memory state, however little it moves now
 /// (lambda0,).
-VectorX full_scales(const system::System& s) {
+VectorX full_scales(const system::Regime& s) {
   VectorX out = s.scale.head(s.lambda0);
   for (Index i = 0; i < s.lambda0; ++i)
     if (const int g = s.group[static_cast<std::size_t>(i)]; g >= 0 && !s.is_absolute(i))
@@ -30,7 +30,7 @@ VectorX scattered(Index n) {
 
 } // namespace
 
-double fastest_rate(const system::System& s, const system::Pattern& pattern, double t,
+double fastest_rate(const system::Regime& s, const system::Pattern& pattern, double t,
                     const VectorX& y, const VectorX& yp) {
   constexpr int first = 4, last = 14; // the growth between these counts, that of pairs of values
   constexpr double little = 1e-6;     // of the scales, for differences
@@ -59,7 +59,7 @@ double fastest_rate(const system::System& s, const system::Pattern& pattern, dou
   return v.norm() > 0.0 ? std::exp((grown + std::log(v.norm())) / (last - first + 1)) : 0.0;
 }
 
-double motion_rate(const system::System& s, const VectorX& y) {
+double motion_rate(const system::Regime& s, const VectorX& y) {
   double rate = 0.0;
   for (const system::BodyData& b : s.bodies) {
     if (b.n_active == 0)

@@ -9,11 +9,11 @@ namespace hydrodae::solve {
 /// Fastest rate of the equations of motion at (t, y): the spectral radius of
 /// d(q', u', z') / d(q, u, z), reactions eliminated [1/s], within some ten per cent; INFINITY where
 /// there are no accelerations. By a power iteration on differences, a dozen evaluations.
-double fastest_rate(const system::System& system, const system::Pattern& pattern, double t,
+double fastest_rate(const system::Regime& system, const system::Pattern& pattern, double t,
                     const VectorX& y, const VectorX& yp);
 
 /// Rate at which the bodies move: by how much of its lever, or how many radians, the fastest of
 /// them goes in a second, and no less than by its time scale [1/s].
-double motion_rate(const system::System& system, const VectorX& y);
+double motion_rate(const system::Regime& system, const VectorX& y);
 
 } // namespace hydrodae::solve

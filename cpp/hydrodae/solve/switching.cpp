@@ -17,7 +17,7 @@ constexpr long watch = 1000; ///< events; see `count`
 
 } // namespace
 
-Switching::Switching(system::System& system, double rtol)
+Switching::Switching(system::Regime& system, double rtol)
     : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
       struck_(system.switches.size()), y_(system::initial_state(system)),
       yp_(VectorX::Zero(system.n)) {
@@ -26,9 +26,9 @@ Switching::Switching(system::System& system, double rtol)
   lay_out(s_);
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
-    size_[k].rate = s_.row_scale[c.lambda];
-    size_[k].load = s_.scale[c.lambda];
-    size_[k].length = c.velocity_level ? 1.0 : s_.row_scale[c.mu];
+    size_[k].rate = s_.row_scale[s_.lambda(c)];
+    size_[k].load = s_.scale[s_.lambda(c)];
+    size_[k].length = c.velocity_level ? 1.0 : s_.row_scale[s_.mu(c)];
   }
   for (std::size_t k = 0; k < size_.size(); ++k)
     set(k, State::open);
@@ -57,7 +57,7 @@ Switching::Switching(system::System& system, double rtol)
 void Switching::fail(double t, const std::string& reason) const {
   std::vector<std::string> names;
   for (const Data& element : s_.switches)
-    if (element.holds() || element.state != State::open)
+    if (s_.mode(element) != State::open)
       names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
   throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + reason +
                            (names.empty() ? "" : " (now acting: " + joined(names) + ")"));
@@ -78,8 +78,7 @@ void Switching::count(double t) {
 
 void Switching::follow(const system::Turns& turns) {
   ws_.turns = turns;
-  for (std::size_t m = 0; m < turns.value.size(); ++m)
-    s_.motions[m].start = turns.value[m];
+  s_.nearby = turns.value;
 }
 
 void Switching::remember(Archive& a) {
@@ -125,14 +124,14 @@ double Switching::motion_scale(const Data& element) const {
 
 /// Load of a row that holds on its coordinate [N or N m].
 double Switching::load(const Data& element, const VectorX& y) const {
-  return y[s_.couplers[static_cast<std::size_t>(element.coupler)].lambda];
+  return y[s_.lambda(s_.couplers[static_cast<std::size_t>(element.coupler)])];
 }
 
 /// How far the switch is from having to change; negative when it is past that.
 double Switching::margin(std::size_t k, const VectorX& y) const {
   const Data& element = s_.switches[k];
   const Size& size = size_[k];
-  switch (element.state) {
+  switch (s_.mode(element)) {
   case State::open: {
     const double s = motion(element).value, gap = std::min(element.upper - s, s - element.lower);
     // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
@@ -207,7 +206,7 @@ std::optional<double> Switching::locate(double t0, double t1, int nodes, const I
       return first_root(a, b, at);
     // An open stop may have been passed and left within the interval: look where it is nearest.
     for (std::size_t k = 0; k < count; ++k) {
-      if (s_.switches[k].kind != Kind::stop || s_.switches[k].holds() || speed[k] <= 0.0 ||
+      if (s_.switches[k].kind != Kind::stop || s_.holds(s_.switches[k]) || speed[k] <= 0.0 ||
           now[k] >= 0.0)
         continue;
       const double nearest = bisect(a, b, at, [&] { return approach(k) < 0.0; });

@@ -24,15 +24,15 @@ public:
   /// y and y' at a time inside the last step.
   using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
 
-  /// Everything open, as the build left it. Throws ModelError when the start is beyond a stop.
-  Switching(system::System& system, double rtol);
+  /// Everything open. Throws ModelError when the start is beyond a stop.
+  Switching(system::Regime& system, double rtol);
 
   /// The first time in (t0, t1] at which a switch has to change [s], if there is one. `nodes`:
   /// into how many parts the step is cut to look for it.
   std::optional<double> locate(double t0, double t1, int nodes, const Interpolant& at);
 
   /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
-  /// loads. Changes the layout of the system; y, y' come out in the new one, consistent. Throws
+  /// loads. Changes the layout of the regime; y, y' come out in the new one, consistent. Throws
   /// SolverError when no consistent set of rows is found, or when events accumulate.
   /// @returns the work of all rows through their impulses [J] where something struck (that of
   /// driven rows among it); nothing: the velocities have not jumped
@@ -59,7 +59,7 @@ public:
 
   long events() const { return events_; }
 
-  /// What it knows of the past, apart from the states of the switches, which are the system's.
+  /// What it knows of the past, apart from the modes of the switches, which are the regime's.
   void remember(Archive& a);
 
   /// After that was restored, and the system laid out: goes on from an accepted instant.
@@ -70,7 +70,7 @@ private:
   struct Motion { ///< s, s', s'' of the coordinate
     double value = 0.0, rate = 0.0, acceleration = 0.0;
   };
-  using State = Data::State;
+  using State = system::Regime::Mode;
   using Kind = Data::Kind;
 
   static constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
@@ -79,7 +79,7 @@ private:
   /// For the time of its life the equations are stabilised, whatever the integrator solves.
   class Stabilised {
   public:
-    explicit Stabilised(system::System& s) : s_(s), formulation_(s.formulation) {
+    explicit Stabilised(system::Regime& s) : s_(s), formulation_(s.formulation) {
       s.formulation = system::Formulation::stabilised;
     }
     ~Stabilised() { s_.formulation = formulation_; }
@@ -87,7 +87,7 @@ private:
     Stabilised& operator=(const Stabilised&) = delete;
 
   private:
-    system::System& s_;
+    system::Regime& s_;
     system::Formulation formulation_;
   };
 
@@ -96,7 +96,7 @@ private:
     system::Pattern pattern;
     Equations equations;
     SaddlePoint saddle;
-    explicit Present(const system::System& s)
+    explicit Present(const system::Regime& s)
         : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
   };
   struct Size { ///< what counts as one
@@ -117,11 +117,11 @@ private:
   double take_impact(double t, const VectorX& impulses, const VectorX& before,
                      const VectorX& after);
   bool correct(const VectorX& y, std::vector<int>& changes);
-  void set(std::size_t k, Data::State state) { system::set_state(s_, s_.switches[k], state); }
+  void set(std::size_t k, State mode) { system::set_mode(s_, s_.switches[k], mode); }
   [[noreturn]] void fail(double t, const std::string& reason) const;
   void count(double t);
 
-  system::System& s_;
+  system::Regime& s_;
   const double rtol_;
   system::Workspace<double> ws_;
   std::vector<Size> size_;

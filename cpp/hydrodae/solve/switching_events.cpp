@@ -9,17 +9,6 @@
 
 namespace hydrodae::solve {
 
-namespace {
-
-/// Only q, u, z keep their places when rows come or go.
-void resize(const system::System& s, VectorX& y) {
-  const VectorX head = y.head(s.lambda0);
-  y.setZero(s.n);
-  y.head(s.lambda0) = head;
-}
-
-} // namespace
-
 /// Is an open stop at one of its bounds?
 bool Switching::touches(std::size_t k) const {
   const Data& element = s_.switches[k];
@@ -49,7 +38,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     const Data& element = s_.switches[k];
     if (element.kind == Kind::friction) {
       set(k, State::open); // the motion jumps: it slips, or sticks anew
-    } else if (element.holds()) {
+    } else if (s_.holds(element)) {
       acts[k] = true;
     } else if (touches(k) && approach(k) > resting * size_[k].rate) {
       hit(k);
@@ -63,14 +52,14 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
       fail(t, "no impulses fit the impact");
     lay_out(s_);
     Present present(s_);
-    resize(s_, y);
-    resize(s_, yp);
+    system::resize(s_, y);
+    system::resize(s_, yp);
     y.segment(s_.u0, s_.n_u) = u;
     if (!present.saddle.accelerations(t, y, yp))
       fail(t, "no finite accelerations at the impact");
     VectorX rates = VectorX::Zero(s_.n_lambda);
     const auto row = [&](std::size_t k) {
-      return s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)].lambda - s_.lambda0;
+      return s_.lambda(s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)]) - s_.lambda0;
     };
     for (std::size_t k = 0; k < count; ++k)
       if (acts[k])
@@ -82,7 +71,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     for (std::size_t k = 0; k < count && good; ++k) {
       const Data& element = s_.switches[k];
       if (acts[k]) {
-        const double push = element.state == State::upper ? -impulses[row(k)] : impulses[row(k)];
+        const double push = s_.mode(element) == State::upper ? -impulses[row(k)] : impulses[row(k)];
         if (push < -resting * size_[k].load * time_scale_) {
           acts[k] = good = false;
           set(k, State::open);
@@ -111,13 +100,13 @@ double Switching::take_impact(double t, const VectorX& impulses, const VectorX& 
                               const VectorX& after) {
   double work = 0.5 * impulses.dot(before + after);
   for (const system::CouplerData& c : s_.couplers)
-    if (c.kept())
-      work += impulses[c.lambda - s_.lambda0] * c.drive(t)[c.velocity_level ? 0 : 1];
+    if (s_.holds(c))
+      work += impulses[s_.lambda(c) - s_.lambda0] * s_.drive(c, t)[c.velocity_level ? 0 : 1];
   for (std::size_t k = 0; k < size_.size(); ++k) {
     const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
-    if (!c.kept() || s_.switches[k].kind != Kind::stop)
+    if (!s_.holds(c) || s_.switches[k].kind != Kind::stop)
       continue;
-    const Index row = c.lambda - s_.lambda0;
+    const Index row = s_.lambda(c) - s_.lambda0;
     if (impulses[row] == 0.0)
       continue;
     const Impact impact{t, std::abs(impulses[row]),
@@ -139,10 +128,10 @@ bool Switching::correct(const VectorX& y, std::vector<int>& changes) {
     const Size& size = size_[k];
     double wrong = 0.0;
     State wanted = State::open;
-    if (element.state == State::upper || element.state == State::lower) {
+    if (s_.mode(element) == State::upper || s_.mode(element) == State::lower) {
       const double f = load(element, y);
-      wrong = (element.state == State::upper ? f : -f) / size.load;
-    } else if (element.state == State::stick) {
+      wrong = (s_.mode(element) == State::upper ? f : -f) / size.load;
+    } else if (s_.mode(element) == State::stick) {
       const double f = load(element, y);
       wrong = (std::abs(f) - system::sticking_load(s_, element, y.data())) / size.load;
       wanted = f > 0.0 ? State::backward : State::forward;
@@ -187,8 +176,8 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
       fail(t, "no set of stops and sticking joints agrees with its loads");
     lay_out(s_);
     present_ = std::make_unique<Present>(s_);
-    resize(s_, y);
-    resize(s_, yp);
+    system::resize(s_, y);
+    system::resize(s_, yp);
     SaddlePoint& saddle = present_->saddle;
     const bool good =
         saddle.accelerations(t, y, yp) && saddle.project(t, y) && saddle.accelerations(t, y, yp);
@@ -201,7 +190,7 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
       break;
   }
   holding_ = std::any_of(s_.switches.begin(), s_.switches.end(),
-                         [](const Data& element) { return element.holds(); });
+                         [this](const Data& element) { return s_.holds(element); });
   return struck;
 }
 

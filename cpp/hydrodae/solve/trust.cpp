@@ -36,7 +36,7 @@ double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change 
 
 } // namespace
 
-Trust::Trust(const system::System& s, const system::Pattern& pattern,
+Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
     : s_(s), every_(steps_between_looks(options.method)),
       coherent_(options.method == "generalized_alpha" ||

@@ -20,7 +20,7 @@ namespace hydrodae::solve {
 class Trust {
 public:
   /// @param y, yp state at the start
-  Trust(const system::System& system, const system::Pattern& pattern,
+  Trust(const system::Regime& system, const system::Pattern& pattern,
         const model::SolverOptions& options, const VectorX& y, const VectorX& yp);
 
   /// Adds the last step of the integrator, which ends at t. Throws SolverError when the error may
@@ -65,7 +65,7 @@ private:
   void take(Index group, double t, double error);
   const system::BodyData& worst_of(Index group) const;
 
-  const system::System& s_;
+  const system::Regime& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
   bool coherent_; ///< errors of steps are of one kind

@@ -5,7 +5,7 @@
 
 namespace hydrodae::solve {
 
-Verification::Verification(const system::System& s)
+Verification::Verification(const system::Regime& s)
     : motion_(static_cast<std::size_t>(s.n_groups)),
       differences_(static_cast<std::size_t>(s.n_groups)) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i)

@@ -12,7 +12,7 @@ namespace hydrodae::solve {
 /// Poses of the bodies that move, sample by sample, and how far another run is from them.
 class Verification {
 public:
-  explicit Verification(const system::System& system);
+  explicit Verification(const system::Regime& system);
 
   /// Of the run that is to be verified: the next sample.
   void keep(double time, const std::vector<system::BodyState<double>>& bodies);

@@ -12,15 +12,15 @@ constexpr int most_steps = 50;
 constexpr double solved = 1e-11; ///< last change, beside the size of the unknown and its scale
 
 /// One step of Newton's method for all laws of a list; the largest change, relative.
-double newton_step(const System& s, const ElementList& list, JacobianWorkspace& ws, double t,
+double newton_step(const Regime& s, const ElementList& list, JacobianWorkspace& ws, double t,
                    VectorX& y) {
   const element::Elements& laws = *list.laws;
   const element::Shape& shape = laws.shape;
   const Index n = shape.n_algebraic, rates = shape.n_states - n;
   ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
   gather<double>(s, list, ws.state, y.data(), scratch);
-  laws.evaluate(t, scratch.in.data(), list.signals.data(), scratch.out.data());
-  laws.jacobian(t, scratch.in.data(), list.signals.data(), ws.element_jacobian.data());
+  laws.evaluate(t, scratch.in.data(), s.held(list), scratch.out.data());
+  laws.jacobian(t, scratch.in.data(), s.held(list), ws.element_jacobian.data());
   double largest = 0.0;
   for (std::size_t law = 0; law < laws.size(); ++law) {
     const auto k = static_cast<Index>(law);
@@ -43,7 +43,7 @@ double newton_step(const System& s, const ElementList& list, JacobianWorkspace& 
 
 } // namespace
 
-bool solve_algebraic(const System& s, JacobianWorkspace& ws, double t, VectorX& y) {
+bool solve_algebraic(const Regime& s, JacobianWorkspace& ws, double t, VectorX& y) {
   bool known = false;
   for (const ElementList& list : s.elements) {
     if (list.laws->shape.n_algebraic == 0)

@@ -9,6 +9,6 @@ namespace hydrodae::system {
 /// are in y by Newton's method; all else of y stays.
 /// @param ws  follows angles over turns
 /// @returns false where there is no solution near
-bool solve_algebraic(const System& system, JacobianWorkspace& ws, double t, VectorX& y);
+bool solve_algebraic(const Regime& system, JacobianWorkspace& ws, double t, VectorX& y);
 
 } // namespace hydrodae::system

@@ -51,7 +51,7 @@ void note_move(System& s, const std::vector<BodyStart>& starts, int body, double
 /// Writes the pose and velocities of y into the bodies; notes what moved.
 void write_back(System& s, const std::vector<BodyStart>& starts, const VectorX& y) {
   Workspace<double> ws(s);
-  const VectorX rest = VectorX::Zero(s.n);
+  const VectorX rest = VectorX::Zero(y.size());
   unpack<double>(s, y.data(), rest.data(), ws.bodies);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     BodyData& b = s.bodies[i];
@@ -77,8 +77,8 @@ void write_back(System& s, const std::vector<BodyStart>& starts, const VectorX& 
 }
 
 /// Gaps of the rows that were left out must fit the tolerance, too.
-void check_dropped(System& s, const VectorX& y, double tolerance) {
-  const DroppedGap worst = largest_dropped_gap(s, 0.0, y);
+void check_dropped(System& s, const Regime& kept, const VectorX& y, double tolerance) {
+  const DroppedGap worst = largest_dropped_gap(kept, 0.0, y);
   const std::string size = number_text(worst.gap) + (worst.angle ? " rad" : " m");
   if (worst.part > tolerance)
     throw ModelError(worst.key,
@@ -106,46 +106,41 @@ void check_dropped(System& s, const VectorX& y, double tolerance) {
 } // namespace
 
 void assemble(System& s, const Fit& fit, const std::vector<BodyStart>& given) {
-  VectorX y = initial_state(s);
+  VectorX y;
   {
-    Constraints constraints(s);
+    const Regime all(s);
+    y = initial_state(all);
+    Constraints constraints(all, s.starts);
     if (!find_pose(s, constraints, y))
       refuse_gap(constraints, y);
   }
-  if (drop_dependent_rows(s, y, fit)) {
-    lay_out(s);
-    const VectorX head = y.head(s.lambda0);
-    y = VectorX::Zero(s.n);
-    y.head(s.lambda0) = head;
-  }
-  Constraints constraints(s);
+  drop_dependent_rows(s, y, fit);
+  const Regime kept(s);
+  resize(kept, y);
+  Constraints constraints(kept, s.starts);
   if (!(close_positions(s, constraints, y) < nearly_closed))
     refuse_gap(constraints, y);
-  check_dropped(s, y, fit.tolerance);
+  check_dropped(s, kept, y, fit.tolerance);
   start_velocities(s, given, constraints, y);
   write_back(s, given, y);
 }
 
-bool close(const System& s, VectorX& y) {
-  System free = s; // elsewhere than the start
-  free.starts.clear();
-  Constraints constraints(free);
-  if (!(close_positions(free, constraints, y) < nearly_closed))
+bool close(const Regime& s, VectorX& y) {
+  Constraints constraints(s);
+  if (!(close_positions(s, constraints, y) < nearly_closed))
     return false;
-  close_velocities(free, constraints, y);
+  close_velocities(s, constraints, y);
   return true;
 }
 
-SparseMatrix constraint_gradient(const System& s, const VectorX& y) {
-  System rows = s; // without the conditions of the start
-  rows.starts.clear();
-  Constraints constraints(rows);
+SparseMatrix constraint_gradient(const Regime& s, const VectorX& y) {
+  Constraints constraints(s);
   VectorX gaps, rates;
   constraints.evaluate(y, gaps, rates);
   return constraints.gradient([](Index) { return true; });
 }
 
-Index mobility(const System& s) {
+Index mobility(const Regime& s) {
   return s.n_u -
          static_cast<Index>(independent_rows(constraint_gradient(s, initial_state(s))).size());
 }

@@ -15,13 +15,13 @@ namespace hydrodae::system {
 void assemble(System& system, const Fit& fit, const std::vector<BodyStart>& given);
 
 /// Moves y to the nearest pose and velocities that keep all constraints; false where none is near.
-bool close(const System& system, VectorX& y);
+bool close(const Regime& regime, VectorX& y);
 
 /// Scaled gradient of all rows kept (n_lambda, n_u) at y: rows by their own scale, columns by the
 /// length or angle that counts as one.
-SparseMatrix constraint_gradient(const System& system, const VectorX& y);
+SparseMatrix constraint_gradient(const Regime& regime, const VectorX& y);
 
 /// Degrees of freedom that the constraints leave at the start: n_u - rank.
-Index mobility(const System& system);
+Index mobility(const Regime& regime);
 
 } // namespace hydrodae::system

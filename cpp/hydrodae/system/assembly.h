@@ -19,7 +19,7 @@ template <class Sink> struct Assembly {
   using Rotation = BodyData::Rotation;
   static constexpr bool whole = Sink::whole;   ///< else what accelerations need
   static constexpr bool memory = Sink::memory; ///< else its rows are those of the identity
-  const System& s;
+  const Regime& s;
   JacobianWorkspace& ws;
   const double t;
   const double* y;
@@ -193,17 +193,17 @@ template <class Sink> void Assembly<Sink>::joints() {
     Matrix12 by_lambda = Matrix12::Zero(), by_mu = Matrix12::Zero();
     Vector12 shift = Vector12::Zero();
     for (const RowData& row : j.rows) {
-      if (!row.kept())
+      if (!s.holds(row))
         continue;
       const Vector12 gradient =
           joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
       const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, j.parameters, g);
       if constexpr (whole) {
-        by_lambda += y[row.lambda] * curvature;
-        by_mu += y[row.mu] * curvature;
-        shift += y[row.mu] * gradient;
+        by_lambda += y[s.lambda(row)] * curvature;
+        by_mu += y[s.mu(row)] * curvature;
+        shift += y[s.mu(row)] * gradient;
       }
-      constraint_row(j, row.lambda, row.mu, gradient, curvature, u);
+      constraint_row(j, s.lambda(row), s.mu(row), gradient, curvature, u);
     }
     if (!whole || j.rows.empty())
       continue;
@@ -214,9 +214,9 @@ template <class Sink> void Assembly<Sink>::joints() {
 
 template <class Sink> void Assembly<Sink>::couplers() {
   for (const CouplerData& coupler : s.couplers) {
-    if (!coupler.kept())
+    if (!s.holds(coupler))
       continue;
-    const double mu = coupler.velocity_level ? 0.0 : y[coupler.mu];
+    const double mu = coupler.velocity_level ? 0.0 : y[s.mu(coupler)];
     for (const CouplerData::Term& term : coupler.terms) {
       const MotionData& motion = s.motions[term.motion];
       const JointData& j = s.joints[motion.joint];
@@ -224,11 +224,11 @@ template <class Sink> void Assembly<Sink>::couplers() {
       const Vector12 gradient =
           term.factor * joint::motion_row<double>(motion.motion, j.A, j.B, g).gradient;
       const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
-      constraint_row(j, coupler.lambda, coupler.velocity_level ? -1 : coupler.mu, gradient,
+      constraint_row(j, s.lambda(coupler), coupler.velocity_level ? -1 : s.mu(coupler), gradient,
                      curvature, joint_velocity<double>(j, ws.state.bodies));
       if (!whole)
         continue;
-      constraint_curvature(j, y[coupler.lambda] * curvature, mu * curvature);
+      constraint_curvature(j, y[s.lambda(coupler)] * curvature, mu * curvature);
       add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
     }
   }
@@ -263,9 +263,9 @@ template <class Sink> void Assembly<Sink>::body_rows() {
         0.5 * quaternion_right_matrix(body.w + ws.state.shifts[i].tail<3>());
     for (int k = 0; k < 4; ++k) {
       for (int m = 0; m < 4; ++m)
-        sink.by_y(q + k, q + m, -rate(k, m) - (k == m ? y[b.sigma] : 0.0));
-      sink.by_y(q + k, b.sigma, -body.p[k]);
-      sink.by_y(b.sigma, q + k, body.p[k]);
+        sink.by_y(q + k, q + m, -rate(k, m) - (k == m ? y[s.sigma(b)] : 0.0));
+      sink.by_y(q + k, s.sigma(b), -body.p[k]);
+      sink.by_y(s.sigma(b), q + k, body.p[k]);
     }
   }
 }

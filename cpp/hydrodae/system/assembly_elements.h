@@ -66,7 +66,7 @@ void Assembly<Sink>::law_by_reaction(const PortData& data, const PortGradient<1,
   const JointData& j = s.joints[static_cast<std::size_t>(data.joint)];
   const Eigen::Map<const MatrixX> J(jacobian, shape.n_out(), shape.n_in());
   for (const PortData::Pressing& p : data.reaction) {
-    const Index lambda = j.rows[p.row].lambda;
+    const Index lambda = s.lambda(j.rows[p.row]);
     const auto by_lambda = [&](Index row) { return J.row(row).segment<6>(2).dot(p.on_b); };
     const double load = by_lambda(0);
     for (int side = 0; side < 2; ++side) {
@@ -201,7 +201,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
   ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
   gather<double>(s, list, ws.state, y, scratch);
   const double* in = scratch.in.data();
-  const double* signals = list.signals.data();
+  const double* signals = s.held(list);
   if (!shape.in_water()) // whose Jacobian holds how the load turns
     list.laws->evaluate(t, in, signals, scratch.out.data());
   list.laws->jacobian(t, in, signals, ws.element_jacobian.data());

@@ -55,12 +55,15 @@ std::vector<BodyStart> body_starts(const model::Scene& scene) {
   return out;
 }
 
-/// Offsets of y = [q | u | z | lambda | mu | sigma].
-void set_offsets(System& s) {
-  s.n = s.n_q = s.n_u = s.n_lambda = s.n_mu = 0;
+} // namespace
+
+void number(System& s) {
+  s.n_q = s.n_u = s.n_z = s.n_norms = 0;
   for (BodyData& b : s.bodies) {
     b.q0 = s.n_q;
     s.n_q += b.n_position;
+    if (b.rotation == BodyData::Rotation::free)
+      b.norm = s.n_norms++;
   }
   s.u0 = s.n_q;
   for (BodyData& b : s.bodies) {
@@ -68,7 +71,6 @@ void set_offsets(System& s) {
     s.n_u += b.n_active;
   }
   s.z0 = s.u0 + s.n_u;
-  s.n_z = 0;
   for (ElementList& list : s.elements) {
     list.z0 = s.z0 + s.n_z;
     s.n_z += static_cast<Index>(list.laws->unknowns.size());
@@ -77,50 +79,9 @@ void set_offsets(System& s) {
   s.n_z += s.hydro.n_states;
   s.states = declare(s).states;
   s.lambda0 = s.z0 + s.n_z;
-  for_each_row(s, [&](Index& lambda, Index&, bool) {
-    if (lambda != redundant)
-      lambda = s.lambda0 + s.n_lambda++;
-  });
-  s.mu0 = s.lambda0 + s.n_lambda;
-  for_each_row(s, [&](Index& lambda, Index& mu, bool velocity_level) {
-    if (lambda != redundant && !velocity_level)
-      mu = s.mu0 + s.n_mu++;
-  });
-  s.sigma0 = s.mu0 + s.n_mu;
-  s.n = s.sigma0;
-  for (BodyData& b : s.bodies)
-    if (b.rotation == BodyData::Rotation::free)
-      b.sigma = s.n++;
-  s.algebraic.assign(static_cast<std::size_t>(s.n), true);
-  std::fill_n(s.algebraic.begin(), s.lambda0, false);
-  for (const StateBlock& block : s.states)
-    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-      s.algebraic[static_cast<std::size_t>(block.first) + k] = block.unknowns[k].algebraic;
-}
-
-} // namespace
-
-void lay_out(System& s) {
-  set_offsets(s);
+  s.n_rows = 0;
+  for_each_row(s, [&](Row& row, bool) { row.number = s.n_rows++; });
   set_groups(s);
-  set_scales(s);
-  set_names(s);
-}
-
-void set_state(System& s, SwitchData& element, SwitchData::State state) {
-  using State = SwitchData::State;
-  element.state = state;
-  CouplerData& coupler = s.couplers[static_cast<std::size_t>(element.coupler)];
-  coupler.lambda = coupler.mu = element.holds() ? 0 : redundant;
-  if (element.kind == SwitchData::Kind::stop) {
-    coupler.offset = state == State::lower ? element.lower : element.upper;
-    return;
-  }
-  double& load = s.elements[static_cast<std::size_t>(element.list)]
-                     .signals[static_cast<std::size_t>(element.law)];
-  load = state == State::forward    ? -element.kinetic_load
-         : state == State::backward ? element.kinetic_load
-                                    : 0.0;
 }
 
 bool System::has_waves() const {
@@ -154,7 +115,7 @@ System build(const model::Scene& scene, bool with_excitation) {
                          m.axes == "body"});
   set_coupler_offsets(scene, s);
   find_mechanisms(s);
-  lay_out(s);
+  number(s);
   if (s.n_u == 0)
     throw ModelError("body", "nothing can move: every body of the scene is fixed");
   assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
@@ -167,27 +128,6 @@ System build(const model::Scene& scene, bool with_excitation) {
     add_sea(scene, s);
   }
   return s;
-}
-
-VectorX initial_state(const System& s) {
-  VectorX y = VectorX::Zero(s.n);
-  for (const BodyData& b : s.bodies) {
-    for (int k = 0; k < b.n_active; ++k) {
-      const int c = b.active[k];
-      y[b.u0 + k] = c < 3 ? b.velocity[c] : b.angular_velocity[c - 3];
-      if (c < 3)
-        y[b.q0 + k] = b.position[c];
-    }
-    const Index q = b.q0 + b.n_translations;
-    if (b.rotation == BodyData::Rotation::about_axis)
-      y[q] = 2.0 * std::atan2(b.orientation[1 + b.axis], b.orientation[0]);
-    if (b.rotation == BodyData::Rotation::free)
-      y.segment<4>(q) = b.orientation;
-  }
-  for (const StateBlock& block : s.states)
-    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-      y[block.first + static_cast<Index>(k)] = block.unknowns[k].start;
-  return y;
 }
 
 } // namespace hydrodae::system

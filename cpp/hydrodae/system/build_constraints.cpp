@@ -42,8 +42,9 @@ void add_switch(const std::string& name, SwitchData element, System& s) {
   coupler.name = name;
   coupler.terms = {{element.motion, 1.0}};
   coupler.velocity_level = element.kind == SwitchData::Kind::friction;
-  coupler.lambda = coupler.mu = redundant;
+  coupler.of_switch = static_cast<int>(s.switches.size());
   element.coupler = static_cast<int>(s.couplers.size());
+  element.number = s.switches.size();
   s.couplers.push_back(coupler);
   s.switches.push_back(element);
 }

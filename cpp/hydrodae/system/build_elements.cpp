@@ -159,7 +159,6 @@ void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s
         list.ports.back().bearing = force.bearing();
   }
   list.laws = make_laws(scene, completed);
-  list.signals = list.laws->signals;
   s.elements.push_back(std::move(list));
   if constexpr (std::is_same_v<F, element::DryFriction>)
     for (std::size_t k = 0; k < forces.size(); ++k)
@@ -225,24 +224,25 @@ void add_elements(const model::Scene& scene, System& s) {
 }
 
 void start_laws(System& s) {
-  Workspace<double> ws(s);
+  const Regime start(s);
+  Workspace<double> ws(start);
   bool known = false;
   VectorX y;
   for (ElementList& list : s.elements) {
     if (list.laws->shape.port != Port::points || list.laws->shape.n_states == 0)
       continue;
     if (!known) {
-      y = initial_state(s);
+      y = initial_state(start);
       unpack<double>(s, y.data(), y.data(), ws.bodies);
       known = true;
     }
-    ElementScratch<double>& scratch = ws.elements[index_of(s, list)];
-    gather<double>(s, list, ws, y.data(), scratch);
+    ElementScratch<double>& scratch = ws.elements[index_of(start, list)];
+    gather<double>(start, list, ws, y.data(), scratch);
     if (auto started = list.laws->started(scratch.in.data()))
       list.laws = std::move(started);
   }
   if (known)
-    lay_out(s);
+    number(s);
 }
 
 void set_hydrostatics(const model::Scene& scene, System& s) {

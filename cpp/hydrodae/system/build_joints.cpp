@@ -146,7 +146,7 @@ void select_rows(System& s) {
         largest = std::max(largest, free_gradient(s, j, row.gradient));
       }
       if (largest > 1e-12 * std::max({1.0, j.A.point.norm(), j.B.point.norm()})) {
-        j.rows.push_back({kind});
+        j.rows.emplace_back(kind);
         continue;
       }
       const double gap = joint::basic_row<double>(kind, j.A, j.B, j.parameters,

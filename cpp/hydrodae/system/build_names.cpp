@@ -21,7 +21,7 @@ std::string row_name(const joint::BasicRow& row) {
   return "screw";
 }
 
-void set_names(System& s) {
+void set_names(Regime& s) {
   static const std::array<std::string, 6> position = {"position x", "position y",  "position z",
                                                       "roll angle", "pitch angle", "yaw angle"};
   static const std::array<std::string, 6> velocity = {"velocity x",         "velocity y",
@@ -45,31 +45,31 @@ void set_names(System& s) {
           head + (quaternions ? quaternion[k - b.n_translations] : position[b.active[k]]);
       s.row_names[b.q0 + k] = s.names[b.q0 + k] + " rate";
     }
-    if (b.sigma >= 0) {
-      s.names[b.sigma] = head + "quaternion norm multiplier";
-      s.row_names[b.sigma] = head + "quaternion norm";
+    if (s.sigma(b) >= 0) {
+      s.names[s.sigma(b)] = head + "quaternion norm multiplier";
+      s.row_names[s.sigma(b)] = head + "quaternion norm";
     }
   }
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows) {
-      if (!row.kept())
+      if (!s.holds(row))
         continue;
       const std::string head = "joints/" + j.name + " ", kind = row_name(row.kind);
-      s.names[row.lambda] = head + "reaction (" + kind + ")";
-      s.names[row.mu] = head + "position multiplier (" + kind + ")";
-      s.row_names[row.lambda] = head + kind + ", velocity";
-      s.row_names[row.mu] = head + kind;
+      s.names[s.lambda(row)] = head + "reaction (" + kind + ")";
+      s.names[s.mu(row)] = head + "position multiplier (" + kind + ")";
+      s.row_names[s.lambda(row)] = head + kind + ", velocity";
+      s.row_names[s.mu(row)] = head + kind;
     }
   for (const CouplerData& c : s.couplers) {
-    if (!c.kept())
+    if (!s.holds(c))
       continue;
     const std::string head = "constraints/" + c.name;
-    s.names[c.lambda] = head + " reaction";
-    s.row_names[c.lambda] = head + ", velocity";
+    s.names[s.lambda(c)] = head + " reaction";
+    s.row_names[s.lambda(c)] = head + ", velocity";
     if (c.velocity_level)
       continue;
-    s.names[c.mu] = head + " position multiplier";
-    s.row_names[c.mu] = head;
+    s.names[s.mu(c)] = head + " position multiplier";
+    s.row_names[s.mu(c)] = head;
   }
   for (const StateBlock& block : s.states) {
     Index z = block.first;

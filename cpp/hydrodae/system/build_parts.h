@@ -2,21 +2,18 @@
 /// The parts of `build` that live in files of their own.
 
 #include "hydrodae/model/scene.h"
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
 /// Length scale and lever of each body, force scale of each joint (build_scales.cpp).
 void set_body_scales(const model::Scene& scene, System& system);
 
-/// Tolerance scales of all unknowns; needs the layout (build_scales.cpp).
-void set_scales(System& system);
-
 /// What a constraint row holds, for people: "gap along x".
 std::string row_name(const joint::BasicRow& row);
 
 /// Names of unknowns and rows; needs the layout (build_names.cpp).
-void set_names(System& system);
+void set_names(Regime& regime);
 
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, System& system);

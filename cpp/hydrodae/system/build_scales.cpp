@@ -55,7 +55,7 @@ JointScale joint_scale(const System& s, const JointData& j) {
 }
 
 /// Scales of one constraint row and of its multipliers; `angle`: the row is an angle, not a length.
-void set_row(System& s, const JointScale& scale, Index lambda, Index mu, bool angle) {
+void set_row(Regime& s, const JointScale& scale, Index lambda, Index mu, bool angle) {
   const double size = angle ? scale.angle : scale.length;
   s.scale[lambda] = angle ? scale.force * scale.length / scale.angle : scale.force;
   s.row_scale[lambda] = size / scale.time;
@@ -99,10 +99,9 @@ void take_time_scales(System& s, const VectorX& y, const VectorX& yp) {
       b.time_scale = time;
   }
   s.states = declare(s).states;
-  set_scales(s);
 }
 
-void set_scales(System& s) {
+void set_scales(Regime& s) {
   s.scale = s.relative = s.row_scale = VectorX::Ones(s.n);
   s.relative.head(s.u0).setZero();
   s.relative.tail(s.n - s.mu0).setZero();
@@ -123,19 +122,19 @@ void set_scales(System& s) {
       s.scale[b.q0 + k] = scale;
       s.row_scale[b.q0 + k] = scale / b.time_scale;
     }
-    if (b.sigma >= 0)
-      s.scale[b.sigma] = 0.5 * angle / b.time_scale;
+    if (s.sigma(b) >= 0)
+      s.scale[s.sigma(b)] = 0.5 * angle / b.time_scale;
   }
   for (const JointData& j : s.joints) {
     const JointScale scale = joint_scale(s, j);
     for (const RowData& row : j.rows)
-      if (row.kept())
-        set_row(s, scale, row.lambda, row.mu, row.kind.kind == joint::BasicRow::Kind::perp);
+      if (s.holds(row))
+        set_row(s, scale, s.lambda(row), s.mu(row), row.kind.kind == joint::BasicRow::Kind::perp);
   }
   for (const CouplerData& c : s.couplers) {
     const MotionData& motion = s.motions[c.terms.front().motion];
-    if (c.kept())
-      set_row(s, joint_scale(s, s.joints[motion.joint]), c.lambda, c.velocity_level ? -1 : c.mu,
+    if (s.holds(c))
+      set_row(s, joint_scale(s, s.joints[motion.joint]), s.lambda(c), c.velocity_level ? -1 : s.mu(c),
               motion.motion.is_angle());
   }
   for (const StateBlock& block : s.states) {

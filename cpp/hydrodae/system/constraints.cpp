@@ -23,12 +23,12 @@ double smaller_lever(const System& s, const JointData& j) {
   return std::isfinite(lever) ? lever : 1.0;
 }
 
-Constraints::Constraints(const System& s)
-    : s_(s), ws_(s), scale_(displacement_scale(s)),
-      size_(s.n_lambda + static_cast<Index>(s.starts.size())), lever_(VectorX::Ones(size_.size())),
+Constraints::Constraints(const Regime& s, std::vector<MotionStart> starts)
+    : s_(s), starts_(std::move(starts)), ws_(s), scale_(displacement_scale(s)),
+      size_(s.n_lambda + static_cast<Index>(starts_.size())), lever_(VectorX::Ones(size_.size())),
       mu_(s.n_lambda, -1), angle_(static_cast<std::size_t>(size_.size()), false) {
-  for (std::size_t k = 0; k < s.starts.size(); ++k) {
-    const MotionData& motion = s.motions[s.starts[k].motion];
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    const MotionData& motion = s.motions[starts_[k].motion];
     const JointData& j = s.joints[motion.joint];
     const BodyData& b = s.bodies[j.B.body >= 0 ? j.B.body : j.A.body];
     const Index i = s.n_lambda + static_cast<Index>(k);
@@ -38,23 +38,23 @@ Constraints::Constraints(const System& s)
   }
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
-      if (row.kept()) {
-        angle_[static_cast<std::size_t>(row.lambda - s.lambda0)] =
+      if (s.holds(row)) {
+        angle_[static_cast<std::size_t>(s.lambda(row) - s.lambda0)] =
             row.kind.kind == joint::BasicRow::Kind::perp;
-        lever_[row.lambda - s.lambda0] = smaller_lever(s, j);
+        lever_[s.lambda(row) - s.lambda0] = smaller_lever(s, j);
       }
   for (const CouplerData& c : s.couplers)
-    if (c.kept()) {
+    if (s.holds(c)) {
       const MotionData& motion = s.motions[c.terms.front().motion];
-      angle_[static_cast<std::size_t>(c.lambda - s.lambda0)] = motion.motion.is_angle();
-      lever_[c.lambda - s.lambda0] = smaller_lever(s, s.joints[motion.joint]);
+      angle_[static_cast<std::size_t>(s.lambda(c) - s.lambda0)] = motion.motion.is_angle();
+      lever_[s.lambda(c) - s.lambda0] = smaller_lever(s, s.joints[motion.joint]);
     }
-  for_each_row(s, [&](Index lambda, Index mu, bool velocity_level) {
-    if (lambda == redundant)
+  for_each_row(s, [&](const Row& row, bool velocity_level) {
+    if (!s.holds(row))
       return;
-    const Index i = lambda - s.lambda0;
-    size_[i] = s.row_scale[velocity_level ? lambda : mu];
-    mu_[i] = velocity_level ? -1 : mu;
+    const Index i = s.lambda(row) - s.lambda0;
+    size_[i] = s.row_scale[velocity_level ? s.lambda(row) : s.mu(row)];
+    mu_[i] = velocity_level ? -1 : s.mu(row);
   });
 }
 
@@ -67,8 +67,8 @@ void Constraints::evaluate(const VectorX& y, VectorX& gaps, VectorX& rates) {
     gaps[i] = mu_[i] < 0 ? 0.0 : r[mu_[i]] / size_[i];
     rates[i] = r[s_.lambda0 + i] / size_[i];
   }
-  for (std::size_t k = 0; k < s_.starts.size(); ++k) {
-    const MotionStart& given = s_.starts[k];
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    const MotionStart& given = starts_[k];
     const auto row = motion_row<double>(s_, ws_, given.motion);
     const JointData& j = s_.joints[s_.motions[given.motion].joint];
     const Index i = s_.n_lambda + static_cast<Index>(k);
@@ -88,18 +88,18 @@ SparseMatrix Constraints::gradient(const std::function<bool(Index)>& wanted) con
   for (const JointData& j : s_.joints) {
     const auto g = joint_geometry<double>(j, ws_.bodies);
     for (const RowData& row : j.rows)
-      if (row.kept())
-        add(j, row.lambda - s_.lambda0,
+      if (s_.holds(row))
+        add(j, s_.lambda(row) - s_.lambda0,
             joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient);
   }
   for (const CouplerData& c : s_.couplers)
     for (const CouplerData::Term& term : c.terms)
-      if (c.kept())
-        add(s_.joints[s_.motions[term.motion].joint], c.lambda - s_.lambda0,
+      if (s_.holds(c))
+        add(s_.joints[s_.motions[term.motion].joint], s_.lambda(c) - s_.lambda0,
             term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
-  for (std::size_t k = 0; k < s_.starts.size(); ++k)
-    add(s_.joints[s_.motions[s_.starts[k].motion].joint], s_.n_lambda + static_cast<Index>(k),
-        motion_row<double>(s_, ws_, s_.starts[k].motion).gradient);
+  for (std::size_t k = 0; k < starts_.size(); ++k)
+    add(s_.joints[s_.motions[starts_[k].motion].joint], s_.n_lambda + static_cast<Index>(k),
+        motion_row<double>(s_, ws_, starts_[k].motion).gradient);
   SparseMatrix G(size_.size(), s_.n_u);
   G.setFromTriplets(entries.begin(), entries.end());
   return G;
@@ -132,10 +132,10 @@ std::string Constraints::key(Index i) const {
     return "joint." + s_.joints[s_.motions[start(i).motion].joint].name;
   for (const JointData& j : s_.joints)
     for (const RowData& row : j.rows)
-      if (row.kept() && row.lambda == s_.lambda0 + i)
+      if (s_.holds(row) && s_.lambda(row) == s_.lambda0 + i)
         return "joint." + j.name;
   for (const CouplerData& c : s_.couplers)
-    if (c.kept() && c.lambda == s_.lambda0 + i)
+    if (s_.holds(c) && s_.lambda(c) == s_.lambda0 + i)
       return "constraint." + c.name;
   return "joint";
 }

@@ -7,7 +7,7 @@
 
 #include "hydrodae/system/kinematics.h"
 #include "hydrodae/system/rank.h"
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
@@ -18,10 +18,11 @@ VectorX displacement_scale(const System& system);
 double smaller_lever(const System& system, const JointData& joint);
 
 /// Row i < n_rows belongs to the multiplier lambda0 + i. After them come the motions whose start is
-/// given, one row each. Holds a reference: the system must outlive it, with the same layout.
+/// given, one row each. Holds a reference: the regime must outlive it, with the same layout.
 class Constraints {
 public:
-  explicit Constraints(const System& system);
+  /// @param starts conditions of the start, empty: those of none
+  explicit Constraints(const Regime& regime, std::vector<MotionStart> starts = {});
 
   /// Gaps of the rows at position level (rows at velocity level: 0), and rates of all rows, in
   /// units of their scales; of the drives as they are at t = 0.
@@ -46,14 +47,15 @@ public:
   const VectorX& scale() const { return scale_; }
   const Workspace<double>& workspace() const { return ws_; }
   const MotionStart& start(Index i) const {
-    return s_.starts[static_cast<std::size_t>(i - s_.n_lambda)];
+    return starts_[static_cast<std::size_t>(i - s_.n_lambda)];
   }
 
 private:
   void append(std::vector<Eigen::Triplet<double>>& entries, const JointData& j, Index i,
               const joint::Vector12& gradient) const;
 
-  const System& s_;
+  const Regime& s_;
+  std::vector<MotionStart> starts_;
   Workspace<double> ws_;
   VectorX scale_, size_, lever_;
   std::vector<Index> mu_;

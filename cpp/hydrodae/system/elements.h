@@ -9,14 +9,14 @@
 namespace hydrodae::system {
 
 /// Of a list in System::elements.
-inline std::size_t index_of(const System& s, const ElementList& list) {
+inline std::size_t index_of(const Regime& s, const ElementList& list) {
   return static_cast<std::size_t>(&list - s.elements.data());
 }
 
 /// s and s' of the motion of a port, with the gradient of s. A delayed law sees those of the past,
 /// or where there is none the place where the motion stands, at rest.
 template <class S>
-void see_motion(const System& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
+void see_motion(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                 joint::Vec12<S>& gradient) {
   const joint::Row<S> row = motion_row<S>(s, ws, port.motion);
   gradient = row.gradient;
@@ -45,7 +45,7 @@ void relative_rows(const JointData& j, const joint::Geometry<S>& g, joint::Vec12
 
 /// Marker B seen from marker A: place, rotation vector, and their velocities.
 template <class S>
-void see_markers(const System& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
+void see_markers(const Regime& s, const Workspace<S>& ws, const PortData& port, S* x, S* v,
                  joint::Vec12<S>* rows) {
   const JointData& j = s.joints[port.joint];
   const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
@@ -91,29 +91,29 @@ Vec6<S> load_at(const BodyState<S>& b, const joint::Marker& point, const S* forc
 
 /// Force and moment by which the rows of its joint load body B of a port, at B's marker along the
 /// axes of A's [N, N m], into (6,).
-template <class S> void see_reaction(const System& s, const PortData& port, const S* y, S* out) {
+template <class S> void see_reaction(const Regime& s, const PortData& port, const S* y, S* out) {
   std::fill_n(out, 6, S(0));
   const JointData& j = s.joints[port.joint];
   for (const PortData::Pressing& p : port.reaction)
     for (int c = 0; c < 6; ++c)
-      out[c] += S(p.on_b[c]) * y[j.rows[p.row].lambda];
+      out[c] += S(p.on_b[c]) * y[s.lambda(j.rows[p.row])];
 }
 
 /// Largest load of sticking of dry friction [N, N m]: that of a joint that presses follows from its
 /// reaction in y.
-inline double sticking_load(const System& s, const SwitchData& friction, const double* y) {
+inline double sticking_load(const Regime& s, const SwitchData& friction, const double* y) {
   const ElementList& list = s.elements[static_cast<std::size_t>(friction.list)];
   const PortData& port = list.ports[static_cast<std::size_t>(friction.law)];
   if (!port.bearing)
-    return friction.static_load;
+    return s.static_loads[friction.number];
   std::array<double, 6> reaction;
   see_reaction<double>(s, port, y, reaction.data());
-  return friction.static_load * port.bearing->load(reaction.data());
+  return s.static_loads[friction.number] * port.bearing->load(reaction.data());
 }
 
 /// What all laws of one list see, into its scratch.
 template <class S>
-void gather(const System& s, const ElementList& list, const Workspace<S>& ws, const S* y,
+void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, const S* y,
             ElementScratch<S>& scratch) {
   const element::Shape& shape = list.laws->shape;
   S* in = scratch.in.data();
@@ -147,7 +147,7 @@ void gather(const System& s, const ElementList& list, const Workspace<S>& ws, co
 
 /// Adds the loads of one law to its bodies: W^T load of its rows, or the wrench itself.
 template <class S>
-void add_load(const System& s, const element::Shape& shape, const PortData& port, const S* load,
+void add_load(const Regime& s, const element::Shape& shape, const PortData& port, const S* load,
               const joint::Vec12<S>* rows, Workspace<S>& ws) {
   if (element::is_on_body(shape.port)) {
     const Eigen::Map<const Vec6<S>> wrench(load);
@@ -170,12 +170,12 @@ void add_load(const System& s, const element::Shape& shape, const PortData& port
 /// Loads of one list into `ws.loads`, and the rows z' - h(x, v, z) = 0 of its states, -h = 0 of its
 /// algebraic unknowns.
 template <class S>
-void add_loads(const System& s, const ElementList& list, Workspace<S>& ws, const S* y, const S* yp,
+void add_loads(const Regime& s, const ElementList& list, Workspace<S>& ws, const S* y, const S* yp,
                S* residual) {
   ElementScratch<S>& scratch = ws.elements[index_of(s, list)];
   const element::Shape& shape = list.laws->shape;
   gather<S>(s, list, ws, y, scratch);
-  list.laws->evaluate(ws.time, scratch.in.data(), list.signals.data(), scratch.out.data());
+  list.laws->evaluate(ws.time, scratch.in.data(), s.held(list), scratch.out.data());
   const S* out = scratch.out.data();
   const joint::Vec12<S>* rows = scratch.rows.data();
   Index z = list.z0;

@@ -48,7 +48,7 @@ double highest(std::vector<std::pair<double, double>> parts) {
 
 /// Mass and added mass of one coordinate of a body, zero where it does not move in the water [kg or
 /// kg m2].
-double mass_along(const System& s, const PortData& port, int c) {
+double mass_along(const Regime& s, const PortData& port, int c) {
   const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
   for (const HydroBody& hb : s.hydro.bodies)
     if (hb.body == port.body && hb.moving[c] >= 0)
@@ -59,7 +59,7 @@ double mass_along(const System& s, const PortData& port, int c) {
 
 } // namespace
 
-Forcing::Forcing(const System& s, double end, double output_step)
+Forcing::Forcing(const Regime& s, double end, double output_step)
     : motion_(VectorX::Zero(s.n_groups)) {
   add_drives(s, end, output_step);
   add_waves(s);
@@ -77,7 +77,7 @@ void Forcing::expect(const BodyData& body, bool turns, double motion) {
   most = std::max(most, turns ? motion : motion / body.lever);
 }
 
-void Forcing::add_drives(const System& s, double end, double output_step) {
+void Forcing::add_drives(const Regime& s, double end, double output_step) {
   for (const CouplerData& c : s.couplers) {
     const model::Drive& d = c.drive;
     const bool sine = d.amplitude != 0.0 && d.period > 0.0;
@@ -109,7 +109,7 @@ void Forcing::add_drives(const System& s, double end, double output_step) {
   }
 }
 
-void Forcing::add_waves(const System& s) {
+void Forcing::add_waves(const Regime& s) {
   std::vector<std::pair<double, double>> parts; // frequency, variance
   for (const ElementList& list : s.elements) {
     const element::WavesFelt waves = list.laws->waves();
@@ -130,7 +130,7 @@ void Forcing::add_waves(const System& s) {
     wave_limit_ = share_of_period * 2.0 * pi / most;
 }
 
-void Forcing::add_paths(const System& s) {
+void Forcing::add_paths(const Regime& s) {
   constexpr std::size_t count = 4096;
   for (std::size_t m = 0; m < s.motions.size(); ++m) {
     const JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
@@ -153,7 +153,7 @@ void Forcing::add_paths(const System& s) {
 
 /// What laws tell of themselves; of those that follow the time otherwise the loads at the start
 /// pose, at rest.
-void Forcing::add_elements(const System& s, double end, double output_step) {
+void Forcing::add_elements(const Regime& s, double end, double output_step) {
   Workspace<double> ws(s);
   const VectorX y = initial_state(s), yp = VectorX::Zero(s.n);
   unpack<double>(s, y.data(), yp.data(), ws.bodies);
@@ -178,7 +178,7 @@ void Forcing::add_elements(const System& s, double end, double output_step) {
     const std::size_t count = samples(0.5 * output_step);
     std::vector<std::vector<double>> values(scratch.out.size());
     for (std::size_t i = 0; i <= count; ++i) {
-      laws.evaluate(time(i, count), scratch.in.data(), list.signals.data(), scratch.out.data());
+      laws.evaluate(time(i, count), scratch.in.data(), s.held(list), scratch.out.data());
       for (std::size_t k = 0; k < values.size(); ++k)
         values[k].push_back(scratch.out[k]);
     }

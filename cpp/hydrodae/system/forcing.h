@@ -15,7 +15,7 @@ class Forcing {
 public:
   /// Samples all drives and all laws that follow the time from 0 to `end` [s]; those that are
   /// Python functions at half the `output_step` [s] or finer.
-  Forcing(const System& system, double end, double output_step);
+  Forcing(const Regime& system, double end, double output_step);
 
   /// The latest time that a step may reach [s], and what limits it, in words.
   struct Limit {
@@ -30,10 +30,10 @@ public:
   const VectorX& motion() const { return motion_; }
 
 private:
-  void add_drives(const System& s, double end, double output_step);
-  void add_waves(const System& s);
-  void add_paths(const System& s);
-  void add_elements(const System& s, double end, double output_step);
+  void add_drives(const Regime& s, double end, double output_step);
+  void add_waves(const Regime& s);
+  void add_paths(const Regime& s);
+  void add_elements(const Regime& s, double end, double output_step);
   void expect(const BodyData& body, bool turns, double motion);
 
   struct Track {

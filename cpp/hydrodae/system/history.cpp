@@ -35,7 +35,7 @@ template <class Visitor> void for_each_point(double a, double b, double longest,
 
 } // namespace
 
-History::History(const System& system) : s_(system), ws_(system) {
+History::History(const Regime& system) : s_(system), ws_(system) {
   const Convolution& c = s_.hydro.convolution;
   n_U_ = c.empty() ? 0 : s_.hydro.n_moving;
   for (const DelayData& d : s_.delays)

@@ -34,7 +34,7 @@ struct Past {
 class History {
 public:
   /// Of a system whose layout does not change any more.
-  explicit History(const System& system);
+  explicit History(const Regime& system);
 
   /// Takes in an accepted point (t not before the last one). At the same time as the last one: the
   /// velocities have jumped there, and the new ones hold from now on.
@@ -68,7 +68,7 @@ private:
   void scatter(double x, double weight, double* column) const;
   std::array<double, 2> delayed(int delay, double t) const;
 
-  const System& s_;
+  const Regime& s_;
   Workspace<double> ws_;
   int n_U_ = 0;             ///< channels of the convolution
   double keep_ = 0.0;       ///< longest delay [s]
@@ -89,7 +89,7 @@ private:
 inline bool has_past(const System& s) { return !s.hydro.convolution.empty() || !s.delays.empty(); }
 
 /// The past of t, or null.
-inline const Past* past_at(const System& s, double t) {
+inline const Past* past_at(const Regime& s, double t) {
   return s.history ? &s.history->at(t) : nullptr;
 }
 

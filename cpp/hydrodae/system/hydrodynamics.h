@@ -22,7 +22,7 @@ template <class S> void multiply(const MatrixX& m, const S* x, VecX<S>& out) {
 }
 
 /// U and U' of all coordinates that move.
-template <class S> void hydro_motion(const System& s, Workspace<S>& ws) {
+template <class S> void hydro_motion(const Regime& s, Workspace<S>& ws) {
   for (const HydroBody& hb : s.hydro.bodies) {
     if (!hb.moves)
       continue;
@@ -51,7 +51,7 @@ template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
 }
 
 /// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`.
-template <class S> void hydro_loads(const System& s, Workspace<S>& ws, const S* z) {
+template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
   hydro_motion(s, ws);
   multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
@@ -70,7 +70,7 @@ template <class S> void hydro_loads(const System& s, Workspace<S>& ws, const S* 
 /// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
 /// z' - A_r z - B_r U = 0. Only coordinates that move are visited.
 template <class S>
-void add_loads(const System& s, const HydroData& h, Workspace<S>& ws, const S* y, const S* yp,
+void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y, const S* yp,
                S* residual) {
   const S* z = y + h.z0;
   hydro_loads<S>(s, ws, z);

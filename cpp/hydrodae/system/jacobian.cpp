@@ -31,7 +31,7 @@ template <Part made> struct ValueSink {
 };
 
 /// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.
-void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, const double* yp) {
+void prepare(const Regime& s, JacobianWorkspace& ws, double t, const double* y, const double* yp) {
   unpack<double>(s, y, yp, ws.state.bodies);
   ws.state.time = t;
   ws.state.past = past_at(s, t);
@@ -43,7 +43,7 @@ void prepare(const System& s, JacobianWorkspace& ws, double t, const double* y, 
   }
 }
 
-template <Part made> Pattern pattern_of(const System& system) {
+template <Part made> Pattern pattern_of(const Regime& system) {
   JacobianWorkspace ws(system);
   const VectorX y = initial_state(system), yp = VectorX::Zero(system.n);
   prepare(system, ws, 0.0, y.data(), yp.data());
@@ -55,13 +55,13 @@ template <Part made> Pattern pattern_of(const System& system) {
 }
 
 template <Part made>
-void fill(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
+void fill(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
           const double* y, const double* yp, JacobianParts& out) {
   ValueSink<made> sink{pattern.slots.data(), out};
   Assembly<ValueSink<made>>{system, ws, t, y, yp, sink}.run();
 }
 
-void fill_memory(const System& s, const JacobianWorkspace& ws, JacobianParts& out) {
+void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& out) {
   const HydroData& h = s.hydro;
   out.memory.resize(h.bodies.size()); // once
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
@@ -86,7 +86,7 @@ void fill_memory(const System& s, const JacobianWorkspace& ws, JacobianParts& ou
 
 } // namespace
 
-JacobianWorkspace::JacobianWorkspace(const System& system)
+JacobianWorkspace::JacobianWorkspace(const Regime& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
@@ -94,7 +94,7 @@ JacobianWorkspace::JacobianWorkspace(const System& system)
   element_jacobian.resize(most);
 }
 
-Pattern find_pattern(const System& system, Part part) {
+Pattern find_pattern(const Regime& system, Part part) {
   switch (part) {
   case Part::whole:
     return pattern_of<Part::whole>(system);
@@ -106,7 +106,7 @@ Pattern find_pattern(const System& system, Part part) {
   return pattern_of<Part::accelerations>(system);
 }
 
-void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
+void jacobian(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
               const double* y, const double* yp, JacobianParts& out) {
   std::fill(out.by_y.begin(), out.by_y.end(), 0.0);
   std::fill(out.by_yp.begin(), out.by_yp.end(), 0.0);

@@ -33,7 +33,7 @@ using Visits = std::vector<std::pair<Index, Index>>;
 Pattern make_pattern(Index n, const Visits& visits, const Visits& rates);
 
 /// Runs the assembly once without values to find the pattern.
-Pattern find_pattern(const System& system, Part part = Part::whole);
+Pattern find_pattern(const Regime& system, Part part = Part::whole);
 
 /// How a body feels the memory states, load L C z, and drives them, z' = ... + B dU.
 struct MemoryPort {
@@ -52,7 +52,7 @@ struct JacobianParts {
 
 /// Scratch of the Jacobian: the kinematics of the residual and the tangent maps.
 struct JacobianWorkspace {
-  explicit JacobianWorkspace(const System& system);
+  explicit JacobianWorkspace(const Regime& system);
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
   std::vector<double> element_jacobian;              ///< of the laws of one list
@@ -60,7 +60,7 @@ struct JacobianWorkspace {
 
 /// dF/dy and dF/dy' at (t, y, y'), the part that the pattern is of; accelerations take the rows as
 /// they are in the stabilised formulation. Pure apart from the scratch; no allocation.
-void jacobian(const System& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
+void jacobian(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, double t,
               const double* y, const double* yp, JacobianParts& out);
 
 } // namespace hydrodae::system

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
@@ -55,6 +55,9 @@ template <class S> struct Workspace {
   double time = 0.0; ///< of this evaluation [s]
   Turns turns;
 
+  explicit Workspace(const Regime& s) : Workspace(s.system) { turns.value = s.nearby; }
+
+  /// With the coordinates of the start.
   explicit Workspace(const System& s)
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),

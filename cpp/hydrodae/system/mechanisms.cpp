@@ -94,8 +94,6 @@ void find_mechanisms(System& s) {
   for (const auto& [a, b] : declare(s).pairs)
     sets.join(a, b);
   s.n_groups = sets.number(s, &BodyData::group);
-  s.motion_scale = VectorX::Ones(s.n_groups);
-  s.translation_scale = s.motion_scale;
 }
 
 void set_groups(System& s) {
@@ -119,7 +117,7 @@ void set_groups(System& s) {
     ++s.group_size[group];
 }
 
-std::vector<bool> guided_mechanisms(const System& s) {
+std::vector<bool> guided_mechanisms(const Regime& s) {
   std::vector<Index> left(static_cast<std::size_t>(std::max(s.n_mechanisms, 1)));
   for (const BodyData& b : s.bodies)
     if (b.mechanism >= 0)
@@ -130,10 +128,10 @@ std::vector<bool> guided_mechanisms(const System& s) {
   };
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
-      if (row.kept())
+      if (s.holds(row))
         take(j);
   for (const CouplerData& c : s.couplers)
-    if (c.kept())
+    if (s.holds(c))
       take(joint_of(s, c));
   std::vector<bool> out;
   for (Index free : left)

@@ -2,7 +2,7 @@
 /// Which bodies belong together. What goes wrong in one mechanism must not hide behind the size of
 /// another: tolerances, norms and guards are taken for each by itself.
 
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
@@ -23,9 +23,9 @@ const BodyData* moving_body(const System& system, const PortData& port);
 
 /// By mechanism: do the rows that hold now, those of drives among them, leave it no motion of its
 /// own?
-std::vector<bool> guided_mechanisms(const System& system);
+std::vector<bool> guided_mechanisms(const Regime& regime);
 
-/// The group of each position, velocity and memory state; needs the layout.
+/// The group of each position, velocity and memory state; needs their offsets.
 void set_groups(System& system);
 
 } // namespace hydrodae::system

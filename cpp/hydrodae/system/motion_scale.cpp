@@ -25,7 +25,7 @@ double translation(const BodyData& b, const VectorX& from, const VectorX& y) {
 
 } // namespace
 
-VectorX displacements(const System& s, const VectorX& from, const VectorX& y) {
+VectorX displacements(const Regime& s, const VectorX& from, const VectorX& y) {
   VectorX out(static_cast<Index>(s.bodies.size()));
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const BodyData& b = s.bodies[i];
@@ -39,7 +39,7 @@ VectorX displacements(const System& s, const VectorX& from, const VectorX& y) {
   return out;
 }
 
-MotionScale::MotionScale(System& s, const Pattern& pattern, const VectorX& y, const VectorX& yp,
+MotionScale::MotionScale(Regime& s, const Pattern& pattern, const VectorX& y, const VectorX& yp,
                          const VectorX& forced, double hold, double rtol)
     : s_(s), start_(y.head(s.n_q)), expected_(forced), reached_(VectorX::Zero(s.n_groups)),
       least_(VectorX::Zero(s.n_groups)), expected_translation_(forced), translated_(reached_),

@@ -18,7 +18,7 @@ public:
   /// @param forced motion to expect of loads and drives, by group in levers (Forcing::motion)
   /// @param hold time over which that is believed [s]
   /// @param rtol of the run
-  MotionScale(System& system, const Pattern& pattern, const VectorX& y, const VectorX& yp,
+  MotionScale(Regime& system, const Pattern& pattern, const VectorX& y, const VectorX& yp,
               const VectorX& forced, double hold, double rtol);
 
   /// Takes an accepted state; the scales of the system change where the motion outgrew them, or
@@ -39,7 +39,7 @@ private:
   void expect(const BodyData& body, bool translation, double motion);
   bool update(double t);
 
-  System& s_;
+  Regime& s_;
   VectorX start_;                      ///< positions (n_q,)
   VectorX expected_, reached_, least_; ///< by group
   VectorX expected_translation_, translated_;
@@ -48,6 +48,6 @@ private:
 
 /// Displacement of each body from the positions `from` (n_q,): translations over the lever, or the
 /// angle [-] (n_bodies,).
-VectorX displacements(const System& system, const VectorX& from, const VectorX& y);
+VectorX displacements(const Regime& system, const VectorX& from, const VectorX& y);
 
 } // namespace hydrodae::system

@@ -20,7 +20,7 @@ int component_index(Observation& out, const std::string& name) {
 
 } // namespace
 
-Observer::Observer(const System& system) : s_(system), ws_(system) {
+Observer::Observer(const Regime& system) : s_(system), ws_(system) {
   const auto plan = [&](const std::string& component, int body, element::Work work) {
     out_.loads.push_back({component_index(out_, component), body});
     out_.works.resize(out_.components.size(), work);
@@ -36,7 +36,7 @@ Observer::Observer(const System& system) : s_(system), ws_(system) {
   for (int j = 0; j < static_cast<int>(s_.joints.size()); ++j)
     for (const RowData& row : s_.joints[j].rows) {
       ++rows;
-      if (!row.kept())
+      if (!s_.holds(row))
         redundant_joints_.push_back(j);
     }
   shared_ = VectorX::Zero(rows);
@@ -121,7 +121,7 @@ void Observer::observe_joints(const double* y) {
     joint::Vector12 load = joint::Vector12::Zero();
     out_.reactions[k].setZero();
     for (const RowData& row : j.rows) {
-      const double lambda = shared ? shared_[next++] : y[row.lambda];
+      const double lambda = shared ? shared_[next++] : y[s_.lambda(row)];
       load += lambda * joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
       out_.reactions[k] += row_reaction(j, row, g, lambda);
     }
@@ -129,18 +129,17 @@ void Observer::observe_joints(const double* y) {
   }
   for (std::size_t k = 0; k < s_.couplers.size(); ++k) {
     const CouplerData& c = s_.couplers[k];
-    out_.constraints[k] = c.kept() ? y[c.lambda] : 0.0;
-    if (!c.kept())
+    out_.constraints[k] = s_.holds(c) ? y[s_.lambda(c)] : 0.0;
+    if (!s_.holds(c))
       continue;
     for (const CouplerData::Term& term : c.terms)
       subtract(s_.joints[s_.motions[term.motion].joint],
-               y[c.lambda] * term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
+               y[s_.lambda(c)] * term.factor * motion_row<double>(s_, ws_, term.motion).gradient);
   }
   for (const SwitchData& element : s_.switches) // slipping friction acts as a force
-    if (element.kind == SwitchData::Kind::friction && !element.holds())
+    if (element.kind == SwitchData::Kind::friction && !s_.holds(element))
       out_.constraints[static_cast<std::size_t>(element.coupler)] =
-          s_.elements[static_cast<std::size_t>(element.list)]
-              .signals[static_cast<std::size_t>(element.law)];
+          s_.signals[static_cast<std::size_t>(element.list)][static_cast<std::size_t>(element.law)];
   for (int m = 0; m < static_cast<int>(s_.motions.size()); ++m) {
     const joint::Row<double> w = motion_row<double>(s_, ws_, m);
     const JointData& j = s_.joints[s_.motions[m].joint];
@@ -167,8 +166,8 @@ void Observer::share_reactions(const double* y) {
         for (int k = 0; k < b.n_active; ++k)
           G_T(b.u0 - s_.u0 + k, column) = gradient[6 * side + b.active[k]];
       }
-      if (row.kept())
-        load += y[row.lambda] * G_T.col(column);
+      if (s_.holds(row))
+        load += y[s_.lambda(row)] * G_T.col(column);
       ++column;
     }
   }

@@ -39,7 +39,7 @@ struct Observation {
 /// Evaluates observations; owns its scratch.
 class Observer {
 public:
-  explicit Observer(const System& system);
+  explicit Observer(const Regime& system);
 
   /// Fills `observation()` from t, y, y'. No allocation after the first call.
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
@@ -65,7 +65,7 @@ private:
   void subtract(const JointData& j, const joint::Vector12& load);
   void observe_energy();
 
-  const System& s_;
+  const Regime& s_;
   Workspace<double> ws_;
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes

@@ -14,7 +14,7 @@ template <int w, int n> struct PortGradient {
 
 /// s of a motion: W = ds/dxi, d(W u) = (T^T u) . dxi, turn = f T. A delayed law feels the present
 /// only where there is no past.
-inline void motion_gradient(const System& s, const Workspace<double>& ws, const PortData& port,
+inline void motion_gradient(const Regime& s, const Workspace<double>& ws, const PortData& port,
                             const joint::Vector12& row, double load, PortGradient<1, 12>& out) {
   const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
   const joint::Matrix12 T =
@@ -70,7 +70,7 @@ inline PointGradient point_gradient(const BodyState<double>& b, const Vector3& p
 /// Marker B seen from marker A. Places are the rows `span` of joints. Of rotations, with a the axes
 /// of A, N = R_A^T R_B, dN = -[dphi_A]x N + N [dphi_B]x:
 ///   omega = a^T (N w_B - w_A),   d theta = J(-theta) a^T (N dphi_B - dphi_A)
-inline void marker_gradient(const System& s, const Workspace<double>& ws, const PortData& port,
+inline void marker_gradient(const Regime& s, const Workspace<double>& ws, const PortData& port,
                             const double* x, const joint::Vector12* rows, const double* load,
                             PortGradient<6, 12>& out) {
   const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];

@@ -33,7 +33,7 @@ Vector6 load_on_b(const BasicRow& row) {
 /// Gradients of all rows of the scene that may be asked for, as columns by velocity coordinates.
 class Gradients {
 public:
-  explicit Gradients(const System& s) : s_(s), ws_(s) {
+  explicit Gradients(const Regime& s) : s_(s), ws_(s) {
     const VectorX y = initial_state(s), rest = VectorX::Zero(s.n);
     unpack<double>(s, y.data(), rest.data(), ws_.bodies);
   }
@@ -63,13 +63,13 @@ private:
         out[b.u0 - s_.u0 + k] += gradient[6 * side + b.active[k]];
     }
   }
-  const System& s_;
+  const Regime& s_;
   Workspace<double> ws_;
 };
 
 /// Redundant rows that rows of this joint are part of: the reactions may be shared with them in any
 /// way. "gap along x of 'guide', ..."; empty: none.
-std::string shared_rows(const System& s, const JointData& pressed) {
+std::string shared_rows(const Regime& s, const JointData& pressed) {
   constexpr double part = 1e-6;
   std::vector<std::pair<std::string, VectorX>> dropped;
   const Gradients gradients(s);
@@ -86,13 +86,11 @@ std::string shared_rows(const System& s, const JointData& pressed) {
   };
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
-      take(row.lambda, row_name(row.kind) + " of " + in_quotes(j.name), gradients.row(j, row.kind),
+      take(s.lambda(row), row_name(row.kind) + " of " + in_quotes(j.name), gradients.row(j, row.kind),
            &j == &pressed);
-  for (std::size_t c = 0; c < s.couplers.size(); ++c)
-    if (std::none_of(s.switches.begin(), s.switches.end(),
-                     [&](const SwitchData& w) { return w.coupler == static_cast<int>(c); }))
-      take(s.couplers[c].lambda, in_quotes(s.couplers[c].name), gradients.coupler(s.couplers[c]),
-           false);
+  for (const CouplerData& c : s.couplers)
+    if (c.of_switch < 0)
+      take(s.lambda(c), in_quotes(c.name), gradients.coupler(c), false);
   if (dropped.empty())
     return {};
   const Eigen::ColPivHouseholderQR<MatrixX> qr(kept);
@@ -132,6 +130,7 @@ void check_lengths(const JointData& j, const PortData& port, const std::string& 
 } // namespace
 
 void find_reactions(System& s) {
+  const Regime start(s);
   for (ElementList& list : s.elements)
     for (PortData& port : list.ports) {
       if (!port.bearing)
@@ -151,7 +150,7 @@ void find_reactions(System& s) {
                              " restricts no free coordinate, so that no reaction of it presses:"
                              " give the load itself as 'static', or free the bodies");
       check_lengths(j, port, key);
-      if (const std::string rows = shared_rows(s, j); !rows.empty())
+      if (const std::string rows = shared_rows(start, j); !rows.empty())
         throw ModelError(key, "how much presses joint " + in_quotes(j.name) +
                                   " is not known: its reaction may be shared in any way with "
                                   "redundant constraint rows (" +

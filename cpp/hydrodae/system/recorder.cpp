@@ -5,7 +5,7 @@
 
 namespace hydrodae::system {
 
-Recorder::Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp)
+Recorder::Recorder(const Regime& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
   const Observation& o = observer_.observe(t0, y, yp);
   power_ = powers();

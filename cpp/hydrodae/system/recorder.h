@@ -23,7 +23,7 @@ public:
   /// y and y' at a time inside the step that was accepted last.
   using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
 
-  Recorder(const System& system, double t0, const VectorX& y, const VectorX& yp);
+  Recorder(const Regime& system, double t0, const VectorX& y, const VectorX& yp);
 
   /// The columns, in the order of `sample`.
   const std::vector<Channel>& channels() const { return channels_; }
@@ -132,7 +132,7 @@ private:
   void take_turns();
   std::vector<double> powers() const;
 
-  const System& s_;
+  const Regime& s_;
   Observer observer_;
   std::vector<Channel> channels_;
   std::size_t width_ = 0;

@@ -83,9 +83,7 @@ Ranking rank_at(const System& s, Constraints& constraints, const Mask& mask, con
 }
 
 /// The start, and up to four closed poses near it.
-std::vector<VectorX> poses_near(const System& given, const VectorX& start) {
-  System s = given; // elsewhere than the start
-  s.starts.clear();
+std::vector<VectorX> poses_near(const Regime& s, const VectorX& start) {
   Constraints constraints(s);
   std::vector<VectorX> out{start};
   std::mt19937 random(7);
@@ -188,11 +186,9 @@ struct Selection {
   SparseMatrix G;                 ///< gradient where they were chosen
 };
 
-Selection select(const System& s, const Mask& mask, const std::vector<VectorX>& poses,
+Selection select(const Regime& s, const Mask& mask, const std::vector<VectorX>& poses,
                  double tolerance) {
-  System free = s;
-  free.starts.clear();
-  Constraints constraints(free);
+  Constraints constraints(s);
   std::vector<Ranking> rankings;
   for (const VectorX& y : poses)
     rankings.push_back(rank_at(s, constraints, mask, y));
@@ -219,13 +215,13 @@ Selection select(const System& s, const Mask& mask, const std::vector<VectorX>& 
 double drive_rate(const CouplerData& c, double t) { return c.drive(t)[c.velocity_level ? 0 : 1]; }
 
 /// A row that follows from others must follow from their drives, too, at all times.
-void check_drives(const System& s, const Constraints& constraints, const Selection& chosen,
+void check_drives(const Regime& s, const Constraints& constraints, const Selection& chosen,
                   const Fit& fit) {
   std::vector<const CouplerData*> drive(static_cast<std::size_t>(s.n_lambda), nullptr);
   bool any = false;
   for (const CouplerData& c : s.couplers)
-    if (c.kept() && moves(c)) {
-      drive[static_cast<std::size_t>(c.lambda - s.lambda0)] = &c;
+    if (s.holds(c) && moves(c)) {
+      drive[static_cast<std::size_t>(s.lambda(c) - s.lambda0)] = &c;
       any = true;
     }
   for (std::size_t k = 0; any && k < chosen.dropped.size(); ++k) {
@@ -276,22 +272,21 @@ void check_drives(const System& s, const Constraints& constraints, const Selecti
 
 } // namespace
 
-bool drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
-  if (s.n_lambda == 0)
-    return false;
-  System free = s;
-  free.starts.clear();
-  Constraints constraints(free);
-  Mask all(static_cast<std::size_t>(s.n_lambda), true), resting = all;
+void drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
+  const Regime rows(s);
+  if (rows.n_lambda == 0)
+    return;
+  Constraints constraints(rows);
+  Mask all(static_cast<std::size_t>(rows.n_lambda), true), resting = all;
   for (const CouplerData& c : s.couplers)
-    if (c.kept() && moves(c))
-      resting[static_cast<std::size_t>(c.lambda - s.lambda0)] = false;
+    if (rows.holds(c) && moves(c))
+      resting[static_cast<std::size_t>(rows.lambda(c) - s.lambda0)] = false;
   const Ranking now = rank_at(s, constraints, all, start);
   if (now.rank(suspicious) == now.rows.size())
-    return false;
-  const std::vector<VectorX> poses = poses_near(s, start);
+    return;
+  const std::vector<VectorX> poses = poses_near(rows, start);
   // First what is held for ever, then what the drives move.
-  const Selection held = select(s, resting, poses, fit.tolerance);
+  const Selection held = select(rows, resting, poses, fit.tolerance);
   for (std::size_t k = 1; k < held.kept.size() && !fit.force; ++k)
     if (held.pivots[k] < suspicious && held.pivots[k] < apart * held.pivots[k - 1])
       refuse_misaligned(constraints, held.G,
@@ -304,14 +299,14 @@ bool drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
     rest[static_cast<std::size_t>(i)] = true;
   for (std::size_t i = 0; i < all.size(); ++i)
     rest[i] = rest[i] || !resting[i];
-  const Selection moved = resting == all ? held : select(s, rest, poses, dependent);
-  check_drives(s, constraints, moved, fit);
+  const Selection moved = resting == all ? held : select(rows, rest, poses, dependent);
+  check_drives(rows, constraints, moved, fit);
   if (moved.kept.size() > moved.at_start)
     s.notes.push_back(
         "the start is a singular pose: " + std::to_string(moved.kept.size() - moved.at_start) +
         " more degrees of freedom there than nearby");
   if (moved.kept.size() == all.size())
-    return false;
+    return;
   std::set<std::string> told;
   std::vector<std::string> loose;
   for (const RankedRow& row : held.dropped) {
@@ -326,19 +321,19 @@ bool drop_dependent_rows(System& s, const VectorX& start, const Fit& fit) {
   std::vector<Index> kept = moved.kept;
   std::sort(kept.begin(), kept.end());
   std::vector<std::string> names;
-  for_each_row(s, [&](Index& lambda, Index& mu, bool velocity_level) {
+  for_each_row(s, [&](Row& row, bool velocity_level) {
+    const Index lambda = rows.lambda(row);
     if (lambda == redundant || std::binary_search(kept.begin(), kept.end(), lambda - s.lambda0))
       return; // a switch that is open has no row now
-    names.push_back(s.row_names[velocity_level ? lambda : mu]);
-    lambda = mu = redundant;
+    names.push_back(rows.row_names[velocity_level ? lambda : rows.mu(row)]);
+    row.dropped = true;
   });
   s.notes.push_back(std::to_string(names.size()) +
                     " redundant constraint rows, which follow from the others: " + joined(names));
   s.notes.insert(s.notes.end(), loose.begin(), loose.end());
-  return true;
 }
 
-DroppedGap largest_dropped_gap(const System& s, double t, const VectorX& y) {
+DroppedGap largest_dropped_gap(const Regime& s, double t, const VectorX& y) {
   Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
   unpack<double>(s, y.data(), rest.data(), ws.bodies);
@@ -351,20 +346,16 @@ DroppedGap largest_dropped_gap(const System& s, double t, const VectorX& y) {
   };
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
-      if (!row.kept())
+      if (row.dropped)
         take(j, "joint." + j.name, "joints/" + j.name + " " + row_name(row.kind),
              joint::basic_row<double>(row.kind, j.A, j.B, j.parameters,
                                       joint_geometry<double>(j, ws.bodies))
                  .value,
              row.kind.kind == joint::BasicRow::Kind::perp);
-  for (std::size_t k = 0; k < s.couplers.size(); ++k) {
-    const CouplerData& c = s.couplers[k];
-    const bool of_switch = std::any_of(s.switches.begin(), s.switches.end(), [&](const auto& e) {
-      return e.coupler == static_cast<int>(k);
-    });
-    if (c.kept() || of_switch || c.velocity_level)
+  for (const CouplerData& c : s.couplers) {
+    if (!c.dropped || c.velocity_level)
       continue;
-    double gap = -c.offset - c.drive(t)[0];
+    double gap = -s.offset(c) - s.drive(c, t)[0];
     for (const CouplerData::Term& term : c.terms)
       gap += term.factor * motion_row<double>(s, ws, term.motion).value;
     const MotionData& m = s.motions[c.terms.front().motion];

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hydrodae/system/system.h"
+#include "hydrodae/system/regime.h"
 
 namespace hydrodae::system {
 
@@ -19,9 +19,8 @@ struct Fit {
 /// the scaled gradient, there and at perturbed poses), and notes them. A rank that is lost in the
 /// pose of the start alone is a singular pose: noted, nothing dropped. Throws ModelError where rows
 /// are so nearly dependent that a misalignment locks the mechanism, and where drives contradict
-/// each other. After it the layout has to be made anew.
-/// @returns whether rows were dropped
-bool drop_dependent_rows(System& system, const VectorX& y, const Fit& fit);
+/// each other.
+void drop_dependent_rows(System& system, const VectorX& y, const Fit& fit);
 
 /// The largest gap of a row that was dropped, at y and t.
 struct DroppedGap {
@@ -30,6 +29,6 @@ struct DroppedGap {
   double part = 0.0;     ///< of the lever, or of one radian
   bool angle = false;
 };
-DroppedGap largest_dropped_gap(const System& system, double t, const VectorX& y);
+DroppedGap largest_dropped_gap(const Regime& regime, double t, const VectorX& y);
 
 } // namespace hydrodae::system

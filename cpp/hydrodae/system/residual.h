@@ -11,7 +11,7 @@ namespace hydrodae::system {
 /// The two rows of a constraint by the formulation (see system.h), from its gap, rate and rate of
 /// the rate; `mu` < 0: a row at velocity level.
 template <class S>
-void constraint_rows(const System& s, const S* y, Index lambda, Index mu, const S& gap,
+void constraint_rows(const Regime& s, const S* y, Index lambda, Index mu, const S& gap,
                      const S& rate, const S& acceleration, S* residual) {
   if (mu >= 0)
     residual[mu] = s.formulation == Formulation::stabilised ? gap : y[mu];
@@ -29,7 +29,7 @@ void constraint_rows(const System& s, const S* y, Index lambda, Index mu, const 
 /// gradient . u' + u . (d gradient / dt): what index 1 needs, zero elsewhere. (Index 1 is for
 /// comparisons on the kernel's scalar; other scalars only pass through here.)
 template <class S, class Curvature>
-S row_acceleration(const System& s, const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
+S row_acceleration(const Regime& s, const joint::Vec12<S>& gradient, const joint::Vec12<S>& u,
                    const joint::Vec12<S>& u_dot, Curvature&& curvature) {
   if (s.formulation != Formulation::index_1)
     return S(0);
@@ -53,23 +53,23 @@ joint::Geometry<double> geometry_values(const JointData& j, const Workspace<S>& 
 }
 
 /// Constraint rows, and G^T lambda, G^T mu added to the loads and shifts of the bodies.
-template <class S> void add_joints(const System& s, Workspace<S>& ws, const S* y, S* residual) {
+template <class S> void add_joints(const Regime& s, Workspace<S>& ws, const S* y, S* residual) {
   for (const JointData& j : s.joints) {
     const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
     const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
     const joint::Vec12<S> u_dot = joint_acceleration<S>(j, ws.bodies);
     joint::Vec12<S> load = joint::Vec12<S>::Zero(), shift = joint::Vec12<S>::Zero();
     for (const RowData& row : j.rows) {
-      if (!row.kept())
+      if (!s.holds(row))
         continue;
       const joint::Row<S> value = joint::basic_row<S>(row.kind, j.A, j.B, j.parameters, g);
       const S acceleration = row_acceleration<S>(s, value.gradient, u, u_dot, [&] {
         return joint::basic_curvature(row.kind, j.A, j.B, j.parameters, geometry_values(j, ws));
       });
-      constraint_rows<S>(s, y, row.lambda, row.mu, value.value,
+      constraint_rows<S>(s, y, s.lambda(row), s.mu(row), value.value,
                          value.gradient.cwiseProduct(u).sum(), acceleration, residual);
-      load += y[row.lambda] * value.gradient;
-      shift += y[row.mu] * value.gradient;
+      load += y[s.lambda(row)] * value.gradient;
+      shift += y[s.mu(row)] * value.gradient;
     }
     add_to_bodies<S>(j, load, ws.loads);
     add_to_bodies<S>(j, shift, ws.shifts);
@@ -78,13 +78,13 @@ template <class S> void add_joints(const System& s, Workspace<S>& ws, const S* y
 
 /// Rows on motions: sum_k c_k s_k = offset + f(t) and its rate, or at velocity level only.
 template <class S>
-void add_couplers(const System& s, Workspace<S>& ws, double t, const S* y, S* residual) {
+void add_couplers(const Regime& s, Workspace<S>& ws, double t, const S* y, S* residual) {
   for (const CouplerData& coupler : s.couplers) {
-    if (!coupler.kept())
+    if (!s.holds(coupler))
       continue;
-    const std::array<double, 3> f = coupler.drive(t);
+    const std::array<double, 3> f = s.drive(coupler, t);
     const bool position = !coupler.velocity_level;
-    S value = S(-coupler.offset - f[0]), rate = S(position ? -f[1] : -f[0]);
+    S value = S(-s.offset(coupler) - f[0]), rate = S(position ? -f[1] : -f[0]);
     S acceleration = S(position ? -f[2] : -f[1]);
     for (const CouplerData::Term& term : coupler.terms) {
       const JointData& j = s.joints[s.motions[term.motion].joint];
@@ -98,18 +98,18 @@ void add_couplers(const System& s, Workspace<S>& ws, double t, const S* y, S* re
             return term.factor * joint::motion_curvature(s.motions[term.motion].motion, j.A, j.B,
                                                          geometry_values(j, ws));
           });
-      add_to_bodies<S>(j, y[coupler.lambda] * gradient, ws.loads);
+      add_to_bodies<S>(j, y[s.lambda(coupler)] * gradient, ws.loads);
       if (position)
-        add_to_bodies<S>(j, y[coupler.mu] * gradient, ws.shifts);
+        add_to_bodies<S>(j, y[s.mu(coupler)] * gradient, ws.shifts);
     }
-    constraint_rows<S>(s, y, coupler.lambda, position ? coupler.mu : redundant, value, rate,
+    constraint_rows<S>(s, y, s.lambda(coupler), position ? s.mu(coupler) : redundant, value, rate,
                        acceleration, residual);
   }
 }
 
 /// Momentum rows M u' - f - G^T lambda, position rows q' - E(q)(u + G^T mu) - sigma p, norm rows.
 template <class S>
-void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp, S* residual) {
+void body_rows(const Regime& s, const Workspace<S>& ws, const S* y, const S* yp, S* residual) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const BodyData& body = s.bodies[i];
     if (body.n_active == 0)
@@ -132,15 +132,15 @@ void body_rows(const System& s, const Workspace<S>& ws, const S* y, const S* yp,
       const Vec3<S> w = state.w + shift.template tail<3>();
       const Vec4<S> p_dot = S(0.5) * (quaternion_rate_matrix<S>(state.p) * w);
       for (int k = 0; k < 4; ++k)
-        residual[q + k] = yp[q + k] - p_dot[k] - y[body.sigma] * state.p[k];
-      residual[body.sigma] = S(0.5) * (state.p.cwiseProduct(state.p).sum() - S(1));
+        residual[q + k] = yp[q + k] - p_dot[k] - y[s.sigma(body)] * state.p[k];
+      residual[s.sigma(body)] = S(0.5) * (state.p.cwiseProduct(state.p).sum() - S(1));
     }
   }
 }
 
 /// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
 template <class S>
-void residual(const System& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
+void residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
   unpack<S>(s, y, yp, ws.bodies);
   ws.time = t;
   ws.past = past_at(s, t);

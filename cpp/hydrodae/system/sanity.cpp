@@ -120,7 +120,7 @@ std::pair<double, double> motion_rate(const System& s, const Workspace<double>& 
 
 /// Random velocities that the constraints let pass, those that a drive moves too: a random vector
 /// less its part in the rows of the constraints. In units of the scales.
-VectorX allowed_velocities(const System& s, const VectorX& y, std::mt19937& random) {
+VectorX allowed_velocities(const Regime& s, const VectorX& y, std::mt19937& random) {
   VectorX u(s.n_u);
   for (Index k = 0; k < s.n_u; ++k)
     u[k] = 2.0 * (random() / 4294967296.0) - 1.0;
@@ -130,8 +130,8 @@ VectorX allowed_velocities(const System& s, const VectorX& y, std::mt19937& rand
   for (const CouplerData& c : s.couplers) {
     const bool steady =
         c.drive.rate == 0.0 && c.drive.amplitude == 0.0 && c.drive.time.empty() && !c.drive.python;
-    if (c.kept() && !steady)
-      acts[c.lambda - s.lambda0] = 0.0;
+    if (s.holds(c) && !steady)
+      acts[s.lambda(c) - s.lambda0] = 0.0;
   }
   SparseMatrix rows = acts.asDiagonal() * constraint_gradient(s, y);
   rows.prune(0.0);
@@ -141,7 +141,7 @@ VectorX allowed_velocities(const System& s, const VectorX& y, std::mt19937& rand
 }
 
 /// A pose beside the start that keeps the constraints, to tell a lock from a dead point.
-VectorX pose_beside(const System& s, std::mt19937& random) {
+VectorX pose_beside(const Regime& s, std::mt19937& random) {
   const VectorX start = initial_state(s), scale = displacement_scale(s);
   VectorX y = start, step(s.n_u);
   for (Index k = 0; k < s.n_u; ++k)
@@ -151,7 +151,7 @@ VectorX pose_beside(const System& s, std::mt19937& random) {
 }
 
 /// Forces along motions that cannot change, neither at the start nor beside it.
-void judge_forces(const System& s, std::vector<Finding>& out) {
+void judge_forces(const Regime& s, std::vector<Finding>& out) {
   std::vector<const PortData*> ports;
   for_each_law(s, [&](const ElementList&, std::size_t, const PortData& port) {
     if (port.motion >= 0)
@@ -212,7 +212,7 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& 
   std::vector<Finding> out;
   judge_joints(scene, s, out);
   judge_depth(scene, out);
-  judge_forces(s, out);
+  judge_forces(Regime(s), out);
   judge_stops(scene, s, out);
   return out;
 }

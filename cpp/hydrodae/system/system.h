@@ -1,6 +1,6 @@
 #pragma once
-/// The equations of motion of a scene (constant after `build`), in the stabilised index-2 form of
-/// Gear, Gupta and Leimkuhler (J. Comput. Appl. Math. 12-13 (1985) 77-90):
+/// The equations of motion of a scene, in the stabilised index-2 form of Gear, Gupta and Leimkuhler
+/// (J. Comput. Appl. Math. 12-13 (1985) 77-90):
 ///
 ///   q' = E(q) (u + G^T mu) + sigma p            p.p = 1 for each quaternion
 ///   M(q) u' = f(t, q, u, z) + G^T lambda
@@ -9,6 +9,8 @@
 ///
 /// State vector y = [q | u | z | lambda | mu | sigma]; the row of an algebraic unknown holds the
 /// equation it belongs to: lambda - velocity constraint, mu - position constraint, sigma - norm.
+/// A System is built once and constant from then on; which of its rows hold at a time of a run, and
+/// where their multipliers stand in y, is told by a Regime (regime.h).
 
 #include <algorithm>
 #include <array>
@@ -44,7 +46,8 @@ struct BodyData {
   int n_active = 0;                 ///< number of velocity unknowns
   int n_translations = 0;           ///< how many of them are translations (they come first)
   int n_position = 0;               ///< number of position unknowns (n_active, or 7)
-  Index q0 = 0, u0 = 0, sigma = -1; ///< offsets into y
+  Index q0 = 0, u0 = 0;     ///< offsets into y
+  Index norm = -1;          ///< of its quaternion, among those of all bodies; -1: it has none
   double length_scale = 1.0;        ///< [m], what a position error is measured by
   double lever = 1.0;               ///< [m], turns lengths into angles
   bool time_scale_known = true;     ///< else taken from the start (no gravity, none given)
@@ -55,11 +58,16 @@ struct BodyData {
 
 inline constexpr Index redundant = -1; ///< in place of a multiplier: the row follows from others
 
-/// One constraint row that restricts a free coordinate, with its two multipliers.
-struct RowData {
+/// A row of constraint, with two multipliers while it holds.
+struct Row {
+  std::size_t number = 0; ///< among all rows
+  bool dropped = false;   ///< it follows from others, and never holds
+};
+
+/// A row of a joint that restricts a free coordinate.
+struct RowData : Row {
   joint::BasicRow kind;
-  Index lambda = 0, mu = 0;
-  bool kept() const { return lambda != redundant; }
+  explicit RowData(const joint::BasicRow& basic) : kind(basic) {}
 };
 
 struct JointData {
@@ -88,7 +96,7 @@ struct MotionStart {
 };
 
 /// A condition on motions: sum_k factor_k s_k = offset + f(t), or on their rates: = f(t).
-struct CouplerData {
+struct CouplerData : Row {
   struct Term {
     int motion = 0;
     double factor = 1.0;
@@ -98,8 +106,7 @@ struct CouplerData {
   double offset = 0.0;
   model::Drive drive;
   bool velocity_level = false; ///< then it has no mu
-  Index lambda = 0, mu = 0;
-  bool kept() const { return lambda != redundant; }
+  int of_switch = -1;          ///< in System::switches, -1: it always holds
 };
 
 /// Where a law is joined to the bodies: along a motion, on a body, or between the markers of a
@@ -127,7 +134,6 @@ struct PortData {
 struct ElementList {
   std::shared_ptr<const element::Elements> laws;
   std::vector<PortData> ports; ///< one a law
-  std::vector<double> signals; ///< held from event to event
   Index z0 = 0;                ///< states of the first law, in y
 };
 
@@ -145,8 +151,7 @@ struct MarkerData {
   bool body_axes = false;          ///< of velocity and acceleration
 };
 
-/// A coupler that holds at times only. While it is open its multipliers are `redundant`, and it
-/// costs nothing.
+/// A coupler that holds at times only. While it is open it has no multipliers, and costs nothing.
 ///   stop      lower <= s <= upper; its load pushes back only
 ///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (the signal of
 ///   its law). Of a law that the joint presses both are coefficients.
@@ -154,14 +159,14 @@ struct SwitchData {
   enum class Kind { stop, friction };
   enum class State { open, lower, upper, stick, forward, backward };
   Kind kind = Kind::stop;
-  State state = State::open;
+  std::size_t number = 0; ///< in System::switches
   int coupler = 0; ///< in System::couplers
   int motion = 0;  ///< in System::motions
   double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
   double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m], or coefficients [-]
   std::optional<double> contact_time;           ///< of an impact [s]
   int list = -1, law = -1;                      ///< of friction: in System::elements, and in there
-  bool holds() const {
+  static bool holds(State state) {
     return state == State::lower || state == State::upper || state == State::stick;
   }
 };
@@ -175,16 +180,6 @@ struct StateBlock {
   std::vector<element::Unknown> unknowns;
 };
 
-/// Which equations the rows of the multipliers hold. In all but the first mu = 0.
-///   stabilised   0 = g, 0 = G u               index 2 (Gear, Gupta and Leimkuhler)
-///   index_2      0 = G u                      the gap g drifts
-///   index_3      0 = g
-///   index_1      0 = G u' + gamma + 2 b (G u) + b^2 g    Baumgarte's rate b [1/s], 0: none
-/// Rows given at velocity level stay there, but in index 1.
-enum class Formulation { stabilised, index_2, index_3, index_1 };
-
-class History;
-
 struct System {
   // Written once, in system.cpp: it holds much, and many files hold one.
   System();
@@ -195,8 +190,6 @@ struct System {
   System& operator=(System&&) noexcept;
 
   double gravity = 9.81;
-  Formulation formulation = Formulation::stabilised;
-  double baumgarte_rate = 0.0; ///< b of index 1 [1/s]
   std::vector<BodyData> bodies;
   std::vector<JointData> joints;
   std::vector<MotionData> motions;
@@ -208,46 +201,31 @@ struct System {
   std::vector<DelayData> delays;
   HydroData hydro;
 
-  /// What has happened up to the last accepted step (history.h); owned by the run. Null: all has
-  /// been at rest for ever.
-  const History* history = nullptr;
-
-  Index n = 0;                     ///< unknowns
-  Index n_q = 0, n_u = 0, n_z = 0; ///< positions, velocities, states of elements
-  Index n_lambda = 0, n_mu = 0;    ///< rows at velocity level, those also at position level
-  Index u0 = 0, z0 = 0, lambda0 = 0, mu0 = 0, sigma0 = 0;
+  Index n_q = 0, n_u = 0, n_z = 0;        ///< positions, velocities, states of elements
+  Index u0 = 0, z0 = 0, lambda0 = 0;      ///< where the last two begin in y, and the multipliers
   Index memory0 = 0; ///< states from there on are linear with constant coefficients, and condensed
+  Index n_norms = 0;      ///< of quaternions
+  std::size_t n_rows = 0; ///< of constraint, those among them that never hold or not now
   std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
   std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
   std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
   VectorX group_size;                 ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
-  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
-  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
-  VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
-  VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0
-  VectorX row_scale;                  ///< (n,) size of each residual row that matters, for messages
-  std::vector<bool> algebraic;        ///< (n,) multipliers, and what elements declare so
-  std::vector<std::string> names;     ///< (n,) of the unknowns, as channels
-  std::vector<std::string> row_names; ///< (n,) of the equations
-  std::vector<std::string> notes;     ///< what the build found worth telling
+  std::vector<std::string> notes; ///< what the build found worth telling
 
   Index n_error_groups() const { return group_size.size(); }
-  /// A state whose scale does not follow the motion.
-  bool is_absolute(Index i) const { return i >= z0 && i < lambda0 && relative[i] == 0.0; }
-  bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }
   bool has_memory() const { return memory0 < lambda0; }
   bool has_waves() const; ///< that any of the elements feels
 };
 
-/// Visits all constraint rows in the order of their multipliers: visit(lambda, mu, velocity_level).
+/// Visits all constraint rows in the order of their multipliers: visit(row, velocity_level).
 template <class Anysystem, class Visitor> void for_each_row(Anysystem& s, Visitor&& visit) {
   for (auto& j : s.joints)
     for (auto& row : j.rows)
-      visit(row.lambda, row.mu, false);
+      visit(row, false);
   for (auto& coupler : s.couplers)
-    visit(coupler.lambda, coupler.mu, coupler.velocity_level);
+    visit(coupler, coupler.velocity_level);
 }
 
 /// Visits all that loads the bodies, weight apart, in the order of states and results:
@@ -287,18 +265,13 @@ void calm(System& system);
 /// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
 System build(const model::Scene& scene, bool with_excitation = true);
 
-/// Puts a switch into a state: its coupler holds or not, its friction slips or not. Then
-/// `lay_out` has to be called; of y only q, u, z keep their places.
-void set_state(System& system, SwitchData& element, SwitchData::State state);
-
-/// Offsets, scales and names of all unknowns, after rows came or went.
-void lay_out(System& system);
+/// Offsets of positions, velocities and states, numbers of rows and groups, after bodies, rows or
+/// elements were added.
+void number(System& system);
 
 /// Time scales of bodies that have none yet, from the velocities and accelerations of the start:
-/// the time in which a body moves, or speeds up by, its own length. The tolerances follow.
+/// the time in which a body moves, or speeds up by, its own length.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
 
-/// The start: y with positions, velocities, states as declared and zero multipliers.
-VectorX initial_state(const System& system);
 
 } // namespace hydrodae::system

@@ -17,7 +17,7 @@ bool all_finite(std::span<const double> values) {
 
 } // namespace
 
-std::string unknown_load(const System& s, const Workspace<double>& ws) {
+std::string unknown_load(const Regime& s, const Workspace<double>& ws) {
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
     const element::Elements& laws = *s.elements[i].laws;
     const auto n_in = static_cast<std::size_t>(laws.shape.n_in()),

@@ -10,6 +10,6 @@ namespace hydrodae::system {
 /// What a message says of the first law whose load in the last evaluation of `ws` is no number,
 /// though it saw numbers: "catenary 'bow': end B is 2 m below the seabed ..."; empty: there is
 /// none.
-std::string unknown_load(const System& system, const Workspace<double>& ws);
+std::string unknown_load(const Regime& system, const Workspace<double>& ws);
 
 } // namespace hydrodae::system

@@ -45,7 +45,7 @@ model::Scene heaving() {
 }
 
 /// y, y' of the heaving body at t.
-void motion(const system::System& s, double t, VectorX& y, VectorX& yp) {
+void motion(const system::Regime& s, double t, VectorX& y, VectorX& yp) {
   y = system::initial_state(s);
   yp = VectorX::Zero(s.n);
   y[s.u0] = std::sin(w * t);
@@ -65,7 +65,7 @@ double exact(double t) {
   return ((real_kernel(i * w) - real_kernel(-i * w)) / (2.0 * i)).real();
 }
 
-double convolution(const system::System& s, const system::History& history, double t) {
+double convolution(const system::Regime& s, const system::History& history, double t) {
   const system::Past& past = history.at(t);
   CHECK(past.t == t);
   VectorX y, yp;
@@ -75,7 +75,8 @@ double convolution(const system::System& s, const system::History& history, doub
 
 /// Error at the end of steps of about h, of lengths that vary by a factor of three.
 double error(double h) {
-  const system::System s = system::build(heaving());
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
   system::History history(s);
   VectorX y, yp;
   double t = 0.0;
@@ -122,7 +123,8 @@ TEST_CASE("the convolution with variable steps converges with order four") {
 
 TEST_CASE("inside and at the ends of steps the convolution is the same before and after they are "
           "accepted") {
-  const system::System s = system::build(heaving());
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
   system::History history(s);
   VectorX y, yp;
   for (const double t : {0.0, 0.3, 0.5, 0.9}) {
@@ -137,7 +139,8 @@ TEST_CASE("inside and at the ends of steps the convolution is the same before an
 }
 
 TEST_CASE("a jump of the velocity counts from its time on") {
-  const system::System s = system::build(heaving());
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
   system::History history(s);
   VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
   history.append(0.0, y, yp); // at rest until 2 s, then U = 1
@@ -153,7 +156,8 @@ TEST_CASE("a jump of the velocity counts from its time on") {
 TEST_CASE("a long history forgets what is older than the memory") {
   model::Scene scene = heaving();
   scene.hydro->memory_length = 10.0;
-  const system::System s = system::build(scene);
+  const system::System built = system::build(scene);
+  const system::Regime s(built);
   CHECK(s.hydro.convolution.length == doctest::Approx(10.0));
   system::History all(s), late(s);
   VectorX y, yp;
@@ -189,7 +193,8 @@ TEST_CASE("the residual feels a delayed coordinate as it was") {
   pto.damping = 2.0;
   pto.delay = 0.5;
   std::get<std::vector<element::PtoLinear>>(scene.forces).push_back(pto);
-  system::System s = system::build(scene);
+  const system::System built = system::build(scene);
+  system::Regime s(built);
   system::History history(s);
   auto x = [](double t) { return 0.3 + 0.2 * t * t * t; }; // what the polynomials hold exactly
   VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);

@@ -21,7 +21,7 @@ using namespace hydrodae::system;
 constexpr Index dense = 1 << 20, sparse = 0; // limits that leave only one of the methods
 
 /// Gradient of all rows of all joints, the redundant ones included [m or rad per m or rad].
-SparseMatrix full_gradient(const System& s, const VectorX& y) {
+SparseMatrix full_gradient(const Regime& s, const VectorX& y) {
   Workspace<double> ws(s);
   const VectorX rest = VectorX::Zero(s.n);
   unpack<double>(s, y.data(), rest.data(), ws.bodies);
@@ -55,7 +55,8 @@ std::vector<std::pair<std::string, SparseMatrix>> gradients() {
   for (const auto& file : std::filesystem::directory_iterator(root)) {
     if (file.path().extension() != ".toml")
       continue;
-    const System s = build(io::read_case(file.path().string()));
+    const System built = build(io::read_case(file.path().string()));
+    const Regime s(built);
     if (s.n_lambda == 0 || s.n_u > 1000) // dense: cubic
       continue;
     VectorX y = initial_state(s);
