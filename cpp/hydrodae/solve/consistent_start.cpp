@@ -52,7 +52,8 @@ void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
     const std::string key = "joint." + j.name;
     for (const system::RowData& row : j.rows)
       if (s.holds(row))
-        check_row(s, r, key, s.lambda(row), s.mu(row), row.kind.kind == joint::BasicRow::Kind::perp);
+        check_row(s, r, key, s.lambda(row), s.mu(row),
+                  row.kind.kind == joint::BasicRow::Kind::perp);
     // Rows of perpendicular axes also vanish when B is flipped. Axes that the joint ties stay
     // aligned: those of which no row of the type measures the angle between like axes.
     const auto g = system::joint_geometry<double>(j, ws.bodies);

@@ -27,7 +27,7 @@ LinearMatrices linear_matrices(const system::Regime& regime, const system::Patte
 
 /// A scene at rest.
 struct Rest {
-  VectorX y; ///< with the reactions
+  VectorX y;                               ///< with the reactions
   std::vector<system::Regime::Mode> modes; ///< (n_switches,) which stops hold
 };
 

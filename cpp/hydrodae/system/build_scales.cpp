@@ -134,8 +134,8 @@ void set_scales(Regime& s) {
   for (const CouplerData& c : s.couplers) {
     const MotionData& motion = s.motions[c.terms.front().motion];
     if (s.holds(c))
-      set_row(s, joint_scale(s, s.joints[motion.joint]), s.lambda(c), c.velocity_level ? -1 : s.mu(c),
-              motion.motion.is_angle());
+      set_row(s, joint_scale(s, s.joints[motion.joint]), s.lambda(c),
+              c.velocity_level ? -1 : s.mu(c), motion.motion.is_angle());
   }
   for (const StateBlock& block : s.states) {
     const double time =

@@ -86,8 +86,8 @@ std::string shared_rows(const Regime& s, const JointData& pressed) {
   };
   for (const JointData& j : s.joints)
     for (const RowData& row : j.rows)
-      take(s.lambda(row), row_name(row.kind) + " of " + in_quotes(j.name), gradients.row(j, row.kind),
-           &j == &pressed);
+      take(s.lambda(row), row_name(row.kind) + " of " + in_quotes(j.name),
+           gradients.row(j, row.kind), &j == &pressed);
   for (const CouplerData& c : s.couplers)
     if (c.of_switch < 0)
       take(s.lambda(c), in_quotes(c.name), gradients.coupler(c), false);

@@ -62,15 +62,15 @@ struct Regime {
   std::vector<Mode> modes;                  ///< (n_switches,)
   std::vector<std::vector<double>> signals; ///< of the laws of each list
   std::vector<double> static_loads;         ///< (n_switches,) of dry friction
-  std::vector<double> rates;    ///< (n_couplers,) constant part of drives at velocity level
-  std::vector<double> nearby;   ///< (n_motions,) coordinates near those now: they tell the turn
-  VectorX motion_scale;         ///< (n_groups,) part of the full scales that its motion takes
-  VectorX translation_scale;    ///< (n_groups,) of which its translations take so much
+  std::vector<double> rates;  ///< (n_couplers,) constant part of drives at velocity level
+  std::vector<double> nearby; ///< (n_motions,) coordinates near those now: they tell the turn
+  VectorX motion_scale;       ///< (n_groups,) part of the full scales that its motion takes
+  VectorX translation_scale;  ///< (n_groups,) of which its translations take so much
 
   // What follows from that: the layout of y and of the residual.
-  Index n = 0;                   ///< unknowns
-  Index n_lambda = 0, n_mu = 0;  ///< rows at velocity level, those also at position level
-  Index mu0 = 0, sigma0 = 0;     ///< where multipliers of positions and of norms begin
+  Index n = 0;                        ///< unknowns
+  Index n_lambda = 0, n_mu = 0;       ///< rows at velocity level, those also at position level
+  Index mu0 = 0, sigma0 = 0;          ///< where multipliers of positions and of norms begin
   std::vector<Index> lambdas, mus;    ///< (n_rows,) `redundant`: the row does not hold
   VectorX scale;                      ///< (n,) what one unit of tolerance means for each unknown
   VectorX relative;                   ///< (n,) 1 where the tolerance also grows with |y|, else 0

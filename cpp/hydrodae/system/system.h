@@ -41,19 +41,19 @@ struct BodyData {
   Vector3 velocity = Vector3::Zero();         ///< start [m/s]
   Vector3 angular_velocity = Vector3::Zero(); ///< start, body axes [rad/s]
   Rotation rotation = Rotation::locked;
-  int axis = 1;                     ///< of Rotation::about_axis
-  std::array<int, 6> active{};      ///< tangent component of each velocity unknown
-  int n_active = 0;                 ///< number of velocity unknowns
-  int n_translations = 0;           ///< how many of them are translations (they come first)
-  int n_position = 0;               ///< number of position unknowns (n_active, or 7)
-  Index q0 = 0, u0 = 0;     ///< offsets into y
-  Index norm = -1;          ///< of its quaternion, among those of all bodies; -1: it has none
-  double length_scale = 1.0;        ///< [m], what a position error is measured by
-  double lever = 1.0;               ///< [m], turns lengths into angles
-  bool time_scale_known = true;     ///< else taken from the start (no gravity, none given)
-  double time_scale = 1.0;          ///< [s], turns lengths into velocities
-  int mechanism = -1; ///< of bodies that constraint rows hold together; -1: cannot move
-  int group = -1;     ///< of bodies that move each other in any way: by rows, forces, or the water
+  int axis = 1;                 ///< of Rotation::about_axis
+  std::array<int, 6> active{};  ///< tangent component of each velocity unknown
+  int n_active = 0;             ///< number of velocity unknowns
+  int n_translations = 0;       ///< how many of them are translations (they come first)
+  int n_position = 0;           ///< number of position unknowns (n_active, or 7)
+  Index q0 = 0, u0 = 0;         ///< offsets into y
+  Index norm = -1;              ///< of its quaternion, among those of all bodies; -1: it has none
+  double length_scale = 1.0;    ///< [m], what a position error is measured by
+  double lever = 1.0;           ///< [m], turns lengths into angles
+  bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
+  double time_scale = 1.0;      ///< [s], turns lengths into velocities
+  int mechanism = -1;           ///< of bodies that constraint rows hold together; -1: cannot move
+  int group = -1; ///< of bodies that move each other in any way: by rows, forces, or the water
 };
 
 inline constexpr Index redundant = -1; ///< in place of a multiplier: the row follows from others
@@ -160,8 +160,8 @@ struct SwitchData {
   enum class State { open, lower, upper, stick, forward, backward };
   Kind kind = Kind::stop;
   std::size_t number = 0; ///< in System::switches
-  int coupler = 0; ///< in System::couplers
-  int motion = 0;  ///< in System::motions
+  int coupler = 0;        ///< in System::couplers
+  int motion = 0;         ///< in System::motions
   double lower = -INFINITY, upper = INFINITY, restitution = 0.0;
   double static_load = 0.0, kinetic_load = 0.0; ///< [N or N m], or coefficients [-]
   std::optional<double> contact_time;           ///< of an impact [s]
@@ -201,10 +201,10 @@ struct System {
   std::vector<DelayData> delays;
   HydroData hydro;
 
-  Index n_q = 0, n_u = 0, n_z = 0;        ///< positions, velocities, states of elements
-  Index u0 = 0, z0 = 0, lambda0 = 0;      ///< where the last two begin in y, and the multipliers
+  Index n_q = 0, n_u = 0, n_z = 0;   ///< positions, velocities, states of elements
+  Index u0 = 0, z0 = 0, lambda0 = 0; ///< where the last two begin in y, and the multipliers
   Index memory0 = 0; ///< states from there on are linear with constant coefficients, and condensed
-  Index n_norms = 0;      ///< of quaternions
+  Index n_norms = 0; ///< of quaternions
   std::size_t n_rows = 0; ///< of constraint, those among them that never hold or not now
   std::vector<StateBlock> states;
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
@@ -212,7 +212,7 @@ struct System {
   std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
   VectorX group_size;                 ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
-  std::vector<std::string> notes; ///< what the build found worth telling
+  std::vector<std::string> notes;     ///< what the build found worth telling
 
   Index n_error_groups() const { return group_size.size(); }
   bool has_memory() const { return memory0 < lambda0; }
@@ -272,6 +272,5 @@ void number(System& system);
 /// Time scales of bodies that have none yet, from the velocities and accelerations of the start:
 /// the time in which a body moves, or speeds up by, its own length.
 void take_time_scales(System& system, const VectorX& y, const VectorX& yp);
-
 
 } // namespace hydrodae::system
