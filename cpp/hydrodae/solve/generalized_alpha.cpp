@@ -7,7 +7,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/math/rotation.h"
 #include "hydrodae/solve/equations.h"
-#include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/newton_matrix.h"
 #include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/assemble.h"
 
@@ -31,8 +31,8 @@ public:
   GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
                    const model::SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
-      : s_(system), e_(system, pattern, newton_tolerance), lu_(pattern.column_start, pattern.row),
-        t_(t0), t0_(t0), h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y),
+      : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, newton_tolerance),
+        newton_matrix_(system, pattern_), t_(t0), t0_(t0), h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y),
         yp0_(yp), trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)),
         a_new_(a_), velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
@@ -65,8 +65,9 @@ private:
   [[noreturn]] void fail(const std::string& reason);
 
   const system::Regime& s_;
+  const system::Pattern pattern_;
   Equations e_;
-  SparseLu<double> lu_;
+  NewtonMatrix<double> newton_matrix_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
   double error_constant_ = 0; ///< of the positions, of h^3 q'''
   double t_ = 0.0, t0_ = 0.0, h_;
@@ -120,15 +121,10 @@ void GeneralizedAlpha::update(double h) {
 
 bool GeneralizedAlpha::refresh(double t, double h) {
   e_.jacobian(t, trial_, trial_yp_);
-  const system::Pattern& p = e_.pattern;
   const double by_x = (1.0 - alpha_m_) / ((1.0 - alpha_f_) * h * gamma_),
                by_q = gamma_ / (beta_ * h);
-  std::vector<double>& values = lu_.values();
-  for (Index c = 0; c < s_.n; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-      values[k] = e_.parts.by_y[k] + (c < s_.n_q ? by_q : by_x) * e_.parts.by_yp[k];
   factored_ = h;
-  return lu_.factorise();
+  return newton_matrix_.factorise(e_.parts, by_x, by_q, false);
 }
 
 bool GeneralizedAlpha::newton(double t, double h) {
@@ -143,7 +139,7 @@ bool GeneralizedAlpha::newton(double t, double h) {
     each_tangent(residual_, [&](Index k, double row) { velocity_[k] = -row - trial_[s_.u0 + k]; });
     residual_.head(s_.n_q).setZero();
     residual_.tail(s_.n - s_.sigma0).setZero();
-    lu_.solve(residual_.data());
+    newton_matrix_.solve(residual_.data());
     ++e_.statistics.newton_iterations;
     a_new_ -= residual_.segment(s_.u0, n_x_) / (h * gamma_);
     // What the increment of mu adds to the velocity of q: c_q dq - du.

@@ -10,7 +10,9 @@ using system::HydroData;
 
 template <class Scalar>
 NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
-    : s_(s), lu_(pattern.column_start, pattern.row) {
+    : s_(s), lu_(pattern.column_start, pattern.row),
+      n_of_positions_(static_cast<std::size_t>(
+          pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
   const HydroData& h = s.hydro;
   if (!s.has_memory())
     return;
@@ -113,11 +115,11 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
 
 template <class Scalar>
 bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar alpha,
-                                     bool careful) {
+                                     Scalar alpha_q, bool careful) {
   parts_ = &parts;
   std::vector<Scalar>& values = lu_.values();
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = parts.by_y[k] + alpha * parts.by_yp[k];
+    values[k] = parts.by_y[k] + (k < n_of_positions_ ? alpha_q : alpha) * parts.by_yp[k];
   if (s_.has_memory()) {
     find_transfer(alpha);
     add_memory();

@@ -24,7 +24,12 @@ public:
 
   /// False when the matrix is singular or holds values that are not finite. The parts are read
   /// until the next call. `careful`: see SparseLu.
-  bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false);
+  bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false) {
+    return factorise(parts, alpha, alpha, careful);
+  }
+
+  /// The same with an alpha of their own for the rates of the positions.
+  bool factorise(const system::JacobianParts& parts, Scalar alpha, Scalar alpha_q, bool careful);
 
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
@@ -44,6 +49,7 @@ private:
   const system::Regime& s_;
   const system::JacobianParts* parts_ = nullptr;
   SparseLu<Scalar> lu_;
+  std::size_t n_of_positions_; ///< entries in the columns of the positions, which come first
   std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
   Scalar alpha_{};
   bool known_ = false; ///< T is that of alpha
