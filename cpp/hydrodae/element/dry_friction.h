@@ -45,6 +45,8 @@ struct DryFriction : FrictionLoads {
   };
   PressedLaw pressed_law() const { return {bearing()}; }
 
+  Stick sticks() const { return {stick(), slip()}; }
+
   static std::shared_ptr<const Elements> list(const std::vector<DryFriction>& forces) {
     return friction_list(forces);
   }

@@ -81,6 +81,12 @@ struct Signal {
 /// Of "N or N m": the first along a displacement, the second along an angle.
 std::string unit_along(std::string_view unit, bool angle);
 
+/// A law that sticks: s' = 0 while what holds it is at most `hold`, and slips with a load (or
+/// coefficient) of `slide` against the motion, which is its signal. Both happen at located events.
+struct Stick {
+  double hold = 0.0, slide = 0.0; ///< [N or N m], or coefficients of what the joint presses [-]
+};
+
 /// A function of time that a law follows, known ahead: no step passes over what it does.
 struct Schedule {
   std::string what;    ///< for messages: "the winch of rope ..."
@@ -156,6 +162,7 @@ public:
   std::vector<std::array<int, 2>> sparsity; ///< of laws on points: (row, column) of each entry of
                                             ///< the Jacobian that can differ from 0; empty: all can
   std::vector<Schedule> schedules;
+  std::vector<Stick> sticks; ///< of each law along a joint; empty: none ever sticks
 
   std::size_t size() const { return names.size(); }
   /// Numbers of the Jacobian of one law.

@@ -21,7 +21,8 @@
 /// A force with states says n_states and unknowns(), and how many of these, the last ones, are
 /// algebraic (n_algebraic): its law answers what is to be zero in place of their rates. One with
 /// numbers that a program may change while it runs, n_signals, inputs() and start_signals(). One
-/// that feels the reaction of its joint, n_reaction = 6. One header and one line in the list of
+/// that feels the reaction of its joint, n_reaction = 6. One that sticks at events, sticks(). One
+/// header and one line in the list of
 /// forces (model/scene.h) are all that a new kind takes.
 
 #include <type_traits>
@@ -97,6 +98,8 @@ public:
         signals.push_back(value);
     else
       signals.resize(signals.size() + n_signals, 0.0);
+    if constexpr (requires { force.sticks(); })
+      sticks.push_back(force.sticks());
     if constexpr (nz > 0)
       for (int k = 0; const Unknown& u : force.unknowns()) {
         unknowns.push_back(u);

@@ -101,16 +101,19 @@ template <class F> void complete(F& force, const PortData& port, const System& s
   }
 }
 
-/// The switch of dry friction: law `law` of the last list.
-void add_friction(const element::DryFriction& f, const PortData& port, std::size_t law, System& s) {
-  SwitchData friction;
-  friction.kind = SwitchData::Kind::friction;
-  friction.motion = port.motion;
-  friction.static_load = f.stick();
-  friction.kinetic_load = f.slip();
-  friction.list = static_cast<int>(s.elements.size()) - 1;
-  friction.law = static_cast<int>(law);
-  add_switch(f.name, friction, s);
+/// Switches of the laws of the last list that stick.
+void add_sticking(System& s) {
+  const ElementList& list = s.elements.back();
+  for (std::size_t k = 0; k < list.laws->sticks.size(); ++k) {
+    SwitchData friction;
+    friction.kind = SwitchData::Kind::friction;
+    friction.motion = list.ports[k].motion;
+    friction.static_load = list.laws->sticks[k].hold;
+    friction.kinetic_load = list.laws->sticks[k].slide;
+    friction.list = static_cast<int>(s.elements.size()) - 1;
+    friction.law = static_cast<int>(k);
+    add_switch(list.laws->names[k], friction, s);
+  }
 }
 
 /// Some forces of one type act on more points or have more states than others: lists of equal
@@ -160,9 +163,7 @@ void add_list(const model::Scene& scene, const std::vector<F>& forces, System& s
   }
   list.laws = make_laws(scene, completed);
   s.elements.push_back(std::move(list));
-  if constexpr (std::is_same_v<F, element::DryFriction>)
-    for (std::size_t k = 0; k < forces.size(); ++k)
-      add_friction(forces[k], PortData(s.elements.back().ports[k]), k, s);
+  add_sticking(s);
 }
 
 /// Buoyancy and linear hydrostatics in the axes of the database: force (0, 0, rho g V), moment

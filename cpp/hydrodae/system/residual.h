@@ -1,5 +1,5 @@
 #pragma once
-/// The residual F(t, y, y') of the stabilised index-2 equations (see system.h). Pure: the System is
+/// The residual F(t, y, y') of the stabilised index-2 equations (see system.h). Pure: the Regime is
 /// const, the Workspace is scratch. Templated on the scalar so that dual numbers can check the
 /// Jacobian.
 
@@ -8,7 +8,7 @@
 
 namespace hydrodae::system {
 
-/// The two rows of a constraint by the formulation (see system.h), from its gap, rate and rate of
+/// The two rows of a constraint by the formulation (see regime.h), from its gap, rate and rate of
 /// the rate; `mu` < 0: a row at velocity level.
 template <class S>
 void constraint_rows(const Regime& s, const S* y, Index lambda, Index mu, const S& gap,
