@@ -35,7 +35,7 @@ struct Rope {
   std::vector<double> winch_time, winch_length;
   std::vector<double> radii, turns, friction; ///< of each point; empty: zeros
   std::vector<Vector3> axes;
-  double slip_viscosity = 1e-5;
+  double slip_viscosity = 1e-9;
 
   bool has_sheave(std::size_t point) const { return !radii.empty() && radii[point] > 0.0; }
   bool has_friction(std::size_t point) const { return !friction.empty() && friction[point] > 0.0; }
@@ -90,8 +90,9 @@ struct Rope {
          "to exp(mu phi), phi the angle of wrap. A sheave without it turns freely.",
          false, at_least(0)},
         {"slip_viscosity", &R::slip_viscosity, "s/m",
-         "Growth of the logarithm of the ratio of tensions with the speed of slip.", false,
-         more_than(0)},
+         "Growth of the friction with the speed of slip, over EA: what makes slip unique. 1e-9 s/m "
+         "of a rope at a strain of 0.001 are 1e-6 of its tension at 1 m/s.",
+         false, more_than(0)},
     };
   }
 };

@@ -3,8 +3,9 @@
 /// the tension is one:
 ///
 ///   T_k = max(0, EA (l_k - L_k) + D (l_k' - L_k')) / L_k     where l_k > L_k, else 0 [N]
-///   ln(T_(k+1) / T_k) = +-(mu phi + c |v|)    slip, v [m/s] > 0 towards the last point
-///   v = 0       while |ln(T_(k+1) / T_k)| <= mu phi           (Euler and Eytelwein)
+///   T_(k+1) = exp(mu phi) T_k + c EA v        slip towards the last point, v > 0 [m/s]
+///   T_k = exp(mu phi) T_(k+1) - c EA v        the other way, v < 0
+///   v = 0                                     between these       (Euler and Eytelwein)
 ///
 /// phi: angle of wrap, c: slip_viscosity. l_k ends in the middle of an arc; what rope passes there
 /// is v, and what is laid on or comes off as the arc moves over the sheave. Half of an arc has the
@@ -18,8 +19,6 @@
 #include "hydrodae/math/curve.h"
 
 namespace hydrodae::element {
-
-inline constexpr double least_rope_strain = 1e-12; ///< of slack rope, in the ratio of tensions
 
 /// Unstretched length by a table; it stands before and after it.
 struct Winch {
@@ -250,20 +249,20 @@ template <class S> void RopeModel::load(const RopeState<S>& now, const S* in, S*
 /// What passes a place with friction, and what is to be zero for its slip v.
 template <class S>
 void RopeModel::rub(const RopeState<S>& now, int place, const S& v, S* out) const {
-  using std::log;
+  using std::exp;
   const RopeParts<S>& parts = now.parts;
-  const S &before = parts.tension[place], &after = parts.tension[place + 1];
-  const S strain = S(0.5 / rope.stiffness) * (before + after);
-  out[place] = v + parts.laid[place] / (S(1) + strain);
-  const S least(least_rope_strain * rope.stiffness);
-  const S ratio = log((after + least) / (before + least));
-  const S most = S(rope.friction[parts.node[place]]) * now.path.wrap[parts.node[place]];
+  const double over_stiffness = 1.0 / rope.stiffness;
+  const S before = S(over_stiffness) * parts.tension[place],
+          after = S(over_stiffness) * parts.tension[place + 1];
+  out[place] = v + parts.laid[place] / (S(1) + S(0.5) * (before + after));
+  const int node = parts.node[place];
+  const S ratio = exp(S(rope.friction[node]) * now.path.wrap[node]);
   S& to_vanish = out[n_friction + place];
   to_vanish = S(-rope.slip_viscosity) * v;
-  if (ratio > most)
-    to_vanish += ratio - most;
-  else if (ratio < -most)
-    to_vanish += ratio + most;
+  if (after > ratio * before)
+    to_vanish += after - ratio * before;
+  else if (before > ratio * after)
+    to_vanish -= before - ratio * after;
 }
 
 /// What the winches do, known ahead.

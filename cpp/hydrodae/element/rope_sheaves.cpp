@@ -124,8 +124,8 @@ public:
       double passed = m.winch.winds() ? m.winch.at(0.0).a - m.length : 0.0;
       const double whole = m.length + passed;
       for (int j = 0; j < m_; ++j) {
-        passed += m.free[static_cast<std::size_t>(j)] -
-                  whole * now.parts.length[j] / now.parts.whole();
+        passed +=
+            m.free[static_cast<std::size_t>(j)] - whole * now.parts.length[j] / now.parts.whole();
         u[j].start = passed;
       }
     }
@@ -154,7 +154,7 @@ private:
         u.name = (slip ? "slip_" : "passed_") + std::to_string(i + 1);
         u.unit = slip ? "m/s" : "m";
         u.scale = slip ? common_slip : tolerated_strain * m.length;
-        u.rate = slip ? 1.0 : common_slip;
+        u.rate = slip ? tolerated_strain : common_slip;
         u.algebraic = slip;
         u.absolute = true;
         unknowns.push_back(u);

@@ -33,7 +33,8 @@ def read_moordyn(
 
     Lines in series from an anchor to a body become one force of type `catenary` or `line`, with the
     masses and floats between them as its loads or attachments. A free point where more than two
-    lines meet, or one ends, becomes a point mass. What cannot be carried over is in `Imported.notes`.
+    lines meet, or one ends, becomes a point mass. What cannot be carried over is in
+    `Imported.notes`.
 
     Parameters
     ----------
