@@ -151,6 +151,47 @@ def test_tensions_of_orcaflex(
     assert line.tension_anchor / 1e3 == pytest.approx(anchor, rel=0.013)
 
 
+@pytest.mark.parametrize("heading", [0, 1])
+def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> None:
+    """At rest as its own quasi-static table; with the damping, drag and bed of the file."""
+    deck = tmp_path / "lines.txt"
+    deck.write_text(RM3)
+    out = tmp_path / "moorings.toml"
+    arguments = ["mooring", "import", str(deck), "--type", "line", "--body", "1=spar"]
+    assert main([*arguments, "-o", str(out)]) == 0
+    force = tables(out.read_text())["force"][heading]
+    assert force["type"] == "line"
+    assert force["segments"] == [15, 5]
+    assert force["drag"] == [1.6, 1.6]
+    assert force["drag_axial"] == [0.05, 0.05]
+    critical = np.array([16.0, 8.0]) * np.sqrt(583.376e6 * 126.0)
+    assert force["damping"] == pytest.approx(0.8 * critical)
+    assert "bending_stiffness" not in force
+    assert force["attachment_at"] == [240.0]
+    assert force["attachment_volume"] == [33.51]
+    assert (force["seabed_stiffness"], force["seabed_damping"]) == (3e6, 3e5)
+    assert force["seabed_depth"] == 70.0
+    assert force["waves"] is False
+    notes = [row for row in out.read_text().splitlines() if row.startswith("# -")]
+    for word in ("kbot", "BA -0.8", "12.566"):
+        assert not any(word in note for note in notes), word
+    at_rest = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
+    text = PLATFORM.replace("platform", "spar").replace("1025.0", "1000.0\nwater_depth = 70.0")
+    case = hydrodae.Case.from_text(text + out.read_text())
+    tension = float(hydrodae.Simulation(case).read(f"forces/{force['name']}/tension"))
+    assert tension == pytest.approx(held(at_rest.forces[heading]).tension, rel=0.02)
+
+
+def test_a_force_on_a_point_of_a_dynamic_line_is_refused(tmp_path: Path) -> None:
+    deck = tmp_path / "lines.txt"
+    old = OLD.format(x=400.0, z=-50.0, length=205.0, depth=50.0)
+    pushed = "3 Connect 200 0 -50 0 0 0 0 10 0 0\n"
+    old = old.replace("---------------------- LINE PROP", pushed + "--- LINE PROP")
+    deck.write_text(old.replace("205.0 41 2 1 p", "205.0 41 2 3 p\n2 main 205.0 41 3 1 p"))
+    with pytest.raises(CaseError, match=r"point 3: its force is not carried over.*--type catenary"):
+        hydrodae.mooring.read_moordyn(deck, type="line")
+
+
 LOWE_LANGLEY = """Jumper of Lowe and Langley (2006)
 --- LINE TYPES ---
 TypeName   Diam   Mass/m   EA     BA    EI       Cd    Ca    CdAx   CaAx

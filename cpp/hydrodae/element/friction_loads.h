@@ -25,6 +25,7 @@ namespace hydrodae::element {
 struct Bearing {
   bool turns = false;
   double preload = 0.0, length = 0.0, radius = 0.0, radius_axial = 0.0, small = 0.0;
+  double slip = 0.0; ///< coefficient of slip
 
   template <class S> S size(const S& x, const S& y) const {
     using std::sqrt;
@@ -83,7 +84,8 @@ struct FrictionLoads {
             length.value_or(0.0),
             radius.value_or(0.0),
             radius_axial.value_or(0.0),
-            small_force.value_or(little * weight)};
+            small_force.value_or(little * weight),
+            slip()};
   }
 
   /// Load of sticking that is common in the scene [N or N m].

@@ -41,7 +41,8 @@ std::optional<Fault> fault_of_parts(const Line& of) {
       {"drag_axial", &of.drag_axial},
       {"added_mass", &of.added_mass},
       {"added_mass_axial", &of.added_mass_axial},
-      {"breaking_load", &of.breaking_load}};
+      {"breaking_load", &of.breaking_load},
+      {"contact_diameter", &of.contact_diameter}};
   if (of.length.empty())
     return Fault{"length", "a line needs at least one part"};
   for (const auto& [key, values] : all)
@@ -165,6 +166,10 @@ Fields<Line> Line::fields() {
        "Breaking loads of the parts; reported, nothing "
        "breaks.",
        false, more_than(0)},
+      {"contact_diameter", &L::contact_diameter, "m",
+       "Width of the parts where they lie on the seabed, their axes half of it above: links are "
+       "wider than D; default: D, the axis on the seabed.",
+       false, more_than(0)},
       {"pretension", &L::pretension, "N",
        "Tension at B in the reference pose; the length of the first part follows from it.", false,
        more_than(0)},
@@ -181,10 +186,11 @@ Fields<Line> Line::fields() {
       {"seabed_depth", &L::seabed_depth, "m", "Depth of the seabed; default: that of the water.",
        false, more_than(0)},
       {"seabed_stiffness", &L::seabed_stiffness, "N/m3",
-       "Normal stiffness of the seabed, over D; default: the line lies a tenth of D deep.", false,
-       more_than(0)},
+       "Normal stiffness of the seabed, over the width in contact; default: the line lies a tenth "
+       "of D deep.",
+       false, more_than(0)},
       {"seabed_damping", &L::seabed_damping, "N s/m3",
-       "Normal damping of the seabed, over D, on the way down.", false, at_least(0)},
+       "Normal damping of the seabed, over the same width, on the way down.", false, at_least(0)},
       {"seabed_friction", &L::seabed_friction, "-",
        "Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at rest.",
        false, at_least(0)},

@@ -27,7 +27,8 @@ struct Line {
   bool free_end = false;
   std::vector<double> length, segments, mass, diameter, stiffness;
   std::vector<double> damping, damping_ratio, bending_stiffness;
-  std::vector<double> drag, drag_axial, added_mass, added_mass_axial, breaking_load;
+  std::vector<double> drag, drag_axial, added_mass, added_mass_axial, breaking_load,
+      contact_diameter;
   std::optional<double> pretension;
   std::vector<double> attachment_at, attachment_mass, attachment_volume, attachment_drag_area,
       attachment_added_mass;

@@ -56,13 +56,15 @@ void add_half(const Part& p, const Surroundings& around, double bed, LineNode& n
     return;
   const double weight = p.mass * around.gravity - rho * around.gravity * volume / half;
   const double carried = weight > 0.0 ? weight : p.mass * around.gravity;
-  const double width = D > 0.0 ? D : thin_line;
+  const double contact = get(p.of.contact_diameter);
+  const double width = contact > 0.0 ? contact : D > 0.0 ? D : thin_line;
   const double k = p.of.seabed_stiffness ? *p.of.seabed_stiffness * width
                                          : carried / (D > 0.0 ? lies_deep * D : thin_line);
   node.bed_stiffness += k * half;
   node.bed_damping += p.of.seabed_damping * width * half;
   node.bed_width = std::max(node.bed_width, carried / k);
   node.friction = p.of.seabed_friction;
+  node.axis_height = std::max(node.axis_height, 0.5 * contact);
 }
 
 /// Clumps and buoys, as spheres of their volume.

@@ -73,7 +73,7 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
 
 void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const Vector3& v,
              Matrix3& by_x, Matrix3& by_v) {
-  const Plus<double> s = plus<double>(m.bed - x[2], node.bed_width);
+  const Plus<double> s = plus<double>(m.bed + node.axis_height - x[2], node.bed_width);
   if (!(s.value > 0.0))
     return;
   const Plus<double> down = plus<double>(-v[2], slip_speed);

@@ -46,7 +46,8 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
       out.water -= f.dot(v);
     }
     Vector3 f = bed_force<double>(m, node, x, v);
-    f[2] -= node.bed_stiffness * plus<double>(m.bed - x[2], node.bed_width).value;
+    f[2] -=
+        node.bed_stiffness * plus<double>(m.bed + node.axis_height - x[2], node.bed_width).value;
     out.seabed -= f.dot(v);
   }
   return out;
@@ -71,7 +72,7 @@ double line_energy(const LineView<double>& at) {
     const double z = at.place(i)[2];
     out += (node.mass * m.gravity - node.lift - node.body_lift) * z;
     if (node.bed_stiffness > 0.0)
-      out += node.bed_stiffness * plus_integral(m.bed - z, node.bed_width);
+      out += node.bed_stiffness * plus_integral(m.bed + node.axis_height - z, node.bed_width);
     if (!m.is_end(i))
       out += 0.5 * node.mass * at.velocity(i).squaredNorm();
   }

@@ -39,6 +39,7 @@ struct LineNode {
   double bed_damping = 0.0;           ///< c [N s/m]
   double bed_width = 0.0;             ///< half of that in which s(d) bends [m]
   double friction = 0.0;              ///< mu
+  double axis_height = 0.0;           ///< over the bed where it just touches [m]
 };
 
 struct LineModel {
@@ -170,7 +171,7 @@ template <class S>
 Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, const Vec3<S>& v) {
   using std::sqrt;
   Vec3<S> f = Vec3<S>::Zero();
-  const Plus<S> s = plus<S>(S(m.bed) - x[2], node.bed_width);
+  const Plus<S> s = plus<S>(S(m.bed + node.axis_height) - x[2], node.bed_width);
   if (!(s.value > S(0)))
     return f;
   const S down = plus<S>(S(-v[2]), slip_speed).value;

@@ -14,6 +14,11 @@ double net_weight(const LineModel& m, const LineNode& node) {
   return node.mass * m.gravity - (m.wet ? node.lift + node.body_lift : 0.0);
 }
 
+/// Where a node lies on the bed.
+double lowest(const LineModel& m, int node) {
+  return m.bed + m.nodes[static_cast<std::size_t>(node)].axis_height;
+}
+
 /// The catenary of the same weights between these ends, the lower one first: segments as parts,
 /// half of each node's weight on either side.
 Catenary like(const LineModel& m, bool turned, bool bed) {
@@ -90,6 +95,36 @@ void drop(const LineModel& m, const Vector3& a, const Vector3& towards, VectorX&
   }
 }
 
+/// Nodes that lie on one another, on the seabed beside a slack line, share the way to the next one
+/// that does not; where there is none, they go to and fro across it.
+void spread(const LineModel& m, const Vector3& a, const Vector3& b, VectorX& places) {
+  constexpr double together = 1e-3, aside = 0.1; // of a segment
+  const int n = m.n_unknown(), last = m.free_end ? n : n + 1;
+  const auto at = [&](int i) {
+    return i == 0 ? a : i > n ? b : Vector3(places.segment<3>(3 * (i - 1)));
+  };
+  const auto length = [&](int i) { return m.segments[static_cast<std::size_t>(i)].length; };
+  const auto meets = [&](int i) { return (at(i + 1) - at(i)).norm() < together * length(i); };
+  for (int i = 0; i < last; ++i) {
+    if (!meets(i))
+      continue;
+    int end = i + 1; // nodes i + 1 .. end - 1 move
+    while (end < last && meets(end))
+      ++end;
+    end = std::min(end + 1, last);
+    const Vector3 from = at(i), way = at(end) - from;
+    const bool none = way.norm() < together * length(i) * (end - i);
+    const Vector3 across = Vector3(-way[1], way[0], 0.0).stableNormalized();
+    for (int k = i + 1; k < end; ++k) {
+      places.segment<3>(3 * (k - 1)) = from + way * (k - i) / (end - i);
+      if (none)
+        places.segment<3>(3 * (k - 1)) += (k % 2 ? aside : -aside) * length(i) *
+                                          (across.norm() > 0.5 ? across : Vector3::UnitY());
+    }
+    i = end - 1;
+  }
+}
+
 } // namespace
 
 VectorX line_shape(const LineModel& m, const double* x, const Vector3& free_end) {
@@ -101,9 +136,10 @@ VectorX line_shape(const LineModel& m, const double* x, const Vector3& free_end)
     const Vector3 b = Eigen::Map<const Vector3>(x + 3);
     if (!hang(m, a, b, places))
       straight(m, a, b, places);
+    spread(m, a, b, places);
   }
   for (int i = 0; i < m.n_unknown(); ++i)
-    places[3 * i + 2] = std::max(places[3 * i + 2], m.bed);
+    places[3 * i + 2] = std::max(places[3 * i + 2], lowest(m, i + 1));
   return places;
 }
 

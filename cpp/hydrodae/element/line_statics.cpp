@@ -32,6 +32,8 @@ public:
       out.segment<3>(3 * i) = rates_.segment<3>(6 * i + 3);
     return out;
   }
+  /// On the nodes that move, at the places of the last `accelerations`.
+  VectorX forces() const { return force_.segment(3, 3 * m_.n_unknown()); }
   /// -d accelerations / d places + sigma; by the ends' places, and the loads by both.
   Sparse matrix(double sigma) {
     line_jacobian(view(), sea_, 0.0, rates_.data(), blocks_, values_.data());
@@ -116,98 +118,119 @@ bool find_directly(Rest& rest, VectorX& places, double longest, double enough, d
   return false;
 }
 
-/// Places near rest: of ever stiffer lines, the first so soft that its chords are not slack where
-/// it bends.
-void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, double longest,
+/// Goes down in energy, which is convex where nothing bends: elastic segments that only pull,
+/// weight, the bed. Steps of (K + sigma M) d = f, as long as f . d stays positive along them.
+/// @returns whether it came to rest
+bool descend(Rest& rest, VectorX& places, double longest, double start, double enough,
+             double floor) {
+  constexpr int most_steps = 400, most_cuts = 30;
+  Eigen::SparseLU<Sparse> lu;
+  double sigma = start, before = HUGE_VAL;
+  for (int step = 0; step < most_steps; ++step) {
+    rest.place(places);
+    const VectorX a = rest.accelerations();
+    const double now = largest_of(a);
+    if (now <= enough || (now <= floor && now >= 0.5 * before))
+      return true;
+    before = now;
+    const VectorX f = rest.forces();
+    lu.compute(rest.matrix(sigma));
+    VectorX d = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : a;
+    double slope = f.dot(d);
+    if (!(slope > 0.0) || !d.allFinite()) { // no way down: a shorter step along the accelerations
+      sigma = std::max(10.0 * sigma, start);
+      d = a / sigma;
+      slope = f.dot(d);
+    }
+    if (const double most = largest_of(d); most > longest) {
+      d *= longest / most;
+      slope *= longest / most;
+    }
+    double part = 1.0, low = 0.0, high = 0.0; // where f . d is positive, and where no longer
+    for (int cut = 0; cut < most_cuts; ++cut) {
+      rest.place(places + part * d);
+      const double there = rest.accelerations().allFinite() ? rest.forces().dot(d) : -HUGE_VAL;
+      if (std::abs(there) <= 0.5 * slope || (there > 0.0 && part == 1.0))
+        break;
+      (there > 0.0 ? low : high) = part;
+      part = 0.5 * (low + high);
+    }
+    places += part * d;
+    sigma *= part == 1.0 ? 0.2 : part > 0.3 ? 1.0 : 3.0;
+    if (sigma < 1e-9 * start)
+      sigma = 0.0;
+    else if (sigma > 1e6 * start)
+      return false;
+  }
+  return false;
+}
+
+/// Sizes that tell rest.
+struct RestScales {
+  double g = 1.0, shortest = HUGE_VAL, whole = 0.0, weight = 0.0, stiffest = 0.0, floor = 0.0;
+
+  RestScales(const LineModel& m, const VectorX& places) : whole(m.nodes.back().at) {
+    double least_mass = HUGE_VAL, per_length = 0.0;
+    g = m.gravity > 0.0 ? m.gravity : 1.0;
+    for (const LineSegment& seg : m.segments) {
+      shortest = std::min(shortest, seg.length);
+      stiffest = std::max(stiffest, seg.stiffness);
+      per_length = std::max(per_length, seg.stiffness / seg.length);
+    }
+    for (const LineNode& node : m.nodes) {
+      least_mass = std::min(least_mass, node.mass);
+      weight += std::abs(node.mass * g - node.lift - node.body_lift);
+    }
+    // What rounding of the places leaves.
+    const double reach = whole + places.cwiseAbs().maxCoeff();
+    floor = std::max(1e-11 * g, 20.0 * 2.2e-16 * reach * per_length / least_mass);
+  }
+};
+
+/// Places near rest: of ever stiffer lines, the first so soft that it stretches by a part of its
+/// length.
+void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, const RestScales& size,
              VectorX& places) {
-  for (const double part : {1e-3, 1e-2, 1e-1}) {
+  constexpr double strain = 0.1;
+  double part = std::min(1.0, size.weight / (strain * size.stiffest));
+  for (; part < 0.5; part *= 10.0) {
     LineModel soft = m;
     for (LineSegment& segment : soft.segments) {
       segment.stiffness *= part;
-      segment.slack /= part;
+      segment.slack = std::min(segment.slack / part, strain);
+      segment.damping = 0.0;
     }
     Rest rest(soft, sea, x);
     VectorX found = places;
-    if (find_directly(rest, found, longest, 1e-9 * m.gravity, 1e-6 * m.gravity))
-      places = found;
+    descend(rest, found, 0.1 * size.whole, size.g / size.shortest, 1e-6 * size.g, size.floor);
+    places = found;
   }
 }
 
 void find_rest(const LineModel& m, const sea::WaveField& sea, const double* x, Rest& rest,
                VectorX& places, const std::string& name) {
-  constexpr int most_steps = 2000, patience = 20;
-  double shortest = HUGE_VAL, heaviest = 0.0;
-  for (const LineSegment& seg : m.segments)
-    shortest = std::min(shortest, seg.length);
-  double stiffest = 0.0, least_mass = HUGE_VAL, reach = m.nodes.back().at;
-  for (std::size_t k = 0; k < m.segments.size(); ++k)
-    stiffest = std::max(stiffest, m.segments[k].stiffness / m.segments[k].length);
-  for (const LineNode& node : m.nodes) {
-    heaviest = std::max(heaviest, node.mass);
-    least_mass = std::min(least_mass, node.mass);
-  }
-  // What rounding of the places leaves.
-  reach += places.cwiseAbs().maxCoeff();
-  const double floor = 20.0 * 2.2e-16 * reach * stiffest / least_mass,
-               g = m.gravity > 0.0 ? m.gravity : 1.0, start = g / shortest;
-  double sigma = 0.0, before = HUGE_VAL, best = HUGE_VAL, least_sigma = start;
-  int stale = 0;
+  const RestScales size(m, places);
+  const auto directly = [&] {
+    return find_directly(rest, places, size.shortest, 1e-13 * size.g, size.floor);
+  };
   const VectorX first = places;
-  if (find_directly(rest, places, shortest, 1e-13 * g, std::max(1e-11 * g, floor)))
+  if (directly())
     return;
   places = first;
-  stiffen(m, sea, x, shortest, places);
-  const VectorX near = places;
-  if (find_directly(rest, places, shortest, 1e-13 * g, std::max(1e-11 * g, floor)))
+  stiffen(m, sea, x, size, places);
+  VectorX near = places;
+  if (directly())
     return;
+  const bool found =
+      descend(rest, near, 0.1 * size.whole, size.g / size.shortest, 1e-13 * size.g, size.floor);
   places = near;
-  rest.place(places);
-  VectorX a = rest.accelerations();
-  double now = largest_of(a);
-  Eigen::SparseLU<Sparse> lu;
-  for (int step = 0; step < most_steps; ++step) {
-    const bool settled = now <= std::max(1e-11 * g, floor);
-    if (settled && (now >= 0.5 * before || now <= 1e-13 * g || step > 100))
-      return;
-    stale = now < 0.9 * best ? 0 : stale + 1;
-    best = std::min(best, now);
-    if (stale > patience) { // it goes to and fro across a kink: shorter steps
-      stale = 0;
-      sigma = least_sigma;
-      least_sigma *= 10.0;
-    }
-    lu.compute(rest.matrix(sigma));
-    VectorX change = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : VectorX();
-    const bool sound = change.size() > 0 && change.allFinite();
-    const double most = sound ? change.cwiseAbs().maxCoeff() : 0.0;
-    if (sound && most > 0.5 * shortest)
-      change *= 0.5 * shortest / most;
-    const VectorX tried = sound ? VectorX(places + change) : places;
-    rest.place(tried);
-    const VectorX next = rest.accelerations();
-    const double then = sound ? largest_of(next) : HUGE_VAL;
-    if (then <= 2.0 * now || settled) {
-      if (settled && then >= now) {
-        rest.place(places);
-        rest.accelerations();
-        return;
-      }
-      sigma *= std::clamp(then / now, 0.1, 1.5);
-      if (sigma < 1e-6 * start)
-        sigma = 0.0;
-      places = tried;
-      a = next;
-      before = now;
-      now = then;
-    } else {
-      sigma = std::max(5.0 * sigma, start);
-      rest.place(places);
-      rest.accelerations();
-    }
-  }
-  throw ModelError("force." + name,
-                   "line " + in_quotes(name) + " finds no rest where its ends are: the largest " +
-                       "acceleration that is left is " + number_text(now) + " m/s2");
+  if (found || directly())
+    return;
+  rest.place(near);
+  throw ModelError("force." + name, "line " + in_quotes(name) +
+                                        " finds no rest where its ends are: the largest " +
+                                        "acceleration that is left is " +
+                                        number_text(largest_of(rest.accelerations())) + " m/s2");
 }
 
 } // namespace

@@ -3,35 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hydrodae/math/curve.h"
+#include "hydrodae/element/rope_model.h"
 
 namespace hydrodae::element {
 
-double Rope::free_length() const {
-  double distance = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    distance += (points[i] - points[i - 1]).norm();
-  return pretension ? distance / (1.0 + *pretension / stiffness) : length.value_or(distance);
-}
-
-std::optional<Fault> Rope::fault() const {
-  if (points.size() < 2)
-    return Fault{"points", "a rope needs two points or more"};
-  if (points.size() > most_points)
-    return Fault{"points", "a rope takes 100 points at most: each feels all others"};
-  if (bodies.size() != points.size())
-    return Fault{"bodies", "a rope needs as many names in 'bodies' as 'points'"};
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if ((points[i] - points[i - 1]).norm() == 0.0)
-      return Fault{"points", "two points in a row are at one place in the reference pose: the "
-                             "rope has no direction between them"};
-  if (length && pretension)
-    return Fault{"pretension", "write either 'length' or 'pretension'"};
-  if (const std::string_view wrong = Curve::fault(winch_time, winch_length); !wrong.empty())
-    return Fault{"winch_time", "'winch_time' " + std::string(wrong) + " 'winch_length'"};
-  if (!winch_time.empty() && (length || pretension))
-    return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
-  return {};
+std::vector<Schedule> winch_schedules(const std::vector<Rope>& ropes) {
+  std::vector<Schedule> out;
+  for (const Rope& rope : ropes) {
+    const std::vector<double>& times = rope.winch_time;
+    double finest = INFINITY;
+    for (std::size_t i = 1; i < times.size(); ++i)
+      finest = std::min(finest, 0.5 * (times[i] - times[i - 1]));
+    if (!times.empty())
+      out.push_back({"the winch of rope '" + rope.name + "'", finest,
+                     [winch = Winch(rope)](double t) { return winch.at(t).a; }});
+  }
+  return out;
 }
 
 namespace {
@@ -49,22 +36,10 @@ public:
                 {"winch_power", "W", "Power that the winch gives."}};
     for (const Rope& rope : ropes) {
       names.push_back(rope.name);
-      const bool winds = !rope.winch_time.empty();
-      laws_.push_back({rope.stiffness, rope.damping, rope.free_length(),
-                       winds ? Curve(rope.winch_time, rope.winch_length) : Curve(),
-                       winds ? rope.winch_time.front() : 0.0,
-                       winds ? rope.winch_time.back() : 0.0});
+      laws_.push_back({rope.stiffness, rope.damping, rope.free_length(), Winch(rope)});
     }
     signals.assign(ropes.size(), 0.0);
-    for (std::size_t k = 0; k < ropes.size(); ++k) {
-      const std::vector<double>& times = ropes[k].winch_time;
-      double finest = INFINITY;
-      for (std::size_t i = 1; i < times.size(); ++i)
-        finest = std::min(finest, 0.5 * (times[i] - times[i - 1]));
-      if (!times.empty())
-        schedules.push_back({"the winch of rope '" + names[k] + "'", finest,
-                             [law = laws_[k]](double t) { return wound(law, t).a; }});
-    }
+    schedules = winch_schedules(ropes);
   }
 
   void evaluate(double t, const double* in, const double* held, double* out) const override {
@@ -109,7 +84,7 @@ public:
       const double free = laws_[k].length + held[k]; // a winch works on it besides
       const double stretch = std::max(0.0, total<double>(in) - free);
       joules[k] =
-          laws_[k].winch.empty() ? 0.5 * laws_[k].stiffness * stretch * stretch / free : 0.0;
+          !laws_[k].winch.winds() ? 0.5 * laws_[k].stiffness * stretch * stretch / free : 0.0;
     }
   }
 
@@ -128,19 +103,12 @@ public:
 private:
   struct Law {
     double stiffness, damping, length;
-    Curve winch;
-    double begin, end; ///< of its table [s]
+    Winch winch;
   };
   template <class S> struct State {
     S tension;
     double free, free_rate; ///< L0, L0'
   };
-
-  /// Length that the winch gives, and its rate; it stands before and after its table.
-  static Dual wound(const Law& law, double t) {
-    const double inside = std::clamp(t, law.begin, law.end);
-    return law.winch(Dual(inside, t == inside ? 1.0 : 0.0));
-  }
 
   template <class S> static Vec3<S> point(const S* in, int i) {
     return Eigen::Map<const Vec3<S>>(in + 3 * i);
@@ -163,8 +131,8 @@ private:
 
   template <class S> State<S> pull(const Law& law, double t, const S* in, double change) const {
     State<S> out{S(0), law.length + change, 0.0};
-    if (!law.winch.empty()) {
-      const Dual now = wound(law, t);
+    if (law.winch.winds()) {
+      const Dual now = law.winch.at(t);
       out.free = now.a + change;
       out.free_rate = now.b;
     }
@@ -231,6 +199,8 @@ private:
 } // namespace
 
 std::shared_ptr<const Elements> Rope::list(const std::vector<Rope>& ropes) {
+  if (!ropes.front().is_plain())
+    return ropes_over_sheaves(ropes);
   return std::make_shared<const RopeList>(ropes);
 }
 

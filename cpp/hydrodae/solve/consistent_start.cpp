@@ -72,16 +72,18 @@ void check_constraints(const Regime& s, const VectorX& y, const VectorX& r) {
 /// @returns the work of the rows [J]; nothing: the velocities stay as they are
 std::optional<double> jump(const Regime& s, double t, SaddlePoint& saddle, VectorX& y) {
   constexpr double least_jump = 1e-9; // of the rates that count as one
-  VectorX struck = y, before;
-  const VectorX impulses = saddle.strike(t, struck, VectorX::Zero(s.n_lambda), before);
+  VectorX struck = y;
+  const SaddlePoint::Strike strike = saddle.strike(t, struck, VectorX::Zero(s.n_lambda));
   const auto scale = s.row_scale.segment(s.lambda0, s.n_lambda);
-  if (before.cwiseQuotient(scale).cwiseAbs().maxCoeff() <= least_jump)
+  if (strike.before.cwiseQuotient(scale).cwiseAbs().maxCoeff() <= least_jump)
     return std::nullopt;
+  if (!strike.balanced)
+    throw SolverError(t, std::string(SaddlePoint::no_friction_fits));
   y = struck;
-  double work = 0.5 * impulses.dot(before);
+  double work = 0.5 * strike.impulses.dot(strike.before) + strike.rubbed;
   for (const system::CouplerData& c : s.couplers)
     if (s.holds(c))
-      work += impulses[s.lambda(c) - s.lambda0] * s.drive(c, t)[c.velocity_level ? 0 : 1];
+      work += strike.impulses[s.lambda(c) - s.lambda0] * s.drive(c, t)[c.velocity_level ? 0 : 1];
   return work;
 }
 

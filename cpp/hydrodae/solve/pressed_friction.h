@@ -9,6 +9,14 @@
 /// unique for all loads where |c| N(D_kk) < 1: N is convex, so that its slopes along D_kk are at
 /// most N(D_kk). Above, there is none for some loads, and more than one for others (Painleve's
 /// paradox; Brogliato, Nonsmooth Mechanics, 2016, ch. 5).
+///
+/// In an impact phi and r are impulses, whose friction, with the coefficient mu of slip, is
+///
+///   |phi| <= mu N(r),   phi v <= 0,   v = 0 where |phi| < mu N(r)
+///
+/// v: the rate along the joint afterwards.
+
+#include <optional>
 
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/elements.h"
@@ -55,6 +63,14 @@ struct SaddlePoint::Pressed {
 
   /// Loads f(r) of all laws, and their slopes.
   void evaluate(const system::Regime& s, double t, VectorX& f);
+
+  /// Sum of `u` (n_u,) along the joint of law k: its rate.
+  double rate_along(const system::Regime& s, std::size_t k, const double* u) const;
+
+  /// Impulses of friction in an impact whose solution without them is `solution`, from rates `u`
+  /// (n_u,), which takes their part.
+  /// @returns their work [J]; nothing: none fit
+  std::optional<double> rub(const system::Regime& s, const VectorX& u, VectorX& solution);
 
   /// The law that is nearest to jamming beyond its limit, in words; empty: none.
   std::string jam(const system::Regime& s) const;

@@ -194,15 +194,22 @@ double SaddlePoint::mismatch() {
   return std::max(forces > 0.0 ? forces / load : 0.0, rates > 0.0 ? rates / motion : 0.0);
 }
 
-VectorX SaddlePoint::strike(double t, VectorX& y, const VectorX& rates, VectorX& before) {
+SaddlePoint::Strike SaddlePoint::strike(double t, VectorX& y, const VectorX& rates) {
   if (!e_.residual(t, y, yp0_, residual_))
     throw SolverError(t, "no finite velocities at the impact");
-  before = residual_.segment(s_.lambda0, s_.n_lambda);
+  Strike out;
+  out.before = residual_.segment(s_.lambda0, s_.n_lambda);
   rhs_.setZero();
-  rhs_.tail(s_.n_lambda) = rates - before;
+  rhs_.tail(s_.n_lambda) = rates - out.before;
   solve(x_);
+  if (pressed_) {
+    const std::optional<double> work = pressed_->rub(s_, y.segment(s_.u0, s_.n_u), x_);
+    out.balanced = work.has_value();
+    out.rubbed = work.value_or(0.0);
+  }
   y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
-  return -x_.tail(s_.n_lambda);
+  out.impulses = -x_.tail(s_.n_lambda);
+  return out;
 }
 
 bool SaddlePoint::project(double t, VectorX& y) {

@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/klu.h"
@@ -41,10 +42,20 @@ public:
   /// @param part of each row (n_lambda,), below `parts`
   VectorX independence(const std::vector<int>& part, int parts);
 
+  /// What impulses do, those of friction that its joint presses among them.
+  struct Strike {
+    VectorX impulses;     ///< Lambda (n_lambda,) [N s or N m s]
+    VectorX before;       ///< rates that the rows had, over those of their drives (n_lambda,)
+    double rubbed = 0.0;  ///< work of friction [J], over the means of rates before and after
+    bool balanced = true; ///< false: no friction fits the impulses that press it
+  };
+
+  static constexpr std::string_view no_friction_fits =
+      "no friction fits the impulses of an impact that press its joint";
+
   /// Changes u by the impulses G^T Lambda that give the velocity rows the rates `rates` (n_lambda,)
-  /// [m/s or rad/s], with the matrix of the last `accelerations`; returns Lambda [N s or N m s].
-  /// @param before takes the rates that the rows had, over those of their drives (n_lambda,)
-  VectorX strike(double t, VectorX& y, const VectorX& rates, VectorX& before);
+  /// [m/s or rad/s], with the matrix of the last `accelerations`.
+  Strike strike(double t, VectorX& y, const VectorX& rates);
 
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
   /// matrix of the last `accelerations`. False when it does not converge.

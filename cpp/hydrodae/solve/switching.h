@@ -7,7 +7,9 @@
 /// Between events the equations are smooth, and any integrator solves them; the times at which a
 /// row has to come or go are located on its interpolant, and it starts anew there. At an impact the
 /// velocities jump by impulses of the joints and stops (Newton's law of restitution; Brogliato,
-/// Nonsmooth Mechanics, 2016, ch. 4); dry friction, whose load is bounded, has no part in it.
+/// Nonsmooth Mechanics, 2016, ch. 4). Friction that its joint presses has impulses too; of others,
+/// whose load is bounded, there are none. Where friction and restitution together would give energy
+/// (Kane and Levinson, J. Applied Mechanics 52 (1985) 976), all rebounds are lowered alike.
 
 #include <functional>
 #include <memory>
@@ -114,6 +116,8 @@ private:
   double bisect(double a, double b, const Interpolant& at, const std::function<bool()>& past);
   bool touches(std::size_t k) const;
   std::optional<double> impacts(double t, VectorX& y, VectorX& yp);
+  SaddlePoint::Strike strike(double t, SaddlePoint& saddle, const VectorX& u, VectorX& y,
+                             VectorX& rates);
   double take_impact(double t, const VectorX& impulses, const VectorX& before,
                      const VectorX& after);
   bool correct(const VectorX& y, std::vector<int>& changes);

@@ -9,11 +9,44 @@
 
 namespace hydrodae::solve {
 
+namespace {
+
+constexpr int halvings = 50; ///< of a rebound
+
+} // namespace
+
 /// Is an open stop at one of its bounds?
 bool Switching::touches(std::size_t k) const {
   const Data& element = s_.switches[k];
   const double s = motion(element).value, gap = touching * size_[k].length;
   return element.kind == Kind::stop && (element.upper - s <= gap || s - element.lower <= gap);
+}
+
+/// Impulses that change the velocities u, into y. Where they and friction would give energy, all
+/// rebounds in `rates` are lowered alike until they do not: without rebound they never do.
+SaddlePoint::Strike Switching::strike(double t, SaddlePoint& saddle, const VectorX& u, VectorX& y,
+                                      VectorX& rates) {
+  const auto lowered = [&](double part) {
+    y.segment(s_.u0, s_.n_u) = u;
+    SaddlePoint::Strike out = saddle.strike(t, y, part * rates);
+    if (!out.balanced)
+      fail(t, std::string(SaddlePoint::no_friction_fits));
+    return out;
+  };
+  const auto gains = [&](const SaddlePoint::Strike& x, double part) {
+    return x.rubbed + 0.5 * x.impulses.dot(x.before + part * rates) > 0.0;
+  };
+  SaddlePoint::Strike out = lowered(1.0);
+  if (out.rubbed == 0.0 || !gains(out, 1.0))
+    return out;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (gains(lowered(middle), middle) ? high : low) = middle;
+  }
+  out = lowered(low);
+  rates *= low;
+  return out;
 }
 
 /// Impulses at all stops that are hit at once. Leaves the stops closed that do not rebound.
@@ -64,14 +97,15 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     for (std::size_t k = 0; k < count; ++k)
       if (acts[k])
         rates[row(k)] = after[k];
-    VectorX before;
-    const VectorX impulses = present.saddle.strike(t, y, rates, before);
+    const SaddlePoint::Strike struck = strike(t, present.saddle, u, y, rates);
     unpack(t, y, yp);
     bool good = true;
     for (std::size_t k = 0; k < count && good; ++k) {
       const Data& element = s_.switches[k];
       if (acts[k]) {
-        const double push = s_.mode(element) == State::upper ? -impulses[row(k)] : impulses[row(k)];
+        const double push =
+            struck.impulses[row(k)] * (s_.mode(element) == State::upper ? -1.0 : 1.0);
+        after[k] = rates[row(k)];
         if (push < -resting * size_[k].load * time_scale_) {
           acts[k] = good = false;
           set(k, State::open);
@@ -85,7 +119,7 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     }
     if (!good)
       continue;
-    work = take_impact(t, impulses, before, rates);
+    work = struck.rubbed + take_impact(t, struck.impulses, struck.before, rates);
     break;
   }
   for (std::size_t k = 0; k < count; ++k)

@@ -157,11 +157,6 @@ void find_reactions(System& s) {
                                   rows +
                                   "). Let other joints hold less, or give the load itself as "
                                   "'static'");
-      if (std::any_of(s.switches.begin(), s.switches.end(),
-                      [](const SwitchData& w) { return w.kind == SwitchData::Kind::stop; }))
-        s.notes.push_back("friction '" + port.component +
-                          "' has no part in impacts: the impulse that joint " + in_quotes(j.name) +
-                          " takes there does not press it");
     }
 }
 

@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "import",
         help="make tables of a case from a MoorDyn input file",
         description="Read a MoorDyn input file, version 1 or 2; print the tables that stand for "
-        "it, lines in series as forces of type catenary, below notes of all that they do not hold.",
+        "it, lines in series as one force each, below notes of all that they do not hold.",
     )
     importing.add_argument("file", metavar="FILE", help="input file of MoorDyn")
     importing.add_argument(
@@ -41,6 +41,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="body of the case that coupled points belong to (default platform), or that stands "
         "for body N of the file; repeatable",
+    )
+    importing.add_argument(
+        "--type",
+        choices=("catenary", "line"),
+        default="catenary",
+        help="lines at rest at each instant, or dynamic lines (default %(default)s)",
     )
     importing.add_argument(
         "--at",
@@ -81,7 +87,9 @@ def _import(arguments: argparse.Namespace) -> str:
     x, y, z = parse_numbers("--at", arguments.at, 3)
     named = dict(_split(text) for text in arguments.body)
     body = named.pop("", "platform")
-    return read_moordyn(arguments.file, body=body, at=(x, y, z), bodies=named).to_toml()
+    return read_moordyn(
+        arguments.file, body=body, at=(x, y, z), bodies=named, type=arguments.type
+    ).to_toml()
 
 
 def _split(text: str) -> tuple[str, str]:

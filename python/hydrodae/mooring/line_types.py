@@ -55,9 +55,11 @@ class LineType:
     drag_axial: float = 0.0
     added_mass: float = 0.0
     added_mass_axial: float = 0.0
+    contact_diameter: float | None = None
 
     def keys(self) -> dict[str, float]:
         """Keys of a force of type `line`."""
+        contact = self.contact_diameter
         return {
             "mass": self.mass,
             "diameter": self.volume_diameter,
@@ -67,7 +69,7 @@ class LineType:
             "drag_axial": self.drag_axial,
             "added_mass": self.added_mass,
             "added_mass_axial": self.added_mass_axial,
-        }
+        } | ({} if contact is None else {"contact_diameter": contact})
 
     def weight(self, density: float = 1025.0, gravity: float = 9.81) -> float:
         """Weight in water per unstretched length [N/m], as forces of type `catenary` take it.
@@ -102,10 +104,14 @@ def chain(diameter: float, *, studs: bool = False) -> LineType:
     if studs:
         mass, stiffness = 21.9e3 * d**2, 88.0e9 * d**2
         name, volume, water = f"studlink chain {d:g} m", 1.89 * d, _Water(1.376, 0.741 / pi, 1, 0.5)
+        width = 3.6 * d  # of a link, ISO 1704
     else:
         mass, stiffness = 20.0e3 * d**2, (-3.93e7 * d + 85.6e9) * d**2
         name, volume, water = f"studless chain {d:g} m", 1.8 * d, _Water(1.333, 0.639 / pi, 1, 0.5)
-    return LineType(name, d, volume, mass, stiffness, breaking, **water._asdict())
+        width = 3.35 * d
+    return LineType(
+        name, d, volume, mass, stiffness, breaking, contact_diameter=width, **water._asdict()
+    )
 
 
 def studless_chain(diameter: float) -> LineType:

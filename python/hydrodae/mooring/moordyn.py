@@ -1,11 +1,11 @@
-"""MoorDyn's input files as tables of a case, on the rung of lines at rest (`catenary`)."""
+"""MoorDyn's input files as tables of a case: lines at rest (`catenary`) or dynamic (`line`)."""
 
 from __future__ import annotations
 
 import math
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from hydrodae.errors import CaseError
 from hydrodae.mooring.imported import Imported
 from hydrodae.mooring.moordyn_chains import Chain, find_chains
 from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
+from hydrodae.mooring.moordyn_lines import CARRIED, line_keys, lost_of
 
 Array = NDArray[np.float64]
 
@@ -26,12 +27,14 @@ def read_moordyn(
     body: str = "platform",
     at: tuple[float, float, float] = (0.0, 0.0, 0.0),
     bodies: Mapping[str, str] | None = None,
+    type: Literal["catenary", "line"] = "catenary",
 ) -> Imported:
     """Read a MoorDyn input file, version 1 or 2, as tables of a case.
 
-    Lines in series from an anchor to a body become one force of type `catenary`, with the masses
-    and floats between them as its loads. A free point where more than two lines meet, or one ends,
-    becomes a point mass. What cannot be carried over is in `Imported.notes`.
+    Lines in series from an anchor to a body become one force of type `catenary` or `line`, with the
+    masses and floats between them as its loads or attachments. A free point where more than two
+    lines meet, or one ends, becomes a point mass. What cannot be carried over is in
+    `Imported.notes`.
 
     Parameters
     ----------
@@ -43,6 +46,9 @@ def read_moordyn(
         Where the origin of the coupled points is in the reference pose, world axes [m].
     bodies : mapping from str, optional
         Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``.
+    type : {"catenary", "line"}
+        Lines at rest at each instant, or dynamic ones with the segments, damping, drag, added mass,
+        bending and seabed of the file.
 
     Raises
     ------
@@ -50,14 +56,20 @@ def read_moordyn(
         The file cannot be read, or it has something without which its moorings would be others:
         rods that lines end at, stiffness from a table.
     """
-    return _Conversion(read_deck(path), body, np.array(at, float), dict(bodies or {})).run()
+    if type not in ("catenary", "line"):
+        raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
+    deck = read_deck(path)
+    return _Conversion(deck, body, np.array(at, float), dict(bodies or {}), type == "line").run()
 
 
 class _Conversion:
     """From a deck to tables."""
 
-    def __init__(self, deck: Deck, body: str, at: Array, bodies: dict[str, str]) -> None:
+    def __init__(
+        self, deck: Deck, body: str, at: Array, bodies: dict[str, str], dynamic: bool
+    ) -> None:
         self.deck, self.body, self.at, self.names = deck, body, at, bodies
+        self.dynamic = dynamic
         self.out = Imported(deck.file.name)
         self.depth, self.assumed_depth = self._depth()
 
@@ -77,6 +89,8 @@ class _Conversion:
         for chain in chains:
             self._chain(chain)
         self._note_types()
+        if self.dynamic and not deck.option("wavekin", 0.0):
+            self.out.notes.append("lines feel no waves, as in the file; waves = true lets them")
         self._note_bodies()
         self._note_rest()
         return self.out
@@ -135,6 +149,19 @@ class _Conversion:
         if body_a == body_b:
             why = "two fixed points" if body_a == "ground" else f"two points of body {body_a}"
             self.out.notes.append(f"{label} between {why}: left out, it moves nothing")
+            return
+        if self.dynamic:
+            self.out.forces.append(
+                {
+                    "type": "line",
+                    "name": "line" + "_".join(line.id for line in chain.lines),
+                    "body_a": body_a,
+                    "body_b": body_b,
+                    "point_a": place_a.tolist(),
+                    "point_b": place_b.tolist(),
+                    **line_keys(deck, chain, self.depth),
+                }
+            )
             return
         weights = [self._weight(line) for line in chain.lines]
         lies = body_a == "ground" and abs(place_a[2] + self.depth) <= 1e-3 * self.depth
@@ -228,13 +255,14 @@ class _Conversion:
         self.out.morison.append(table)
 
     def _note_types(self) -> None:
-        for kind in {line.type.name: line.type for line in self.deck.lines}.values():
+        for line in {line.type.name: line for line in self.deck.lines}.values():
+            kind = line.type
             lost = [f"{key} {text}" for key, text in kind.others.items() if text not in _NOTHING]
+            why = ": a line at rest has no damping, bending, drag or added mass"
+            if self.dynamic:
+                lost, why = lost_of(line), ""
             if lost:
-                self.out.notes.append(
-                    f"line type {kind.name}: without {', '.join(lost)}: a line at rest has no "
-                    "damping, bending, drag or added mass"
-                )
+                self.out.notes.append(f"line type {kind.name}: without {', '.join(lost)}{why}")
 
     def _note_bodies(self) -> None:
         for body in self.deck.bodies.values():
@@ -257,7 +285,8 @@ class _Conversion:
                     f"point {point.id}: mass {point.mass:g} kg, volume {point.volume:g} m3 and "
                     f"drag area {point.drag_area:g} m2 left out: they are those of its body"
                 )
-        others = [f"{key} {value}" for key, value in deck.options.items() if key not in _CARRIED]
+        carried = _CARRIED + (CARRIED if self.dynamic else ())
+        others = [f"{key} {value}" for key, value in deck.options.items() if key not in carried]
         if others:
             notes.append(f"options of dynamic lines, not used: {', '.join(others)}")
         for name, count in deck.unread.items():

@@ -1,0 +1,157 @@
+/// What the keys of a rope mean, and what is wrong with them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/text.h"
+#include "hydrodae/element/rope_model.h"
+
+namespace hydrodae::element {
+
+bool Rope::is_plain() const {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (has_sheave(i) || has_friction(i))
+      return false;
+  return true;
+}
+
+std::vector<std::pair<std::string, Vector3>> Rope::ends() const {
+  std::vector<std::pair<std::string, Vector3>> out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.emplace_back(bodies[i], points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (has_sheave(i)) {
+      const Vector3 a = axes[i].normalized();
+      out.emplace_back(bodies[i], points[i] + radii[i] * a);
+      out.emplace_back(bodies[i], points[i] + radii[i] * a.unitOrthogonal());
+    }
+  return out;
+}
+
+namespace {
+
+/// In the reference pose.
+RopePath<double> reference_path(const Rope& rope) {
+  std::array<RopeNode<double>, most_rope_nodes> nodes;
+  for (std::size_t i = 0; i < rope.points.size(); ++i) {
+    nodes[i].place = rope.points[i];
+    if (!rope.has_sheave(i))
+      continue;
+    nodes[i].radius = rope.radii[i];
+    nodes[i].axis = rope.axes[i].normalized();
+  }
+  RopePath<double> path;
+  lay_rope<double>(nodes.data(), static_cast<int>(rope.points.size()),
+                   rope.turns.empty() ? nullptr : rope.turns.data(), path);
+  return path;
+}
+
+} // namespace
+
+double Rope::free_length() const {
+  double distance = 0.0;
+  if (is_plain()) {
+    for (std::size_t i = 1; i < points.size(); ++i)
+      distance += (points[i] - points[i - 1]).norm();
+  } else {
+    const RopePath<double> path = reference_path(*this);
+    for (int k = 0; k < path.n_spans; ++k)
+      distance += path.spans[static_cast<std::size_t>(k)].length;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      distance += has_sheave(i) ? radii[i] * path.wrap[i] : 0.0;
+  }
+  return pretension ? distance / (1.0 + *pretension / stiffness) : length.value_or(distance);
+}
+
+std::size_t Rope::shape() const {
+  std::size_t sheaves = 0, rough = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sheaves += has_sheave(i) ? 1 : 0;
+    rough += has_friction(i) ? 1 : 0;
+  }
+  return points.size() + 128 * (sheaves + 128 * rough);
+}
+
+namespace {
+
+constexpr double largest_fleet_angle = pi / 12.0;
+
+/// Keys that hold one entry for each point.
+std::optional<Fault> fault_of_lists(const Rope& rope) {
+  const std::vector<std::pair<std::string, std::size_t>> all = {{"radii", rope.radii.size()},
+                                                                {"axes", rope.axes.size()},
+                                                                {"turns", rope.turns.size()},
+                                                                {"friction", rope.friction.size()}};
+  for (const auto& [key, size] : all)
+    if (size > 0 && size != rope.points.size())
+      return Fault{key, "'" + key + "' takes one entry for each of the points, ends included"};
+  for (const std::size_t end : {std::size_t(0), rope.points.size() - 1}) {
+    if (rope.has_sheave(end))
+      return Fault{"radii", "the ends of a rope are points: their radius is 0"};
+    if (rope.has_friction(end))
+      return Fault{"friction", "a rope is made fast at its ends: their friction is 0"};
+  }
+  for (std::size_t i = 0; i < rope.points.size(); ++i) {
+    if (rope.has_sheave(i) && (rope.axes.empty() || rope.axes[i].norm() == 0.0))
+      return Fault{"axes", "a sheave needs the direction of its axis in 'axes'"};
+    if (!rope.turns.empty() && rope.turns[i] != std::floor(rope.turns[i]))
+      return Fault{"turns", "'turns' are whole numbers: angles beside them follow from the points"};
+    if (!rope.turns.empty() && rope.turns[i] > 0.0 && !rope.has_sheave(i) && !rope.has_friction(i))
+      return Fault{"turns", "turns about a point without radius and friction do nothing"};
+  }
+  return {};
+}
+
+/// Of the path in the reference pose.
+std::optional<Fault> fault_of_path(const Rope& rope) {
+  const RopePath<double> path = reference_path(rope);
+  const auto label = [](int i) { return " (point " + std::to_string(i + 1) + ")"; };
+  for (int k = 0; k < path.n_spans; ++k) {
+    const RopeSpan<double>& s = path.spans[static_cast<std::size_t>(k)];
+    if (!(s.length > 0.0))
+      return Fault{"radii", "no straight part touches the sheaves between points " +
+                                std::to_string(s.from + 1) + " and " + std::to_string(s.to + 1) +
+                                " in the reference pose: one is inside the other's radius"};
+    for (const int end : {s.from, s.to}) {
+      const auto i = static_cast<std::size_t>(end);
+      if (!rope.has_sheave(i))
+        continue;
+      const double fleet = std::asin(std::min(1.0, std::abs(s.e.dot(rope.axes[i].normalized()))));
+      if (fleet > largest_fleet_angle)
+        return Fault{"axes", "in the reference pose the rope leaves the plane of a sheave" +
+                                 label(end) + " by " + rounded_text(fleet * 180.0 / pi, 3) +
+                                 " deg; at most 15 deg are taken, as it would come off"};
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+std::optional<Fault> Rope::fault() const {
+  if (points.size() < 2)
+    return Fault{"points", "a rope needs two points or more"};
+  if (points.size() > most_points)
+    return Fault{"points", "a rope takes 100 points at most: each feels all others"};
+  if (bodies.size() != points.size())
+    return Fault{"bodies", "a rope needs as many names in 'bodies' as 'points'"};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if ((points[i] - points[i - 1]).norm() == 0.0)
+      return Fault{"points", "two points in a row are at one place in the reference pose: the "
+                             "rope has no direction between them"};
+  if (length && pretension)
+    return Fault{"pretension", "write either 'length' or 'pretension'"};
+  if (const std::string_view wrong = Curve::fault(winch_time, winch_length); !wrong.empty())
+    return Fault{"winch_time", "'winch_time' " + std::string(wrong) + " 'winch_length'"};
+  if (!winch_time.empty() && (length || pretension))
+    return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
+  if (const std::optional<Fault> wrong = fault_of_lists(*this))
+    return wrong;
+  if (is_plain())
+    return {};
+  if (points.size() > most_with_sheaves)
+    return Fault{"points", "a rope with sheaves or friction takes 20 points at most"};
+  return fault_of_path(*this);
+}
+
+} // namespace hydrodae::element

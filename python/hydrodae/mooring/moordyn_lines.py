@@ -1,0 +1,112 @@
+"""Lines of a MoorDyn input file on the rung of dynamic lines (`line`)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from hydrodae.mooring.moordyn_chains import Chain
+from hydrodae.mooring.moordyn_deck import Deck, Line, Point
+from hydrodae.mooring.moordyn_sections import number
+
+#: Options that these tables hold, beside those of lines at rest.
+CARRIED = ("kbot", "cbot", "wavekin")
+#: Keys of a part by the names of MoorDyn, of both versions.
+_COEFFICIENTS = {
+    "drag": ("Cd", "Cdn"),
+    "drag_axial": ("CdAx", "Cdt"),
+    "added_mass": ("Ca", "Can"),
+    "added_mass_axial": ("CaAx", "Cat"),
+    "bending_stiffness": ("EI",),
+}
+_KNOWN = {name for names in _COEFFICIENTS.values() for name in names} | {"BA"}
+_BED_STIFFNESS, _BED_DAMPING = 3.0e6, 3.0e5  # MoorDyn's defaults [Pa/m, Pa s/m]
+
+
+def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
+    """Return the keys of a `line` beside its name and ends.
+
+    Parameters
+    ----------
+    deck : Deck
+        The file.
+    chain : Chain
+        Lines in series.
+    depth : float
+        Of the seabed [m].
+
+    Raises
+    ------
+    CaseError
+        A coefficient is no number, or a force of the file pulls at a point between two lines.
+    """
+    table: dict[str, Any] = {
+        "length": [line.length for line in chain.lines],
+        "segments": [line.segments for line in chain.lines],
+        "mass": [line.type.mass for line in chain.lines],
+        "diameter": [line.type.diameter for line in chain.lines],
+        "stiffness": [line.type.stiffness for line in chain.lines],
+        "damping": [_damping(line) for line in chain.lines],
+    }
+    for key, names in _COEFFICIENTS.items():
+        values = [_coefficient(line, names) for line in chain.lines]
+        if any(values):
+            table[key] = values
+    table |= _attachments(chain)
+    table["seabed_depth"] = depth
+    table["seabed_stiffness"] = deck.option("kbot", _BED_STIFFNESS)
+    table["seabed_damping"] = deck.option("cbot", _BED_DAMPING)
+    if friction := deck.option("frictioncoefficient", 0.0):
+        table["seabed_friction"] = friction
+    if not deck.option("wavekin", 0.0):
+        table["waves"] = False
+    return {key: value for key, value in table.items() if value != []}
+
+
+def lost_of(line: Line) -> list[str]:
+    """Name the properties of the type of a line that a `line` does not hold."""
+    return [
+        f"{key} {text}"
+        for key, text in line.type.others.items()
+        if key not in _KNOWN and text not in ("0", "0.0", "0.")
+    ]
+
+
+def _damping(line: Line) -> float:
+    """C [N s]; a negative BA is a part of the critical damping of a segment."""
+    ba = _coefficient(line, ("BA",))
+    if ba >= 0.0:
+        return ba
+    segment = line.length / line.segments
+    return -ba * segment * math.sqrt(line.type.stiffness * line.type.mass)
+
+
+def _coefficient(line: Line, names: tuple[str, ...]) -> float:
+    for name in names:
+        if name in line.type.others:
+            text = line.type.others[name]
+            return number(line.row, text, f"{name} of line type {line.type.name!r}")
+    return 0.0
+
+
+def _attachments(chain: Chain) -> dict[str, list[float]]:
+    """What is at the points between the lines."""
+    at, found = 0.0, list[tuple[float, Point]]()
+    for line, point in zip(chain.lines, chain.between, strict=False):
+        at += line.length
+        if any(point.force):
+            raise point.row.fail(
+                f"point {point.id}: its force is not carried over to a line; make it a mass or a "
+                "volume, or import lines at rest (--type catenary)"
+            )
+        if point.mass or point.volume or point.drag_area:
+            found.append((at, point))
+    if not found:
+        return {}
+    return {
+        "attachment_at": [place for place, _ in found],
+        "attachment_mass": [point.mass for _, point in found],
+        "attachment_volume": [point.volume for _, point in found],
+        "attachment_drag_area": [point.drag_area for _, point in found],
+        "attachment_added_mass": [point.added_mass for _, point in found],
+    }
