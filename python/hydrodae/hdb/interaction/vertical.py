@@ -90,7 +90,7 @@ class Outside:
 def outside(omega: float, depth: float, gravity: float, count: int) -> Outside:
     """Return the first `count` eigenfunctions outside at a frequency [rad/s], which may be inf."""
     if not np.isfinite(omega):
-        numbers = (np.arange(count) + 0.5) * np.pi / depth
+        numbers = np.linspace(0.5, count - 0.5, count) * (np.pi / depth)
         return Outside(depth, numbers, False, np.full(count, np.sqrt(0.5)))
     k = float(wavenumber(omega, depth, gravity))
     x = _evanescent(omega**2 / gravity * depth, count - 1)
@@ -98,7 +98,7 @@ def outside(omega: float, depth: float, gravity: float, count: int) -> Outside:
     twice = _sinh(k, 2.0 * depth, 2.0 * depth) / (2.0 * k * depth)
     norms[0] = np.sqrt(0.5 * (np.exp(-2.0 * k * depth) + twice))
     norms[1:] = np.sqrt(0.5 * (1.0 + np.sin(2.0 * x) / (2.0 * x)))
-    numbers = np.asarray(np.concatenate([[k], x / depth]), dtype=np.float64)
+    numbers = np.concatenate([np.array([k]), x / depth])
     return Outside(depth, numbers, True, norms)
 
 
