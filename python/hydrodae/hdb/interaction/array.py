@@ -77,16 +77,16 @@ def solve(
     headings : sequence of float
         Directions of travel of the plane waves [rad]; not at infinite frequency.
     """
-    found = [respond(body, modes, n) for n in range(orders + 1)]
     near = _nearest(places)
     kept = _audible(modes, body.radius, near)
+    found = [respond(body, modes, n, kept) for n in range(orders + 1)]
     weight = np.ones(kept)
     if np.isfinite(near):
         loud = np.exp(-modes.numbers[:kept] * (near - 2.0 * body.radius))
         weight = np.sqrt(np.maximum(loud, FAINT))
     if modes.waves:
         weight[0] = 1.0
-    parts = _compress(found, weight, kept, orders)
+    parts = _compress(found, weight, orders)
     matrix, sent, received, direct = _couple(body, places, modes, parts, kept, orders)
     arriving, loads, plain = _plane_waves(body, places, modes, found, parts, headings, orders)
     n = len(places)
@@ -141,12 +141,12 @@ def _embed(impedance: Complex, order: int) -> Complex:
     return result
 
 
-def _compress(found: Sequence[Response], weight: Array, kept: int, orders: int) -> list[_Order]:
+def _compress(found: Sequence[Response], weight: Array, orders: int) -> list[_Order]:
     parts = []
     start = 0
     for n in range(-orders, orders + 1):
         one = found[abs(n)]
-        scaled = weight[:, None] * one.scattering[:kept, :kept] * weight
+        scaled = weight[:, None] * one.scattering * weight
         u, s, v = np.linalg.svd(scaled)
         rank = max(1, int(np.count_nonzero(s > RANK * s[0])))
         turns = _turns(n)
@@ -154,8 +154,8 @@ def _compress(found: Sequence[Response], weight: Array, kept: int, orders: int) 
             _Order(
                 sent=u[:, :rank] * s[:rank] / weight[:, None],
                 heard=np.asarray(v[:rank] / weight, dtype=complex),
-                radiated=one.radiated[:kept] @ turns.T,
-                loads=2.0 ** min(abs(n), 1) * turns.conj() @ one.loads[:, :kept],
+                radiated=one.radiated @ turns.T,
+                loads=2.0 ** min(abs(n), 1) * turns.conj() @ one.loads,
                 rank=slice(start, start + rank),
             )
         )

@@ -49,17 +49,17 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Response:
-    """What a cylinder does to waves of one order |n| at one frequency.
+    """What a cylinder does to waves of one order |n| at one frequency, of the M' modes kept.
 
     Attributes
     ----------
-    scattering : (M, M) complex array
+    scattering : (M', M') complex array
         Outgoing coefficients from incident ones.
-    radiated : (M, d) complex array
+    radiated : (M', d) complex array
         Outgoing coefficients per unit velocity [m].
-    loads : (d, M) complex array
+    loads : (d, M') complex array
         int phi n dS of incident waves and what they scatter [m2, m3].
-    undisturbed : (d, M) complex array
+    undisturbed : (d, M') complex array
         The same of the incident waves alone.
     impedance : (d, d) complex array
         int phi n dS per unit velocity [m3 .. m5].
@@ -75,8 +75,8 @@ class Response:
     impedance: Complex
 
 
-def respond(body: Cylinder, modes: Outside, order: int) -> Response:
-    """Solve the isolated cylinder for one order n >= 0."""
+def respond(body: Cylinder, modes: Outside, order: int, kept: int) -> Response:
+    """Solve the isolated cylinder for one order n >= 0; incident are the first `kept` modes."""
     a, h = body.radius, modes.depth
     gap = h - body.draft
     count = max(4, int(np.ceil(INNER_SHARE * modes.numbers.size * gap / h)))
@@ -88,17 +88,16 @@ def respond(body: Cylinder, modes: Outside, order: int) -> Response:
     push, value, radial = _motions(body, modes, order, overlap)
     # h R' Z_m of the outside = b V' (C of the inside) + the hull's own
     driven = (push + gap * overlap.T @ (radial - inner[:, None] * value)) / h
-    known = flow * edge - np.diag(slope)
+    known = (flow * edge - np.diag(slope))[:, :kept]
     found = np.asarray(np.linalg.solve(matrix, np.concatenate([known, driven], axis=1)), complex)
-    m = modes.numbers.size
-    scattering, radiated = found[:, :m], found[:, m:]
+    scattering, radiated = found[:, :kept], found[:, kept:]
     side, bottom = _weights(body, modes, order, count)
-    outer = np.diag(edge) + scattering
+    outer = np.diag(edge)[:, :kept] + scattering
     return Response(
-        scattering=scattering,
-        radiated=radiated,
+        scattering=scattering[:kept],
+        radiated=radiated[:kept],
         loads=side @ outer + bottom @ (overlap @ outer),
-        undisturbed=_undisturbed(body, modes, order, side, edge),
+        undisturbed=_undisturbed(body, modes, order, side, edge)[:, :kept],
         impedance=side @ radiated
         + bottom @ (overlap @ radiated - value)
         + _particular_loads(body, gap, order),
