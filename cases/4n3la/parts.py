@@ -108,14 +108,17 @@ def add_arms(scene: hydrodae.Scene, layout: Layout, stiffness: float, damping: f
 
 
 def add_moorings(scene: hydrodae.Scene, layout: Layout) -> None:
-    """Two ropes in line from each moored node outwards, joined by a neutrally buoyant mass."""
+    """Two ropes in line from each moored node outwards, joined by a neutrally buoyant mass.
+
+    They are as deep as the joints of the arms, so that their pretension turns no node.
+    """
     x0, y0 = np.mean(list(layout.nodes.values()), axis=0)
     for node in layout.moored:
         x, y = layout.nodes[node]
         distance = math.hypot(x - x0, y - y0)
         ex, ey = (x - x0) / distance, (y - y0) / distance
         start, middle, end = (
-            [x + s * ex, y + s * ey, -NODE_DEPTH]
+            [x + s * ex, y + s * ey, -ARM_DEPTH]
             for s in (RADIUS, RADIUS + LINE_LENGTH, RADIUS + 2.0 * LINE_LENGTH)
         )
         buoy = scene.body(

@@ -51,7 +51,7 @@ def deviation(model: LinearModel, layout: Layout, arm: str, node: str) -> float:
     return float(np.degrees(np.sqrt(0.5 * np.sum((waves[:, 2] * pitch) ** 2))))
 
 
-def light_modes(scene: Scene, slowest: float = 60.0) -> list[Complex]:
+def light_modes(scene: Scene, slowest: float = 60.0) -> list[complex]:
     """Return i w - z w of the modes that ring for long, damped by less than a twentieth [1/s]."""
     found = LinearModel(scene.case()).modes()
     return [
@@ -62,7 +62,7 @@ def light_modes(scene: Scene, slowest: float = 60.0) -> list[Complex]:
 
 
 def harmonic(
-    results: Results, channel: str, period: float, start: float, light: Sequence[Complex] = ()
+    results: Results, channel: str, period: float, start: float, light: Sequence[complex] = ()
 ) -> Complex:
     """First harmonic of a channel after `start` [s], over that of the elevation.
 
