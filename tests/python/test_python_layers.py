@@ -23,7 +23,7 @@ LAYERS = [
     {"plot"},
     # one database
     {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
-    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes"},
+    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.interaction"},
     {"hdb.mesh_statics"},
     {"hdb.tables"},
     {"hdb.scales", "hdb.files", "hdb.summary"},
@@ -32,7 +32,7 @@ LAYERS = [
     {"hdb.database"},
     {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.prepare", "hdb.writers"},
     {"hdb.importing"},
-    {"hdb.computing"},
+    {"hdb.computing", "hdb.cylinder_array"},
     {"hdb"},
     # one case
     {"controllers", "drives", "laws"},

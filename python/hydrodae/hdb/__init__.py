@@ -33,17 +33,22 @@ from hydrodae.hdb.tables import Body
 if TYPE_CHECKING:
     from hydrodae.hdb.checks.report import draw_report
     from hydrodae.hdb.computing import compute
+    from hydrodae.hdb.cylinder_array import Water, cylinders
+    from hydrodae.hdb.interaction.cylinder import Cylinder
     from hydrodae.hdb.writers import export
 
 __all__ = [
     "Body",
     "CheckReport",
+    "Cylinder",
     "Finding",
     "HydroDatabase",
     "Hydrostatics",
+    "Water",
     "check",
     "compare",
     "compute",
+    "cylinders",
     "draw_report",
     "examination",
     "expand",
@@ -58,7 +63,14 @@ __all__ = [
 ]
 
 #: What is imported when it is first asked for, and where it is: pictures and xarray take long.
-_LATER = {"compute": "computing", "draw_report": "checks.report", "export": "writers"}
+_LATER = {
+    "Cylinder": "interaction.cylinder",
+    "Water": "cylinder_array",
+    "compute": "computing",
+    "cylinders": "cylinder_array",
+    "draw_report": "checks.report",
+    "export": "writers",
+}
 
 if not TYPE_CHECKING:
 

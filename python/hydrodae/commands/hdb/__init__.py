@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae.commands.hdb import compare, compute, doctor, importing, memory, sensitivity, show
+from hydrodae.commands.hdb import (
+    array,
+    compare,
+    compute,
+    doctor,
+    importing,
+    memory,
+    sensitivity,
+    show,
+)
 
 _ACTIONS = {
     "import": importing.run,
@@ -14,6 +23,7 @@ _ACTIONS = {
     "export": show.run_export,
     "doctor": doctor.run,
     "compute": compute.run,
+    "array": array.run,
     "compare": compare.run,
     "sensitivity": sensitivity.run,
 }
@@ -22,7 +32,7 @@ _ACTIONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands to the parser of `hydrodae hdb`."""
     actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
-    for command in (importing, memory, show, doctor, compute, compare, sensitivity):
+    for command in (importing, memory, show, doctor, compute, array, compare, sensitivity):
         command.add_arguments(actions)
 
 

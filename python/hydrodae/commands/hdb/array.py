@@ -1,0 +1,126 @@
+"""The command `hydrodae hdb array`: equal floating cylinders by interaction theory."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from hydrodae.commands.arguments import parse_numbers
+from hydrodae.errors import CaseError
+from hydrodae.hdb.coordinates import body_name
+from hydrodae.hdb.cylinder_array import Water, cylinders
+from hydrodae.hdb.interaction.cylinder import Cylinder
+from hydrodae.progress import ProgressLine
+
+DONE, BAD_DATA = 0, 2
+
+
+def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the subcommand array."""
+    array = actions.add_parser(
+        "array",
+        help="compute a database of equal floating cylinders, without a boundary-element run",
+        description="Compute a database of equal vertical cylinders by eigenfunction matching and "
+        "the interaction theory of Kagemoto and Yue, exact up to the truncation that is printed, "
+        "and write hydro.h5.",
+        epilog="example: hydrodae hdb array --radius 0.3 --draft 0.6 --at a=0,0 --at b=1.4,0 "
+        "--depth 10 --omega 0.2,12,60 -o hydro.h5",
+    )
+    array.add_argument("--radius", metavar="R", type=float, required=True, help="[m]")
+    array.add_argument("--draft", metavar="D", type=float, required=True, help="[m]")
+    array.add_argument(
+        "--at",
+        metavar="NAME=X,Y",
+        action="append",
+        required=True,
+        help="axis of a body [m]; may be repeated",
+    )
+    array.add_argument(
+        "--cog-z",
+        metavar="Z",
+        type=float,
+        help="height of the reference points [m] (default: half of the draught below the surface)",
+    )
+    array.add_argument(
+        "--omega", metavar="LO,HI,N", required=True, help="frequencies [rad/s]; infinity is added"
+    )
+    array.add_argument(
+        "--heading-deg", metavar="A,B,...", default="0", help="directions of travel (default: 0)"
+    )
+    array.add_argument("--depth", metavar="H", type=float, required=True, help="finite [m]")
+    array.add_argument("--rho", metavar="R", type=float, default=1025.0, help="default: 1025")
+    array.add_argument("--gravity", metavar="G", type=float, default=9.81, help="default: 9.81")
+    array.add_argument(
+        "--orders",
+        metavar="N",
+        type=int,
+        default=4,
+        help="highest order of e^(i n theta) about each body (default: 4)",
+    )
+    array.add_argument(
+        "--modes",
+        metavar="M",
+        type=int,
+        help="vertical eigenfunctions (default: 18 over a draught, at most 600)",
+    )
+    array.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
+    array.add_argument(
+        "--accept", action="store_true", help="write the file although a check found an error"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compute a database.
+
+    Returns
+    -------
+    int
+        0, or 2 if a check found an error and nothing was written.
+
+    Raises
+    ------
+    HydrodaeError
+        Bad arguments, or bodies that touch each other or the seabed.
+    """
+    low, high, count = parse_numbers("--omega", args.omega, 3)
+    if not (0.0 < low < high and count >= 4 and count == int(count)):
+        raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
+    degrees = parse_numbers("--heading-deg", args.heading_deg, args.heading_deg.count(",") + 1)
+    water = Water(
+        omega=np.linspace(low, high, int(count)),
+        depth=args.depth,
+        heading=np.radians(degrees),
+        rho=args.rho,
+        gravity=args.gravity,
+    )
+    places = _places(args.at)
+    body = Cylinder(
+        args.radius, args.draft, -0.5 * args.draft if args.cog_z is None else args.cog_z
+    )
+    with ProgressLine(f"{len(places)} cylinders", "frequencies") as progress:
+        database, report = cylinders(
+            places, body, water, orders=args.orders, modes=args.modes, progress=progress
+        )
+    print(database.summary())
+    print(report)
+    if not report.ok and not args.accept:
+        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+        return BAD_DATA
+    database.write(args.output)
+    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    return DONE
+
+
+def _places(texts: list[str]) -> dict[str, list[float]]:
+    """Read NAME=X,Y of every body."""
+    places: dict[str, list[float]] = {}
+    for text in texts:
+        name, equals, values = text.partition("=")
+        if not equals or body_name(name) != name:
+            raise CaseError(f"--at {text!r}: expected NAME=X,Y")
+        if name in places:
+            raise CaseError(f"--at {text!r}: there is a body {name!r} already")
+        places[name] = parse_numbers("--at", values, 2)
+    return places

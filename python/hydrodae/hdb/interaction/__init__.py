@@ -1,0 +1,1 @@
+"""Databases of equal vertical cylinders by the interaction theory of Kagemoto and Yue (1986)."""
