@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae.commands.hdb import compare, compute, doctor, importing, memory, sensitivity, show
+from hydrodae.commands.hdb import (
+    compare,
+    compute,
+    doctor,
+    importing,
+    memory,
+    mesh,
+    sensitivity,
+    show,
+)
 
 _ACTIONS = {
     "import": importing.run,
@@ -16,13 +25,14 @@ _ACTIONS = {
     "compute": compute.run,
     "compare": compare.run,
     "sensitivity": sensitivity.run,
+    "mesh": mesh.run,
 }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands to the parser of `hydrodae hdb`."""
     actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
-    for command in (importing, memory, show, doctor, compute, compare, sensitivity):
+    for command in (importing, memory, show, doctor, compute, compare, sensitivity, mesh):
         command.add_arguments(actions)
 
 
