@@ -211,6 +211,7 @@ def main() -> None:
     print(report)
     if not report.ok:
         raise SystemExit(f"{netcdf}: the checks found errors, see above")
+    database = database.with_meshes(surfaces)
     with_fits(database).write(args.output, single=True)
     print(f"wrote {args.output}, {args.output.stat().st_size / 1024:.0f} KiB")
 

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae import hdb
+from hydrodae.hdb.bem.shapes import box
 from hydrodae.hdb.tables import Body
 
 RHO, GRAVITY = 1000.0, 9.81  # fresh water [kg/m3], [m/s2]
@@ -68,7 +69,12 @@ def make(folder: Path) -> hdb.HydroDatabase:
         froude_krylov=np.zeros((len(force), 1, 3), dtype=complex),
         diffraction=force[:, None, :],
         bodies={
-            "section": Body("section", np.array([0.0, 0.0, center]), hydrostatics(model, center))
+            "section": Body(
+                "section",
+                np.array([0.0, 0.0, center]),
+                hydrostatics(model, center),
+                box(0.1, length=model["beam"], width=model["width_model"], draft=model["draft"]),
+            )
         },
         rho=RHO,
         gravity=GRAVITY,

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from hydrodae.study.sensitivity import sensitivity
     from hydrodae.study.spectral import spectral
     from hydrodae.study.sweep import sweep
+    from hydrodae.viewer import view
 
     __version__: str
 
@@ -67,6 +68,7 @@ __all__ = [
     "sensitivity",
     "spectral",
     "sweep",
+    "view",
     "working_band",
 ]
 
@@ -84,6 +86,7 @@ _LATER = {
     "sensitivity": "study.sensitivity",
     "sweep": "study.sweep",
     "spectral": "study.spectral",
+    "view": "viewer",
     "working_band": "study.band",
 }
 

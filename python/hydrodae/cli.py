@@ -162,6 +162,19 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         mooring.set_defaults(call=mooring_command.run)
 
     plot.add_parser(commands)
+    view = commands.add_parser(
+        "view",
+        help="see results in three dimensions: a page, a picture, a video, files for ParaView",
+        description="Write one HTML file that shows bodies, joints, lines and the sea of a run in "
+        "three dimensions and needs neither network nor server; or a picture, a video, files for "
+        "ParaView. A case file is shown at its start, without a run.",
+        epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
+    )
+    if command == ["view"]:
+        from hydrodae.commands import view as view_command
+
+        view_command.add_arguments(view)
+        view.set_defaults(call=view_command.run)
     chart.add_arguments(commands)
 
     hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")

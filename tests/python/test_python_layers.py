@@ -40,6 +40,7 @@ LAYERS = [
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
     {"states", "mooring"},
+    {"viewer"},
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},

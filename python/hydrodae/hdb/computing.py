@@ -39,7 +39,7 @@ def compute(
     Returns
     -------
     database : HydroDatabase
-        With hydrostatics of the panels.
+        With the panels and their hydrostatics.
     report : CheckReport
         What the checks found, NaN of Capytaine included.
 
@@ -52,7 +52,8 @@ def compute(
     """
     statics = hydrostatics_of(bodies)
     netcdf = run.compute(bodies, settings, Path(work), progress=progress)
-    return import_database(netcdf, hydrostatics=statics)
+    database, report = import_database(netcdf, hydrostatics=statics)
+    return database.with_meshes({body.name: body.panels for body in bodies}), report
 
 
 def hydrostatics_of(bodies: Sequence[run.WettedBody]) -> dict[str, Hydrostatics]:

@@ -142,7 +142,7 @@ class HydroDatabase(Tables):
             shifts[name] = old - new
             hs = bodies[name].hydrostatics
             moved = None if hs is None else hs.moved(old, new)
-            bodies[name] = Body(name, new, moved)
+            bodies[name] = Body(name, new, moved, self.bodies[name].mesh)
         x = co.transport(self.coordinates, shifts)
         return replace(
             self,
@@ -182,6 +182,14 @@ class HydroDatabase(Tables):
         for name, value in values.items():
             co.check_body(name, bodies)
             bodies[name] = replace(bodies[name], hydrostatics=value)
+        return replace(self, bodies=bodies)
+
+    def with_meshes(self, panels: Mapping[str, ArrayLike]) -> Self:
+        """Return a copy that keeps the wetted surfaces (n, 4, 3) [m] of some bodies."""
+        bodies = dict(self.bodies)
+        for name, value in panels.items():
+            co.check_body(name, bodies)
+            bodies[name] = replace(bodies[name], mesh=np.asarray(value, dtype=float))
         return replace(self, bodies=bodies)
 
     def write(self, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:

@@ -178,6 +178,8 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
                 group.attrs[name] = getattr(hs, name)
             stiffness = db.hydrostatic_stiffness(body.name)
             _dataset(group, "hydrostatic_stiffness", stiffness, "N/m, N, N m")
+        if body.mesh is not None:  # to be looked at: seven digits will do
+            _dataset(group, "mesh", body.mesh.astype(np.float32), "m")
 
 
 def _write_fit(group: h5py.Group, fit: ExponentialMemory) -> None:
@@ -226,7 +228,9 @@ def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
                 float(attrs["waterplane_area"]),
                 attrs["waterplane_moments"],
             )
-        bodies[name] = Body(name, attrs["reference_point"], hydrostatics)
+        mesh = f"bodies/{name}/mesh"
+        panels = _numbers(f, mesh) if mesh in f else None
+        bodies[name] = Body(name, attrs["reference_point"], hydrostatics, panels)
     return bodies
 
 

@@ -190,10 +190,11 @@ def import_database(
     for name, file in (meshes or {}).items():
         check_body(name, database.bodies)
         try:
-            statics = mesh_statics(read_mesh(file), database.reference_point(name))
+            panels = read_mesh(file)
+            statics = mesh_statics(panels, database.reference_point(name))
         except DatabaseError as error:
             raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
-        database = database.with_hydrostatics({name: statics})
+        database = database.with_hydrostatics({name: statics}).with_meshes({name: panels})
         noticed = [f for f in noticed if f.check != "hydrostatics"]
     if keep is not None:
         database = database.select(expand(keep, database.coordinates))

@@ -82,6 +82,8 @@ def _body(db: Tables, body: Body) -> list[str]:
             f"{db.rho * hs.displaced_volume:.5g} kg), "
             f"buoyancy at {_vector(hs.center_of_buoyancy)}, waterplane {hs.waterplane_area:.5g} m2"
         )
+    if body.mesh is not None:
+        lines.append(f"             wetted surface of {len(body.mesh)} panels")
     return lines
 
 

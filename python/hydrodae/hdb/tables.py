@@ -35,11 +35,15 @@ class Body:
         source does not say.
     hydrostatics : Hydrostatics or None
         None if unknown.
+    mesh : (n, 4, 3) array or None
+        Panels of the wetted surface [m], world axes, as they were computed; triangles repeat their
+        last corner. None if the source does not hold them. Nothing is computed from them.
     """
 
     name: str
     reference_point: Array | None = None
     hydrostatics: Hydrostatics | None = None
+    mesh: Array | None = None
 
     def __post_init__(self) -> None:
         if co.body_name(self.name) != self.name:
@@ -49,6 +53,11 @@ class Body:
             if point.shape != (3,) or not np.all(np.isfinite(point)):
                 raise DatabaseError(f"reference point of {self.name!r} must be 3 numbers [m]")
             object.__setattr__(self, "reference_point", point)
+        if self.mesh is not None:
+            mesh = np.array(self.mesh, dtype=float)
+            if mesh.ndim != 3 or mesh.shape[1:] != (4, 3) or not np.all(np.isfinite(mesh)):
+                raise DatabaseError(f"mesh of {self.name!r} must be panels (n, 4, 3) [m]")
+            object.__setattr__(self, "mesh", mesh)
 
 
 @dataclass

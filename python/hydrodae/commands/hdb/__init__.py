@@ -11,6 +11,7 @@ from hydrodae.commands.hdb import (
     doctor,
     importing,
     memory,
+    mesh,
     sensitivity,
     show,
 )
@@ -26,13 +27,14 @@ _ACTIONS = {
     "array": array.run,
     "compare": compare.run,
     "sensitivity": sensitivity.run,
+    "mesh": mesh.run,
 }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands to the parser of `hydrodae hdb`."""
     actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
-    for command in (importing, memory, show, doctor, compute, array, compare, sensitivity):
+    for command in (importing, memory, show, doctor, compute, array, compare, sensitivity, mesh):
         command.add_arguments(actions)
 
 

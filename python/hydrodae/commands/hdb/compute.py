@@ -123,6 +123,7 @@ def run(args: argparse.Namespace) -> int:
     if nan:
         print(f"warning: NaN in the results of Capytaine: {nan}")
     database, report = import_database(netcdf, hydrostatics=statics)
+    database = database.with_meshes({body.name: body.panels for body in bodies})
     print(database.summary())
     print(report)
     if not report.ok and not args.accept:

@@ -65,7 +65,9 @@ def read_nemoh(path: Path) -> SourceData:
         raise DatabaseError(f"{root}: no RadiationCoefficients.tec in it or in its results folder")
     data = _read_tables(root, cal, names, [cal_file, radiation])
     _compare_grid(data, cal)
-    _attach_hydrostatics(data, root, names, [body.mesh for body in cal.bodies])
+    meshes = [body.mesh for body in cal.bodies]
+    _attach_hydrostatics(data, root, names, meshes)
+    data.meshes = nh.wetted_meshes(root, dict(zip(names, meshes, strict=True)))
     correct_time_sense(data)
     return data
 

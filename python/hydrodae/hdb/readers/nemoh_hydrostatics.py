@@ -155,6 +155,19 @@ def from_meshes(
     return result if same_volume and same_area else None
 
 
+def wetted_meshes(root: Path, meshes: dict[str, str]) -> dict[str, Array]:
+    """Panels (n, 4, 3) [m] by body of the mesh files that are there; `meshes` has their names."""
+    found = {}
+    for body, name in meshes.items():
+        path = find(root, f"{name}.dat", f"{name}.gdf", f"{name}.stl")
+        try:
+            if path is not None:
+                found[body] = read_mesh(path)
+        except DatabaseError:  # a file of that name which is no mesh: nothing is computed from it
+            continue
+    return found
+
+
 def _read_one(
     root: Path, i: int, count: int, rho: float, gravity: float
 ) -> FileHydrostatics | None:

@@ -65,6 +65,8 @@ class SourceData:
         What the reader noticed.
     assumed_points : set of str
         Bodies whose reference point the source does not state: the user may state another.
+    meshes : dict
+        Panels (n, 4, 3) of the wetted surface of bodies [m], where the source holds them.
     """
 
     coordinates: tuple[str, ...]
@@ -86,6 +88,7 @@ class SourceData:
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     assumed_points: set[str] = field(default_factory=set)
+    meshes: dict[str, Array] = field(default_factory=dict)
 
 
 def sha256(files: Iterable[Path]) -> str:
@@ -140,9 +143,10 @@ def _body(data: SourceData, name: str) -> Body:
                 f"(source_points, --origin {name}=x,y,z)",
             )
         )
+    mesh = data.meshes.get(name)
     if found is None or point is None:
-        return Body(name, point)
-    return Body(name, point, found[0].moved(found[1], point))
+        return Body(name, point, mesh=mesh)
+    return Body(name, point, found[0].moved(found[1], point), mesh)
 
 
 def _drop_rows_with_nan(data: SourceData) -> None:

@@ -1,0 +1,154 @@
+"""Ropes, mooring lines, springs and rods over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import CaseError
+from hydrodae.mooring import catenary
+from hydrodae.viewer.bodies import bodies_of_rope
+from hydrodae.viewer.source import Source
+from hydrodae.viewer.stage import Body, Line
+
+Array = NDArray[np.float64]
+#: Points along a line that hangs.
+POINTS = 33
+
+
+def make_lines(
+    source: Source, tables: Mapping[str, Any], bodies: Sequence[Body]
+) -> tuple[list[Line], list[str]]:
+    """Lines of a case over time, and notes of what cannot be drawn."""
+    known = {body.name: body for body in bodies}
+    lines, notes = list[Line](), list[str]()
+    makers = {"rope": _rope, "catenary": _catenary, "line": _line, "spring_damper": _spring}
+    for force in tables.get("force", []):
+        if force["type"] in makers:
+            try:
+                lines.append(makers[force["type"]](source, force, known))
+            except CaseError as error:
+                notes.append(f"line {force['name']} is not drawn: {error}")
+    for joint in tables.get("joint", []):
+        if joint["type"] in ("distance", "telescope"):
+            lines.append(_rod(source, joint, known))
+    return lines, notes
+
+
+def _rope(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
+    carriers = bodies_of_rope(force)
+    points = [
+        _places(source, bodies, body, point)
+        for body, point in zip(carriers, force["points"], strict=True)
+    ]
+    name = force["name"]
+    return Line(name, "rope", _names(*carriers), np.stack(points, axis=1), _load(source, name))
+
+
+def _spring(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
+    ends = [_places(source, bodies, force[f"body_{e}"], force[f"point_{e}"]) for e in "ab"]
+    name = force["name"]
+    carriers = _names(force["body_a"], force["body_b"])
+    return Line(name, "spring", carriers, np.stack(ends, axis=1), _load(source, name))
+
+
+def _rod(source: Source, joint: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
+    ends = [
+        _places(source, bodies, joint["body_a"], joint["point"]),
+        _places(source, bodies, joint["body_b"], joint["point_b"]),
+    ]
+    kind = "rope" if joint.get("one_sided") else "rod"
+    kind = "telescope" if joint["type"] == "telescope" else kind
+    carriers = _names(joint["body_a"], joint["body_b"])
+    return Line(joint["name"], kind, carriers, np.stack(ends, axis=1), None)
+
+
+def _line(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
+    name = force["name"]
+    nodes = source.values(f"forces/{name}/position")
+    points = nodes.reshape(len(nodes), -1, 3)
+    load = source.values(f"forces/{name}/tension_along").reshape(len(nodes), -1)
+    if points.shape[1] > 2 * POINTS:
+        kept = np.unique(np.linspace(0, points.shape[1] - 1, 2 * POINTS).astype(int))
+        points, load = points[:, kept], load[:, kept[:-1]]
+    carriers = _names(force.get("body_a", "ground"), force.get("body_b", "ground"))
+    return Line(name, "line", carriers, points, load)
+
+
+def _catenary(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
+    name, body_a = force["name"], force.get("body_a", "ground")
+    a = _places(source, bodies, body_a, force["point_a"])
+    b = _places(source, bodies, force["body_b"], force["point_b"])
+    tension = _load(source, name)
+    length = list(force["length"])
+    if "pretension" in force:
+        assert tension is not None
+        length[0] = _length_of(force, b[0] - a[0], float(tension[0, 0]))
+    points = np.empty((len(a), POINTS, 3))
+    along = np.empty((len(a), POINTS - 1))
+    for i, (start, end) in enumerate(zip(a, b, strict=True)):
+        points[i], along[i] = _hanging(force, length, start, end)
+    return Line(name, "catenary", _names(body_a, force["body_b"]), points, along)
+
+
+def _hanging(
+    force: Mapping[str, Any], length: Sequence[float], start: Array, end: Array
+) -> tuple[Array, Array]:
+    """Places (k, 3) and tensions (k - 1,) of a line at rest between two points."""
+    away = end - start
+    reach = float(np.hypot(away[0], away[1]))
+    towards = away[:2] / reach if reach > 0.0 else np.array([1.0, 0.0])
+    shape = catenary(
+        reach,
+        float(away[2]),
+        length,
+        force["weight"],
+        force["stiffness"],
+        loads=force.get("loads", ()),
+        seabed=force.get("seabed", True),
+        friction=force.get("friction", 0.0),
+        n=POINTS,
+    )
+    places = np.column_stack([np.outer(shape.x, towards), shape.z]) + start
+    return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1])
+
+
+def _length_of(force: Mapping[str, Any], away: Array, tension: float) -> float:
+    """Unstretched length of the first part that gives the tension of a sample, by bisection."""
+    rest = sum(force["length"][1:])
+    span = float(np.linalg.norm(away))
+    low, high = max(0.5 * span - rest, 1e-3 * span), 4.0 * span + force["length"][0]
+
+    def pull(first: float) -> float:
+        parts = [first, *force["length"][1:]]
+        return float(_hanging(force, parts, np.zeros(3), away)[1][-1])
+
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if pull(middle) > tension else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _places(source: Source, bodies: Mapping[str, Body], body: str, point: Any) -> Array:
+    """World places (n, 3) over time of a point of a body, or of the ground."""
+    at = np.asarray(point, dtype=float)
+    if body not in bodies:
+        return np.broadcast_to(at, (len(source.time), 3))
+    return bodies[body].places(at)[:, 0]
+
+
+def _load(source: Source, name: str) -> Array | None:
+    """Tension, or force along a spring, (n, 1) [N]."""
+    for channel in (f"forces/{name}/tension", f"forces/{name}/force"):
+        if channel in source.names:
+            values = source.values(channel)
+            if values.ndim == 1:
+                return values[:, None]
+    return None
+
+
+def _names(*bodies: str) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(bodies))

@@ -1,0 +1,190 @@
+"""What is drawn: bodies, joints, lines and sea over time, free of any way to draw it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body.
+
+    Attributes
+    ----------
+    name : str
+    center : (3,) array
+        Centre of gravity in the reference pose [m].
+    position : (n, 3) array
+        Centre of gravity over time, world [m].
+    orientation : (n, 4) array
+        Unit quaternion (w, x, y, z) of the rotation from the reference pose.
+    surface : (m, 3, 3) array
+        Triangles in the reference pose, world axes [m].
+    above : (k, 3, 3) array
+        Likewise what is drawn above the water line, which no file holds.
+    origin : str
+        Where the surface is from, in words.
+    moves : bool
+    """
+
+    name: str
+    center: Array
+    position: Array
+    orientation: Array
+    surface: Array
+    above: Array
+    origin: str
+    moves: bool
+
+    def places(self, points: Array) -> Array:
+        """World places (n, k, 3) over time of points (k, 3) of the reference pose."""
+        arms = np.asarray(points, dtype=float).reshape(-1, 3) - self.center
+        w, v = self.orientation[:, None, :1], self.orientation[:, None, 1:]
+        turned = arms + 2.0 * np.cross(v, np.cross(v, arms) + w * arms)
+        return np.asarray(self.position[:, None, :] + turned, dtype=float)
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint as a symbol.
+
+    Attributes
+    ----------
+    name, type : str
+    body : str
+        Body that carries it, or "ground".
+    bodies : tuple of str
+        Both bodies.
+    point, axis : (3,) array
+        Place and axis in the reference pose; the axis is z where the joint has none.
+    driven : bool
+        A power take-off works on it.
+    """
+
+    name: str
+    type: str
+    body: str
+    bodies: tuple[str, str]
+    point: Array
+    axis: Array
+    driven: bool
+
+
+@dataclass(frozen=True)
+class Line:
+    """A rope, mooring line, spring or rod.
+
+    Attributes
+    ----------
+    name, kind : str
+    bodies : tuple of str
+        What it is attached to.
+    points : (n, k, 3) array
+        Its shape over time, world [m].
+    load : (n, 1) or (n, k - 1) array, or None
+        Tension, or load, of all of it or of each piece [N]; None if the results do not tell.
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[str, ...]
+    points: Array
+    load: Array | None
+
+
+@dataclass(frozen=True)
+class Sea:
+    """The undisturbed water.
+
+    Attributes
+    ----------
+    waves : (n, 5) array
+        Frequency [rad/s], wavenumber [rad/m], heading [rad], amplitude [m], phase [rad].
+    ramp : float
+        Time over which the waves grow [s].
+    depth : float
+        Of the water [m]; may be infinite.
+    """
+
+    waves: Array
+    ramp: float
+    depth: float
+
+    def elevation(self, time: float, x: Array, y: Array) -> Array:
+        """Elevation [m] at places x, y of one shape: ramp sum a cos(wt - k.x + phase)."""
+        total = np.zeros(np.shape(x))
+        for w, k, heading, amplitude, phase in self.waves:
+            along = np.cos(heading) * x + np.sin(heading) * y
+            total += amplitude * np.cos(w * time - k * along + phase)
+        return np.asarray(total * self.growth(time), dtype=float)
+
+    def growth(self, time: float) -> float:
+        """Part of their height that the waves have: a polynomial of degree 7, then 1."""
+        if self.ramp <= 0.0 or time >= self.ramp:
+            return 1.0
+        x = max(time / self.ramp, 0.0)
+        return float(x**4 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x))))
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A channel to be looked at.
+
+    Attributes
+    ----------
+    name : str
+        Of the channel; a component is ``bodies/float/position.z``.
+    about : tuple of str
+        Names of the bodies, joints and lines that it is about.
+    group : str
+        Curves of one group share a chart.
+    label, unit : str
+    values : (n,) array
+    """
+
+    name: str
+    about: tuple[str, ...]
+    group: str
+    label: str
+    unit: str
+    values: Array
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A scene over time.
+
+    Attributes
+    ----------
+    title, state : str
+        Title of the case; how the run ended.
+    time : (n,) array
+        Samples [s].
+    bodies, joints, lines, curves : list
+    sea : Sea or None
+        None without water.
+    bed : float or None
+        Height of the seabed that is drawn, z [m].
+    notes : list of str
+        What a looker should know: what is drawn and in no file.
+    """
+
+    title: str
+    state: str
+    time: Array
+    bodies: list[Body]
+    joints: list[Joint]
+    lines: list[Line]
+    curves: list[Curve]
+    sea: Sea | None
+    bed: float | None
+    notes: list[str] = field(default_factory=list)
+
+    def body(self, name: str) -> Body | None:
+        """The body of this name; None for the ground."""
+        return next((body for body in self.bodies if body.name == name), None)
