@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae.commands import chart, check, equilibrium, keys, plot, run, schema
+from hydrodae.commands import chart, check, equilibrium, keys, new, plot, run, schema
 from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
 from hydrodae.version import version
@@ -96,6 +96,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
+    new.add_parser(commands)
     run.add_parser(commands)
     check.add_parser(commands)
     equilibrium.add_parser(commands)
