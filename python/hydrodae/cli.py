@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae.commands import chart, check, equilibrium, keys, new, plot, run, schema
+from hydrodae.commands import chart, check, equilibrium, keys, new, plot, report, run, schema
 from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
 from hydrodae.version import version
@@ -163,6 +163,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         mooring.set_defaults(call=mooring_command.run)
 
     plot.add_parser(commands)
+    report.add_parser(commands)
     chart.add_arguments(commands)
 
     hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")

@@ -44,6 +44,7 @@ LAYERS = [
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},
+    {"report"},
     {"commands"},
     {"cli"},
     {"", "__main__"},

@@ -55,7 +55,10 @@ def test_statistics_of_a_channel_and_of_a_component(results_writer):
     time = np.linspace(0.0, 400.0, 4001)
     wave = np.sin(2 * np.pi * time / 10.0) * (time > 100.0)
     place = np.stack([0 * time, 0 * time, 3.0 + 0.5 * wave], axis=1)
-    channels = {"sea/elevation": (wave, "m", "world"), "bodies/buoy/position": (place, "m", "world")}
+    channels = {
+        "sea/elevation": (wave, "m", "world"),
+        "bodies/buoy/position": (place, "m", "world"),
+    }
     results = Results.read(results_writer(time, channels=channels))
     found = results.statistics_of("sea/elevation", start=100.0)
     assert (found.unit, found.start, found.end) == ("m", 100.0, 400.0)
