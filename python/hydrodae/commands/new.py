@@ -12,7 +12,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="write a commented case that runs at once",
         description="Write a folder with a commented case file, its hydrodynamic database and what "
         "made it, and a study of its power; without KIND, list the kinds.",
-        epilog="example: hydrodae new flap my_flap && hydrodae run my_flap/case.toml",
     )
     parser.add_argument("kind", metavar="KIND", nargs="?", help="such as point_absorber or flap")
     parser.add_argument(

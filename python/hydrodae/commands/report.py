@@ -13,7 +13,6 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         description="Write one HTML page that needs no other file: scene, models used, notes, "
         "checks, figures, statistics, versions and hashes of a run; matrices and failures of a "
         "sweep.",
-        epilog="examples: hydrodae report case.h5; hydrodae report power_matrix.nc -o power.html",
     )
     parser.add_argument("results", metavar="RESULTS", help="results of run (.h5) or sweep (.nc)")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS with .html")
