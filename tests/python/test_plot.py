@@ -93,7 +93,7 @@ def test_overview_shows_powers_with_their_means_tensions_and_spectra(results_wri
     assert figure.axes[-1].get_xlabel() == "angular frequency [rad/s]"
     assert figure.axes[-3].get_xlabel() == "time [s]"
     line = figure.axes[-1].lines[0]
-    variance = np.trapezoid(line.get_ydata(), line.get_xdata())
+    variance = np.trapezoid(np.asarray(line.get_ydata()), np.asarray(line.get_xdata()))
     assert variance == pytest.approx(2.0, rel=0.02)  # 2 deg amplitude
     assert 2 * np.pi / 9.0 < figure.axes[-1].get_xlim()[1] < 2.0
 

@@ -22,6 +22,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="run on the workers of this scheduler of dask.distributed, such as tcp://head:8786",
+    )
     add_json(parser)
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
@@ -42,6 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
             output,
             set=values,
             jobs=arguments.jobs,
+            scheduler=arguments.scheduler,
             progress=None if arguments.quiet else progress,
         )
     if arguments.json:

@@ -76,9 +76,9 @@ def matrix(values: xr.DataArray, name: str) -> Figure:
     axes = figure.subplots()
     image = axes.imshow(numbers / factor, cmap="viridis", aspect="auto", origin="lower")
     axes.grid(visible=False)
+    middle = 0.4 * np.nanmin(numbers / factor) + 0.6 * np.nanmax(numbers / factor)
     for (i, j), value in np.ndenumerate(numbers / factor):
-        level = image.norm(value)
-        color = "white" if np.ma.is_masked(level) or level < 0.6 else "black"
+        color = "black" if value > middle else "white"
         axes.text(j, i, f"{value:.3g}", ha="center", va="center", fontsize=8, color=color)
     axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])
     axes.set_yticks(range(numbers.shape[0]), [_short(v) for v in values[down].to_numpy()])
