@@ -84,7 +84,7 @@ def run_points_on(
                 at[out[-1].key] = point
             return out
 
-        queue = as_completed(submit(width))
+        queue = as_completed(submit(width), loop=client.loop)
         for future in queue:
             point = at.pop(future.key)
             try:
