@@ -184,6 +184,30 @@ def test_killed_sweep_goes_on_and_runs_nothing_twice(folder: Path) -> None:
     assert kept >= 4
 
 
+@pytest.mark.slow
+def test_ten_kills_at_random_moments_change_nothing(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"force.pto.damping" = { from = 1, to = 2, count = 60 }\n')
+    whole = hydrodae.sweep(study, folder / "whole.nc", jobs=1)
+    record = folder / "killed.runs.jsonl"
+    command = [sys.executable, "-m", "hydrodae", "sweep", str(study), "--jobs", "2", "-q"]
+    draw = np.random.default_rng(1)
+    for kill in range(10):
+        before = record.read_bytes().count(b"\n") if record.exists() else 0
+        process = subprocess.Popen([*command, "-o", str(folder / "killed.nc")])
+        while process.poll() is None:  # after some rows, and some time more
+            rows = record.read_bytes().count(b"\n") if record.exists() else 0
+            if rows > before + kill % 4:
+                time.sleep(float(draw.uniform(0.0, 0.05)))
+                break
+            time.sleep(0.002)
+        process.kill()
+        process.wait()
+    again = hydrodae.sweep(study, folder / "killed.nc", jobs=2)
+    xarray.testing.assert_identical(again.load(), whole.load())
+    keys = [json.loads(line).get("key") for line in record.read_text().splitlines()]
+    assert len(keys) == len(set(keys)) == 61
+
+
 def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:
     """A heaving buoy without drag: linear response, spectral and time domain agree."""
     case = create("point_absorber", tmp_path / "buoy")

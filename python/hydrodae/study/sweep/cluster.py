@@ -76,7 +76,7 @@ def run_points_on(
         at = {}
 
         def submit(count: int) -> list[Any]:
-            out = []
+            out: list[Any] = []
             while len(out) < count and (point := next(left, None)) is not None:
                 out.append(
                     client.submit(run_there, path, values, measures, rungs, point, pure=False)
