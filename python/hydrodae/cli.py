@@ -15,12 +15,27 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae.commands import chart, check, equilibrium, keys, plot, run, schema
+from hydrodae.commands import (
+    chart,
+    check,
+    completion,
+    equilibrium,
+    keys,
+    new,
+    plot,
+    report,
+    run,
+    schema,
+)
+from hydrodae.commands.examples import add_examples
 from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
 from hydrodae.version import version
 
 DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
+
+#: In place of a command: all arguments of all commands.
+ALL = ["*"]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -85,7 +100,7 @@ def _plain_warnings() -> Iterator[None]:
 
 
 def _parser(command: list[str]) -> argparse.ArgumentParser:
-    """All commands; the arguments of hdb, which need its modules, only if it is the `command`."""
+    """All commands; the arguments of some, which need their modules, only of the `command`."""
     parser = argparse.ArgumentParser(
         prog="hydrodae",
         description="Simulate wave energy converters with awkward mechanisms.",
@@ -96,6 +111,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
+    new.add_parser(commands)
     run.add_parser(commands)
     check.add_parser(commands)
     equilibrium.add_parser(commands)
@@ -107,7 +123,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "its static equilibrium, from the frequency tables of its database; beside them, if asked "
         "for, runs in regular waves.",
     )
-    if command == ["rao"]:
+    if command in (["rao"], ALL):
         from hydrodae.commands import rao as rao_command
 
         rao_command.add_arguments(rao)
@@ -121,7 +137,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "linear loads that are nearest to them for the motion that follows; beside them, if asked "
         "for, runs with several seeds.",
     )
-    if command == ["spectral"]:
+    if command in (["spectral"], ALL):
         from hydrodae.commands import spectral as spectral_command
 
         spectral_command.add_arguments(spectral)
@@ -134,7 +150,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "memory, solver time, error of the kernel, and error of the motion against the next "
         "higher model.",
     )
-    if command == ["ladder"]:
+    if command in (["ladder"], ALL):
         from hydrodae.commands import ladder as ladder_command
 
         ladder_command.add_arguments(ladder)
@@ -145,9 +161,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         help="run a case with many values of its keys, on all cores: power matrix, annual energy",
         description="Run every point of a study. What is finished is kept at once: an interrupted "
         "or killed sweep goes on where it stopped, and a run that fails is a row with its reason.",
-        epilog="example: hydrodae sweep power_matrix.toml -o power_matrix.nc",
     )
-    if command == ["sweep"]:
+    if command in (["sweep"], ALL):
         from hydrodae.commands import sweep as sweep_command
 
         sweep_command.add_arguments(sweep)
@@ -155,7 +170,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     mooring = commands.add_parser(
         "mooring", help="mooring matrices from lines, and MoorDyn's input files"
     )
-    if command == ["mooring"]:
+    if command in (["mooring"], ALL):
         from hydrodae.commands import mooring as mooring_command
 
         mooring_command.add_arguments(mooring)
@@ -175,10 +190,11 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
 
         view_command.add_arguments(view)
         view.set_defaults(call=view_command.run)
+    report.add_parser(commands)
     chart.add_arguments(commands)
 
     hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
-    if command == ["hdb"]:
+    if command in (["hdb"], ALL):
         from hydrodae.commands import hdb as hdb_command
 
         hdb_command.add_arguments(hdb)
@@ -191,7 +207,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "or that it stopped, was refused (-), or returned success with a wrong motion. Exit code 1 "
         "if one did.",
     )
-    if command == ["stability-map"]:
+    if command in (["stability-map"], ALL):
         from hydrodae.commands import stability as stability_command
 
         stability_command.add_arguments(stability)
@@ -199,8 +215,10 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
 
     keys.add_parser(commands)
     schema.add_parser(commands)
+    completion.add_parser(commands, lambda: _parser(ALL))
     versions = commands.add_parser("version", help="print the versions")
     versions.set_defaults(call=_version)
+    add_examples(commands)
     return parser
 
 

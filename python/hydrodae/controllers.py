@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.errors import CaseError
+from hydrodae.names import check_names
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -34,21 +33,12 @@ def kernel_controllers(
         A name is not that of such a controller, or one has no function.
     """
     given = dict(controllers or {})
-    declared = scene.python_controllers
-    for name, function in given.items():
-        if name not in declared:
-            near = difflib.get_close_matches(name, declared, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise CaseError(
-                f"controllers: {name!r} is no controller of type python{hint} "
-                f"(valid: {', '.join(declared) or 'none in this case'})"
-            )
-        if not callable(function):
-            raise CaseError(f"controllers: {name!r} needs a function, got {function!r}")
-    for name in declared:
-        if name not in given:
-            raise CaseError(
-                f"controller {name!r} is a Python function, which nobody gave; run the case as "
-                f'hydrodae.run(case, controllers={{"{name}": function}})'
-            )
+    check_names(
+        given,
+        scene.python_controllers,
+        argument="controllers",
+        kind="controller of type python",
+        owner="controller",
+        signature="function or object",
+    )
     return given

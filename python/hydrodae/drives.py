@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hydrodae.errors import CaseError
+from hydrodae.names import check_names
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -39,27 +39,18 @@ def kernel_drives(scene: Scene, drives: Mapping[str, Drive] | None) -> dict[str,
         value only is not smooth enough for a spline.
     """
     given = dict(drives or {})
-    declared = scene.python_drives
-    for name in given:
-        if name not in declared:
-            near = difflib.get_close_matches(name, declared, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise CaseError(
-                f"drives: {name!r} is no constraint with drive = {{ python = true }}{hint} "
-                f"(valid: {', '.join(declared) or 'none in this case'})"
-            )
-    for name in declared:
-        if name not in given:
-            raise CaseError(
-                f"constraint {name!r}: its drive is a Python function, which nobody gave; run the "
-                f'case as hydrodae.run(case, drives={{"{name}": function}})'
-            )
+    check_names(
+        given,
+        scene.python_drives,
+        argument="drives",
+        kind="constraint with drive = { python = true }",
+        owner="drive of constraint",
+        signature="function of time",
+    )
     return {name: _kernel(name, drive, scene.end_time) for name, drive in given.items()}
 
 
 def _kernel(name: str, drive: Drive, end_time: float) -> Kernel:
-    if not callable(drive):
-        raise CaseError(f"drives: {name!r} needs a function of time, got {drive!r}")
     width = np.size(drive(0.0))
     if width == 1:
         return _splined(name, drive, end_time)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hydrodae.errors import CaseError
+from hydrodae.names import check_names
 
 if TYPE_CHECKING:
     from hydrodae._core import Scene
@@ -35,23 +35,14 @@ def kernel_forces(scene: Scene, forces: Mapping[str, Force] | None) -> dict[str,
         A name is not that of such a force, or one has no function.
     """
     given = dict(forces or {})
-    declared = scene.python_forces
-    for name, function in given.items():
-        if name not in declared:
-            near = difflib.get_close_matches(name, declared, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise CaseError(
-                f"forces: {name!r} is no force of type python_load or python_wrench{hint} "
-                f"(valid: {', '.join(declared) or 'none in this case'})"
-            )
-        if not callable(function):
-            raise CaseError(f"forces: {name!r} needs a function f(t, x, v), got {function!r}")
-    for name in declared:
-        if name not in given:
-            raise CaseError(
-                f"force {name!r} is a Python function, which nobody gave; run the case as "
-                f'hydrodae.run(case, forces={{"{name}": function}})'
-            )
+    check_names(
+        given,
+        scene.python_forces,
+        argument="forces",
+        kind="force of type python_load or python_wrench",
+        owner="force",
+        signature="function f(t, x, v)",
+    )
     return {name: _checked(name, function) for name, function in given.items()}
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.results.series import FEWEST, spectral_density
 from hydrodae.units import displayed
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ class Line:
     quantity: str
     unit: str
     values: NDArray[np.float64]
+    level: float | None = None  #: drawn dashed beside the line, such as its mean
 
     @property
     def span(self) -> float:
@@ -42,6 +44,7 @@ class Panel:
     unit: str
     lines: list[Line] = field(default_factory=list)
     note: str = ""
+    omega: NDArray[np.float64] | None = None  #: rad/s, of spectra; else the lines are over time
 
     @property
     def label(self) -> str:
@@ -98,10 +101,10 @@ def gather(lines: Iterable[Line]) -> list[Panel]:
 
 
 def overview(results: Results) -> list[Panel]:
-    """Panels of the standard picture: what of it the file has.
+    """Panels of the standard picture over time: what of it the file has.
 
-    Elevation, joint coordinates, motions of the bodies, sizes of the reactions of the joints, loads
-    of the constraints, energies.
+    Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, sizes of
+    the reactions of the joints, loads of the constraints, tensions, energies.
     """
     if not len(results.time):
         return []
@@ -111,12 +114,48 @@ def overview(results: Results) -> list[Panel]:
         Panel("joint displacement", "m", _coordinates(results, "displacement")),
         Panel("body displacement\nfrom the start", "m", _from_start(_moving(results, "position"))),
         Panel("body rotation", "deg", _moving(results, "rotation")),
+        _power(results),
         _scaled(Panel("reaction force", "N", _sizes(results, "reaction_force"))),
         _scaled(Panel("reaction moment", "N m", _sizes(results, "reaction_moment"))),
         *(_scaled(panel) for panel in gather(_constraint_loads(results))),
+        _scaled(Panel("tension", "N", _tensions(results))),
         _energy(results),
     ]
     return [panel for panel in panels if panel.lines]
+
+
+def spectra(results: Results) -> list[Panel]:
+    """Panels of spectral densities after the ramp: elevation and joint coordinates.
+
+    None where there are no waves, or too few samples.
+    """
+    start = float(results.statistics.get("mean_power_from", 0.0))
+    kept = results.time >= start
+    if "sea/elevation" not in results or np.count_nonzero(kept) < FEWEST:
+        return []
+    panels = []
+    for panel in overview(results):
+        if panel.quantity in ("elevation", "joint angle", "joint displacement"):
+            found = [spectral_density(results.time[kept], x.values[kept]) for x in panel.lines]
+            unit = f"{panel.unit}$^2$ s/rad"
+            lines = [
+                Line(line.label, panel.quantity, unit, spectrum.density)
+                for line, spectrum in zip(panel.lines, found, strict=True)
+            ]
+            panels.append(Panel(panel.quantity + "\nspectrum", unit, lines, "", found[0].omega))
+    return panels
+
+
+def highest_frequency(panels: Iterable[Panel]) -> float:
+    """Frequency [rad/s] below which every line of these spectra has 99.5 % of its variance."""
+    highest = 0.0
+    for panel in panels:
+        assert panel.omega is not None
+        for line in panel.lines:
+            part = np.cumsum(line.values)
+            if part[-1] > 0:
+                highest = max(highest, float(panel.omega[np.searchsorted(part, 0.995 * part[-1])]))
+    return highest
 
 
 def most_moving(panel: Panel) -> Panel:
@@ -126,7 +165,8 @@ def most_moving(panel: Panel) -> Panel:
     spans = np.array([line.span for line in panel.lines])
     kept = np.sort(np.argsort(-spans, kind="stable")[:MOST_LINES])
     note = f"largest {MOST_LINES} of {len(spans)}"
-    return Panel(panel.quantity, panel.unit, [panel.lines[i] for i in kept], note)
+    note = f"{note}; {panel.note}" if panel.note else note
+    return replace(panel, lines=[panel.lines[i] for i in kept], note=note)
 
 
 def _all(results: Results, pattern: str) -> list[Line]:
@@ -176,14 +216,56 @@ def _constraint_loads(results: Results) -> list[Line]:
     return [replace(line, quantity="constraint load") for line in lines if line.values.any()]
 
 
+def _power(results: Results) -> Panel:
+    """Absorbed power of each take-off, its mean as a level and in its label."""
+    lines = []
+    for name in results.channels("forces/*/power_absorbed"):
+        line = replace(select(results, name)[0], quantity="absorbed power")
+        mean = results.statistics.get(f"mean_power_absorbed.{line.label}")
+        lines.append(line if mean is None else replace(line, level=float(mean)))
+    panel = _scaled(Panel("absorbed power", "W", lines))
+    start = float(results.statistics.get("mean_power_from", 0.0))
+    panel.note = f"dashed: mean after {start:g} s" if start else "dashed: mean"
+    panel.lines = [
+        line
+        if line.level is None
+        else replace(line, label=f"{line.label}, mean {line.level:.3g} {line.unit}")
+        for line in panel.lines
+    ]
+    return panel
+
+
+def _tensions(results: Results) -> list[Line]:
+    """Tensions of ropes and lines at their ends."""
+    lines = []
+    for name in results.channels("forces/*/tension*"):
+        if results[name].ndim == 1 and results[name].attrs.get("unit") == "N":
+            end = name.rpartition("/tension")[2].replace("_", " ")
+            line = select(results, name)[0]
+            lines.append(replace(line, label=line.label + end, quantity="tension"))
+    return lines
+
+
 def _scaled(panel: Panel) -> Panel:
     """The panel in k, M or G of its unit, by its largest value."""
     largest = max((float(np.abs(line.values).max()) for line in panel.lines), default=0.0)
     prefixes = (("G", 1e9), ("M", 1e6), ("k", 1e3))
     prefix, factor = next(((p, f) for p, f in prefixes if largest >= f), ("", 1.0))
     unit = f"{prefix}{panel.unit}"
-    lines = [replace(line, unit=unit, values=line.values / factor) for line in panel.lines]
+    lines = [
+        replace(
+            line,
+            unit=unit,
+            values=line.values / factor,
+            level=None if line.level is None else line.level / factor,
+        )
+        for line in panel.lines
+    ]
     return Panel(panel.quantity, unit, lines, panel.note)
+
+
+#: The potential counts from its least value, and with it the total.
+_FROM_LEAST = {"potential": "potential from its least", "total": "kinetic and potential"}
 
 
 def _energy(results: Results) -> Panel:
@@ -191,13 +273,16 @@ def _energy(results: Results) -> Panel:
     lines = []
     for name in results.channels("energy/*"):
         kind, _, force = name.removeprefix("energy/").partition("/")
-        if name.endswith("error"):
+        told = str(results[name].attrs.get("description", ""))
+        if name.endswith("error") or told.startswith("Part of"):
             continue
         label = f"work of {force}" if force else kind.replace("_", " ")
         lines.append(replace(select(results, name)[0], label=label, quantity="energy"))
     zero = next((line.values.min() for line in lines if line.label == "potential"), 0.0)
     lines = [
-        replace(line, values=line.values - zero) if line.label in ("potential", "total") else line
+        replace(line, values=line.values - zero, label=_FROM_LEAST[line.label])
+        if line.label in _FROM_LEAST
+        else line
         for line in lines
     ]
-    return _scaled(Panel("energy", "J", lines, "potential from its least"))
+    return _scaled(Panel("energy", "J", lines))

@@ -18,10 +18,19 @@ from matplotlib.figure import Figure
 
 from hydrodae.curve import Curve
 from hydrodae.errors import CaseError
-from hydrodae.panels import Panel, gather, most_moving, overview, select
+from hydrodae.panels import (
+    Panel,
+    gather,
+    highest_frequency,
+    most_moving,
+    overview,
+    select,
+    spectra,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
     from hydrodae.results import Results
 
@@ -54,14 +63,17 @@ STYLE: Any = {
 
 
 def plot_overview(results: Results) -> Figure:
-    """Draw joint coordinates, motions of the bodies and energies, one panel each.
+    """Draw the standard set of a run, one panel each, and spectra below where there are waves.
+
+    Elevation, joint coordinates, motions of the bodies, absorbed powers with their means, reactions
+    and tensions, energies.
 
     Raises
     ------
     CaseError
         The results have none of these channels.
     """
-    return _draw(results, overview(results))
+    return _draw(results, [*overview(results), *spectra(results)])
 
 
 def plot_channels(results: Results, names: Iterable[str]) -> Figure:
@@ -144,7 +156,12 @@ def draw_comparison(
 
 
 def new_figure(
-    results: Results, rows: int, *, width: float = 8.0, row_height: float = 2.1
+    results: Results,
+    rows: int,
+    *,
+    width: float = 8.0,
+    row_height: float = 2.1,
+    spectra: int = 0,
 ) -> tuple[Figure, list[Axes]]:
     """Make a figure of `rows` panels over one time axis, titled after the run.
 
@@ -153,6 +170,8 @@ def new_figure(
     results : Results
     rows : int
     width, row_height : float, inch
+    spectra : int
+        So many of them, the last ones, are over frequency instead.
 
     Returns
     -------
@@ -160,12 +179,18 @@ def new_figure(
     axes : list of matplotlib.axes.Axes
     """
     figure = Figure(figsize=(width, rows * row_height + 0.6), layout="constrained")
-    axes = list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
+    axes = list(figure.subplots(rows, 1, squeeze=False)[:, 0])
+    for group in (axes[: rows - spectra], axes[rows - spectra :]):
+        for other in group[:-1]:
+            other.sharex(group[-1])
+            other.tick_params(labelbottom=False)
     title = results.title
     if results.status != "completed":
         title += f" ({results.status} at t = {results.end_time:g} s)"
     axes[0].set_title(title)
-    axes[-1].set_xlabel("time [s]")
+    axes[-1].set_xlabel("angular frequency [rad/s]" if spectra else "time [s]")
+    if spectra and rows > spectra:
+        axes[rows - spectra - 1].set_xlabel("time [s]")
     return figure, axes
 
 
@@ -190,14 +215,28 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
 def _draw(results: Results, panels: list[Panel]) -> Figure:
     if not panels or not len(results.time):
         raise CaseError(f"{results.path}: there is nothing to draw")
-    figure, all_axes = new_figure(results, len(panels))
+    spectral = [panel for panel in panels if panel.omega is not None]
+    figure, all_axes = new_figure(
+        results, len(panels), row_height=2.1 if len(panels) < 6 else 1.7, spectra=len(spectral)
+    )
     for axes, panel in zip(all_axes, map(most_moving, panels), strict=True):
-        for line in panel.lines:
-            axes.plot(results.time, line.values, label=line.label)
-        axes.set_ylabel(panel.label)
-        outside_legend(axes, panel.note)
+        _draw_panel(axes, panel, results.time if panel.omega is None else panel.omega)
     all_axes[0].set_xlim(results.time[0], results.end_time)
+    if spectral:
+        all_axes[-1].set_xlim(0.0, 1.2 * highest_frequency(spectral))
     return figure
+
+
+def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
+    for line in panel.lines:
+        (drawn,) = axes.plot(at, line.values, label=line.label)
+        if line.level is not None:
+            axes.axhline(line.level, color=drawn.get_color(), linestyle="--", linewidth=1.0)
+    axes.set_ylabel(panel.label)
+    if panel.omega is not None:
+        axes.set_ylim(bottom=0.0)
+    if [line.label for line in panel.lines] != [panel.quantity.partition("\n")[0]]:
+        outside_legend(axes, panel.note)
 
 
 def _draw_curve(axes: Axes, curve: Curve, color: str) -> None:

@@ -18,7 +18,39 @@ PATIENCE = 1.0
 INTERVAL = 5.0
 
 
-class ProgressLine:
+class _Line:
+    """What both kinds share: patience, a live display in a terminal, plain lines elsewhere."""
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._console = Console(stderr=True)
+        self._start = self._last = self._now = monotonic()
+        self._live: Progress | Status | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._live is not None:
+            self._live.stop()
+
+    def _look(self) -> float:
+        """Return the wall time since the start, s."""
+        self._now = monotonic()
+        return self._now - self._start
+
+    def _print_seldom(self, line: str) -> None:
+        if self._now - self._last >= INTERVAL:
+            self._last = self._now
+            print(line, file=sys.stderr, flush=True)
+
+
+class ProgressLine(_Line):
     """Callback of a run, and the context in which the bar lives.
 
     Examples
@@ -28,43 +60,24 @@ class ProgressLine:
     """
 
     def __init__(self, title: str, unit: str = "s") -> None:
-        self._title, self._unit = title, unit
-        self._console = Console(stderr=True)
-        self._start = self._last = monotonic()
-        self._bar: Progress | None = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self._bar is not None:
-            self._bar.stop()
+        super().__init__(title)
+        self._unit = unit
 
     def __call__(self, time: float, end_time: float) -> None:
         """Show that `time` of `end_time` [s] is reached."""
-        now = monotonic()
-        if now - self._start < PATIENCE:
+        spent = self._look()
+        if spent < PATIENCE:
             return
         if self._console.is_terminal:
             self._update_bar(time, end_time)
-        elif now - self._last >= INTERVAL:
-            self._last = now
-            remaining = (now - self._start) * (end_time - time) / time if time > 0 else float("inf")
-            done = f"{time:g} of {end_time:g} {self._unit}"
-            print(
-                f"{self._title}: {done}, about {remaining:.0f} s to go",
-                file=sys.stderr,
-                flush=True,
-            )
+            return
+        remaining = spent * (end_time - time) / time if time > 0 else float("inf")
+        done = f"{time:g} of {end_time:g} {self._unit}"
+        self._print_seldom(f"{self._title}: {done}, about {remaining:.0f} s to go")
 
     def _update_bar(self, time: float, end_time: float) -> None:
-        if self._bar is None:
-            self._bar = Progress(
+        if not isinstance(self._live, Progress):
+            self._live = Progress(
                 TextColumn("{task.description}", markup=False),
                 BarColumn(),
                 TextColumn("{task.completed:g} of {task.total:g} " + self._unit),
@@ -72,12 +85,12 @@ class ProgressLine:
                 console=self._console,
                 transient=True,
             )
-            self._task = self._bar.add_task(self._title, total=end_time)
-            self._bar.start()
-        self._bar.update(self._task, completed=time)
+            self._task = self._live.add_task(self._title, total=end_time)
+            self._live.start()
+        self._live.update(self._task, completed=time)
 
 
-class StageLine:
+class StageLine(_Line):
     """Callback of work in stages of unknown number: its last line of text, and the time.
 
     Examples
@@ -86,35 +99,16 @@ class StageLine:
     ...     progress("12 states")  # quiet: the work is young
     """
 
-    def __init__(self, title: str) -> None:
-        self._title = title
-        self._console = Console(stderr=True)
-        self._start = self._last = monotonic()
-        self._status: Status | None = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self._status is not None:
-            self._status.stop()
-
     def __call__(self, text: str) -> None:
         """Show the stage."""
-        now = monotonic()
-        if now - self._start < PATIENCE:
+        spent = self._look()
+        if spent < PATIENCE:
             return
-        line = f"{self._title}, {now - self._start:.0f} s: {text}"
-        if self._console.is_terminal:
-            if self._status is None:
-                self._status = Status("", console=self._console)
-                self._status.start()
-            self._status.update(escape(line))
-        elif now - self._last >= INTERVAL:
-            self._last = now
-            print(line, file=sys.stderr, flush=True)
+        line = f"{self._title}, {spent:.0f} s: {text}"
+        if not self._console.is_terminal:
+            self._print_seldom(line)
+            return
+        if not isinstance(self._live, Status):
+            self._live = Status("", console=self._console)
+            self._live.start()
+        self._live.update(escape(line))

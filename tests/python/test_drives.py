@@ -87,7 +87,7 @@ def test_values_that_are_no_numbers_are_refused() -> None:
 @pytest.mark.parametrize(
     ("drives", "message"),
     [
-        (None, "constraint 'motor': its drive is a Python function, which nobody gave"),
+        (None, "drive of constraint 'motor' is a Python function, which nobody gave"),
         ({"moter": motion}, "did you mean 'motor'"),
         ({"motor": 3.0}, "needs a function of time, got 3.0"),
         ({"motor": lambda t: (t, 1.0)}, "it returned 2 numbers"),

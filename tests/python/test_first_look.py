@@ -150,11 +150,12 @@ def test_to_netcdf_and_back(own: str, run: Results, results_file: Path, tmp_path
 
 
 def test_a_dataset_can_be_written(run: Results, tmp_path: Path) -> None:
-    data = run.to_dataset("joints/*")
-    flat = data.rename({name: str(name).replace("/", "_") for name in data})
-    flat.to_netcdf(tmp_path / "flat.nc")
+    run.to_dataset("joints/*").to_netcdf(tmp_path / "flat.nc")
     with xarray.open_dataset(tmp_path / "flat.nc", engine="netcdf4") as copy:
-        assert np.array_equal(copy["joints_hinge_angle"], run["joints/hinge/angle"])
+        assert np.array_equal(copy["joints.hinge.angle"], run["joints/hinge/angle"])
+        assert copy["joints.hinge.angle"].attrs["units"] == "rad"
+        assert copy["time"].attrs["units"] == "s"
+        assert copy["time"].dtype == float
 
 
 def test_patterns(run: Results) -> None:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from types import ModuleType
 
+import h5py
 import matplotlib
 import numpy as np
 import pytest
@@ -55,10 +56,46 @@ def test_overview_shows_angles_in_degrees_and_leaves_out_what_rests(results):
 def test_energies_share_a_scale_and_potential_counts_from_its_least(results):
     panel = overview(results)[-1]
     lines = {line.label: line.values for line in panel.lines}
-    assert set(lines) == {"kinetic", "kinetic added mass", "potential"}
-    assert lines["potential"].min() == 0.0
+    assert set(lines) == {"kinetic", "kinetic added mass", "potential from its least"}
+    assert lines["potential from its least"].min() == 0.0
     largest = 3e6 * np.max(results["joints/hinge1/angle_rate"].to_numpy() ** 2) / 1e3
     assert lines["kinetic added mass"].max() == pytest.approx(largest)
+
+
+def test_overview_shows_powers_with_their_means_tensions_and_spectra(results_writer):
+    time = np.linspace(0.0, 600.0, 6001)
+    wave = np.sin(2 * np.pi * time / 9.0)
+    channels = {
+        "sea/elevation": (wave, "m", "world"),
+        "joints/hinge/angle": (np.radians(2.0) * wave, "rad", "marker A of hinge"),
+        "forces/pto/power_absorbed": (8e4 * wave**2, "W", "-"),
+        "forces/bow/tension": (5e5 + 1e5 * wave, "N", "-"),
+        "forces/bow/tension_anchor": (4e5 + 1e5 * wave, "N", "-"),
+        "forces/bow/tension_ratio": (0.1 + 0 * wave, "-", "-"),
+    }
+    path = results_writer(time, channels=channels)
+    with h5py.File(path, "a") as file:
+        file["solver"].attrs["mean_power_absorbed.pto"] = 4e4
+        file["solver"].attrs["mean_power_from"] = 60.0
+    results = Results.read(path)
+    panels = {panel.quantity: panel for panel in overview(results)}
+    (power,) = panels["absorbed power"].lines
+    assert power.label == "pto, mean 40 kW"
+    assert power.level == pytest.approx(40.0)
+    assert panels["absorbed power"].note == "dashed: mean after 60 s"
+    assert [line.label for line in panels["tension"].lines] == ["bow", "bow anchor"]
+    assert panels["tension"].unit == "kN"
+    figure = plot.plot_overview(results)
+    assert [axes.get_ylabel() for axes in figure.axes][-2:] == [
+        "elevation\nspectrum [m$^2$ s/rad]",
+        "joint angle\nspectrum [deg$^2$ s/rad]",
+    ]
+    assert figure.axes[-1].get_xlabel() == "angular frequency [rad/s]"
+    assert figure.axes[-3].get_xlabel() == "time [s]"
+    line = figure.axes[-1].lines[0]
+    variance = np.trapezoid(np.asarray(line.get_ydata()), np.asarray(line.get_xdata()))
+    assert variance == pytest.approx(2.0, rel=0.02)  # 2 deg amplitude
+    assert 2 * np.pi / 9.0 < figure.axes[-1].get_xlim()[1] < 2.0
 
 
 def test_overview_figure_has_units_on_all_axes(results):

@@ -15,6 +15,7 @@ import pytest
 #: unless a part of it is listed by itself; those of one layer do not import each other.
 LAYERS = [
     {"errors", "extras", "progress", "tcp", "units", "version"},
+    {"names", "starters"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "tables"},
     {"infinity"},
@@ -44,6 +45,7 @@ LAYERS = [
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},
+    {"report"},
     {"commands"},
     {"cli"},
     {"", "__main__"},

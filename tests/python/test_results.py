@@ -85,7 +85,7 @@ def test_to_dataset_joins_channels_on_the_time_axis(results_file):
     dataset = Results.read(results_file).to_dataset("bodies/*")
     assert dict(dataset.sizes) == {"time": 1001, "component": 3, "quaternion": 4}
     assert len(dataset) == 9
-    assert dataset["bodies/flap2/rotation"].attrs["unit"] == "rad"
+    assert dataset["bodies.flap2.rotation"].attrs["unit"] == "rad"
 
 
 def test_summary_has_cost_and_extrema_in_degrees(results_file):

@@ -15,6 +15,9 @@ import xarray
 from scipy.stats import t as student
 
 import hydrodae
+from hydrodae.starters import create
+from hydrodae.study.sweep import text
+from hydrodae.study.sweep.fatigue import damage_equivalent_load
 from hydrodae.study.sweep.plan import read_study
 
 CASE = """
@@ -45,6 +48,7 @@ end_time = 8.0
 step = 0.02
 """
 SPEED = "body.float.initial.velocity"
+RESULT = '[result.x]\nchannel = "joints/guide/displacement"\n'
 
 
 @pytest.fixture
@@ -178,3 +182,111 @@ def test_killed_sweep_goes_on_and_runs_nothing_twice(folder: Path) -> None:
     keys = [json.loads(line).get("key") for line in record.read_text().splitlines()]
     assert len(keys) == len(set(keys)) == 13
     assert kept >= 4
+
+
+@pytest.mark.slow
+def test_ten_kills_at_random_moments_change_nothing(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"force.pto.damping" = { from = 1, to = 2, count = 60 }\n')
+    whole = hydrodae.sweep(study, folder / "whole.nc", jobs=1)
+    record = folder / "killed.runs.jsonl"
+    command = [sys.executable, "-m", "hydrodae", "sweep", str(study), "--jobs", "2", "-q"]
+    draw = np.random.default_rng(1)
+    for kill in range(10):
+        before = record.read_bytes().count(b"\n") if record.exists() else 0
+        process = subprocess.Popen([*command, "-o", str(folder / "killed.nc")])
+        while process.poll() is None:  # after some rows, and some time more
+            rows = record.read_bytes().count(b"\n") if record.exists() else 0
+            if rows > before + kill % 4:
+                time.sleep(float(draw.uniform(0.0, 0.05)))
+                break
+            time.sleep(0.002)
+        process.kill()
+        process.wait()
+    again = hydrodae.sweep(study, folder / "killed.nc", jobs=2)
+    xarray.testing.assert_identical(again.load(), whole.load())
+    keys = [json.loads(line).get("key") for line in record.read_text().splitlines()]
+    assert len(keys) == len(set(keys)) == 61
+
+
+def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:
+    """A heaving buoy without drag: linear response, spectral and time domain agree."""
+    case = create("point_absorber", tmp_path / "buoy")
+    study = case.parent / "rungs.toml"
+    study.write_text(
+        'case = "case.toml"\nrungs = ["time", "frequency", "spectral"]\n'
+        'over = ["wave.sea.seed"]\n'
+        '[grid]\n"wave.sea.significant_height" = [1.0]\n"wave.sea.peak_period" = [6.0, 8.0]\n'
+        '"wave.sea.seed" = [1, 2]\n'
+        '[result.heave]\nchannel = "bodies/buoy/position"\ncomponent = "z"\nstatistic = "std"\n'
+        "from = 30.0\n"
+        '[scatter]\nfile = "scatter.csv"\nheight = "wave.sea.significant_height"\n'
+        'period = "wave.sea.peak_period"\n'
+    )
+    (case.parent / "scatter.csv").write_text("height,period,hours\n1.0,6.0,1000\n1.0,8.0,500\n")
+    found = hydrodae.sweep(study, case.parent / "rungs.nc", set={"solver.end_time": 400.0}, jobs=1)
+    assert list(found["rung"].values) == ["frequency", "spectral", "time"]
+    assert (found["status"] == "completed").all()
+    power = found["mean_power_absorbed_mean"].isel(significant_height=0)
+    for name in ("heave", "mean_power_absorbed"):
+        linear, spectral, time = (found[name].sel(rung=r) for r in found["rung"].values)
+        np.testing.assert_allclose(spectral, linear, rtol=1e-4)
+        np.testing.assert_allclose(time, linear, rtol=0.35)  # 400 s of a random sea
+        assert found[name].attrs["units"] == ("m" if name == "heave" else "W")
+    joules = 3600.0 * (1000.0 * power.isel(peak_period=0) + 500.0 * power.isel(peak_period=1))
+    np.testing.assert_allclose(found["annual_energy"], joules)
+    assert (found["wall_time"] > 0.0).all()
+    assert "annual energy, spectral" in text(found)
+
+
+def test_capture_width_is_power_over_the_flux_of_the_waves(tmp_path: Path) -> None:
+    """A regular wave in deep water carries rho g^2 a^2 T / (8 pi) along each metre [W/m]."""
+    case = create("point_absorber", tmp_path / "buoy")
+    wave = [{"name": "sea", "type": "regular", "period": 6.0, "height": 1.0}]
+    study = case.parent / "width.toml"
+    study.write_text('case = "case.toml"\nrungs = ["frequency"]\n[grid]\n"solver.rtol" = [1e-6]\n')
+    found = hydrodae.sweep(study, case.parent / "width.nc", set={"wave": wave}, jobs=1)
+    flux = 1025.0 * 9.81**2 * 0.25 * 6.0 / (8.0 * np.pi)
+    power = found["mean_power_absorbed"]
+    np.testing.assert_allclose(found["capture_width"], power / flux, rtol=1e-6)
+    k = (2.0 * np.pi / 6.0) ** 2 / 9.81
+    assert 0.0 < float(found["capture_width"][0, 0]) < 1.0 / k  # of a heaving body of revolution
+
+
+def test_damage_equivalent_load_of_equal_cycles() -> None:
+    """N cycles of range S: S (N / (f T))^(1/m), whatever the samples between."""
+    pytest.importorskip("rainflow")
+    time = np.linspace(0.0, 100.0, 10_001)
+    values = 3.0 + 2.0 * np.sin(2.0 * np.pi * 0.25 * time)  # 25 cycles of range 4
+    found = damage_equivalent_load(values, 100.0, 3.0, 1.0)
+    assert found == pytest.approx(4.0 * (25.0 / 100.0) ** (1.0 / 3.0), rel=0.01)
+    assert damage_equivalent_load(values, 100.0, 3.0, 0.25) == pytest.approx(4.0, rel=0.01)
+
+
+def test_fatigue_of_a_study_with_its_interval(folder: Path) -> None:
+    pytest.importorskip("rainflow")
+    study = write_study(
+        folder,
+        'over = ["body.float.mass"]\n[grid]\n"body.float.mass" = [2.0, 3.0, 4.0]\n'
+        '[result.fatigue]\nchannel = "joints/guide/displacement_rate"\n'
+        'statistic = "damage_equivalent_load"\nexponent = 4\n',
+    )
+    found = hydrodae.sweep(study, folder / "study.nc", jobs=1)
+    assert found["fatigue"].attrs["units"] == "m/s"
+    assert float(found["fatigue_mean"]) == pytest.approx(float(found["fatigue"].mean()))
+    assert float(found["fatigue_interval"]) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('rungs = ["tyme"]\n', "expected a list of frequency, spectral, time"),
+        (RESULT + 'statistic = "damage_equivalent_load"\n', "needs 'exponent'"),
+        (RESULT + "exponent = 3\n", "belongs to statistic"),
+        (RESULT + 'statistic = "damage_equivalent_load"\nexponent = 0\n', "number > 0"),
+    ],
+)
+def test_wrong_rungs_and_fatigue_are_refused(folder: Path, text: str, told: str) -> None:
+    grid = '[grid]\n"body.float.mass" = [2.0]\n'
+    lines = text + grid if text.startswith("rungs") else grid + text
+    with pytest.raises(hydrodae.CaseError, match=told):
+        hydrodae.sweep(write_study(folder, lines), folder / "study.nc", jobs=1)

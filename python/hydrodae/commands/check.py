@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae.commands.machine import add_json, print_json
+
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
@@ -16,13 +18,22 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
     parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    parser.add_argument(
+        "--all", action="store_true", help="every line, also of many parts that are alike"
+    )
+    add_json(parser)
     parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what a case costs and what looks wrong with it; returns 0."""
     from hydrodae.commands.arguments import given_case
-    from hydrodae.study.check import check
+    from hydrodae.study.check import check, counts
 
-    print(check(given_case(arguments)), end="")
+    case = given_case(arguments)
+    text = check(case, every_line=arguments.all or arguments.json)
+    if arguments.json:
+        print_json(counts(case, text) | {"text": text.splitlines()})
+    else:
+        print(text, end="")
     return 0

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae.commands.machine import add_json, of_equilibrium, print_json
+
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
@@ -17,6 +19,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
     parser.add_argument("--library", metavar="FILE", action="append", default=[], help="as in run")
+    add_json(parser)
     parser.set_defaults(call=run)
 
 
@@ -25,5 +28,9 @@ def run(arguments: argparse.Namespace) -> int:
     from hydrodae.commands.arguments import given_case
     from hydrodae.study.equilibrium import equilibrium
 
-    print(equilibrium(given_case(arguments)))
+    found = equilibrium(given_case(arguments))
+    if arguments.json:
+        print_json(of_equilibrium(found))
+    else:
+        print(found)
     return 0

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.case import Case, parse_assignment
+from hydrodae.commands.machine import add_json, of_rao, print_json
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.plot import save
@@ -48,6 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="all responses, reactions too, over all frequencies (or at the --periods): .csv, or "
         ".nc, .h5 (netCDF, which is HDF5)",
     )
+    add_json(parser)
     parser.add_argument("--picture", metavar="FILE", help="amplitudes over the period (.png, ...)")
 
 
@@ -58,19 +60,25 @@ def run(arguments: argparse.Namespace) -> int:
         model = LinearModel(Case(path=arguments.case, values=values))
     else:
         model = LinearModel(without_memory(arguments.case, values)[0])
+    if arguments.json and arguments.time_domain:
+        raise CaseError("--json and --time-domain exclude each other")
     opening = text.opening(model.notes, model.modes())
-    if opening:
+    if opening and not arguments.json:
         print(opening)
     if arguments.output:
         output.check_ending(Path(arguments.output))
     found = rao(
         model, periods=_periods(arguments.periods), heading=float(np.radians(arguments.heading))
     )
-    print("\n" + found.table())
-    if arguments.output:
-        print(f"written: {found.write(arguments.output)}")
+    written = [f"written: {found.write(arguments.output)}"] if arguments.output else []
     if arguments.picture:
-        print(f"picture: {save(found.draw(), arguments.picture)}")
+        written.append(f"picture: {save(found.draw(), arguments.picture)}")
+    if arguments.json:
+        print_json(of_rao(found))
+        return 0
+    print("\n" + found.table())
+    for line in written:
+        print(line)
     if arguments.time_domain:
         runs = found.regular_waves(
             amplitude=arguments.amplitude, settle=arguments.settle, jobs=arguments.jobs

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from hydrodae.case import parse_assignment
+from hydrodae.commands.machine import add_json, of_sweep, print_json
 from hydrodae.progress import ProgressLine
 from hydrodae.study.sweep import sweep, text
 
@@ -21,6 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: all cores)")
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="run on the workers of this scheduler of dask.distributed, such as tcp://head:8786",
+    )
+    add_json(parser)
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
@@ -40,8 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
             output,
             set=values,
             jobs=arguments.jobs,
+            scheduler=arguments.scheduler,
             progress=None if arguments.quiet else progress,
         )
+    if arguments.json:
+        print_json(of_sweep(results))
+        return 0
     print(text(results))
     print(f"written: {output}")
     return 0

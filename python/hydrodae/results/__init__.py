@@ -13,12 +13,20 @@ from hydrodae.results.recording import (
     ResultsWarning,
     partial_path,
 )
+from hydrodae.results.series import Statistics, statistics
 from hydrodae.results.summary import summary
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["ChannelError", "Results", "ResultsError", "ResultsWarning", "partial_path"]
+__all__ = [
+    "ChannelError",
+    "Results",
+    "ResultsError",
+    "ResultsWarning",
+    "Statistics",
+    "partial_path",
+]
 
 
 class Results(Recording):
@@ -60,6 +68,9 @@ class Results(Recording):
     def to_dataset(self, pattern: str = "*") -> xarray.Dataset:
         """Return the channels that match a shell pattern as one dataset on the common time axis.
 
+        Its variables are named as the channels with dots in place of slashes, such as
+        "joints.hinge1.angle": so ``to_netcdf`` can write it. `to_datatree` keeps the groups.
+
         Raises
         ------
         ChannelError
@@ -67,8 +78,9 @@ class Results(Recording):
         """
         import xarray
 
+        names = self._matching(pattern)
         return xarray.Dataset(
-            {name: self[name] for name in self._matching(pattern)},
+            {name.replace("/", "."): self[name].rename(None) for name in names},
             coords={"time": self._time_coordinate()},
             attrs={"title": self.title, "status": self.status},
         )
@@ -108,6 +120,48 @@ class Results(Recording):
         path.parent.mkdir(parents=True, exist_ok=True)
         tree.to_netcdf(path, engine="netcdf4")
         return path
+
+    def statistics_of(self, name: str, start: float | None = None) -> Statistics:
+        """Return mean, deviation, extremes, zero-crossing waves and spectrum of a channel.
+
+        Parameters
+        ----------
+        name : str
+            A channel, or a component of one: "joints/hinge1/angle", "bodies/base/position.z".
+        start : float, s, optional
+            First sample that counts; default: where mean powers are taken from, the end of the
+            ramp, or 0 in a run without power take-offs.
+
+        Raises
+        ------
+        ChannelError
+            There is no such channel or component, or it has several components.
+        ResultsError
+            No sample is left.
+        """
+        if start is None:
+            start = float(self.statistics.get("mean_power_from", 0.0))
+        series = self._series(name)
+        try:
+            unit = str(series.attrs.get("unit", "-"))
+            return statistics(name, unit, self.time, series.to_numpy(), start)
+        except ValueError as error:
+            raise ResultsError(f"{self.path}: {error}") from None
+
+    def _series(self, name: str) -> xarray.DataArray:
+        """Return a channel of one number, or one component of a vector."""
+        base, _, component = name.rpartition(".")
+        if name in self or base not in self:
+            base, component = name, ""
+        series = self[base]
+        if series.ndim == 1 and not component:
+            return series
+        dimension = str(series.dims[-1])
+        labels = [str(c) for c in series.coords[dimension].values] if series.ndim > 1 else []
+        if component not in labels:
+            known = ", ".join(f"{base}.{label}" for label in labels) or base
+            raise ChannelError(f"{self.path}: {name} is not one series; there is {known}")
+        return series.sel({dimension: component})
 
     def summary(self) -> str:
         """Return a few lines for people: status, cost, extrema of the joint coordinates."""

@@ -215,7 +215,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     def _time_coordinate(self) -> xarray.Variable:
         import xarray
 
-        return xarray.Variable("time", self._time, {"unit": "s"})
+        return xarray.Variable("time", self._time, {"unit": "s", "units": "s"})
 
     def _load(self, name: str) -> xarray.DataArray:
         import xarray
@@ -232,6 +232,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 for key, value in file[name].attrs.items()
                 if key != "DIMENSION_LIST"
             }
+        if "unit" in attributes:
+            attributes["units"] = attributes["unit"]  # the name that xarray and netCDF know
         dims: list[str] = ["time"]
         coords: dict[str, Any] = {"time": self._time_coordinate()}
         if values.ndim == 2 and values.shape[1] in _COMPONENTS:

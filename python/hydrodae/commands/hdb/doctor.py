@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hydrodae.commands.arguments import parse_band, parse_point
 from hydrodae.commands.hdb.options import add_water_options, water_of
+from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.checks.examination import examination
@@ -45,6 +46,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     doctor.add_argument("-o", "--output", metavar="FILE", help="hydro.h5 for the repaired database")
     add_water_options(doctor)
+    add_json(doctor)
     doctor.add_argument("--band", metavar="LO,HI", help="frequencies [rad/s] that the device feels")
     doctor.add_argument(
         "--origin", metavar="NAME=X,Y,Z", action="append", default=[], help="as in import"
@@ -73,6 +75,11 @@ def run(args: argparse.Namespace) -> int:
     database, report = import_database(
         args.database, source_points=origins, band=band, **water_of(args)
     )
+    if args.json:
+        if args.repair is not None:
+            raise CaseError("--json and --repair exclude each other")
+        print_json(of_database(database, report))
+        return DONE if report.ok else BAD_DATA
     print(database.summary())
     print()
     print(examination(report))

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from hydrodae.commands.hdb.options import add_water_options, water_of
+from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.findings import CheckReport
@@ -18,6 +19,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     show = actions.add_parser("show", help="say what is in a database")
     show.add_argument("database", metavar="HYDRO.H5", help="or any source that can be imported")
     show.add_argument("--check", action="store_true", help="also run the checks")
+    add_json(show)
     add_water_options(show)
 
     export = actions.add_parser(
@@ -38,6 +40,9 @@ def run_show(args: argparse.Namespace) -> int:
     else:
         database = read(args.database, **water_of(args))
         report = check(database) if args.check else CheckReport()
+    if args.json:
+        print_json(of_database(database, report))
+        return 0
     print(database.summary())
     if args.check:
         print(report)

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydrodae.case import Case
+from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
-from hydrodae.study.sweep.plan import point_key, read_study
+from hydrodae.study.sweep.plan import RUNG, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.table import dataset, text, write
 from hydrodae.version import version
@@ -26,6 +27,7 @@ def sweep(
     *,
     set: Mapping[str, Any] | None = None,
     jobs: int | None = None,
+    scheduler: str | None = None,
     progress: Callable[[float, float], None] | None = None,
 ) -> xarray.Dataset:
     """Run every point of a study, and gather what is measured in one netCDF file.
@@ -43,6 +45,9 @@ def sweep(
         Values that replace those of the case at every point.
     jobs : int, optional
         Runs at a time; default: all cores.
+    scheduler : str, optional
+        Address of a scheduler of dask.distributed, such as "tcp://head:8786" (extra `cluster`): its
+        workers run the points. They have to see the files of the study under the same path.
     progress : callable, optional
         Called with the numbers of finished and of all points.
 
@@ -61,13 +66,20 @@ def sweep(
     case = Case(path=plan.case, values=set or {})
     target = Path(output)
     target.parent.mkdir(parents=True, exist_ok=True)
-    case.with_values(plan.points[0])  # a wrong key is told before anything runs
+    case.with_values(
+        {k: v for k, v in plan.points[0].items() if k != RUNG}
+    )  # a wrong key is told before anything runs
     record = target.with_name(target.stem + ".runs.jsonl")
     with Journal(record, plan.identity(case)) as journal:
         left = [p for p in plan.points if point_key(p) not in journal.rows]
         done = len(plan.points) - len(left)
         if left:
-            for row in run_points(str(plan.case), set or {}, plan.measures, left, jobs):
+            what = (set or {}, plan.measures, plan.rungs, left)
+            if scheduler is None:
+                rows = run_points(str(plan.case), *what, jobs)
+            else:
+                rows = run_points_on(scheduler, str(plan.case.resolve()), *what)
+            for row in rows:
                 journal.add(row)
                 done += 1
                 if progress is not None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
+from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
 
 Array = NDArray[np.float64]
 
@@ -28,6 +29,16 @@ STATISTICS: dict[str, Callable[[Array], float]] = {
 }
 #: What every run tells, with its unit.
 ALWAYS = {"mean_power_absorbed": "W", "estimated_error": "-", "steps": "-"}
+#: Names that a measure cannot take.
+TAKEN = (*ALWAYS, "capture_width", "wall_time")
+
+
+#: Statistic by cycles of the load, in `hydrodae.study.sweep.fatigue`.
+FATIGUE = "damage_equivalent_load"
+
+
+class MeasureError(CaseError):
+    """What is measured is not in the results: no run of the study would have it."""
 
 
 @dataclass(frozen=True)
@@ -39,33 +50,39 @@ class Measure:
     statistic: str
     component: str | None
     start: float  #: s
+    exponent: float = 0.0  #: of fatigue
+    frequency: float = 1.0  #: of fatigue, Hz
 
     def __call__(self, results: Results) -> tuple[float, str]:
         """Return the value and its unit.
 
         Raises
         ------
-        CaseError
+        MeasureError
             There is no such channel or component, or no sample after the start.
         """
         if self.channel not in results:
             told = str(results.missing(self.channel)).partition(" has no channel ")[2]
-            raise CaseError(f"result.{self.name}: the runs have no channel {told}")
+            raise MeasureError(f"result.{self.name}: the runs have no channel {told}")
         series = results[self.channel]
         if self.component is not None:
             series = series.sel(component=self.component)
         elif series.ndim > 1:
-            raise CaseError(
+            raise MeasureError(
                 f"result.{self.name}: {self.channel} has components "
                 f"{', '.join(map(str, series['component'].values))}: name one with 'component'"
             )
         values = series.to_numpy()[results.time >= self.start]
         if len(values) == 0:
-            raise CaseError(
+            raise MeasureError(
                 f"result.{self.name}: no sample from {self.start:g} s on; the run ends at "
                 f"{results.end_time:g} s"
             )
-        return STATISTICS[self.statistic](values), str(series.attrs.get("unit", "-"))
+        unit = str(series.attrs.get("unit", "-"))
+        if self.statistic == FATIGUE:
+            duration = results.end_time - max(self.start, float(results.time[0]))
+            return damage_equivalent_load(values, duration, self.exponent, self.frequency), unit
+        return STATISTICS[self.statistic](values), unit
 
 
 def make_measure(file: Path, name: str, table: Any) -> Measure:
@@ -77,7 +94,7 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         A key is missing or wrong.
     """
     where = f"{file}: [result.{name}]"
-    keys = ("channel", "statistic", "component", "from")
+    keys = ("channel", "statistic", "component", "from", "exponent", "frequency")
     if not isinstance(table, dict) or "channel" not in table:
         raise CaseError(f"{where}: expected a table with the name of a 'channel'")
     for key in table:
@@ -88,17 +105,39 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
                 + (f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(keys)}")
             )
     statistic = table.get("statistic", "mean")
-    if statistic not in STATISTICS:
-        near = difflib.get_close_matches(str(statistic), STATISTICS, 1)
+    known = [*STATISTICS, FATIGUE]
+    if statistic not in known:
+        near = difflib.get_close_matches(str(statistic), known, 1)
         raise CaseError(
-            f"{where}: key 'statistic': {statistic!r} is none of {', '.join(STATISTICS)}"
+            f"{where}: key 'statistic': {statistic!r} is none of {', '.join(known)}"
             + (f"; did you mean {near[0]!r}?" if near else "")
         )
-    if name in ALWAYS:
+    if name in TAKEN:
         raise CaseError(f"{where}: every run tells {name!r}; take another name")
     return Measure(
-        name, table["channel"], statistic, table.get("component"), float(table.get("from", 0.0))
+        name,
+        table["channel"],
+        statistic,
+        table.get("component"),
+        float(table.get("from", 0.0)),
+        **_fatigue(where, statistic, table),
     )
+
+
+def _fatigue(where: str, statistic: str, table: dict[str, Any]) -> dict[str, float]:
+    """Keys of a fatigue load: the exponent, and the frequency that it refers to."""
+    given = {key: table[key] for key in ("exponent", "frequency") if key in table}
+    if statistic != FATIGUE:
+        if given:
+            raise CaseError(f"{where}: key {min(given)!r} belongs to statistic {FATIGUE!r}")
+        return {}
+    if "exponent" not in given:
+        raise CaseError(f"{where}: {FATIGUE!r} needs 'exponent', the slope of the Woehler line")
+    for key, value in given.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0:
+            raise CaseError(f"{where}: key {key!r}: expected a number > 0, got {value!r}")
+    require_rainflow()
+    return {key: float(value) for key, value in given.items()}
 
 
 def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[float, str]]:

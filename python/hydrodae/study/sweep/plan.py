@@ -19,9 +19,12 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import Measure, make_measure
+from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.version import version
 
-TABLES = ("case", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter")
+#: Key of a point that says by which model of the motion it is run.
+RUNG = "rung"
+TABLES = ("case", "rungs", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter")
 Point = dict[str, Any]
 
 
@@ -47,6 +50,7 @@ class Study:
     over: tuple[str, ...] = ()  #: keys of repetitions, that means are taken over
     measures: tuple[Measure, ...] = ()
     scatter: Scatter | None = None
+    rungs: tuple[str, ...] = DEFAULT  #: models of the motion
 
     def identity(self, case: Case) -> str:
         """A hash of all that the numbers of a point depend on, but for the point itself."""
@@ -76,6 +80,10 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     if not isinstance(given.get("case"), str):
         raise CaseError(f"{file}: key 'case': the path of a case file is needed")
     points, dimensions = _points(file, given)
+    rungs = check_rungs(given.get("rungs", [*DEFAULT]), file)
+    if rungs != DEFAULT:
+        points = [point | {RUNG: rung} for point in points for rung in rungs]
+        dimensions = dimensions and {**dimensions, RUNG: list(rungs)}
     over = given.get("over", [])
     if not isinstance(over, list) or any(key not in points[0] for key in over):
         raise CaseError(f"{file}: key 'over': expected keys of the study: {_listed(points[0])}")
@@ -89,6 +97,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         tuple(over),
         tuple(make_measure(file, name, what) for name, what in _results(file, given).items()),
         _scatter(file, given.get("scatter"), points[0]),
+        rungs,
     )
 
 

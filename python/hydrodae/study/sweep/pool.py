@@ -13,41 +13,55 @@ from typing import Any
 
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
-from hydrodae.simulate import run
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.measures import Measure, measure
-from hydrodae.study.sweep.plan import Point, point_key
+from hydrodae.study.sweep.measures import Measure, MeasureError
+from hydrodae.study.sweep.plan import RUNG, Point, point_key
+from hydrodae.study.sweep.rungs import DEFAULT, run_rung
 
 _KILLED_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
 _case: Case | None = None
 _measures: tuple[Measure, ...] = ()
+_rungs: tuple[str, ...] = ()
 
 
-def _begin(path: str, values: Mapping[str, Any], measures: tuple[Measure, ...]) -> None:
+def _begin(
+    path: str, values: Mapping[str, Any], measures: tuple[Measure, ...], rungs: tuple[str, ...]
+) -> None:
     """Read the case once in each process; Ctrl-C is the parent's, whose end is theirs."""
-    global _case, _measures
+    global _case, _measures, _rungs
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_KILLED_WITH_PARENT, signal.SIGKILL)
-    _case, _measures = Case(path=path, values=values), measures
+    _case, _measures, _rungs = Case(path=path, values=values), measures, rungs
 
 
 def run_point(point: Point) -> Row:
-    """Run the case at a point; a run that fails is a row with its reason.
+    """Run the case of this process at a point."""
+    assert _case is not None
+    return run_case(_case, _measures, _rungs, point)
+
+
+def run_case(
+    case: Case, measures: tuple[Measure, ...], rungs: tuple[str, ...], point: Point
+) -> Row:
+    """Run a case at a point; a run that fails is a row with its reason.
 
     Raises
     ------
     CaseError
         What is measured is not in the results: no run of the study would have it.
     """
-    assert _case is not None
     row: Row = {"key": point_key(point), "point": point}
+    values = {key: value for key, value in point.items() if key != RUNG}
     try:
-        results = run(_case.with_values(point))
+        found = run_rung(
+            point.get(RUNG, rungs[0]), case.with_values(values), measures, rungs != DEFAULT
+        )
+    except MeasureError:
+        raise
     except HydrodaeError as error:
         kind = "failed" if isinstance(error, SolverError) else "refused"
         return row | {"status": kind, "reason": str(error)}
-    found = measure(results, _measures)
     return row | {
         "status": "completed",
         "reason": "",
@@ -60,6 +74,7 @@ def run_points(
     path: str,
     values: Mapping[str, Any],
     measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
     points: Sequence[Point],
     jobs: int | None,
 ) -> Iterator[Row]:
@@ -74,7 +89,7 @@ def run_points(
         jobs,
         mp_context=multiprocessing.get_context("spawn"),
         initializer=_begin,
-        initargs=(path, values, measures),
+        initargs=(path, values, measures, rungs),
     ) as pool:
         working: set[Future[Row]] = set()
         try:

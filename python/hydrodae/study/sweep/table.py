@@ -13,7 +13,7 @@ from scipy.stats import t as student
 
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
-from hydrodae.study.sweep.plan import Study, point_key
+from hydrodae.study.sweep.plan import RUNG, Study, point_key
 
 HOURS_A_YEAR = 8766.0
 
@@ -95,7 +95,7 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     if study.scatter is None:
         return
     s = study.scatter
-    if set(study.dimensions) - set(study.over) != {s.height_key, s.period_key}:
+    if set(study.dimensions) - {*study.over, RUNG} != {s.height_key, s.period_key}:
         raise CaseError(
             f"{study.path}: [scatter] needs a [grid] of height and period, and else only keys "
             "that are named by 'over'"
@@ -103,7 +103,7 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     name = "mean_power_absorbed" + "_mean" * bool(study.over)
     if name not in out:
         raise CaseError(f"{study.path}: [scatter]: no run completed with a power take-off")
-    energy, missing = 0.0, []
+    energy, missing = xr.DataArray(0.0), []
     axes = [_short(study, key) for key in (s.height_key, s.period_key)]
     for height, period, hours in zip(s.height, s.period, s.hours, strict=True):
         place = [np.isclose(out[a], x) for a, x in zip(axes, (height, period), strict=True)]
@@ -111,13 +111,14 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
             missing.append(f"{height:g} m, {period:g} s")
             continue
         power = out[name].isel({a: int(np.argmax(p)) for a, p in zip(axes, place, strict=True)})
-        energy += float(power) * hours * 3600.0
+        energy = energy + power * hours * 3600.0
     if missing:
         raise CaseError(
             f"{study.path}: [scatter]: sea states that the grid lacks: {'; '.join(missing[:5])}"
             + f" and {len(missing) - 5} more" * (len(missing) > 5)
         )
-    out["annual_energy"] = ((), energy, {"units": "J"})
+    out["annual_energy"] = energy.drop_vars([a for a in axes if a in energy.coords])
+    out["annual_energy"].attrs = {"units": "J"}
     out["hours"] = ((), sum(s.hours), {"units": "h", "long_name": "hours a year in the table"})
 
 
@@ -138,11 +139,17 @@ def text(results: xr.Dataset) -> str:
         lines.append(f"  {str(reason).splitlines()[0]}")
     for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
         if name in results:
-            lines += ["mean absorbed power, W:", *_rows(results[name])]
+            for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
+                power = results[name] if rung is None else results[name].sel({RUNG: rung})
+                how = "" if rung is None else f", {rung}"
+                lines += [f"mean absorbed power{how}, W:", *_rows(power)]
             break
     if "annual_energy" in results:
-        energy, hours = float(results["annual_energy"]), float(results["hours"])
-        lines.append(f"annual energy: {energy / 3.6e9:,.4g} MWh in {hours:g} h")
+        energy, hours = results["annual_energy"], float(results["hours"])
+        rungs = energy[RUNG].to_numpy() if RUNG in energy.dims else [""]
+        for rung, joules in zip(rungs, np.atleast_1d(energy.to_numpy()), strict=True):
+            how = f", {rung}" if rung else ""
+            lines.append(f"annual energy{how}: {joules / 3.6e9:,.4g} MWh in {hours:g} h")
     return "\n".join(lines)
 
 

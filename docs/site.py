@@ -1,0 +1,52 @@
+"""Build the site of the documentation without a warning: python docs/site.py.
+
+The pages keep their places in the repository, so that links hold here and there. They are copied
+into build/site_source with the pictures and files that they link to; mkdocs makes build/site.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "build" / "site_source"
+
+
+def pages() -> list[Path]:
+    """README, docs with the reference, and what each case says."""
+    docs = sorted((ROOT / "docs").rglob("*.md"))
+    return [ROOT / "README.md", *docs, *sorted((ROOT / "cases").glob("*/README.md"))]
+
+
+def linked(page: Path) -> Iterator[Path]:
+    """Files of the repository that a page links to or shows."""
+    for link in re.findall(r"\]\((?!http|#)([^)#]+)(?:#[^)]*)?\)", page.read_text()):
+        target = (page.parent / link).resolve()
+        if target.is_file() and target.is_relative_to(ROOT):
+            yield target
+
+
+def gather() -> None:
+    """Copy the pages and what they link to."""
+    shutil.rmtree(SOURCE, ignore_errors=True)
+    found = pages()
+    for file in dict.fromkeys([*found, *(target for page in found for target in linked(page))]):
+        copy = SOURCE / file.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, copy)
+
+
+def main() -> int:
+    """Build the site; returns the exit code of mkdocs, which counts warnings as errors."""
+    gather()
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
+    return subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")], check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

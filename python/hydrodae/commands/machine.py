@@ -1,0 +1,127 @@
+"""What commands print with --json: one object on standard output, numbers in SI units."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray
+
+    from hydrodae.frequency import Response
+    from hydrodae.frequency.modes import Mode
+    from hydrodae.hdb.database import HydroDatabase
+    from hydrodae.hdb.findings import CheckReport
+    from hydrodae.study.equilibrium import Equilibrium
+    from hydrodae.study.rao.responses import Rao
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """Add --json to a command."""
+    parser.add_argument("--json", action="store_true", help="print one JSON object, for machines")
+
+
+def print_json(content: Mapping[str, Any]) -> None:
+    """Print an object; numbers that are not finite become null."""
+    print(json.dumps(plain(content), indent=1, allow_nan=False))
+
+
+def plain(value: Any) -> Any:
+    """Return what JSON can hold: complex numbers as [real, imaginary], arrays as lists."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes):
+        return [plain(item) for item in value]
+    if isinstance(value, complex):
+        return [plain(value.real), plain(value.imag)]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value if isinstance(value, bool | int | float | str | None) else str(value)
+
+
+def of_modes(modes: Sequence[Mode]) -> list[dict[str, Any]]:
+    """Natural modes."""
+    return [vars(mode) for mode in modes]
+
+
+def of_equilibrium(found: Equilibrium) -> dict[str, Any]:
+    """Pose, reactions, tensions, stiffness and modes."""
+    stiffness = found.stiffness
+    return {
+        "title": found.title,
+        "offsets": found.offsets,
+        "rotations": found.rotations,
+        "reactions": found.reactions,
+        "tensions": found.tensions,
+        "moorings": {
+            "bodies": stiffness.bodies,
+            "load": stiffness.load,
+            "stiffness": stiffness.stiffness,
+            "damping": stiffness.damping,
+        },
+        "modes": of_modes(found.modes),
+        "notes": found.notes,
+    }
+
+
+def of_rao(found: Rao) -> dict[str, Any]:
+    """Modes and responses, and those in the sea of the case if it has one."""
+    deviations, powers = found.in_sea() if found.model.case.scene.wave_names else ({}, {})
+    return {
+        "title": found.model.case.scene.title,
+        "modes": of_modes(found.modes),
+        "response": _of_response(found.response),
+        "chosen": _of_response(found.chosen),
+        "in_sea": {"standard_deviation": deviations, "mean_power": powers},
+        "notes": found.notes,
+    }
+
+
+def _of_response(response: Response) -> dict[str, Any]:
+    """Amplitude and phase [rad] of each channel over omega [rad/s], per metre of wave amplitude."""
+    columns = {
+        name: {
+            "unit": unit,
+            "amplitude": np.abs(response[name]),
+            "phase": np.angle(response[name]),
+        }
+        for name, unit in zip(response.names, response.units, strict=True)
+    }
+    head = {"omega": response.omega, "heading": response.heading, "channels": columns}
+    return head | {"mean_power": response.power}
+
+
+def of_sweep(results: xarray.Dataset) -> dict[str, Any]:
+    """Dimensions, coordinates and variables as `xarray.Dataset.from_dict` takes them."""
+    found = results.to_dict()
+    found["attrs"] = {key: found["attrs"][key] for key in ("hydrodae",) if key in found["attrs"]}
+    return found
+
+
+def of_database(database: HydroDatabase, report: CheckReport) -> dict[str, Any]:
+    """Bodies, coordinates, fits and findings of a database."""
+    return {
+        "source": database.source,
+        "bodies": list(database.bodies),
+        "coordinates": database.coordinates,
+        "omega": database.omega,
+        "fits": {name: fit.report for name, fit in database.memory.items()},
+        "findings": [
+            {
+                "severity": finding.severity,
+                "check": finding.name,
+                "message": finding.message,
+                "value": finding.value,
+                "omega": finding.omega,
+            }
+            for finding in report
+        ],
+        "ok": report.ok,
+    }

@@ -1,0 +1,27 @@
+"""The command `hydrodae report`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser(
+        "report",
+        help="write a run or a sweep as one HTML page",
+        description="Write one HTML page that needs no other file: scene, models used, notes, "
+        "checks, figures, statistics, versions and hashes of a run; matrices and failures of a "
+        "sweep.",
+    )
+    parser.add_argument("results", metavar="RESULTS", help="results of run (.h5) or sweep (.nc)")
+    parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS with .html")
+    parser.set_defaults(call=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the page and print its path; returns 0."""
+    from hydrodae.report import report
+
+    print(report(arguments.results, arguments.output))
+    return 0

@@ -1,0 +1,55 @@
+"""Reports: a run or a sweep on one HTML page that needs no other file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from hydrodae.results import Results, ResultsError
+
+__all__ = ["report"]
+
+
+def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None = None) -> Path:
+    """Write a report: what was run, with which models, what came out, and how far to trust it.
+
+    Parameters
+    ----------
+    source : path
+        Results file of a run (HDF5), or of a sweep (netCDF).
+    output : path, optional
+        Default: `source` with the ending .html.
+
+    Returns
+    -------
+    Path
+        The HTML file. It holds its figures and needs no other file and no network.
+
+    Raises
+    ------
+    ResultsError
+        `source` is neither.
+    """
+    path = Path(source)
+    target = Path(output) if output is not None else path.with_suffix(".html")
+    text = _page(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(text, encoding="utf-8")
+    return target
+
+
+def _page(path: Path) -> str:
+    from hydrodae.report.run import report_of_run
+    from hydrodae.report.study import report_of_study
+
+    if path.suffix == ".nc":
+        import xarray
+
+        try:
+            study = xarray.load_dataset(path, engine="netcdf4")
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{path}: {error}") from None
+        if "status" not in study or "study" not in study.attrs:
+            raise ResultsError(f"{path}: is not the results file of a sweep")
+        return report_of_study(path, study)
+    return report_of_run(Results.read(path))

@@ -1,0 +1,124 @@
+"""The report of a run."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+from collections.abc import Iterator
+from pathlib import Path
+
+from hydrodae.case import Case, parse_assignment
+from hydrodae.errors import HydrodaeError
+from hydrodae.panels import overview
+from hydrodae.plot import plot_overview
+from hydrodae.report import page
+from hydrodae.report.scene import parts, read_tables, rungs, sketch
+from hydrodae.results import Results
+from hydrodae.results.series import statistics
+from hydrodae.version import version
+
+
+def report_of_run(results: Results) -> str:
+    """Return the page of a run: outcome, scene, models, checks, figures, versions, hashes."""
+    tables = read_tables(results.case_text, str(results.header.get("case_overrides", "")))
+    title = results.title or results.path.name
+    return page.page(title, filter(None, _sections(results, tables)))
+
+
+def _sections(results: Results, tables: dict[str, object]) -> Iterator[str]:
+    failed = "failed" if results.status != "completed" else ""
+    yield page.section(
+        "Outcome",
+        page.paragraph(
+            f"{results.status} at t = {results.end_time:g} s. {results.message}", failed
+        ),
+        page.text_block(results.summary()),
+    )
+    yield page.section(
+        "Scene",
+        page.picture(sketch(tables), "bodies and joints in the reference pose"),
+        page.paragraph(
+            "Reference pose from the side: centres of gravity, joints (squares), lines."
+        ),
+        page.table(["part", "name", "type", "where"], parts(tables)),
+    )
+    yield page.section("Models used", page.table(["effect", "model"], rungs(tables)))
+    yield page.section("Assumptions and notes", _notes(results))
+    yield page.section("Checks", page.text_block(_checks(results)))
+    if len(results.time):
+        yield page.section("Figures", page.picture(plot_overview(results), "all that moves"))
+        yield page.section(f"Statistics {_since(results)}", _statistics(results))
+    yield page.section("Solver", page.table([], _solver(results)))
+    yield page.section("Versions and hashes", page.table([], _provenance(results)))
+    yield page.section("Case file", page.folded("as it was run", results.case_text))
+
+
+def _notes(results: Results) -> str:
+    lines = [
+        "Linear potential flow about the mean position, unless said otherwise above; SI units; "
+        "z upwards from the still water line.",
+        *results.notes,
+    ]
+    return "<ul>" + "".join(f"<li>{page.escape(line)}</li>" for line in lines) + "</ul>"
+
+
+def _checks(results: Results) -> str:
+    """What `hydrodae check` says, if the case can be read again with the same database."""
+    overrides = str(results.header.get("case_overrides", "")).splitlines()
+    values = dict(parse_assignment(line) for line in overrides)
+    reason = "no database"
+    for folder in (Path(str(results.header.get("case_path", ""))).parent, results.path.parent):
+        try:
+            case = Case.from_text(results.case_text, folder).with_values(values)
+            if _digest(case.scene.database_path) == str(results.header.get("hydro_sha256", "")):
+                return case.examine()
+            reason = "the database is not the one of the run"
+        except (HydrodaeError, OSError) as error:
+            reason = str(error).splitlines()[0]
+    return f"not made: {reason}"
+
+
+def _digest(path: str) -> str:
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest() if path else ""
+
+
+def _since(results: Results) -> str:
+    start = float(results.statistics.get("mean_power_from", 0.0))
+    return f"from {start:g} s on" if start else "of the whole run"
+
+
+def _statistics(results: Results) -> str:
+    """Moments and waves of what the overview draws, in its units."""
+    rows = []
+    start = float(results.statistics.get("mean_power_from", 0.0))
+    for panel in overview(results):
+        if panel.quantity == "energy":
+            continue
+        for line in panel.lines:
+            kept = line.label.partition(", mean")[0]
+            s = statistics(
+                kept, panel.unit, results.time, line.values, min(start, results.end_time)
+            )
+            what = panel.quantity.replace("\n", " ")
+            row = [s.mean, s.std, s.min, s.max, s.waves.mean_period, s.waves.significant_height]
+            rows.append([what, kept, panel.unit, *row])
+    head = ["quantity", "of", "unit", "mean", "std", "least", "largest"]
+    return page.table([*head, "mean period [s]", "significant height"], rows)
+
+
+def _solver(results: Results) -> Iterator[tuple[str, object]]:
+    for name, value in sorted(results.statistics.items()):
+        if value != "":
+            yield name.replace("_", " "), value
+
+
+def _provenance(results: Results) -> Iterator[tuple[str, str]]:
+    header = results.header
+    yield "results file", str(results.path)
+    yield "its sha256", _digest(str(results.path))
+    yield "made by hydrodae", str(header.get("version", ""))
+    yield "case file", str(header.get("case_path", ""))
+    yield "sha256 of its text", hashlib.sha256(results.case_text.encode()).hexdigest()
+    yield "values replaced", str(header.get("case_overrides", "")).strip() or "none"
+    yield "sha256 of the database", str(header.get("hydro_sha256", "")) or "none"
+    yield "report by", f"hydrodae {version()}, Python {platform.python_version()}"

@@ -1,0 +1,130 @@
+"""The report of a sweep."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from hydrodae.plot import STYLE
+from hydrodae.report import page
+from hydrodae.report.scene import parts, read_tables, rungs
+from hydrodae.study.sweep import text
+from hydrodae.version import version
+
+#: What is drawn first, if it is there.
+_FIRST = ("mean_power_absorbed_mean", "mean_power_absorbed", "capture_width")
+#: Cost and trust: their ranges are enough.
+_TOLD_ONLY = ("estimated_error", "steps")
+
+
+def report_of_study(path: str | os.PathLike[str], study: xr.Dataset) -> str:
+    """Return the page of a sweep: outcome, matrices, failures, study, case, versions, hashes."""
+    return page.page(f"Study {Path(path).stem}", filter(None, _sections(Path(path), study)))
+
+
+def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
+    case = str(study.attrs.get("case", ""))
+    tables = read_tables(case, "")
+    yield page.section("Outcome", page.text_block(text(study)))
+    names = [str(name) for name in study.data_vars if study[name].dtype.kind == "f"]
+    names.sort(key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST))
+    for name in names:
+        values = study[name]
+        if values.ndim == 2 and min(values.shape) > 1 and name not in _TOLD_ONLY:
+            drawn = page.picture(matrix(values, name), name)
+            yield page.section(_title(name, values), drawn)
+    yield page.section(
+        "Ranges",
+        page.table(
+            ["result", "unit", "least", "mean", "largest"],
+            [
+                [name, str(study[name].attrs.get("units", "-")), *_range(study[name])]
+                for name in names
+                if np.isfinite(study[name]).any()
+            ],
+        ),
+    )
+    yield page.section("Runs that did not complete", _failures(study))
+    yield page.section("Scene", page.table(["part", "name", "type", "where"], parts(tables)))
+    yield page.section("Models used", page.table(["effect", "model"], rungs(tables)))
+    yield page.section("Versions and hashes", page.table([], _provenance(path, study)))
+    yield page.section(
+        "Files",
+        page.folded("study", str(study.attrs.get("study", ""))),
+        page.folded("case", case),
+    )
+
+
+@matplotlib.rc_context(STYLE)
+def matrix(values: xr.DataArray, name: str) -> Figure:
+    """Draw a quantity over two keys as coloured cells with their numbers."""
+    down, across = (str(d) for d in values.dims)
+    numbers = values.to_numpy()
+    prefix, factor = _prefix(numbers)
+    figure = Figure(
+        figsize=(min(10.0, 2.5 + 0.75 * numbers.shape[1]), 1.4 + 0.32 * numbers.shape[0]),
+        layout="constrained",
+    )
+    axes = figure.subplots()
+    image = axes.imshow(numbers / factor, cmap="viridis", aspect="auto", origin="lower")
+    axes.grid(visible=False)
+    middle = 0.4 * np.nanmin(numbers / factor) + 0.6 * np.nanmax(numbers / factor)
+    for (i, j), value in np.ndenumerate(numbers / factor):
+        color = "black" if value > middle else "white"
+        axes.text(j, i, f"{value:.3g}", ha="center", va="center", fontsize=8, color=color)
+    axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])
+    axes.set_yticks(range(numbers.shape[0]), [_short(v) for v in values[down].to_numpy()])
+    axes.set_xlabel(across.replace("_", " "))
+    axes.set_ylabel(down.replace("_", " "))
+    unit = values.attrs.get("units", "-")
+    figure.colorbar(image, label=f"{name.replace('_', ' ')} [{prefix}{unit}]")
+    return figure
+
+
+def _prefix(numbers: np.ndarray) -> tuple[str, float]:
+    largest = float(np.nanmax(np.abs(numbers), initial=0.0))
+    steps = (("G", 1e9), ("M", 1e6), ("k", 1e3))
+    return next(((p, f) for p, f in steps if largest >= f), ("", 1.0))
+
+
+def _short(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float | np.floating) else str(value)
+
+
+def _title(name: str, values: xr.DataArray) -> str:
+    return f"{name.replace('_', ' ')} [{values.attrs.get('units', '-')}]"
+
+
+def _range(values: xr.DataArray) -> tuple[float, float, float]:
+    found = values.to_numpy()
+    return float(np.nanmin(found)), float(np.nanmean(found)), float(np.nanmax(found))
+
+
+def _failures(study: xr.Dataset) -> str:
+    flat = study[["status", "reason"]].stack(run=list(study["status"].dims), create_index=False)
+    rows = []
+    for k in range(flat.sizes["run"]):
+        one = flat.isel(run=k)
+        if str(one["status"].item()) != "completed":
+            place = ", ".join(
+                f"{d} {_short(one[d].item())}" for d in study["status"].dims if d in one
+            )
+            rows.append([place, str(one["status"].item()), str(one["reason"].item())])
+    return page.table(["point", "status", "reason"], rows)
+
+
+def _provenance(path: Path, study: xr.Dataset) -> Iterator[tuple[str, str]]:
+    yield "results file", str(path)
+    yield "its sha256", hashlib.sha256(path.read_bytes()).hexdigest()
+    yield "made by hydrodae", str(study.attrs.get("hydrodae", ""))
+    case = str(study.attrs.get("case", ""))
+    yield "sha256 of the case", hashlib.sha256(case.encode()).hexdigest()
+    yield "report by", f"hydrodae {version()}, Python {platform.python_version()}"

