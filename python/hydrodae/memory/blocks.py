@@ -24,6 +24,8 @@ TIGHTENED = 4
 """Rounds of fits of the blocks."""
 SAFE = 0.94
 """Share of a goal that a fit must meet, as errors are told against tables with noise."""
+SHARED = 0.88
+"""Share of a uniform goal that each block must meet at first: largest errors may add up."""
 NEAR = 1.3
 """Error over its target from which a refit of all blocks together may reach it."""
 WEAK = 3.0
@@ -184,7 +186,7 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
 
 def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress) -> GroupFit:
     """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
-    share = 1.0
+    share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
         fits: list[GroupFit] = []

@@ -10,6 +10,7 @@ import numpy as np
 from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
 from hydrodae.memory.data import Goal, Progress, Quality
+from hydrodae.memory.direct import fit_direct
 from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.penalty import press
@@ -27,8 +28,9 @@ SLACK = 1.2
 NOISE = 2.0
 """Errors over the target that no number of common poles gets below: the tables are noisy."""
 HANKEL = "Hankel realisation of K(t)"
+VECTOR = "vector fit of B + i w A"
 MANY = 12
-"""Groups of more coordinates than this get a Hankel realisation: modes would take too long."""
+"""Groups of more coordinates than this are not searched mode by mode: that would take too long."""
 FEW = 3
 """Groups of no more coordinates than this are always tried with constraints, too: that is cheap."""
 NEARLY = 1.3
@@ -44,7 +46,7 @@ class GroupFit:
     modes: Modes
     problem: Problem
     quality: Quality
-    method: str = "vector fit of B + i w A"
+    method: str = VECTOR
 
 
 def fit_problem(
@@ -63,9 +65,10 @@ def fit_problem(
     say
         Called with one line per stage.
     """
-    if goal.method == "hankel" or (goal.method == "auto" and many):
-        realised, reached_quality, _ = fit_hankel(problem, goal, cap, say)
-        return GroupFit(realised, problem, reached_quality, HANKEL)
+    if goal.method == "hankel":
+        return _realised(problem, goal, cap, say)[0]
+    if goal.method == "auto" and many:
+        return _fit_many(problem, goal, cap, say)
     poles, least = _rich_poles(problem, goal, say)
     candidates = list(poles.values())[-3:]
     kept = _tamed(problem, goal, cap, poles, say) if least > NOISE else []
@@ -81,8 +84,8 @@ def fit_problem(
     if not kept and least <= NOISE:
         kept = _tamed(problem, goal, cap, poles, say)
     if not kept and goal.method == "auto":
-        realised, found, passive = fit_hankel(problem, goal, cap, say)
-        kept = [GroupFit(realised, problem, found, HANKEL)] if passive else []
+        fit, passive = _realised(problem, goal, cap, say)
+        kept = [fit] if passive else []
     if not kept:
         modes = _ladder(problem, goal, cap, candidates, say)[-1]
         return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
@@ -90,6 +93,26 @@ def fit_problem(
     limit = (NEARLY if cap is None else EQUAL) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
     return _polished(min(near, key=lambda fit: fit.modes.n_states), goal)
+
+
+def _realised(
+    problem: Problem, goal: Goal, cap: int | None, say: Progress
+) -> tuple[GroupFit, bool]:
+    """Fit by a realisation of K(t); tell whether it is passive."""
+    made = fit_hankel(problem, goal, cap, say)
+    assert made is not None
+    return GroupFit(made[0], problem, made[1], HANKEL), made[2]
+
+
+def _fit_many(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> GroupFit:
+    """Fit by a realisation of K(t), or by a vector fit where that starts or ends far from the goal.
+    """
+    realised = fit_hankel(problem, goal, cap, say, patient=False)
+    made = [(HANKEL, realised)] if realised is not None else []
+    if realised is None or not (realised[2] and (goal.met(realised[1]) or cap is not None)):
+        made.append((VECTOR, fit_direct(problem, goal, cap, say)))
+    name, best = max(made, key=lambda item: (item[1][2], -goal.miss(item[1][1])))
+    return GroupFit(best[0], problem, best[1], name)
 
 
 def _polished(fit: GroupFit, goal: Goal) -> GroupFit:
