@@ -184,6 +184,7 @@ def _tamed(
     energy at all frequencies, and cannot be made passive: they are dropped.
     """
     found: list[GroupFit] = []
+    best = np.inf
     highest = float(problem.samples.omega.max())
     for count in (8, 12, 16):
         if 2 * count > problem.samples.omega.size:
@@ -199,6 +200,9 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
+            free = goal.distance(prepare.quality(tame, problem, goal.band))
+            if free > NEARLY * best:
+                break  # fewer modes, or passive ones, are no nearer
             passive, reached = made_passive(
                 tame, problem, goal, thorough=not found or problem.size <= FEW
             )
@@ -209,6 +213,9 @@ def _tamed(
             )
             if reached:
                 found.append(GroupFit(passive, problem, quality))
+                best = min(best, goal.distance(quality))
+                if goal.distance(quality) > NEARLY * best:
+                    break
             least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
             if modes.n_states <= least:
                 break
@@ -298,9 +305,8 @@ def _rich_poles(
     misses: list[float] = []
     after = 0
     for count in range(4, min(36, problem.samples.omega.size // 2), 4):
-        _, poles = best_poles(problem, count)
-        found[count] = poles
-        miss = _vector_miss(poles, problem, goal)
+        _, found[count] = best_poles(problem, count, found.get(count - 4))
+        miss = _vector_miss(found[count], problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
         after += miss <= 1.5
         misses.append(miss)
@@ -310,20 +316,35 @@ def _rich_poles(
     return found, min(misses, default=np.inf)
 
 
-def best_poles(problem: Problem, count: int) -> tuple[float, ComplexArray]:
-    """Fit `count` common poles from many starts; return the best error and its poles."""
+def best_poles(
+    problem: Problem, count: int, known: ComplexArray | None = None
+) -> tuple[float, ComplexArray]:
+    """Fit `count` common poles from many starts; return the best error and its poles.
+
+    `known`: poles of a fit with fewer, which with some more make one of the starts.
+    """
     omega = problem.samples.omega[:-1]
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
     starts = [
         starting_poles(count, real, *span, ratio=0.05, logarithmic=logarithmic)
-        for real in (0, 2, 4)
-        for span in ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
-        for logarithmic in (False, True)
+        for real, span, logarithmic in (
+            (0, (0.6 * middle, 0.65 * high), False),
+            (0, (1.2 * middle, 0.85 * high), True),
+            (2, (low, high), False),
+            (2, (low, high), True),
+            (2, (1.2 * middle, 0.85 * high), False),
+            (4, (low, high), True),
+            (4, (0.6 * middle, 0.65 * high), False),
+            (4, (1.2 * middle, 0.85 * high), True),
+        )
         if real <= count - 2
     ]
-    found = sorted((_iterate(poles, problem, 6) for poles in starts), key=lambda item: item[0])
-    return min((_iterate(poles, problem, 14) for _, poles in found[:5]), key=lambda item: item[0])
+    if known is not None and count - order(known) >= 2:
+        more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
+        starts.append(np.concatenate([known, more]))
+    found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
+    return min((_iterate(poles, problem, 12) for _, poles in found[:3]), key=lambda item: item[0])
 
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
