@@ -14,6 +14,7 @@ from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.extra import SourceTable
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.tables import Body
@@ -65,6 +66,8 @@ class SourceData:
         What the reader noticed.
     assumed_points : set of str
         Bodies whose reference point the source does not state: the user may state another.
+    extra : dict of SourceTable
+        Kochin functions and drift forces.
     """
 
     coordinates: tuple[str, ...]
@@ -86,6 +89,7 @@ class SourceData:
     files: list[Path] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     assumed_points: set[str] = field(default_factory=set)
+    extra: dict[str, SourceTable] = field(default_factory=dict)
 
 
 def sha256(files: Iterable[Path]) -> str:
@@ -126,6 +130,7 @@ def finish(data: SourceData) -> HydroDatabase:
         source_sha256=sha256(data.files),
         generator=f"hydrodae {version()}",
         title=data.title,
+        extra=data.extra,
     )
 
 
