@@ -25,6 +25,8 @@ from hydrodae.memory.vector_fitting import (
 SLACK = 1.2
 """Pruning may exceed the target by this factor: the passive refit, being longer, wins it back."""
 
+RICH = 0.8
+"""Error over the target from which poles are sought from more starts."""
 NOISE = 2.0
 """Errors over the target that no number of common poles gets below: the tables are noisy."""
 HANKEL = "Hankel realisation of K(t)"
@@ -37,6 +39,12 @@ NEARLY = 1.3
 """Where no fit meets the goal, one within this factor of the best with fewer states is taken."""
 EQUAL = 1.04
 """Likewise where the number of states is given: errors that are the same."""
+
+QUICK = (
+    (0, 1, False), (0, 2, True), (2, 0, False), (2, 0, True),
+    (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
+)  # fmt: skip
+"""Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
 
 
 @dataclass(frozen=True)
@@ -313,38 +321,40 @@ def _rich_poles(
         noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
         if after >= 3 or miss <= 0.5 or noise:
             break
+    if RICH < min(misses, default=0.0) <= NOISE:
+        for count in list(found)[-2:]:
+            _, found[count] = best_poles(problem, count, thorough=True)
+            misses.append(_vector_miss(found[count], problem, goal))
+            say(f"vector fit with {count} poles from more starts: {misses[-1]:.2f}")
     return found, min(misses, default=np.inf)
 
 
 def best_poles(
-    problem: Problem, count: int, known: ComplexArray | None = None
+    problem: Problem, count: int, known: ComplexArray | None = None, thorough: bool = False
 ) -> tuple[float, ComplexArray]:
     """Fit `count` common poles from many starts; return the best error and its poles.
 
-    `known`: poles of a fit with fewer, which with some more make one of the starts.
+    `known`: poles of a fit with fewer, which with some more make one of the starts. `thorough`:
+    from three times as many starts, for three times the time.
     """
     omega = problem.samples.omega[:-1]
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
+    spans = ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
+    every = [(real, at, log) for real in (0, 2, 4) for at in range(3) for log in (False, True)]
     starts = [
-        starting_poles(count, real, *span, ratio=0.05, logarithmic=logarithmic)
-        for real, span, logarithmic in (
-            (0, (0.6 * middle, 0.65 * high), False),
-            (0, (1.2 * middle, 0.85 * high), True),
-            (2, (low, high), False),
-            (2, (low, high), True),
-            (2, (1.2 * middle, 0.85 * high), False),
-            (4, (low, high), True),
-            (4, (0.6 * middle, 0.65 * high), False),
-            (4, (1.2 * middle, 0.85 * high), True),
-        )
+        starting_poles(count, real, *spans[at], ratio=0.05, logarithmic=logarithmic)
+        for real, at, logarithmic in (every if thorough else QUICK)
         if real <= count - 2
     ]
     if known is not None and count - order(known) >= 2:
         more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
         starts.append(np.concatenate([known, more]))
-    found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
-    return min((_iterate(poles, problem, 12) for _, poles in found[:3]), key=lambda item: item[0])
+    first, second, best = (6, 14, 5) if thorough else (5, 12, 3)
+    found = sorted((_iterate(poles, problem, first) for poles in starts), key=lambda item: item[0])
+    return min(
+        (_iterate(poles, problem, second) for _, poles in found[:best]), key=lambda item: item[0]
+    )
 
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
