@@ -14,19 +14,12 @@ from hydrodae.memory.direct import fit_direct
 from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.penalty import press
-from hydrodae.memory.vector_fitting import (
-    ComplexArray,
-    order,
-    relocate,
-    solve_residues,
-    starting_poles,
-)
+from hydrodae.memory.poles import best_poles, rich_poles
+from hydrodae.memory.vector_fitting import ComplexArray, order, solve_residues
 
 SLACK = 1.2
 """Pruning may exceed the target by this factor: the passive refit, being longer, wins it back."""
 
-RICH = 0.8
-"""Error over the target from which poles are sought from more starts."""
 NOISE = 2.0
 """Errors over the target that no number of common poles gets below: the tables are noisy."""
 HANKEL = "Hankel realisation of K(t)"
@@ -39,12 +32,6 @@ NEARLY = 1.3
 """Where no fit meets the goal, one within this factor of the best with fewer states is taken."""
 EQUAL = 1.04
 """Likewise where the number of states is given: errors that are the same."""
-
-QUICK = (
-    (0, 1, False), (0, 2, True), (2, 0, False), (2, 0, True),
-    (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
-)  # fmt: skip
-"""Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +64,7 @@ def fit_problem(
         return _realised(problem, goal, cap, say)[0]
     if goal.method == "auto" and many:
         return _fit_many(problem, goal, cap, say)
-    poles, least = _rich_poles(problem, goal, say)
+    poles, least = rich_poles(problem, goal, say)
     candidates = list(poles.values())[-3:]
     kept = _tamed(problem, goal, cap, poles, say) if least > NOISE else []
     if not kept:
@@ -113,8 +100,7 @@ def _realised(
 
 
 def _fit_many(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> GroupFit:
-    """Fit by a realisation of K(t), or by a vector fit where that starts or ends far from the goal.
-    """
+    """Fit by a realisation of K(t), or by a vector fit where that is far from the goal."""
     realised = fit_hankel(problem, goal, cap, say, patient=False)
     made = [(HANKEL, realised)] if realised is not None else []
     if realised is None or not (realised[2] and (goal.met(realised[1]) or cap is not None)):
@@ -297,79 +283,3 @@ def _first_modes(
         if near:
             return min(near, key=lambda modes: modes.n_states)
     return min(found, key=lambda item: item[0])[1]
-
-
-def _rich_poles(
-    problem: Problem, goal: Goal, say: Progress
-) -> tuple[dict[int, ComplexArray], float]:
-    """Raise the number of common poles until vector fits near the goal.
-
-    Returns
-    -------
-    poles, miss
-        Of each number of poles; the least error over its target.
-    """
-    found: dict[int, ComplexArray] = {}
-    misses: list[float] = []
-    after = 0
-    for count in range(4, min(36, problem.samples.omega.size // 2), 4):
-        _, found[count] = best_poles(problem, count, found.get(count - 4))
-        miss = _vector_miss(found[count], problem, goal)
-        say(f"vector fit with {count} poles: {miss:.2f} of the target error")
-        after += miss <= 1.5
-        misses.append(miss)
-        noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
-        if after >= 3 or miss <= 0.5 or noise:
-            break
-    if RICH < min(misses, default=0.0) <= NOISE:
-        for count in list(found)[-2:]:
-            _, found[count] = best_poles(problem, count, thorough=True)
-            misses.append(_vector_miss(found[count], problem, goal))
-            say(f"vector fit with {count} poles from more starts: {misses[-1]:.2f}")
-    return found, min(misses, default=np.inf)
-
-
-def best_poles(
-    problem: Problem, count: int, known: ComplexArray | None = None, thorough: bool = False
-) -> tuple[float, ComplexArray]:
-    """Fit `count` common poles from many starts; return the best error and its poles.
-
-    `known`: poles of a fit with fewer, which with some more make one of the starts. `thorough`:
-    from three times as many starts, for three times the time.
-    """
-    omega = problem.samples.omega[:-1]
-    low, high = float(omega[0]), float(omega[-1])
-    middle = float(np.sqrt(low * high))
-    spans = ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
-    every = [(real, at, log) for real in (0, 2, 4) for at in range(3) for log in (False, True)]
-    starts = [
-        starting_poles(count, real, *spans[at], ratio=0.05, logarithmic=logarithmic)
-        for real, at, logarithmic in (every if thorough else QUICK)
-        if real <= count - 2
-    ]
-    if known is not None and count - order(known) >= 2:
-        more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
-        starts.append(np.concatenate([known, more]))
-    first, second, best = (6, 14, 5) if thorough else (5, 12, 3)
-    found = sorted((_iterate(poles, problem, first) for poles in starts), key=lambda item: item[0])
-    return min(
-        (_iterate(poles, problem, second) for _, poles in found[:best]), key=lambda item: item[0]
-    )
-
-
-def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
-    """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
-    best = (np.inf, poles)
-    for step in range(steps):
-        poles = relocate(poles, problem.samples, problem.damping_grid, problem.damping)
-        if 2 * step >= steps:
-            value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
-            best = min(best, (value, poles), key=lambda item: item[0])
-    return best
-
-
-def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
-    """Return the error of a full-rank fit with these poles over its target."""
-    coefficients, _, _ = solve_residues(poles, problem.samples)
-    modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
-    return goal.miss(prepare.quality(modes, problem, goal.band))

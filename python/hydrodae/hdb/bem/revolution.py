@@ -6,6 +6,7 @@ is a polyline are exact.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +55,7 @@ def cone(
         points.insert(0, (0.0, top))
     if bottom > 0.0:
         points.append((0.0, -draft))
-    return revolution(size, np.array(points)) + np.array([x, y, 0.0])
+    return np.asarray(revolution(size, np.array(points)) + np.array([x, y, 0.0]))
 
 
 def ring(
@@ -92,7 +93,7 @@ def ring(
     points = [(radius, top), (radius, -draft), (inner, -draft), (inner, top)]
     if top < 0.0:
         points.append((radius, top))
-    return revolution(size, np.array(points)) + np.array([x, y, 0.0])
+    return np.asarray(revolution(size, np.array(points)) + np.array([x, y, 0.0]))
 
 
 def revolution(size: float, profile: ArrayLike) -> Array:
@@ -123,7 +124,7 @@ def revolution(size: float, profile: ArrayLike) -> Array:
     if not np.all(np.isfinite(points)) or points[:, 0].min() < 0.0 or points[:, 0].max() <= 0.0:
         raise CaseError("profile: expected finite points with r >= 0, and some with r > 0")
     parts = [points[:1]]
-    for a, b in zip(points[:-1], points[1:], strict=True):
+    for a, b in pairwise(points):
         length = float(np.linalg.norm(b - a))
         if length > 0.0:
             share = np.linspace(0.0, 1.0, count(length, size) + 1)[1:, None]
@@ -151,7 +152,9 @@ def read_profile(path: str | Path) -> Array:
         try:
             r, z = (float(word) for word in words)
         except ValueError:
-            raise DatabaseError(f"{file}:{number}: expected two numbers r z, got {line!r}") from None
+            raise DatabaseError(
+                f"{file}:{number}: expected two numbers r z, got {line!r}"
+            ) from None
         rows.append((r, z))
     if len(rows) < 2:
         raise DatabaseError(f"{file}: {len(rows)} points; expected at least two, r z in a line")

@@ -286,7 +286,9 @@ def count_nan(path: Path) -> dict[str, int]:
 def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:
     numbers = [settings.rho, settings.gravity, settings.water_depth, settings.lid]
     numbers += [settings.kochin] if settings.kochin else []
-    digest = hashlib.sha256(f"{version} {tuple(numbers)} {settings.heading.round(9).tolist()}".encode())
+    digest = hashlib.sha256(
+        f"{version} {tuple(numbers)} {settings.heading.round(9).tolist()}".encode()
+    )
     for body in bodies:
         digest.update(f"{body.name} {np.asarray(body.point).round(9).tolist()}".encode())
         digest.update(np.ascontiguousarray(body.panels.round(9)).tobytes())

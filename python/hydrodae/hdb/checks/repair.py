@@ -111,8 +111,8 @@ def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDat
     if mask.mean() > share or (~mask).sum() < 4:
         raise DatabaseError(
             f"{mask.sum()} of {mask.size} frequencies break causality or energy ({shown} rad/s), "
-            f"{mask.mean():.0%} of them and more than {share:.0%}: too many to interpolate; compute "
-            "again with a lid"
+            f"{mask.mean():.0%} of them and more than {share:.0%}: too many to interpolate; "
+            "compute again with a lid"
         )
     good = np.flatnonzero(~mask)
     inside = np.zeros_like(mask)
