@@ -211,6 +211,12 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     if np.abs(by_axis - volume).max() > LEAK * volume:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
+    # half a hull that is open at its plane of symmetry has the right volumes all the same
+    side = np.abs(area.sum(axis=0)[:2])
+    if side.max() > LEAK * np.abs(area[:, :2]).sum(axis=0).max():
+        raise DatabaseError(
+            f"the surface has holes: {side[0]:.3g} m2 are open along x, {side[1]:.3g} m2 along y"
+        )
     squares = (middle**2).mean(axis=1)
     center = 0.5 * (squares * area).sum(axis=0) / volume
     x, y = middle[..., 0] - np.asarray(point)[0], middle[..., 1] - np.asarray(point)[1]
