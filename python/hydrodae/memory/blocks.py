@@ -74,28 +74,7 @@ def fit_group(
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
     fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
-    fit = _held_to_tables(fit, data, group, goal, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
-
-
-def _held_to_tables(
-    fit: GroupFit, data: ImpedanceData, group: IntArray, goal: Goal, say: Progress
-) -> GroupFit:
-    """Refit where the goal is met but for the noise of the tables as they stand."""
-
-    def miss(modes: Modes) -> float:
-        return goal.miss(prepare.stored_quality(modes, data, group, fit.problem, goal.band))
-
-    before = miss(fit.modes)
-    if not (goal.met(fit.quality) and 1.0 < before < NEAR):
-        return fit
-    free, _ = refine(fit.modes, fit.problem, 20, 1e-3)
-    modes, reached = made_passive(free, fit.problem, _tightened(goal, 0.8 / before))
-    after = miss(modes)
-    say(f"refitted: {after:.2f} of the target error against the tables, {before:.2f} before")
-    if not reached or after >= before:
-        return fit
-    return replace(fit, modes=modes, quality=prepare.quality(modes, fit.problem, goal.band))
 
 
 @dataclass(frozen=True)
