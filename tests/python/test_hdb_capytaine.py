@@ -224,3 +224,25 @@ def test_capytaine_2_sphere_takes_its_point_from_beside(reference, tmp_path):
     # about the wrong point the long-wave moment contradicts the stiffness
     _, report = hdb.import_database(path, source_points={"floating_sphere": (0, 0, 0)})
     assert report.find("pitch moment")[0].severity == "warning"
+
+
+def test_kochin_functions_and_drift_forces_are_kept(tmp_path):
+    omega = np.array([0.5, 1.0, 1.5, 2.0, 2.5])
+    ds = dataset(3, omega)
+    theta = np.linspace(0.0, 2.0 * np.pi, 5)
+    kochin = np.arange(5 * 12 * 5).reshape(5, 12, 5) * (1.0 + 2.0j)
+    both = np.stack([kochin.real, kochin.imag])
+    ds["kochin_radiation"] = (["complex", "omega", "radiating_dof", "theta"], both)
+    ds["drift_force_surge"] = (["omega", "wave_direction"], np.arange(10.0).reshape(5, 2))
+    ds = ds.assign_coords(theta=theta)
+    ds.to_netcdf(tmp_path / "far.nc", engine="scipy")
+    database = hdb.read(tmp_path / "far.nc")
+    database.write(tmp_path / "far.h5")
+    for one in (database, hdb.read(tmp_path / "far.h5")):
+        assert sorted(one.extra) == ["drift_force_surge", "kochin_radiation"]
+        table = one.extra["kochin_radiation"].to_xarray()
+        assert table.dims == ("omega", "radiating_dof", "theta")
+        assert table.sel(omega=1.0, radiating_dof="b__Heave")[3] == kochin[1, 8, 3]
+        np.testing.assert_array_equal(table["theta"], theta)
+        assert one.extra["drift_force_surge"].values[4, 1] == 9.0
+    assert "also       kochin_radiation over omega, radiating_dof, theta" in database.summary()

@@ -79,6 +79,17 @@ def test_what_is_done_is_kept(computed, monkeypatch):
     assert steps == [(5, 5)]
 
 
+def test_kochin_functions_are_kept(tmp_path):
+    settings = dataclasses.replace(SETTINGS, kochin=8)
+    db = hdb.read(bem.compute([hemisphere(2.5)], settings, tmp_path))
+    far = db.extra["kochin_radiation"].to_xarray().isel(omega=1)
+    heave = np.abs(far.sel(radiating_dof="buoy__Heave").values)
+    surge = far.sel(radiating_dof="buoy__Surge").values
+    np.testing.assert_allclose(heave, heave.mean(), rtol=1e-3)
+    np.testing.assert_allclose(np.abs(surge / surge[0] - np.cos(far["theta"].values)), 0, atol=1e-3)
+    assert db.extra["kochin_diffraction"].dims == ("omega", "wave_direction", "theta")
+
+
 def test_another_setting_is_another_folder(computed, monkeypatch):
     folder, netcdf = computed
     asked = solves(monkeypatch)

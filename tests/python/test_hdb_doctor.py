@@ -111,23 +111,45 @@ def test_irregular_frequencies_of_the_sphere(nemoh, reference):
     assert not suspect_rows(clean).any()
 
 
-def test_leaving_them_out_makes_the_tables_causal(nemoh):
+def test_interpolation_makes_the_tables_causal(nemoh, reference):
     before = hdb.check(nemoh).find("Ogilvie")[0]
     clean = repair(nemoh, ["irregular"])
     after = hdb.check(clean).find("Ogilvie")[0]
     assert before.severity == "warning"
     assert after.severity == "info"
     assert after.value < 0.4 * before.value
-    assert clean.omega.size == nemoh.omega.size - 16
-    kept = np.isin(nemoh.omega, clean.omega)
-    np.testing.assert_array_equal(clean.added_mass, nemoh.added_mass[kept])
-    assert clean.repairs[0].startswith("irregular: left out 16 of 420 frequencies: 2.22..2.28")
-    assert repair(clean, ["irregular"]) is clean
+    bad = suspect_rows(nemoh)
+    np.testing.assert_array_equal(clean.omega, nemoh.omega)
+    np.testing.assert_array_equal(clean.added_mass[~bad], nemoh.added_mass[~bad])
+    np.testing.assert_array_equal(clean.diffraction[~bad], nemoh.diffraction[~bad])
+    np.testing.assert_array_equal(clean.froude_krylov, nemoh.froude_krylov)
+    assert clean.repairs[0].startswith("irregular: interpolated 16 of 420 frequencies (3.8%): 2.22")
+    # another code, whose tables have no irregular frequencies
+    other = hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
+    for i in (0, 2):
+        truth = np.interp(nemoh.omega[bad], other.omega, other.added_mass[:, i, i])
+        off = [np.abs(d.added_mass[bad, i, i] / truth - 1.0).max() for d in (nemoh, clean)]
+        assert off[1] < 0.06 < off[0]
+        truth = np.interp(nemoh.omega[bad], other.omega, np.abs(other.excitation[:, 0, i]))
+        off = np.abs(np.abs(clean.excitation[bad, 0, i]) - truth)
+        assert off.max() < 0.01 * np.abs(other.excitation[:, 0, i]).max()
+
+
+def test_bad_frequencies_at_the_end_are_left_out(nemoh, monkeypatch):
+    last = np.zeros(nemoh.omega.size, dtype=bool)
+    last[[100, -2, -1]] = True
+    monkeypatch.setattr("hydrodae.hdb.checks.repair.suspect_rows", lambda db: last)
+    clean = repair(nemoh, ["irregular"])
+    assert clean.omega.size == nemoh.omega.size - 2
+    assert "interpolated 1 of 420 frequencies (0.2%), left out 2 at the ends" in clean.repairs[0]
+    assert clean.added_mass[100, 2, 2] == pytest.approx(nemoh.added_mass[100, 2, 2], rel=1e-3)
+    with pytest.raises(DatabaseError, match=r"1% of them and more than 0%"):
+        repair(nemoh, ["irregular"], share=0.001)
 
 
 def test_too_many_bad_frequencies_are_not_papered_over(reference):
     db = hdb.read(reference / "hdb" / "rm3_nemoh_v2.3")
-    with pytest.raises(DatabaseError, match=r"too many to leave out; compute again with a lid"):
+    with pytest.raises(DatabaseError, match=r"too many to interpolate; compute again with a lid"):
         repair(db, ["irregular"])
 
 
@@ -271,11 +293,11 @@ def test_doctor_repairs_writes_and_draws(reference, tmp_path, capsys):
     out, picture = tmp_path / "clean.h5", tmp_path / "report.png"
     assert call("doctor", source, "-r", picture, "--repair", "irregular", "-o", out) == 0
     text = capsys.readouterr().out
-    assert "irregular: left out 16 of 420 frequencies" in text
+    assert "irregular: interpolated 16 of 420 frequencies" in text
     assert "verdict: usable with care" in text
     assert picture.stat().st_size > 50_000
     db = hdb.read(out)
-    assert db.omega.size == 404
+    assert db.omega.size == 420
     assert db.repairs[0].startswith("irregular: left out 16")
     assert "repaired   irregular: left out" in db.summary()
 

@@ -38,6 +38,13 @@ def test_several_files_in_a_folder_ask_which(tmp_path):
         resolve(tmp_path)
 
 
+def test_exports_of_orcawave_that_are_not_read_name_those_that_are(tmp_path):
+    (tmp_path / "buoy.csv").write_text("Frequency;A11")
+    for source in (tmp_path, tmp_path / "buoy.csv"):
+        with pytest.raises(DatabaseError, match=r"OrcaWave as \.csv .* WAMIT format .* \(\.yml\)"):
+            hdb.read(source)
+
+
 def test_files_of_unread_codes_name_the_converter(tmp_path):
     (tmp_path / "ship.hdf").write_text("# Diodore")
     with pytest.raises(DatabaseError, match=r"Diodore or HydroStar.*BEMRosetta.*WAMIT tables"):

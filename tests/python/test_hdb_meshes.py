@@ -9,8 +9,10 @@ import pytest
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import shapes
+from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.lids import lid, water_line
-from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.bem.meshes import mirrored, read_mesh
+from hydrodae.hdb.bem.revolution import read_profile, revolution
 
 POINT = np.array([1.0, 2.0, -3.0])
 
@@ -69,6 +71,54 @@ def test_bad_shapes(shape, lengths, message):
         shapes.build(shape, 1.0, lengths)
 
 
+def test_cones_and_rings():
+    for lengths, volume, area in (
+        ({"radius": 4.0, "draft": 3.0}, 16 * np.pi, 16 * np.pi),
+        ({"radius": 2.0, "bottom": 4.0, "draft": 3.0, "top": -1.0}, 2 / 3 * np.pi * 28, 0.0),
+    ):
+        hs = shapes.hydrostatics(shapes.build("cone", 0.6, lengths), np.zeros(3))
+        assert hs.displaced_volume == pytest.approx(volume, rel=1e-12)
+        assert hs.waterplane_area == pytest.approx(area, rel=1e-12, abs=1e-9)
+    lengths = {"radius": 5.0, "inner": 2.0, "draft": 3.0}
+    ring = shapes.build("ring", 0.7, {**lengths, "x": 4.0})
+    hs = shapes.hydrostatics(ring, np.array([4.0, 0.0, 0.0]))
+    assert hs.displaced_volume == pytest.approx(np.pi * 21 * 3, rel=1e-12)
+    np.testing.assert_allclose(hs.center_of_buoyancy, [4.0, 0.0, -1.5], atol=1e-9)
+    sunk = shapes.hydrostatics(shapes.build("ring", 0.7, {**lengths, "top": -1.0}), np.zeros(3))
+    assert sunk.displaced_volume == pytest.approx(np.pi * 21 * 2, rel=1e-12)
+    with pytest.raises(CaseError, match="inner = 6 m must be below radius"):
+        shapes.build("ring", 0.7, {**lengths, "inner": 6.0})
+
+
+def test_a_profile_in_a_file(tmp_path):
+    file = tmp_path / "spar.txt"
+    file.write_text("# r z\n0, -8\n3 -8  # keel\n3; 2\n")
+    panels = immersed(revolution(0.8, read_profile(file)))
+    hs = shapes.hydrostatics(panels, np.zeros(3))
+    assert hs.displaced_volume == pytest.approx(np.pi * 9 * 8, rel=1e-12)
+    assert hs.waterplane_area == pytest.approx(np.pi * 9, rel=1e-9)
+    file.write_text("3 1\n3 x\n")
+    with pytest.raises(DatabaseError, match=r"spar.txt:2: expected two numbers r z, got '3 x'"):
+        read_profile(file)
+    with pytest.raises(CaseError, match="r >= 0"):
+        revolution(0.5, [[-1.0, 0.0], [1.0, -2.0]])
+
+
+def test_halves_are_completed():
+    whole = shapes.box(0.5, length=4.0, width=2.0, draft=1.0)
+    half = whole[whole[..., 1].max(axis=1) <= 1e-9]
+    quarter = half[half[..., 0].min(axis=1) >= -1e-9]
+    for panels, axes in ((half, "y"), (quarter, "xy")):
+        with pytest.raises(DatabaseError, match="has holes"):
+            immersed(panels)
+        hs = shapes.hydrostatics(immersed(mirrored(panels, axes)), np.zeros(3))
+        assert hs.displaced_volume == pytest.approx(8.0)
+    with pytest.raises(DatabaseError, match="both sides of y = 0, from -1 to 1 m: this is no half"):
+        mirrored(whole, "y")
+    with pytest.raises(DatabaseError, match="expected x, y or xy"):
+        mirrored(half, "z")
+
+
 def test_holes_and_inner_normals_are_errors():
     panels = shapes.box(0.5, length=4.0, width=2.0, draft=1.0)
     with pytest.raises(DatabaseError, match="has holes"):
@@ -109,6 +159,15 @@ def test_lid_with_a_moonpool():
     both = np.concatenate([p[np.ptp(p[..., 2], axis=1) > 0] for p in (outer, inner)])
     assert len(water_line(both)) == 2
     assert lid_area(lid(both)) == pytest.approx(64.0 - 16.0)
+
+
+def test_lid_around_a_round_moonpool():
+    ring = shapes.build("ring", 0.7, {"radius": 5.0, "inner": 2.0, "draft": 3.0})
+    found = lid(ring)
+    assert lid_area(found) == pytest.approx(np.pi * 21, rel=1e-6)
+    assert np.linalg.norm(found.mean(axis=1), axis=1).min() > 2.0
+    turned = shapes.build("ring", 0.7, {"radius": 5.0, "inner": 4.5, "draft": 3.0, "x": 20.0})
+    assert lid_area(lid(turned)) == pytest.approx(np.pi * (25 - 4.5**2), rel=1e-6)
 
 
 def test_no_lid_where_none_can_be():

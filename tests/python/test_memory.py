@@ -11,6 +11,8 @@ import pytest
 
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.memory import data as prepare
+from hydrodae.memory.direct import fit_direct
 
 # Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
 RESONANCES = (
@@ -156,6 +158,30 @@ def test_hankel_realisation_finds_the_same_modes(exact: Table) -> None:
     off = np.abs(memory.transfer(omega) - exact_transfer(omega))
     scale = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
     assert (off / scale / scale[:, None]).max() < 2e-3
+
+
+def test_a_vector_fit_alone_finds_them_where_the_table_ends_early(exact: Table) -> None:
+    keep = exact.omega <= 0.62
+    short = replace(
+        exact,
+        omega=exact.omega[keep],
+        added_mass=exact.added_mass[keep],
+        radiation_damping=exact.radiation_damping[keep],
+    )
+    data = prepare.gather(short, LABELS, LABELS)
+    goal = prepare.Goal((0.1, 0.6), 10.0, 1e-3, 0.1, None, 1e-3)
+    pick = np.arange(len(LABELS))
+    matrices = prepare.scaled(data.square, data.scale, pick)
+    problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    said: list[str] = []
+    modes, quality, passive = fit_direct(problem, goal, None, said.append)
+    assert passive
+    assert goal.met(quality)
+    assert modes.n_states <= 16
+    assert any("vector fit with 12 poles" in text for text in said)
+    few, _, passive = fit_direct(problem, goal, 6, said.append)
+    assert passive
+    assert few.n_states <= 6
 
 
 def test_noise_that_gives_energy_is_not_followed(exact: Table) -> None:

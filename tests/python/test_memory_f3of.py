@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from tests.verification import cummins
 from tests.verification.cummins import ALL_LABELS, FLAP_LABELS, nrms
 
-from hydrodae.memory import ExponentialMemory, fit_memory
+from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 
 HINGE_LEVER = 3.5  # m, centre of gravity above the hinge
 BASE_LABELS = tuple(label for label in ALL_LABELS if label.startswith("base"))
@@ -118,7 +119,11 @@ def test_loads_on_the_fixed_base(memory: ExponentialMemory, data: cummins.Radiat
 
 @pytest.mark.slow
 def test_all_planar_coordinates(data: cummins.Radiation, truth: cummins.CumminsModel) -> None:
-    memory = fit_memory(data, ALL_LABELS, name="planar")
+    with warnings.catch_warnings():
+        # 1.1 of the target: the tables as they stand give energy at some frequencies
+        warnings.simplefilter("ignore", MemoryFitWarning)
+        memory = fit_memory(data, ALL_LABELS, name="planar")
+    assert memory.report["weighted_error_band"] <= 5.4e-4
     assert memory.n_states <= 110
     assert memory.report["passive"] is True
     time = np.arange(0.0, 100.05, 0.1)

@@ -105,6 +105,18 @@ def test_four_nodes_need_170_states(reference: Path) -> None:
     assert memory.report["method"].startswith("Hankel")
 
 
+@pytest.mark.long
+def test_four_nodes_whose_table_ends_early(reference: Path) -> None:
+    """The damping of pitch still grows at the last frequency: there is no K(t) to begin with."""
+    source = reference / "hdb" / "own" / "4n3la.nc"
+    database, _ = hdb.import_database(source, cut=9.0)
+    with pytest.warns(MemoryFitWarning, match="no radiation in S3.yaw"):
+        memory = fit_memory(database, database.coordinates, band=(0.6, 7.0), uniform=0.01)
+    assert memory.n_states <= 150
+    assert memory.report["passive"]
+    assert memory.report["h_error_peak"] <= 0.01
+
+
 def test_free_devices_come_to_rest(repository: Path) -> None:
     """All modes of the free device decay with every stored fit that covers it, without any PTO."""
     folder = repository / "cases" / "f3of"

@@ -14,6 +14,7 @@ from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.convolution import RadiationKernel
+from hydrodae.hdb.extra import read_extra, write_extra
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.tables import Body, Tables
 
@@ -83,6 +84,8 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
         _write_bodies(f, database)
         for name, fit in database.memory.items():
             _write_fit(f.create_group(f"memory/{name}"), fit)
+        if database.extra:
+            write_extra(f.create_group("extra"), database.extra)
     os.replace(partial, target)
 
 
@@ -210,6 +213,7 @@ def _read(f: h5py.File) -> dict[str, Any]:
         added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
+        extra=read_extra(f["extra"]) if "extra" in f else {},
         repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
         **values,

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
 
@@ -40,7 +41,8 @@ def fit(
         Coordinates whose loads the fit gives, likewise; default: those that move.
     band : (float, float), optional
         Frequencies that the fit must match [rad/s], for example those of
-        `hydrodae.working_band`; default: 0.04 to 1 rad/s.
+        `hydrodae.working_band`; default: 0.04 to 1 rad/s, right at full scale, or with `uniform`
+        the frequencies that the device feels (`hydrodae.hdb.checks.band.felt_band`).
     states : int, optional
         Largest number of states.
     target : float, optional
@@ -82,6 +84,8 @@ def fit(
         raise CaseError(f"target {target:g}: expected a number > 0")
     if unknown := [check for check in accept if check not in CHECKS]:
         raise CaseError(f"accept {unknown[0]!r}: expected one of {', '.join(CHECKS)}")
+    if band is None and uniform is not None:
+        band = felt_band(database)
     allowed = {*accept, *(() if states is None else ("target",))}
     given = {
         "band": band,

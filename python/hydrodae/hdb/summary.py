@@ -34,6 +34,8 @@ def summary(db: Tables) -> str:
         lines.append(f"  kernel     {kernel_summary(db.kernel)}")
     for name, fit in db.memory.items():
         lines.append(f"  memory     {name}: {fit_summary(fit)}")
+    for name, table in db.extra.items():
+        lines.append(f"  also       {name} over {', '.join(table.dims)}, as in the source")
     lines += [f"  repaired   {text}" for text in db.repairs]
     return "\n".join(lines)
 

@@ -13,6 +13,7 @@ from hydrodae import irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.convolution import RadiationKernel
+from hydrodae.hdb.extra import SourceTable
 from hydrodae.hdb.hydrostatics import Hydrostatics
 
 if TYPE_CHECKING:
@@ -97,6 +98,8 @@ class Tables:
         Radiation kernel K(t) for the convolution.
     memory : dict of ExponentialMemory
         Fits of the radiation memory, by name.
+    extra : dict of SourceTable
+        Kochin functions and drift forces as the source wrote them (`hydrodae.hdb.extra`).
     """
 
     coordinates: tuple[str, ...]
@@ -121,6 +124,7 @@ class Tables:
     repairs: tuple[str, ...] = ()
     kernel: RadiationKernel | None = None
     memory: dict[str, ExponentialMemory] = field(default_factory=dict)
+    extra: dict[str, SourceTable] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.coordinates = tuple(self.coordinates)

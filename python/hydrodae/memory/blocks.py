@@ -18,18 +18,16 @@ from hydrodae.memory.vector_fitting import Array, ComplexArray
 
 SYMMETRIC = 0.3
 """Share of the goal that a table may miss a symmetry by."""
-ALIKE = 1.5
-"""Coordinates of one kind are scaled alike where their scales, sorted, differ by no more."""
 TIGHTENED = 4
 """Rounds of fits of the blocks."""
 SAFE = 0.94
 """Share of a goal that a fit must meet, as errors are told against tables with noise."""
+SHARED = 0.88
+"""Share of a uniform goal that each block must meet at first: largest errors may add up."""
 NEAR = 1.3
 """Error over its target from which a refit of all blocks together may reach it."""
 WEAK = 3.0
 """A block whose size is this many times below its share has its goal relaxed."""
-KINDS = {"surge": "along", "sway": "along", "roll": "tilt", "pitch": "tilt"}
-"""Degrees of freedom that rotations about the vertical mix."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def fit_group(
     say
         Called with one line per stage.
     """
-    alike = _common_scale(data.scale, group, labels)
+    alike = symmetry.common_scale(data.scale, group, labels)
     stored = prepare.scaled(data.stored, alike, group)
     for blocks in symmetry.candidates(stored):
         array = _Array.of(data.omega, stored, blocks, goal)
@@ -184,7 +182,7 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
 
 def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress) -> GroupFit:
     """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
-    share = 1.0
+    share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
         fits: list[GroupFit] = []
@@ -254,25 +252,6 @@ def _tightened(goal: Goal, share: float) -> Goal:
         target_outside=goal.target_outside * share,
         uniform=None if goal.uniform is None else goal.uniform * share,
     )
-
-
-def _common_scale(scale: Array, group: IntArray, labels: Sequence[str]) -> Array:
-    """Return scales that are the same for equal bodies, and for what a rotation mixes."""
-    result = scale.copy()
-    kinds = np.array([_kind(label) for label in labels])
-    for kind in set(kinds[group]):
-        index = group[kinds[group] == kind]
-        index = index[np.argsort(scale[index], kind="stable")]
-        cuts = np.nonzero(np.diff(np.log(scale[index])) > np.log(ALIKE))[0] + 1
-        for members in np.split(index, cuts):
-            result[members] = np.sqrt(np.mean(scale[members] ** 2))
-    return result
-
-
-def _kind(label: str) -> str:
-    """Return what may be scaled alike with this coordinate."""
-    dof = label.rsplit(".", 1)[-1]
-    return KINDS.get(dof, dof)
 
 
 def sizes(blocks: Sequence[Block]) -> str:

@@ -44,23 +44,28 @@ class _Kernel:
 
 
 def fit_hankel(
-    problem: Problem, goal: Goal, cap: int | None, say: Progress
-) -> tuple[Modes, Quality, bool]:
+    problem: Problem, goal: Goal, cap: int | None, say: Progress, patient: bool = True
+) -> tuple[Modes, Quality, bool] | None:
     """Find the fewest states that meet the goal, passive; or the best found.
 
     Returns
     -------
     modes, quality, passive
+        None if not `patient` and no realisation starts near the goal: so it is with tables that
+        end where B is still large, of which no K(t) can be made.
     """
     kernel = _decompose(problem)
-    room = (PARAMETERS - problem.rows.size) // (problem.size + 1)
-    most = min(kernel.values.size, room, cap or room)
+    most = _most_states(kernel, problem, cap)
     orders = _orders(2 * problem.size, most)
     best: tuple[Modes, Quality, bool] | None = None
+    near = patient
     for count in orders:
         last = count == orders[-1]
         modes = realise(kernel, count, problem)
         start = goal.miss(quality(modes, problem, goal.band))
+        near = near or start <= HOPEFUL
+        if last and not near:
+            return None
         if (start > HOPEFUL and not last) or modes.n_states > most:
             continue
         modes, _ = refine(modes, problem, 12, 0.02)
@@ -81,6 +86,12 @@ def fit_hankel(
             best = modes, found, reached
     assert best is not None
     return best
+
+
+def _most_states(kernel: _Kernel, problem: Problem, cap: int | None) -> int:
+    """Return the most states of a realisation: by K(t), by memory, and by `cap`."""
+    room = (PARAMETERS - problem.rows.size) // (problem.size + 1)
+    return min(kernel.values.size, room, cap or room)
 
 
 def _orders(least: int, most: int) -> list[int]:

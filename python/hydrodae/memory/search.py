@@ -10,16 +10,12 @@ import numpy as np
 from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
 from hydrodae.memory.data import Goal, Progress, Quality
+from hydrodae.memory.direct import fit_direct
 from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.penalty import press
-from hydrodae.memory.vector_fitting import (
-    ComplexArray,
-    order,
-    relocate,
-    solve_residues,
-    starting_poles,
-)
+from hydrodae.memory.poles import best_poles, rich_poles
+from hydrodae.memory.vector_fitting import ComplexArray, order, solve_residues
 
 SLACK = 1.2
 """Pruning may exceed the target by this factor: the passive refit, being longer, wins it back."""
@@ -27,8 +23,9 @@ SLACK = 1.2
 NOISE = 2.0
 """Errors over the target that no number of common poles gets below: the tables are noisy."""
 HANKEL = "Hankel realisation of K(t)"
+VECTOR = "vector fit of B + i w A"
 MANY = 12
-"""Groups of more coordinates than this get a Hankel realisation: modes would take too long."""
+"""Groups of more coordinates than this are not searched mode by mode: that would take too long."""
 FEW = 3
 """Groups of no more coordinates than this are always tried with constraints, too: that is cheap."""
 NEARLY = 1.3
@@ -44,7 +41,7 @@ class GroupFit:
     modes: Modes
     problem: Problem
     quality: Quality
-    method: str = "vector fit of B + i w A"
+    method: str = VECTOR
 
 
 def fit_problem(
@@ -63,10 +60,11 @@ def fit_problem(
     say
         Called with one line per stage.
     """
-    if goal.method == "hankel" or (goal.method == "auto" and many):
-        realised, reached_quality, _ = fit_hankel(problem, goal, cap, say)
-        return GroupFit(realised, problem, reached_quality, HANKEL)
-    poles, least = _rich_poles(problem, goal, say)
+    if goal.method == "hankel":
+        return _realised(problem, goal, cap, say)[0]
+    if goal.method == "auto" and many:
+        return _fit_many(problem, goal, cap, say)
+    poles, least = rich_poles(problem, goal, say)
     candidates = list(poles.values())[-3:]
     kept = _tamed(problem, goal, cap, poles, say) if least > NOISE else []
     if not kept:
@@ -81,8 +79,8 @@ def fit_problem(
     if not kept and least <= NOISE:
         kept = _tamed(problem, goal, cap, poles, say)
     if not kept and goal.method == "auto":
-        realised, found, passive = fit_hankel(problem, goal, cap, say)
-        kept = [GroupFit(realised, problem, found, HANKEL)] if passive else []
+        fit, passive = _realised(problem, goal, cap, say)
+        kept = [fit] if passive else []
     if not kept:
         modes = _ladder(problem, goal, cap, candidates, say)[-1]
         return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
@@ -90,6 +88,25 @@ def fit_problem(
     limit = (NEARLY if cap is None else EQUAL) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
     return _polished(min(near, key=lambda fit: fit.modes.n_states), goal)
+
+
+def _realised(
+    problem: Problem, goal: Goal, cap: int | None, say: Progress
+) -> tuple[GroupFit, bool]:
+    """Fit by a realisation of K(t); tell whether it is passive."""
+    made = fit_hankel(problem, goal, cap, say)
+    assert made is not None
+    return GroupFit(made[0], problem, made[1], HANKEL), made[2]
+
+
+def _fit_many(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> GroupFit:
+    """Fit by a realisation of K(t), or by a vector fit where that is far from the goal."""
+    realised = fit_hankel(problem, goal, cap, say, patient=False)
+    made = [(HANKEL, realised)] if realised is not None else []
+    if realised is None or not (realised[2] and (goal.met(realised[1]) or cap is not None)):
+        made.append((VECTOR, fit_direct(problem, goal, cap, say)))
+    name, best = max(made, key=lambda item: (item[1][2], -goal.miss(item[1][1])))
+    return GroupFit(best[0], problem, best[1], name)
 
 
 def _polished(fit: GroupFit, goal: Goal) -> GroupFit:
@@ -161,6 +178,7 @@ def _tamed(
     energy at all frequencies, and cannot be made passive: they are dropped.
     """
     found: list[GroupFit] = []
+    best = np.inf
     highest = float(problem.samples.omega.max())
     for count in (8, 12, 16):
         if 2 * count > problem.samples.omega.size:
@@ -176,6 +194,9 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
+            free = goal.distance(prepare.quality(tame, problem, goal.band))
+            if free > NEARLY * best:
+                break  # fewer modes, or passive ones, are no nearer
             passive, reached = made_passive(
                 tame, problem, goal, thorough=not found or problem.size <= FEW
             )
@@ -186,6 +207,9 @@ def _tamed(
             )
             if reached:
                 found.append(GroupFit(passive, problem, quality))
+                best = min(best, goal.distance(quality))
+                if goal.distance(quality) > NEARLY * best:
+                    break
             least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
             if modes.n_states <= least:
                 break
@@ -259,63 +283,3 @@ def _first_modes(
         if near:
             return min(near, key=lambda modes: modes.n_states)
     return min(found, key=lambda item: item[0])[1]
-
-
-def _rich_poles(
-    problem: Problem, goal: Goal, say: Progress
-) -> tuple[dict[int, ComplexArray], float]:
-    """Raise the number of common poles until vector fits near the goal.
-
-    Returns
-    -------
-    poles, miss
-        Of each number of poles; the least error over its target.
-    """
-    found: dict[int, ComplexArray] = {}
-    misses: list[float] = []
-    after = 0
-    for count in range(4, min(36, problem.samples.omega.size // 2), 4):
-        _, poles = best_poles(problem, count)
-        found[count] = poles
-        miss = _vector_miss(poles, problem, goal)
-        say(f"vector fit with {count} poles: {miss:.2f} of the target error")
-        after += miss <= 1.5
-        misses.append(miss)
-        noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
-        if after >= 3 or miss <= 0.5 or noise:
-            break
-    return found, min(misses, default=np.inf)
-
-
-def best_poles(problem: Problem, count: int) -> tuple[float, ComplexArray]:
-    """Fit `count` common poles from many starts; return the best error and its poles."""
-    omega = problem.samples.omega[:-1]
-    low, high = float(omega[0]), float(omega[-1])
-    middle = float(np.sqrt(low * high))
-    starts = [
-        starting_poles(count, real, *span, ratio=0.05, logarithmic=logarithmic)
-        for real in (0, 2, 4)
-        for span in ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
-        for logarithmic in (False, True)
-        if real <= count - 2
-    ]
-    found = sorted((_iterate(poles, problem, 6) for poles in starts), key=lambda item: item[0])
-    return min((_iterate(poles, problem, 14) for _, poles in found[:5]), key=lambda item: item[0])
-
-
-def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
-    """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
-    best = (np.inf, poles)
-    for step in range(steps):
-        poles = relocate(poles, problem.samples, problem.damping_grid, problem.damping)
-        if 2 * step >= steps:
-            value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
-            best = min(best, (value, poles), key=lambda item: item[0])
-    return best
-
-
-def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
-    """Return the error of a full-rank fit with these poles over its target."""
-    coefficients, _, _ = solve_residues(poles, problem.samples)
-    modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
-    return goal.miss(prepare.quality(modes, problem, goal.band))

@@ -34,6 +34,10 @@ QUIET = 0.1
 """Frequencies whose Z is below this share of the largest are not brought to equal size."""
 FEWEST = 4
 """Fewest coordinates for which symmetry is sought: below, blocks save nothing."""
+ALIKE = 1.5
+"""Coordinates of one kind are scaled alike where their scales, sorted, differ by no more."""
+KINDS = {"surge": "along", "sway": "along", "roll": "tilt", "pitch": "tilt"}
+"""Degrees of freedom that rotations about the vertical mix."""
 LARGEST = 90
 """Most coordinates for which symmetry is sought: the search takes n^4/4 numbers."""
 
@@ -181,3 +185,22 @@ def _joined(parts: list[Array], coupling: Array) -> list[Block]:
         else:
             groups.append([basis])
     return [Block(tuple(group)) for group in groups]
+
+
+def common_scale(scale: Array, group: IntArray, labels: Sequence[str]) -> Array:
+    """Return scales that are the same for equal bodies, and for what a rotation mixes."""
+    result = scale.copy()
+    kinds = np.array([_kind(label) for label in labels])
+    for kind in set(kinds[group]):
+        index = group[kinds[group] == kind]
+        index = index[np.argsort(scale[index], kind="stable")]
+        cuts = np.nonzero(np.diff(np.log(scale[index])) > np.log(ALIKE))[0] + 1
+        for members in np.split(index, cuts):
+            result[members] = np.sqrt(np.mean(scale[members] ** 2))
+    return result
+
+
+def _kind(label: str) -> str:
+    """Return what may be scaled alike with this coordinate."""
+    dof = label.rsplit(".", 1)[-1]
+    return KINDS.get(dof, dof)

@@ -8,13 +8,15 @@ from pathlib import Path
 from time import monotonic
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.commands.arguments import parse_numbers, parse_point
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
-from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.bem.meshes import mirrored, read_mesh
+from hydrodae.hdb.bem.revolution import read_profile, revolution
 from hydrodae.hdb.computing import hydrostatics_of
 from hydrodae.hdb.coordinates import body_name, check_body
 from hydrodae.hdb.dispersion import wavenumber
@@ -41,8 +43,10 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="append",
         required=True,
         help="sphere:radius=R[:x=..:y=..:z=..], cylinder:radius=R:draft=D[:top=..:x=..:y=..], "
-        "box:length=L:width=W:draft=D[:top=..:x=..:y=..] in metres, or a mesh file (STL, GDF, "
-        "Nemoh, GMSH), which may be followed by :x=..:y=..:z=.. to move it; may be repeated",
+        "box:length=L:width=W:draft=D[..], cone:radius=R:draft=D[:bottom=RADIUS..], "
+        "ring:radius=R:inner=R:draft=D[..] in metres; revolution:profile=FILE[:x=..:y=..:z=..] "
+        "with points r z a line; or a mesh file (STL, GDF, Nemoh, GMSH), which may be followed by "
+        ":x=..:y=..:z=.. to move it, and :mirror=y (x, xy) if it is a half; may be repeated",
     )
     compute.add_argument(
         "--cog",
@@ -76,7 +80,18 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     compute.add_argument("-q", "--quiet", action="store_true", help="no progress")
     compute.add_argument(
-        "--accept", action="store_true", help="write the file although a check found an error"
+        "--kochin",
+        metavar="N",
+        type=int,
+        default=0,
+        help="also keep the Kochin functions at N angles around the circle (twice the time)",
+    )
+    compute.add_argument(
+        "--accept",
+        metavar="CHECK",
+        action="append",
+        default=[],
+        help="write the file although this check found an error; may be repeated",
     )
 
 
@@ -104,6 +119,7 @@ def run(args: argparse.Namespace) -> int:
         gravity=args.gravity,
         water_depth=args.depth,
         lid=not args.no_lid,
+        kochin=args.kochin,
     )
     points = dict(parse_point("--cog", text) for text in args.cog)
     bodies = [_body(text, points, args.panel, settings) for text in args.body]
@@ -126,8 +142,9 @@ def run(args: argparse.Namespace) -> int:
     database = database.with_meshes({body.name: body.panels for body in bodies})
     print(database.summary())
     print(report)
-    if not report.ok and not args.accept:
-        print(f"{args.output} not written: a check found an error (--accept writes it anyway)")
+    if left := report.left(args.accept):
+        words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
+        print(f"{args.output} not written: a check found an error ({words} writes it anyway)")
         return BAD_DATA
     database.write(args.output)
     print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
@@ -142,32 +159,86 @@ def _body(
         raise CaseError(f"--body {text!r}: expected NAME=SHAPE:key=value... or NAME=FILE")
     if name not in points:
         raise CaseError(f"--body {name}: needs --cog {name}=X,Y,Z, its reference point [m]")
-    words, lengths = what.split(":"), dict[str, float]()
-    while len(words) > 1 and "=" in words[-1]:
-        key, _, value = words.pop().partition("=")
-        try:
-            lengths[key] = float(value)
-        except ValueError:
-            raise CaseError(f"--body {name}: {key}={value!r}: expected a number [m]") from None
-    first = ":".join(words)
-    if first in shapes.SHAPES or (len(lengths) and not Path(first).is_file()):
-        panels = shapes.build(first, size or _size(first, lengths, settings), lengths)
-    elif Path(first).is_file() or Path(first).suffix:
-        shift = [lengths.pop(axis, 0.0) for axis in ("x", "y", "z")]
-        if lengths:
-            raise CaseError(f"--body {name}: {next(iter(lengths))}: a mesh takes x, y and z only")
-        panels = read_mesh(first) + np.array(shift)
-    else:
-        panels = shapes.build(first, 1.0, lengths)  # says what is missing
+    first, words = _words(name, what)
     try:
-        panels = immersed(panels)
+        panels = immersed(_panels(name, first, words, size, settings))
     except DatabaseError as error:
-        raise DatabaseError(f"body {name}: {error}") from error
+        hint = ""
+        if "holes" in str(error) and "mirror" not in words and Path(first).is_file():
+            hint = " (half of a hull: add :mirror=y, or x, or xy)"
+        raise DatabaseError(f"body {name}: {error}{hint}") from error
     return bem.WettedBody(name, panels, np.array(points[name]))
 
 
+def _words(name: str, what: str) -> tuple[str, dict[str, str]]:
+    """Return the shape or file, and what follows it as key=value."""
+    words, found = what.split(":"), dict[str, str]()
+    while len(words) > 1 and "=" in words[-1]:
+        key, _, value = words.pop().partition("=")
+        if key in found:
+            raise CaseError(f"--body {name}: {key} is given twice")
+        found[key] = value
+    return ":".join(words), found
+
+
+def _lengths(name: str, words: dict[str, str]) -> dict[str, float]:
+    found = {}
+    for key, value in words.items():
+        try:
+            found[key] = float(value)
+        except ValueError:
+            raise CaseError(f"--body {name}: {key}={value!r}: expected a number [m]") from None
+    return found
+
+
+def _panels(
+    name: str, first: str, words: dict[str, str], size: float | None, settings: bem.Settings
+) -> NDArray[np.float64]:
+    """Panels of a shape by formula, of a profile, or of a mesh file."""
+    is_file = Path(first).is_file() or (bool(Path(first).suffix) and first not in shapes.SHAPES)
+    if first == "revolution":
+        return _turned(name, dict(words), size, settings)
+    if first in shapes.SHAPES or not is_file:
+        lengths = _lengths(name, words)
+        if first not in shapes.SHAPES:
+            shapes.build(first, 1.0, lengths)  # says what is missing
+        return shapes.build(first, size or _size(first, lengths, settings), lengths)
+    axes = words.pop("mirror", "")
+    panels = read_mesh(first)
+    if axes:
+        panels = mirrored(panels, axes)
+    return np.asarray(panels + _shift(name, words, "a mesh takes x, y, z and mirror only"))
+
+
+def _turned(
+    name: str, words: dict[str, str], size: float | None, settings: bem.Settings
+) -> NDArray[np.float64]:
+    """Surface of revolution of the profile in a file."""
+    if "profile" not in words:
+        raise CaseError(f"--body {name}: revolution needs profile=FILE, points r z [m] a line")
+    profile = read_profile(words.pop("profile"))
+    shift = _shift(name, words, "revolution takes profile, x, y and z only")
+    if size is None:
+        coarse = immersed(revolution(float(np.ptp(profile, axis=0).max()) / 8.0, profile) + shift)
+        size = _panel_size(coarse, settings)
+    return np.asarray(revolution(size, profile) + shift)
+
+
+def _shift(name: str, words: dict[str, str], known: str) -> NDArray[np.float64]:
+    lengths = _lengths(name, words)
+    shift = [lengths.pop(axis, 0.0) for axis in ("x", "y", "z")]
+    if lengths:
+        raise CaseError(f"--body {name}: {next(iter(lengths))}: {known}")
+    return np.array(shift)
+
+
 def _size(shape: str, lengths: dict[str, float], settings: bem.Settings) -> float:
-    coarse = shapes.build(shape, max([*map(abs, lengths.values()), 1e-3]) / 4.0, lengths)
+    coarse = max([*map(abs, lengths.values()), 1e-3]) / 4.0
+    return _panel_size(shapes.build(shape, coarse, lengths), settings)
+
+
+def _panel_size(coarse: NDArray[np.float64], settings: bem.Settings) -> float:
+    """An eighth of the shortest wave or of the cube root of the volume, the smaller one [m]."""
     volume = shapes.hydrostatics(coarse, np.zeros(3)).displaced_volume
     k = wavenumber(settings.omega[-1:], settings.water_depth, settings.gravity)[0]
     return min(2.0 * np.pi / float(k), float(np.cbrt(volume))) / 8.0

@@ -12,7 +12,7 @@ from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.checks.examination import examination
-from hydrodae.hdb.checks.repair import repair
+from hydrodae.hdb.checks.repair import MOST_REPLACED, repair
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport
 from hydrodae.hdb.importing import import_database
@@ -40,9 +40,16 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     doctor.add_argument(
         "--repair",
         metavar="A,B,...",
-        help="symmetrise (mean of both halves of A and B), irregular (leave out frequencies that "
+        help="symmetrise (mean of both halves of A and B), irregular (interpolate where tables "
         "break causality or energy), tail (append frequencies along the power law of B); "
         "applied in the order given; needs -o",
+    )
+    doctor.add_argument(
+        "--share",
+        metavar="S",
+        type=float,
+        default=MOST_REPLACED,
+        help="share of the frequencies that irregular may replace (default: %(default)g)",
     )
     doctor.add_argument("-o", "--output", metavar="FILE", help="hydro.h5 for the repaired database")
     add_water_options(doctor)
@@ -68,6 +75,8 @@ def run(args: argparse.Namespace) -> int:
     """
     if (args.repair is None) != (args.output is None):
         raise CaseError("--repair and -o belong together: what to repair, and where to write it")
+    if not 0.0 < args.share < 1.0:
+        raise CaseError(f"--share {args.share:g}: expected a number between 0 and 1")
     if args.report and args.no_report:
         raise CaseError("--report and --no-report exclude each other")
     band = None if args.band is None else parse_band(args.band)
@@ -84,7 +93,9 @@ def run(args: argparse.Namespace) -> int:
     print()
     print(examination(report))
     if args.repair is not None:
-        database, report = _repair(database, [w.strip() for w in args.repair.split(",")])
+        database, report = _repair(
+            database, [w.strip() for w in args.repair.split(",")], args.share
+        )
         database.write(args.output)
         print(f"\nwritten: {args.output}")
     if not args.no_report:
@@ -97,8 +108,10 @@ def run(args: argparse.Namespace) -> int:
     return DONE if report.ok else BAD_DATA
 
 
-def _repair(database: HydroDatabase, what: list[str]) -> tuple[HydroDatabase, CheckReport]:
-    repaired = repair(database, what)
+def _repair(
+    database: HydroDatabase, what: list[str], share: float
+) -> tuple[HydroDatabase, CheckReport]:
+    repaired = repair(database, what, share)
     done = repaired.repairs[len(database.repairs) :]
     print("\nrepairs")
     for text in done or ("nothing to do",):

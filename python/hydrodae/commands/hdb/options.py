@@ -73,7 +73,8 @@ def add_fit_options(parser: argparse.ArgumentParser) -> None:
         "--uniform",
         metavar="E",
         type=float,
-        help="target in place of that: largest error of H in the band over its largest value",
+        help="target in place of that: largest error of H in the band over its largest value; "
+        "the band is then what the device feels, unless it is given",
     )
     parser.add_argument(
         "--method",

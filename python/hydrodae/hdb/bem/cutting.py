@@ -82,7 +82,10 @@ def immersed(panels: Array) -> Array:
     below = below[area > 1e-9 * area.max(initial=0.0)]
     try:
         hydrostatics(below, np.zeros(3))
-    except DatabaseError:
+    except DatabaseError as error:
         below = np.ascontiguousarray(below[:, [1, 0, 3, 2]])
-        hydrostatics(below, np.zeros(3))
+        try:
+            hydrostatics(below, np.zeros(3))
+        except DatabaseError as other:
+            raise (error if "holes" in str(error) else other) from None
     return below

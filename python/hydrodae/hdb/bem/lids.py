@@ -46,10 +46,10 @@ def lid(panels: Array) -> Array:
         return np.zeros((0, 4, 3))
     sides = np.linalg.norm(panels - np.roll(panels, 1, axis=1), axis=2)
     size = float(sides[sides > 0.0].mean())
-    area = abs(sum(_shoelace(loop) for loop in loops))
+    area = abs(sum(_shoelace(loop) for loop in loops))  # a moonpool runs the other way
     found = _grid(loops, size)
-    if _area(found) < GOOD * area and len(loops) == 1:
-        rings = _rings(loops[0], size)
+    if _area(found) < GOOD * area:
+        rings = _rings(loops[0], size) if len(loops) == 1 else _between(loops, size)
         found = found if rings is None else rings
     covered = _area(found)
     if covered < LEAST * area:
@@ -142,6 +142,58 @@ def _rings(loop: Array, size: float) -> Array | None:
         # the middle stands last: a triangle repeats its last corner
         parts.append(np.stack([outer * arm, outer * other, inner * other, inner * arm], axis=1))
     return np.asarray(np.concatenate(parts) + turned.mean(axis=0))
+
+
+def _between(loops: list[Array], size: float) -> Array | None:
+    """Rings (m, 4, 2) between the hull and a moonpool; None if not both are seen from the middle.
+
+    The moonpool itself stays open: its water moves.
+    """
+    if len(loops) != 2:
+        return None
+    outer, inner = sorted(loops, key=lambda loop: -abs(_shoelace(loop)))
+    middle = outer.mean(axis=0)
+    arms = [arm for loop in (outer, inner) if (arm := _radii(loop - middle)) is not None]
+    if len(arms) < 2:
+        return None
+    corners = np.concatenate([np.arctan2(arm[:, 1], arm[:, 0]) for arm in arms])
+    angle = np.unique(np.mod(corners, 2.0 * np.pi).round(9))
+    angle = np.append(angle, angle[0] + 2.0 * np.pi)
+    direction = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    reach = [_reach(arm, angle) for arm in arms]
+    count = max(2, int(np.ceil((reach[0] - reach[1]).mean() / size - 1e-9)))
+    share = np.linspace(0.0, 1.0, count + 1)[:, None]
+    radius = reach[1] + share * (reach[0] - reach[1])
+    if np.any(reach[0] <= reach[1]):
+        return None
+    points = middle + radius[..., None] * direction
+    cells = np.stack([points[1:, :-1], points[1:, 1:], points[:-1, 1:], points[:-1, :-1]], axis=2)
+    return np.asarray(cells.reshape(-1, 4, 2))
+
+
+def _radii(arm: Array) -> Array | None:
+    """Corners (k, 2) as seen from the middle, by angle; None if a ray meets the loop twice."""
+    turned = arm if _shoelace(arm) > 0.0 else arm[::-1]
+    other = np.roll(turned, -1, axis=0)
+    if np.any(turned[:, 0] * other[:, 1] - turned[:, 1] * other[:, 0] <= 0.0):
+        return None
+    return turned
+
+
+def _reach(arm: Array, angle: Array) -> Array:
+    """Distance from the middle to the polygon of corners (k, 2) along each angle [rad].
+
+    Of corner c and side d along the ray e: c + s d = t e, with t = c x d / (e x d) and
+    s = c x e / (e x d).
+    """
+    side = np.roll(arm, -1, axis=0) - arm
+    ray = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    across = side[:, 1, None] * ray[:, 0] - side[:, 0, None] * ray[:, 1]
+    safe = np.where(across != 0.0, across, np.inf)
+    t = (arm[:, 0] * side[:, 1] - arm[:, 1] * side[:, 0])[:, None] / safe
+    s = (arm[:, 0, None] * ray[:, 1] - arm[:, 1, None] * ray[:, 0]) / safe
+    hit = (s >= -1e-9) & (s <= 1.0 + 1e-9) & (t > 0.0)
+    return np.asarray(np.where(hit, t, np.inf).min(axis=0))
 
 
 def _shoelace(loop: Array) -> float:

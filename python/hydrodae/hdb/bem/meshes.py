@@ -54,6 +54,44 @@ def read_mesh(path: str | Path) -> Array:
     raise DatabaseError(f"{file}: expected a mesh of STL, GDF, Nemoh or GMSH")
 
 
+def mirrored(panels: Array, axes: str) -> Array:
+    """Add the mirror images of half of a hull (or a quarter).
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+    axes : str
+        "y" for the plane y = 0, "x" for x = 0, "xy" for both.
+
+    Returns
+    -------
+    (m, 4, 3) array
+
+    Raises
+    ------
+    DatabaseError
+        Other axes, or panels on both sides of the plane: then it is no half.
+    """
+    if axes not in ("x", "y", "xy", "yx"):
+        raise DatabaseError(f"mirror={axes}: expected x, y or xy")
+    size = float(np.abs(panels).max())
+    for axis in (("x", "y").index(letter) for letter in axes):
+        along = panels[..., axis]
+        if min(-along.min(), along.max()) > 1e-6 * size:
+            raise DatabaseError(
+                f"mirror={axes}: the panels lie on both sides of {'xy'[axis]} = 0, from "
+                f"{along.min():g} to {along.max():g} m: this is no half"
+            )
+        panels = np.concatenate([panels, _mirror_image(panels, axis)])
+    return panels
+
+
+def _mirror_image(panels: Array, axis: int) -> Array:
+    image = panels[:, [1, 0, 3, 2]].copy()
+    image[..., axis] *= -1.0
+    return _triangles_last(image)
+
+
 def _stl_binary(raw: bytes) -> Array:
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     triangles = np.frombuffer(raw, record, offset=84)["corners"].astype(float)
@@ -167,9 +205,7 @@ def _with_mirrored(path: Path, panels: list[list[list[float]]], axes: list[int])
     result = np.array([p if len(p) == 4 else [*p, p[-1]] for p in panels], dtype=float)
     result = _triangles_last(result)
     for axis in axes:
-        mirrored = result[:, [1, 0, 3, 2]].copy()
-        mirrored[..., axis] *= -1.0
-        result = np.concatenate([result, _triangles_last(mirrored)])
+        result = np.concatenate([result, _mirror_image(result, axis)])
     return result
 
 

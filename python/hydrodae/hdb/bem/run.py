@@ -61,6 +61,9 @@ class Settings:
         [kg/m3], [m/s2], [m] (may be infinite).
     lid : bool
         Close the inner water plane, which removes irregular frequencies.
+    kochin : int
+        Angles around the circle at which Kochin functions are kept; 0 for none. They need the
+        sources of the indirect method: each frequency is then solved twice.
     """
 
     omega: Array
@@ -69,6 +72,7 @@ class Settings:
     gravity: float = 9.81
     water_depth: float = np.inf
     lid: bool = True
+    kochin: int = 0
 
     def __post_init__(self) -> None:
         w = np.asarray(self.omega, dtype=float)
@@ -78,6 +82,8 @@ class Settings:
             raise DatabaseError("needs at least 4 frequencies > 0 in ascending order [rad/s]")
         if not (self.rho > 0.0 and self.gravity > 0.0 and self.water_depth > 0.0):
             raise DatabaseError("rho, gravity and water_depth must be > 0")
+        if self.kochin < 0:
+            raise DatabaseError(f"kochin {self.kochin}: expected a number of angles")
 
 
 def compute(
@@ -237,7 +243,20 @@ def _solve(cpt: Any, device: Any, omega: float, settings: Settings, solver: Any)
     data = data.assign_coords(influenced_dof=names, radiating_dof=names)
     if not np.isfinite(omega) and np.isnan(data["added_mass"].values).any():
         raise DatabaseError("Capytaine gave NaN for the added mass at w = inf")
+    if settings.kochin and np.isfinite(omega):
+        far = _kochin(cpt, problems, settings.kochin).sel(radiating_dof=names)
+        data = data.merge(far, join="left", compat="override")
     return data
+
+
+def _kochin(cpt: Any, problems: list[Any], count: int) -> xr.Dataset:
+    """Kochin functions of all motions and waves, by the sources of the indirect method."""
+    theta = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    solver = cpt.BEMSolver(method="indirect")
+    results = [solver.solve(p, keep_details=True, _check_wavelength=False) for p in problems]
+    axis = xr.DataArray(theta, dims=["theta"], coords={"theta": theta})
+    found: xr.Dataset = cpt.io.xarray.kochin_data_array(results, axis)
+    return found
 
 
 def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> Path:
@@ -265,8 +284,11 @@ def count_nan(path: Path) -> dict[str, int]:
 
 
 def _key(version: str, bodies: Sequence[WettedBody], settings: Settings) -> str:
-    numbers = (settings.rho, settings.gravity, settings.water_depth, settings.lid)
-    digest = hashlib.sha256(f"{version} {numbers} {settings.heading.round(9).tolist()}".encode())
+    numbers = [settings.rho, settings.gravity, settings.water_depth, settings.lid]
+    numbers += [settings.kochin] if settings.kochin else []
+    digest = hashlib.sha256(
+        f"{version} {tuple(numbers)} {settings.heading.round(9).tolist()}".encode()
+    )
     for body in bodies:
         digest.update(f"{body.name} {np.asarray(body.point).round(9).tolist()}".encode())
         digest.update(np.ascontiguousarray(body.panels.round(9)).tobytes())

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.bem.revolution import check_top, cone, count, positive, revolved, ring
 from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.hydrostatics import Hydrostatics
 
@@ -42,15 +43,15 @@ def sphere(size: float, *, radius: float, x: float = 0.0, y: float = 0.0, z: flo
     CaseError
         Not in the water, or a length is not > 0.
     """
-    _positive(size=size, radius=radius)
+    positive(size=size, radius=radius)
     if z >= radius:
         raise CaseError(f"sphere: centre at z = {z:g} m, radius {radius:g} m: not in the water")
     height = min(radius - z, 2.0 * radius)
     top = np.arccos(np.clip((height - radius) / radius, -1.0, 1.0))  # from the upper pole
-    rows = _count(radius * (np.pi - top), size)
+    rows = count(radius * (np.pi - top), size)
     theta = np.linspace(top, np.pi, rows + 1)
     levels, radii = radius * np.cos(theta), radius * np.sin(theta)
-    panels = _revolution(radii, levels + z, size)
+    panels = revolved(radii, levels + z, size)
     exact = np.pi * height**2 * (3.0 * radius - height) / 3.0
     middle = z if z <= -radius else 0.0
     stretch = exact / hydrostatics(panels, np.zeros(3)).displaced_volume
@@ -85,16 +86,16 @@ def cylinder(
     CaseError
         A length is not > 0, or top > 0 or below -draft.
     """
-    _positive(size=size, radius=radius, draft=draft)
-    _check_top("cylinder", top, draft)
-    side, disc = _count(draft + top, size), _count(radius, size)
+    positive(size=size, radius=radius, draft=draft)
+    check_top("cylinder", top, draft)
+    side, disc = count(draft + top, size), count(radius, size)
     inner = np.linspace(0.0, radius, disc + 1)
     radii = [np.full(side + 1, radius), inner[-2::-1]]
     levels = [np.linspace(top, -draft, side + 1), np.full(disc, -draft)]
     if top < 0.0:
         radii.insert(0, inner[:-1])
         levels.insert(0, np.full(disc, top))
-    panels = _revolution(np.concatenate(radii), np.concatenate(levels), size)
+    panels = revolved(np.concatenate(radii), np.concatenate(levels), size)
     return np.asarray(panels + np.array([x, y, 0.0]))
 
 
@@ -126,11 +127,11 @@ def box(
     CaseError
         A length is not > 0, or top > 0 or below -draft.
     """
-    _positive(size=size, length=length, width=width, draft=draft)
-    _check_top("box", top, draft)
+    positive(size=size, length=length, width=width, draft=draft)
+    check_top("box", top, draft)
     half = np.array([0.5 * length, 0.5 * width])
-    u, v = (np.linspace(-h, h, _count(2.0 * h, size) + 1) for h in half)
-    w = np.linspace(-draft, top, _count(draft + top, size) + 1)
+    u, v = (np.linspace(-h, h, count(2.0 * h, size) + 1) for h in half)
+    w = np.linspace(-draft, top, count(draft + top, size) + 1)
     sides = [
         _plane(1, half[1], u, w)[:, ::-1],
         _plane(1, -half[1], u, w),
@@ -146,7 +147,13 @@ def box(
     return panels
 
 
-SHAPES: dict[str, Callable[..., Array]] = {"sphere": sphere, "cylinder": cylinder, "box": box}
+SHAPES: dict[str, Callable[..., Array]] = {
+    "sphere": sphere,
+    "cylinder": cylinder,
+    "box": box,
+    "cone": cone,
+    "ring": ring,
+}
 
 
 def build(shape: str, size: float, lengths: dict[str, float]) -> Array:
@@ -204,46 +211,18 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     if np.abs(by_axis - volume).max() > LEAK * volume:
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
+    # half a hull that is open at its plane of symmetry has the right volumes all the same
+    side = np.abs(area.sum(axis=0)[:2])
+    if side.max() > LEAK * np.abs(area[:, :2]).sum(axis=0).max():
+        raise DatabaseError(
+            f"the surface has holes: {side[0]:.3g} m2 are open along x, {side[1]:.3g} m2 along y"
+        )
     squares = (middle**2).mean(axis=1)
     center = 0.5 * (squares * area).sum(axis=0) / volume
     x, y = middle[..., 0] - np.asarray(point)[0], middle[..., 1] - np.asarray(point)[1]
     down = -area[:, 2]  # the water plane closes the surface: int n_z over the hull = - A_w
     moments = [(f.mean(axis=1) * down).sum() for f in (x, y, x * x, y * y, x * y)]
     return Hydrostatics(volume, center, float(down.sum()), np.array(moments))
-
-
-def _positive(**lengths: float) -> None:
-    for name, value in lengths.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise CaseError(f"{name} = {value:g}: expected a length > 0 [m]")
-
-
-def _check_top(shape: str, top: float, draft: float) -> None:
-    if not -draft < top <= 0.0:
-        raise CaseError(f"{shape}: top = {top:g} m must lie between -draft and 0")
-
-
-def _count(length: float, size: float) -> int:
-    return max(2, int(np.ceil(length / size - 1e-9)))
-
-
-def _revolution(radii: Array, levels: Array, size: float) -> Array:
-    """Surface of a meridian that runs downwards and inwards (radius 0 gives triangles)."""
-    around = 4 * max(2, int(np.ceil(0.5 * np.pi * radii.max() / size - 1e-9)))
-    sector = 2.0 * np.pi / around
-    radii = radii * np.sqrt(sector / np.sin(sector))  # polygons with the area of the circle
-    angle = np.linspace(0.0, 2.0 * np.pi, around + 1)
-    grid = np.empty((radii.size, angle.size, 3))
-    grid[..., 0] = np.outer(radii, np.cos(angle))
-    grid[..., 1] = np.outer(radii, np.sin(angle))
-    grid[..., 2] = levels[:, None]
-    cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2)
-    cells = np.ascontiguousarray(cells.reshape(-1, 4, 3))
-    # put the two corners on the axis last: a triangle repeats its last corner
-    lengths = np.linalg.norm(cells - np.roll(cells, -1, axis=1), axis=2)
-    for i in np.flatnonzero(lengths.min(axis=1) < 1e-9 * radii.max()):
-        cells[i] = np.roll(cells[i], -(int(lengths[i].argmin()) + 2), axis=0)
-    return cells
 
 
 def _plane(axis: int, along: float, u: Array, v: Array) -> Array:

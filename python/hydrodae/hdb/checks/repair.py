@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from hydrodae import infinity, irf
 from hydrodae.errors import DatabaseError
@@ -17,13 +18,15 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.scales import scales
 
 Array = NDArray[np.float64]
-#: Share of the frequencies that may be left out.
-MOST_MASKED = 0.15
+#: Share of the frequencies that may be replaced, unless another one is given.
+MOST_REPLACED = 0.15
 #: The tail reaches this multiple of the last frequency, in steps of this ratio.
 TAIL_REACH, TAIL_RATIO = 2.5, 1.05
 
 
-def repair(database: HydroDatabase, what: Sequence[str]) -> HydroDatabase:
+def repair(
+    database: HydroDatabase, what: Sequence[str], share: float = MOST_REPLACED
+) -> HydroDatabase:
     """Apply repairs in the given order.
 
     Parameters
@@ -31,6 +34,8 @@ def repair(database: HydroDatabase, what: Sequence[str]) -> HydroDatabase:
     database : HydroDatabase
     what : sequence of str
         Of `symmetrise`, `irregular`, `tail` (see the functions of this module).
+    share : float
+        Share of the frequencies that `irregular` may replace.
 
     Returns
     -------
@@ -48,7 +53,7 @@ def repair(database: HydroDatabase, what: Sequence[str]) -> HydroDatabase:
             raise DatabaseError(f"no repair {word!r}{nearest(word, REPAIRS)}")
     result = database
     for word in what:
-        changed, text = REPAIRS[word](result)
+        changed, text = irregular(result, share) if word == "irregular" else REPAIRS[word](result)
         if text:
             result = replace(changed, repairs=(*result.repairs, f"{word}: {text}"))
     if result is not database and (result.memory or result.kernel is not None):
@@ -80,10 +85,13 @@ def symmetrise(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     return replace(db, added_mass=a, radiation_damping=b, added_mass_inf=inf), text
 
 
-def irregular(db: HydroDatabase) -> tuple[HydroDatabase, str]:
-    """Leave out the frequencies that break causality or energy (`suspect_rows`).
+def irregular(db: HydroDatabase, share: float = MOST_REPLACED) -> tuple[HydroDatabase, str]:
+    """Interpolate where the tables break causality or energy (`suspect_rows`).
 
-    `added_mass_inf` is estimated again unless the source gave it.
+    A, B and diffraction at these frequencies come from cubic splines through the others, forces
+    without the phase of the wave at the reference points; Froude-Krylov forces stay. Bad
+    frequencies at either end of the table are left out. `added_mass_inf` is estimated again unless
+    the source gave it.
 
     Returns
     -------
@@ -94,29 +102,66 @@ def irregular(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     Raises
     ------
     DatabaseError
-        More than 15 % of the frequencies are bad.
+        More than `share` of the frequencies are bad.
     """
     mask = suspect_rows(db)
     if not mask.any():
         return db, ""
     shown = ", ".join(f"{a:.4g}..{b:.4g}" for a, b in bands(db.omega, mask))
-    if mask.mean() > MOST_MASKED or (~mask).sum() < 4:
+    if mask.mean() > share or (~mask).sum() < 4:
         raise DatabaseError(
-            f"{mask.sum()} of {mask.size} frequencies break causality or energy ({shown} rad/s): "
-            f"too many to leave out; compute again with a lid"
+            f"{mask.sum()} of {mask.size} frequencies break causality or energy ({shown} rad/s), "
+            f"{mask.mean():.0%} of them and more than {share:.0%}: too many to interpolate; "
+            "compute again with a lid"
         )
-    masked = _rows(db, ~mask)
-    text = f"left out {mask.sum()} of {mask.size} frequencies: {shown} rad/s"
+    good = np.flatnonzero(~mask)
+    inside = np.zeros_like(mask)
+    inside[good[0] : good[-1] + 1] = mask[good[0] : good[-1] + 1]
+    made = _rows(_interpolated(db, ~mask, inside), ~mask | inside)
+    text = f"interpolated {inside.sum()} of {mask.size} frequencies ({inside.mean():.1%})"
+    if ends := int((mask & ~inside).sum()):
+        text += f", left out {ends} at the ends"
+    text += f": {shown} rad/s"
     if db.added_mass_inf_origin != "source":
-        w, a, b = masked.omega, masked.added_mass, masked.radiation_damping
+        w, a, b = made.omega, made.added_mass, made.radiation_damping
         value, std = infinity.added_mass_inf(w, a, b)
-        masked = replace(
-            masked,
+        made = replace(
+            made,
             added_mass_inf=0.5 * (value + value.T),
             added_mass_inf_std=0.5 * (std + std.T),
         )
         text += "; added_mass_inf estimated again"
-    return masked, text
+    return made, text
+
+
+def _interpolated(
+    db: HydroDatabase, good: NDArray[np.bool_], bad: NDArray[np.bool_]
+) -> HydroDatabase:
+    """Replace the rows `bad` by splines through the rows `good`."""
+    w = db.omega
+    turn = np.exp(1j * wavenumber(w, db.water_depth, db.gravity)[:, None, None] * _along(db))
+    total = {
+        "added_mass": db.added_mass,
+        "radiation_damping": db.radiation_damping,
+        "diffraction": db.diffraction * turn,
+    }
+    made = {}
+    for name, table in total.items():
+        made[name] = table.copy()
+        if table.size:
+            made[name][bad] = CubicSpline(w[good], table[good])(w[bad])
+    made["diffraction"] = made["diffraction"] / turn
+    made["diffraction"][~bad] = db.diffraction[~bad]
+    return replace(db, **made)
+
+
+def _along(db: HydroDatabase) -> Array:
+    """Distance (nh, n) of the reference points along each heading [m]; 0 where unknown."""
+    points = [db.bodies[c.rpartition(".")[0]].reference_point for c in db.coordinates]
+    places = np.array([np.zeros(3) if p is None else p for p in points])
+    return np.asarray(
+        np.outer(np.cos(db.heading), places[:, 0]) + np.outer(np.sin(db.heading), places[:, 1])
+    )
 
 
 def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
@@ -159,9 +204,9 @@ def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     rest = db.added_mass[-1] + memory[w.size - 1] - db.added_mass_inf
     a = db.added_mass_inf - memory[w.size :] + rest / ratio[:, :, None] ** 2
     k = wavenumber(omega, db.water_depth, db.gravity)
-    points = np.array([db.reference_point(c.rpartition(".")[0]) for c in db.coordinates])
-    along = np.outer(np.cos(db.heading), points[:, 0]) + np.outer(np.sin(db.heading), points[:, 1])
-    factor = np.exp(-1j * (k[w.size :] - k[w.size - 1])[:, None, None] * along)
+    for name in db.bodies:
+        db.reference_point(name)
+    factor = np.exp(-1j * (k[w.size :] - k[w.size - 1])[:, None, None] * _along(db))
     factor = factor * (ratio ** (-0.5 * (power + 3.0)))[:, None, :]
     extended = replace(
         db,

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS, bodies_of, unique_names
 from hydrodae.hdb.dispersion import frequency
+from hydrodae.hdb.extra import kept_tables
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
@@ -88,6 +89,7 @@ def read_capytaine(path: Path) -> SourceData:
         added_mass_inf=a_inf,
         files=[path],
         findings=findings,
+        extra=kept_tables(ds),
     )
     _attach_bodies(data, ds, raw, path)
     return data

@@ -23,11 +23,13 @@ FOREIGN = {
     ".hyd": "MOSES",
     ".qtf": "AQWA's quadratic transfer functions",
     ".rao": "HydroStar",
-    ".owr": "OrcaWave's binary results",
+    ".ah2": "AQWA's forces of drift",
     ".foam": "FOAMM",
     ".bem": "BEMRosetta",
     ".mat": "MATLAB",
 }
+#: Exports of OrcaWave that do not say what stands where; it saves others that do.
+ORCAWAVE = {".owr", ".csv", ".xlsx"}
 CONVERTER = (
     "BEMRosetta (github.com/BEMRosetta/BEMRosetta) reads it and saves WAMIT tables (.1, .3, .hst)"
 )
@@ -87,7 +89,7 @@ def _folder(path: Path) -> tuple[Path, str]:
     below = [p for p in sorted(path.iterdir()) if p.is_dir() and wamit_stem(p) is not None]
     if len(below) == 1:
         return below[0], "wamit"
-    foreign = [p for p in sorted(path.iterdir()) if p.suffix.lower() in FOREIGN]
+    foreign = [p for p in sorted(path.iterdir()) if p.suffix.lower() in {*FOREIGN, *ORCAWAVE}]
     if foreign:
         raise DatabaseError(_foreign(foreign[0]))
     raise DatabaseError(
@@ -125,7 +127,7 @@ def _file(path: Path) -> str:
         return "aqwa"
     if orcawave_file(path) is not None:
         return "orcawave"
-    if path.suffix.lower() in FOREIGN:
+    if path.suffix.lower() in {*FOREIGN, *ORCAWAVE}:
         raise DatabaseError(_foreign(path))
     raise DatabaseError(
         f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or .out, "
@@ -134,6 +136,11 @@ def _file(path: Path) -> str:
 
 
 def _foreign(path: Path) -> str:
+    if path.suffix.lower() in ORCAWAVE:
+        return (
+            f"{path}: results of OrcaWave as {path.suffix.lower()} are not read here; save them in "
+            "WAMIT format (.1, .3, .hst), or as an OrcaFlex vessel type (.yml), which are"
+        )
     return f"{path}: a file of {FOREIGN[path.suffix.lower()]}, not read here; {CONVERTER}"
 
 

@@ -14,6 +14,7 @@ from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.extra import SourceTable
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.tables import Body
@@ -67,6 +68,8 @@ class SourceData:
         Bodies whose reference point the source does not state: the user may state another.
     meshes : dict
         Panels (n, 4, 3) of the wetted surface of bodies [m], where the source holds them.
+    extra : dict of SourceTable
+        Kochin functions and drift forces.
     """
 
     coordinates: tuple[str, ...]
@@ -89,6 +92,7 @@ class SourceData:
     findings: list[Finding] = field(default_factory=list)
     assumed_points: set[str] = field(default_factory=set)
     meshes: dict[str, Array] = field(default_factory=dict)
+    extra: dict[str, SourceTable] = field(default_factory=dict)
 
 
 def sha256(files: Iterable[Path]) -> str:
@@ -129,6 +133,7 @@ def finish(data: SourceData) -> HydroDatabase:
         source_sha256=sha256(data.files),
         generator=f"hydrodae {version()}",
         title=data.title,
+        extra=data.extra,
     )
 
 
