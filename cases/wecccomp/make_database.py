@@ -94,7 +94,9 @@ def main() -> None:
     print(hdb.check(database))
     database.write(arguments.output)
     error = database.memory["planar"].report["h_error_band"]
-    print(f"written: {arguments.output}; error of H in {BAND[0]:g} to {BAND[1]:g} rad/s {error:.1e}")
+    print(
+        f"written: {arguments.output}; error of H in {BAND[0]:g} to {BAND[1]:g} rad/s {error:.1e}"
+    )
 
 
 if __name__ == "__main__":

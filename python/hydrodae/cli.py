@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydrodae.commands import chart, check, equilibrium, fmu, keys, plot, run, schema
+from hydrodae.commands import chart, check, control, equilibrium, fmu, keys, plot, run, schema
 from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import ResultsWarning
 from hydrodae.version import version
@@ -161,6 +161,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         mooring_command.add_arguments(mooring)
         mooring.set_defaults(call=mooring_command.run)
 
+    control.add_parser(commands)
     fmu.add_parser(commands)
     plot.add_parser(commands)
     chart.add_arguments(commands)

@@ -40,6 +40,7 @@ LAYERS = [
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
     {"states", "mooring", "fmu"},
+    {"control"},
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},

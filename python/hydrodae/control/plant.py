@@ -4,8 +4,8 @@ With the joint coordinate s about its equilibrium, y = (s, s', memory states):
 
     y' = S y + b (u + e)      u: load of the controller, e: load of the waves, both along s [N, N m]
 
-so that m s'' + (radiation and other loads) = u + e. Sampled at a period T with u held and e straight
-in between: y(k+1) = F y(k) + G u(k) + E0 e(k) + E1 e(k+1).
+so that m s'' + (radiation and other loads) = u + e. Sampled at a period T with u held and e
+straight in between: y(k+1) = F y(k) + G u(k) + E0 e(k) + E1 e(k+1).
 """
 
 from __future__ import annotations
@@ -55,16 +55,19 @@ class Plant:
         self._lever = float((row @ self.model.free).item())
         if abs(self._lever) < 1e-12 * float(np.abs(row).max(initial=0.0)) or self._lever == 0.0:
             raise CaseError(f"joint {joint!r} does not move with the free motion of the case")
+        #: whether the coordinate is an angle
+        self.turns = False
         #: s in the equilibrium, which is where the linear model has its zero [m, rad]
-        self.rest = self._rest()
+        self.rest = self._find_rest()
 
-    def _rest(self) -> float:
+    def _find_rest(self) -> float:
         from hydrodae.simulation import Simulation
 
         run = Simulation(self.model.case, set={"solver.start": "equilibrium"})
         for kind in ("displacement", "angle"):
             name = f"joints/{self.joint}/{kind}"
             if name in run.channels:
+                self.turns = kind == "angle"
                 return float(run.read(name))
         raise CaseError(f"joint {self.joint!r} has no coordinate")
 

@@ -127,9 +127,12 @@ class ModelPredictive:
                 f"a larger weight, or a passive memory fit, is needed"
             )
         self._hessian = hessian
-        # in units of the load that gives the stroke, and of the curvature, OSQP's tolerances fit
+        # in units of the limits and of the curvature, OSQP's tolerances fit
         self._scale = float(np.abs(hessian).max())
         self._reach = float(np.abs(self._by_load).sum(axis=1).max())
+        spans = [self._limits[0], (self._limits[2] - self._limits[1]) / self._reach]
+        finite = [span for span in (*spans, self._rate_limit * period) if math.isfinite(span)]
+        self._unit = finite[0] if finite else 1.0
         whole = np.zeros((n + 1, n + 1))
         whole[:n, :n], whole[n, n] = hessian / self._scale, _EXCEED
         one, zero = np.ones((n, 1)), np.zeros((n, 1))
@@ -153,8 +156,8 @@ class ModelPredictive:
             np.full(count, -np.inf),
             np.full(count, np.inf),
             verbose=False,
-            eps_abs=1e-4,  # of the load [N, N m]
-            eps_rel=1e-5,
+            eps_abs=1e-6,
+            eps_rel=1e-6,
             max_iter=20000,
             adaptive_rho=False,  # a solution depends on the state alone
             polishing=False,
@@ -216,7 +219,8 @@ class ModelPredictive:
         rows = self._rows @ best
         if np.all(rows >= bounds[0]) and np.all(rows <= bounds[1]):
             return best[:n]  # no limit matters
-        return self._solve_within(np.append(linear, 0.0) / self._scale, *bounds)
+        slopes = np.append(linear, 0.0) / (self._scale * self._unit)
+        return self._unit * self._solve_within(slopes, *(bound / self._unit for bound in bounds))
 
     def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
         self._program.update(q=linear, l=low, u=high)
