@@ -134,6 +134,11 @@ class Case:
         return dict(self._overrides)
 
     @property
+    def libraries(self) -> list[str]:
+        """Paths of the shared libraries with laws of forces."""
+        return list(self._libraries)
+
+    @property
     def title(self) -> str:
         """Title of the case."""
         return self._scene.title

@@ -19,7 +19,9 @@ from hydrodae.commands import (
     chart,
     check,
     completion,
+    control,
     equilibrium,
+    fmu,
     keys,
     new,
     plot,
@@ -176,6 +178,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         mooring_command.add_arguments(mooring)
         mooring.set_defaults(call=mooring_command.run)
 
+    control.add_parser(commands)
+    fmu.add_parser(commands)
     plot.add_parser(commands)
     view = commands.add_parser(
         "view",

@@ -40,7 +40,8 @@ LAYERS = [
     {"case"},
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
-    {"states", "mooring"},
+    {"states", "mooring", "fmu"},
+    {"control"},
     {"viewer"},
     # many runs of a case, and what people ask about it
     {"study.reference"},

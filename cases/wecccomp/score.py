@@ -1,0 +1,189 @@
+"""The score of the competition: sea states, controllers, evaluation criterion.
+
+    python cases/wecccomp/score.py                          # the table, as Markdown
+    python cases/wecccomp/score.py --seas 2 --controllers passive predictive
+
+    EC = mean(P) / (2 + |f|_98 / 60 N + |s|_98 / 0.08 m - mean|P| / |P|_98)
+
+over what follows 25 s: f the load of the power take-off, s its stroke, P = 0.7 Pa where it takes
+the power Pa, Pa / 0.7 where it gives it, _98 the value that is exceeded for 2 % of the time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import hydrodae
+from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant
+
+HERE = Path(__file__).parent
+FORCE, STROKE, EFFICIENCY = 60.0, 0.08, 0.7  # N, m, -
+#: Significant height [m], peak period [s], gamma.
+SEAS = (
+    (0.0208, 0.988, 1.0),
+    (0.0625, 1.412, 1.0),
+    (0.1042, 1.836, 1.0),
+    (0.0208, 0.988, 3.3),
+    (0.0625, 1.412, 3.3),
+    (0.1042, 1.836, 3.3),
+)
+RATE = "displacement_rate"
+PERIOD = 0.04  # of the model-predictive controller [s]
+NATURAL = 0.819  # period of the device [s]
+
+#: What each controller has in each sea: damping [N s/m]; damping and stiffness [N/m]; damping and
+#: weight [m/(N s)] of the model-predictive one.
+SETTINGS: dict[str, tuple[tuple[float, ...], ...]] = {
+    "passive": ((150.0,), (200.0,), (300.0,), (150.0,), (200.0,), (300.0,)),
+    "pi": 2 * ((147.0, -415.0), (210.0, -930.0), (297.0, -1170.0)),
+    "latching": ((150.0,), (200.0,), (300.0,), (150.0,), (200.0,), (300.0,)),
+    "predictive": 2 * ((0.0, 1e-3), (200.0, 2e-3), (300.0, 1.5e-3)),
+}
+SETTINGS["autoregressive"] = SETTINGS["predictive"]
+
+LATCH = """
+[[force]]
+type = "dry_friction"
+name = "latch"
+joint = "slide"
+static = 60.0
+kinetic = 0.0
+
+[[controller]]
+type = "latching"
+name = "latching"
+inputs = ["joints/slide/displacement_rate"]
+outputs = ["forces/latch/static"]
+hold_load = 60.0
+hold_time = {hold}
+period = 0.05
+"""
+PREDICTIVE = f"""
+[[controller]]
+type = "python"
+name = "predictive"
+inputs = ["joints/slide/displacement", "joints/slide/displacement_rate"]
+outputs = ["forces/pto/load"]
+period = {PERIOD}
+"""
+
+
+@dataclass(frozen=True)
+class Score:
+    """What a run earns, and with what."""
+
+    ec: float  #: evaluation criterion [W]
+    power: float  #: mean(P) [W]
+    force: float  #: |f|_98 [N]
+    stroke: float  #: |s|_98 [m]
+    most_force: float  #: [N]
+    most_stroke: float  #: [m]
+    seconds: float = 0.0  #: CPU time of the run
+
+
+def evaluate(t: np.ndarray, f: np.ndarray, s: np.ndarray, rate: np.ndarray) -> Score:
+    """Score time series at equal steps."""
+    kept = t > 25.0
+    f, s, rate = f[kept], s[kept], rate[kept]
+    absorbed = -f * rate
+    power = np.where(absorbed > 0.0, EFFICIENCY * absorbed, absorbed / EFFICIENCY)
+    force, stroke, high = (float(np.percentile(np.abs(x), 98)) for x in (f, s, power))
+    fee = 2.0 + force / FORCE + stroke / STROKE - float(np.abs(power).mean()) / high
+    most = float(np.abs(f).max()), float(np.abs(s).max())
+    return Score(float(power.mean()) / fee, float(power.mean()), force, stroke, *most)
+
+
+def case_of(sea: int, controller: str, settings: tuple[float, ...], database: str) -> hydrodae.Case:
+    """The case in sea 1 ... 6 with what its controller needs."""
+    height, peak, gamma = SEAS[sea - 1]
+    text = (HERE / "case.toml").read_text()
+    if controller == "latching":
+        text += LATCH.format(hold=0.5 * (peak - NATURAL))
+    if controller in ("predictive", "autoregressive"):
+        text += PREDICTIVE
+    values: dict[str, Any] = {
+        "hydro.database": database,
+        "wave.sea.significant_height": height,
+        "wave.sea.peak_period": peak,
+        "wave.sea.gamma": gamma,
+        "sea.ramp": 5.0 * peak,
+        "solver.end_time": 100.0 * peak,
+    }
+    if controller in ("passive", "latching", "pi"):
+        values["force.pto.damping"] = settings[0]
+    if controller == "pi":
+        values["force.pto.stiffness"] = settings[1]
+    return hydrodae.Case.from_text(text, HERE).with_values(values)
+
+
+def law_of(
+    sea: int, controller: str, settings: tuple[float, ...], database: str
+) -> dict[str, Callable[..., float]]:
+    """The Python controller of a case, if it has one."""
+    if controller not in ("predictive", "autoregressive"):
+        return {}
+    plant = Plant(case_of(sea, "passive", (0.0,), database), "slide")
+    known = controller == "predictive"
+    peak = SEAS[sea - 1][1]
+    law = ModelPredictive(
+        plant,
+        KnownSea(plant, PERIOD, 5.0 * peak) if known else AutoregressiveForecast(),
+        period=PERIOD,
+        horizon=40,
+        damping=settings[0],
+        weight=settings[1],
+        load_limit=FORCE,
+        stroke=(-STROKE, STROKE),
+    )
+    return {"predictive": law}
+
+
+def run(
+    sea: int, controller: str, settings: tuple[float, ...] | None = None, database: str = "hydro.h5"
+) -> Score:
+    """Score the closed loop in sea 1 ... 6 under a controller of SETTINGS."""
+    chosen = SETTINGS[controller][sea - 1] if settings is None else settings
+    case = case_of(sea, controller, chosen, database)
+    law = law_of(sea, controller, chosen, database)
+    before = time.process_time()
+    results = hydrodae.run(case, controllers=law)
+    seconds = time.process_time() - before
+    force = results["forces/pto/force"].to_numpy()
+    if controller == "latching":
+        force = force + results["forces/latch/force"].to_numpy()
+    slide = (results[f"joints/slide/{name}"].to_numpy() for name in ("displacement", RATE))
+    score = evaluate(results.time, force, *slide)
+    return replace(score, seconds=seconds)
+
+
+def table(seas: list[int], controllers: list[str], database: str) -> None:
+    """Print the scores as Markdown."""
+    print("| sea | controller | EC, W | mean P, W | f98, N | s98, m | f, s at most | CPU, s |")
+    print("|---|---|---|---|---|---|---|---|")
+    for sea in seas:
+        for controller in controllers:
+            s = run(sea, controller, database=database)
+            most = f"{s.most_force:.0f} N, {s.most_stroke:.3f} m"
+            row = f"{s.ec:.5f} | {s.power:.4f} | {s.force:.1f} | {s.stroke:.4f} | {most}"
+            print(f"| {sea} | {controller} | {row} | {s.seconds:.1f} |", flush=True)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seas", type=int, nargs="+", default=[1, 2, 3, 4, 5, 6])
+    parser.add_argument("--controllers", nargs="+", choices=[*SETTINGS], default=[*SETTINGS])
+    parser.add_argument("--database", default="hydro.h5", help="relative to this folder")
+    arguments = parser.parse_args()
+    table(arguments.seas, arguments.controllers, arguments.database)
+
+
+if __name__ == "__main__":
+    main()

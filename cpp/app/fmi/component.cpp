@@ -1,0 +1,158 @@
+#include "component.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/cosim/tcp.h"
+
+namespace hydrodae::fmi {
+
+namespace {
+
+using Sort = Variable::Kind;
+
+/// Communication points k h and t + h differ by rounding: nearer than so many steps is there.
+constexpr double nearness = 1e-9;
+
+constexpr const char* part = "fmu"; ///< of a saved state that is the instance's own
+
+std::string toml_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+} // namespace
+
+Component::Component(const std::string& resources) : contents_(read_contents(resources)) {
+  reset();
+}
+
+void Component::reset() {
+  run_.reset();
+  end_time_ = 0.0;
+  held_.clear();
+  for (const auto& [reference, v] : contents_.variables)
+    if (v.kind == Sort::parameter || v.kind == Sort::input)
+      held_[reference] = v.start;
+}
+
+void Component::begin(double start, std::optional<double> stop) {
+  if (start != 0.0)
+    throw CaseError("a run begins at t = 0 s, not at the start time " + number_text(start) + " s");
+  begin(stop.value_or(0.0));
+}
+
+void Component::begin(double end_time) {
+  io::Overrides values = contents_.overrides;
+  for (const auto& [reference, v] : contents_.variables)
+    if (v.kind == Sort::parameter && held_[reference] != v.start)
+      values[v.name] = toml_number(held_[reference]);
+  model::Scene scene = io::read_case(contents_.case_path, values);
+  if (end_time > scene.solver.end_time) {
+    values["solver.end_time"] = toml_number(end_time);
+    scene = io::read_case(contents_.case_path, values);
+  }
+  cosim::join_tcp(scene);
+  try {
+    run_ = std::make_unique<run::Simulation>(scene);
+  } catch (const ModelError& error) {
+    throw CaseError(model::located(scene, error));
+  }
+  end_time_ = end_time;
+  inputs_.clear();
+  for (std::size_t k = 0; k < run_->inputs().size(); ++k)
+    inputs_[run_->inputs()[k].name] = k;
+  for (const auto& [reference, v] : contents_.variables)
+    if (v.kind == Sort::input)
+      run_->write(v.name, held_[reference]);
+}
+
+const Variable& Component::variable(Reference reference) const {
+  const auto found = contents_.variables.find(reference);
+  if (found == contents_.variables.end())
+    throw CaseError("there is no variable with the reference " + std::to_string(reference));
+  return found->second;
+}
+
+void Component::set(Reference reference, double value) {
+  const Variable& v = variable(reference);
+  const bool can = v.kind == Sort::input || (v.kind == Sort::parameter && !run_);
+  if (!can)
+    throw CaseError(in_quotes(v.name) + (v.kind == Sort::parameter
+                                             ? " is fixed since the run has begun"
+                                             : " is an output, which nobody sets"));
+  if (run_)
+    run_->write(v.name, value);
+  held_[reference] = value;
+}
+
+double Component::get(Reference reference) {
+  const Variable& v = variable(reference);
+  if (v.kind == Sort::time)
+    return time();
+  if (v.kind == Sort::parameter || (v.kind == Sort::input && !run_))
+    return held_[reference];
+  if (!run_)
+    throw CaseError(in_quotes(v.name) + " has no value before the run begins");
+  return v.kind == Sort::input ? *run_->inputs()[inputs_.at(v.name)].value
+                               : run_->read(v.name).front();
+}
+
+void Component::step(double t, double h) {
+  if (!run_)
+    throw CaseError("the run has not begun");
+  if (!(h > 0.0))
+    throw CaseError("a communication step of " + number_text(h) + " s: expected > 0");
+  if (std::abs(t - run_->time()) > nearness * h)
+    throw CaseError("a communication step from t = " + number_text(t) + " s, but the run is at " +
+                    number_text(run_->time()) + " s");
+  const double end = t + h, last = run_->scene().solver.end_time;
+  if (end - last > nearness * h)
+    throw CaseError("a communication step to t = " + number_text(end) +
+                    " s, but the case ends at " + number_text(last) +
+                    " s; tell the FMU a later stop time before it is initialised");
+  const double limit = std::min(end, last);
+  while (limit - run_->time() > nearness * h)
+    run_->advance(limit);
+}
+
+void Component::finish() {
+  if (run_)
+    run_->close();
+}
+
+run::State Component::save() {
+  run::State out = run_ ? run_->state() : run::State{};
+  std::vector<double>& own = out.memory[part];
+  own = {run_ ? 1.0 : 0.0, end_time_};
+  for (const auto& [reference, value] : held_)
+    own.push_back(value);
+  return out;
+}
+
+void Component::load(const run::State& state) {
+  const auto found = state.memory.find(part);
+  if (found == state.memory.end() || found->second.size() != 2 + held_.size())
+    throw CaseError("the state is that of another FMU");
+  const double* own = found->second.data();
+  const bool begun = *own++ != 0.0;
+  const double end_time = *own++;
+  bool same = run_ && end_time == end_time_;
+  for (auto& [reference, value] : held_) {
+    same = same && (variable(reference).kind == Sort::input || value == *own);
+    value = *own++;
+  }
+  if (!begun) {
+    run_.reset();
+    end_time_ = end_time;
+    return;
+  }
+  if (!same)
+    begin(end_time);
+  run_->restore(state);
+}
+
+} // namespace hydrodae::fmi

@@ -1,0 +1,63 @@
+#pragma once
+/// One instance of an FMU, whatever version of FMI asks for it.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contents.h"
+#include "hydrodae/run/simulation.h"
+
+namespace hydrodae::fmi {
+
+/// A run of the case of the FMU between communication points. Inputs hold from one communication
+/// point to the next; parameters are numbers of the case, fixed when the run begins. All throw
+/// Error, with a message for the importer.
+class Component {
+public:
+  /// Not begun yet. Reads variables.txt of `resources`.
+  explicit Component(const std::string& resources);
+
+  const std::string& token() const { return contents_.token; }
+
+  /// Reads the case and makes its run, at t = 0 s.
+  /// @param start  time at which the importer begins [s]: cases begin at 0
+  /// @param stop  where the importer ends [s]; later than the end time of the case, it replaces it
+  void begin(double start, std::optional<double> stop);
+
+  /// Before the run, parameters and inputs; then inputs.
+  void set(Reference reference, double value);
+
+  /// Before the run, parameters and inputs; then all.
+  double get(Reference reference);
+
+  /// From t to t + h [s].
+  void step(double t, double h);
+
+  double time() const { return run_ ? run_->time() : 0.0; } ///< [s]
+
+  /// Ends the run: controllers of the case that are other programs are told so.
+  void finish();
+
+  /// As it was made.
+  void reset();
+
+  /// All that the instance is now. What follows depends on it alone, bit for bit, in this instance
+  /// or another one of the same FMU, in this process or another one. See run::Simulation::state.
+  run::State save();
+  void load(const run::State& state);
+
+private:
+  const Variable& variable(Reference reference) const;
+  run::Input& input(const std::string& name);
+  void begin(double end_time);
+
+  Contents contents_;
+  std::map<Reference, double> held_; ///< parameters, and what inputs begin with
+  double end_time_ = 0.0;            ///< in place of that of the case [s]; 0: that of the case
+  std::unique_ptr<run::Simulation> run_;
+  std::map<std::string, std::size_t> inputs_; ///< of the run, by name
+};
+
+} // namespace hydrodae::fmi

@@ -1,0 +1,135 @@
+#pragma once
+/// What the C functions of FMI 2.0 and 3.0 have in common.
+
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "component.h"
+#include "hydrodae/core/error.h"
+
+#define HYDRODAE_FMI extern "C" __attribute__((visibility("default")))
+
+namespace hydrodae::fmi {
+
+/// The same numbers in both versions of the standard.
+enum class Status : int { ok, warning, discard, error, fatal };
+
+/// A component, and how the importer is told messages.
+struct Instance {
+  using Log = std::function<void(Status, const char* category, const char* message)>;
+
+  Component component;
+  Log log;
+  std::optional<double> stop = {}; ///< FMI 2.0 tells it before the run begins [s]
+  double start = 0.0;
+};
+
+inline Instance& instance_of(void* instance) { return *static_cast<Instance*>(instance); }
+inline run::State& state_of(void* state) { return *static_cast<run::State*>(state); }
+
+/// Does `work` on the instance; an exception becomes a message and a status. Nothing of C++ leaves
+/// the library.
+/// @tparam S  status of either version
+template <class S, class Work> S call(void* instance, Work&& work) {
+  const auto tell = [&](const char* message) {
+    instance_of(instance).log(Status::error, "logStatusError", message);
+    return static_cast<S>(Status::error);
+  };
+  try {
+    std::forward<Work>(work)(instance_of(instance));
+    return static_cast<S>(Status::ok);
+  } catch (const std::bad_alloc&) {
+    return tell("not enough memory");
+  } catch (const std::exception& error) {
+    return tell(error.what());
+  }
+}
+
+/// There are variables of 64 bit floating point only, and no clocks, events or derivatives: who
+/// asks for `count` > 0 of something else is told so.
+template <class S> S nothing_of(void* instance, std::size_t count, const char* what) {
+  return call<S>(instance, [&](Instance&) {
+    if (count > 0)
+      throw CaseError(std::string("this FMU has no ") + what);
+  });
+}
+
+/// A new instance; null where it cannot be made, which the importer is told.
+/// @param place  of resources/, from what the importer passes
+template <class Place>
+Instance* make_instance(const Instance::Log& log, const char* token, Place&& place) {
+  try {
+    Component component(place());
+    if (!token || component.token() != token)
+      throw CaseError("the model description and the resources are of different FMUs (token)");
+    return new Instance{std::move(component), log};
+  } catch (const std::exception& error) {
+    log(Status::error, "logStatusError", error.what());
+    return nullptr;
+  }
+}
+
+template <class S>
+S set_values(void* instance, const Reference* references, std::size_t count, const double* values) {
+  return call<S>(instance, [&](Instance& i) {
+    for (std::size_t k = 0; k < count; ++k)
+      i.component.set(references[k], values[k]);
+  });
+}
+
+template <class S>
+S get_values(void* instance, const Reference* references, std::size_t count, double* values) {
+  return call<S>(instance, [&](Instance& i) {
+    for (std::size_t k = 0; k < count; ++k)
+      values[k] = i.component.get(references[k]);
+  });
+}
+
+/// Saves into a state that is there, or a new one.
+template <class S> S get_state(void* instance, void** state) {
+  return call<S>(instance, [&](Instance& i) {
+    if (!*state)
+      *state = new run::State;
+    state_of(*state) = i.component.save();
+  });
+}
+
+template <class S> S set_state(void* instance, void* state) {
+  return call<S>(instance, [&](Instance& i) { i.component.load(state_of(state)); });
+}
+
+template <class S> S free_state(void** state) {
+  if (state) {
+    delete static_cast<run::State*>(*state);
+    *state = nullptr;
+  }
+  return static_cast<S>(Status::ok);
+}
+
+template <class S> S size_of_state(void* instance, void* state, std::size_t* size) {
+  return call<S>(instance, [&](Instance&) { *size = state_of(state).bytes().size(); });
+}
+
+template <class S> S write_state(void* instance, void* state, void* out, std::size_t size) {
+  return call<S>(instance, [&](Instance&) {
+    const std::string bytes = state_of(state).bytes();
+    if (size < bytes.size())
+      throw CaseError("the state needs more room than there is");
+    std::memcpy(out, bytes.data(), bytes.size());
+  });
+}
+
+template <class S> S read_state(void* instance, const void* bytes, std::size_t size, void** state) {
+  return call<S>(instance, [&](Instance&) {
+    const std::string text(static_cast<const char*>(bytes), size);
+    *state = new run::State(run::State::from_bytes(text));
+  });
+}
+
+} // namespace hydrodae::fmi

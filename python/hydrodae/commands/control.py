@@ -1,0 +1,58 @@
+"""The command `hydrodae control`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser("control", help="design a controller for a case")
+    tasks = parser.add_subparsers(metavar="TASK", required=True)
+    design = tasks.add_parser(
+        "design",
+        help="gains of a PI controller by impedance matching",
+        description="Match a PI controller of the rate of a joint to the impedance of the device, "
+        "from its own frequency tables: most power at one period.",
+        epilog="example: hydrodae control design case.toml --joint slide --period 8",
+    )
+    design.add_argument("case", metavar="CASE", help="case file (TOML)")
+    design.add_argument("--joint", metavar="NAME", required=True, help="along which it acts")
+    design.add_argument(
+        "--period",
+        metavar="SECONDS",
+        type=float,
+        help="of the wave to match (default: the energy period of the sea of the case)",
+    )
+    design.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="replace a value of the case, such as force.pto.damping=0; may be repeated",
+    )
+    design.set_defaults(call=run, library=[])
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print impedance, gains and powers; returns 0."""
+    from math import pi
+
+    from hydrodae.commands.arguments import given_case
+    from hydrodae.control import Plant, match
+
+    plant = Plant(given_case(arguments), arguments.joint)
+    found = match(plant, arguments.period)
+    turns = plant.turns
+    resistance, stiffness = ("N m s/rad", "N m/rad") if turns else ("N s/m", "N/m")
+    print(f"joint {arguments.joint} at {found.omega:.5g} rad/s ({2 * pi / found.omega:.4g} s)")
+    print(f"  impedance    {found.impedance:.5g} {resistance}")
+    if found.excitation == found.excitation:
+        print(f"  excitation   {found.excitation:.5g} {'N m/m' if turns else 'N/m'}")
+        print(f"  most power   {found.power:.5g} W per m2 of amplitude, |F|^2 / (8 Re Z)")
+        print(
+            f"  by damper    {found.resistive_power:.5g} W/m2 at {found.resistive:.5g} {resistance}"
+        )
+    print(f"  gain_p = {found.gain_p:.6g}  # {resistance}")
+    print(f"  gain_i = {found.gain_i:.6g}  # {stiffness}")
+    return 0

@@ -1,0 +1,62 @@
+"""The command `hydrodae fmu`."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser(
+        "fmu",
+        help="write a case as a component for other programs (FMI co-simulation)",
+        description="Write a case as an FMU for co-simulation: an archive with the kernel, the "
+        "case and its database. Inputs hold from one communication point to the next.",
+        epilog="example: hydrodae fmu case.toml -o device.fmu --inputs 'forces/pto/*'",
+    )
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="the FMU (default: CASE with the ending .fmu)"
+    )
+    parser.add_argument(
+        "--fmi", type=int, choices=(2, 3), default=3, help="version of the standard (default: 3)"
+    )
+    for name, what in (("inputs", "inputs"), ("outputs", "channels")):
+        parser.add_argument(
+            f"--{name}", metavar="NAME", nargs="+", help=f"these {what}, or patterns (default: all)"
+        )
+    parser.add_argument(
+        "--parameters",
+        metavar="KEY",
+        nargs="+",
+        default=[],
+        help="numbers of the case that an importer may set before the run, such as solver.rtol",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="replace a value of the case, such as solver.rtol=1e-8; may be repeated",
+    )
+    parser.set_defaults(call=run, library=[])
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the FMU; returns 0."""
+    from pathlib import Path
+
+    from hydrodae.commands.arguments import given_case
+    from hydrodae.fmu import export
+
+    output = Path(arguments.output or Path(arguments.case).with_suffix(".fmu"))
+    export(
+        given_case(arguments),
+        output,
+        fmi=arguments.fmi,
+        inputs=arguments.inputs,
+        outputs=arguments.outputs,
+        parameters=arguments.parameters,
+    )
+    print(output)
+    return 0

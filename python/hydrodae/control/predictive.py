@@ -1,0 +1,250 @@
+"""A model-predictive controller of one power take-off: a quadratic program at each sample."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from hydrodae.control.forecast import Forecast
+from hydrodae.control.plant import Plant
+from hydrodae.errors import CaseError, SolverError
+from hydrodae.extras import install_command
+
+Array = NDArray[np.float64]
+
+#: How dear it is to exceed the stroke, against the curvature of the program.
+_EXCEED = 1e3
+
+
+class ModelPredictive:
+    """Load of a power take-off that takes most energy over a horizon, within limits.
+
+    At each sample it chooses the loads u(k) of the horizon that make
+
+        sum_k [ u(k) (s(k+1) - s(k)) + (r T / 2) (u(k) + c (s(k+1) - s(k)) / T)^2 ]
+
+    least. The first term is the energy that the take-off gives away, in steps of a held load
+    exactly, and never negative in sum without waves, so that the program is convex; the second one
+    draws it to the damper c. With r -> 0 the load is the one of most mechanical energy, with
+    r -> inf a damper within the limits; between them, less energy goes to and fro, which pays
+    where the take-off has an efficiency.
+
+    It is given to a run as ``controllers={"name": ModelPredictive(...)}``, by a `[[controller]]`
+    of type ``python`` whose inputs are the coordinate of the joint and its rate, whose output is
+    ``forces/PTO/load`` and whose period is that of here.
+
+    Parameters
+    ----------
+    plant : Plant
+        The linear model along the joint.
+    forecast : Forecast
+        `KnownSea` or `AutoregressiveForecast`.
+    period : float
+        T [s].
+    horizon : int
+        Samples that it looks ahead.
+    damping : float
+        c >= 0 [N s/m, N m s/rad].
+    weight : float
+        r > 0 [m/(N s), rad/(N m s)].
+    load_limit, rate_limit : float, optional
+        Largest |u| [N, N m] and |u'| [N/s, N m/s].
+    stroke : (float, float), optional
+        Least and largest coordinate of the joint [m, rad], as the channel counts it. Kept as well
+        as the loads allow.
+
+    Raises
+    ------
+    CaseError
+        OSQP is not installed, or a number is out of range.
+    """
+
+    def __init__(
+        self,
+        plant: Plant,
+        forecast: Forecast,
+        *,
+        period: float,
+        horizon: int,
+        damping: float,
+        weight: float,
+        load_limit: float = math.inf,
+        rate_limit: float = math.inf,
+        stroke: tuple[float, float] = (-math.inf, math.inf),
+    ) -> None:
+        if not (period > 0.0 and horizon > 0 and damping >= 0.0 and weight > 0.0):
+            raise CaseError("model-predictive control: period, horizon, weight > 0, damping >= 0")
+        if not (load_limit > 0.0 and rate_limit > 0.0 and stroke[0] < stroke[1]):
+            raise CaseError("model-predictive control: limits must be positive, stroke ascending")
+        self._forecast, self._period, self._horizon = forecast, period, horizon
+        self._damping, self._weight = damping, weight
+        self._rest = plant.rest
+        self._rate_limit = rate_limit
+        self._model = plant.sampled(period)
+        self._predict()
+        self._limits = (load_limit, stroke[0] - plant.rest, stroke[1] - plant.rest)
+        self._make_program()
+        self.reset()
+
+    def _predict(self) -> None:
+        """Strokes s(1) ... s(N) from y(0), u and e: free @ y + by_load @ u + by_wave @ e."""
+        step, held, early, late = self._model
+        n, count = len(step), self._horizon
+        rows = np.zeros((count, n))
+        power = np.eye(n)
+        impulse = np.zeros((count, 3))  # of a load, of a wave at both ends of its step
+        for k in range(count):
+            impulse[k] = [(power @ column)[0] for column in (held, early, late)]
+            power = power @ step
+            rows[k] = power[0]
+        self._free = rows
+        self._by_load = _toeplitz(impulse[:, 0], count)
+        self._by_wave = np.zeros((count, count + 1))
+        self._by_wave[:, :-1] += _toeplitz(impulse[:, 1], count)
+        self._by_wave[:, 1:] += _toeplitz(impulse[:, 2], count)
+        #: s(k+1) - s(k) from s(1) ... s(N); s(0) is apart
+        self._difference = np.eye(count) - np.eye(count, k=-1)
+
+    def _make_program(self) -> None:
+        """Set the program up: variables u(0) ... u(N-1) and by how much the stroke is exceeded."""
+        try:
+            import osqp
+        except ImportError:
+            raise CaseError(
+                f"model-predictive control needs OSQP: {install_command('control')}"
+            ) from None
+        n, moves = self._horizon, self._difference @ self._by_load
+        r, c, period = self._weight, self._damping, self._period
+        self._per_load = per_load = np.eye(n) + c / period * moves
+        hessian = moves + moves.T + r * period * per_load.T @ per_load
+        least = float(np.linalg.eigvalsh(hessian)[0])
+        if least <= 0.0:
+            raise CaseError(
+                f"model-predictive control: the program is not convex (eigenvalue {least:.2g}): "
+                f"a larger weight, or a passive memory fit, is needed"
+            )
+        self._hessian = hessian
+        # in units of the limits and of the curvature, OSQP's tolerances fit
+        self._scale = float(np.abs(hessian).max())
+        self._reach = float(np.abs(self._by_load).sum(axis=1).max())
+        spans = [self._limits[0], (self._limits[2] - self._limits[1]) / self._reach]
+        finite = [span for span in (*spans, self._rate_limit * period) if math.isfinite(span)]
+        self._unit = finite[0] if finite else 1.0
+        whole = np.zeros((n + 1, n + 1))
+        whole[:n, :n], whole[n, n] = hessian / self._scale, _EXCEED
+        one, zero = np.ones((n, 1)), np.zeros((n, 1))
+        stroke = self._by_load / self._reach
+        self._rows = sparse.csc_matrix(
+            np.vstack(
+                [
+                    np.hstack([np.eye(n), zero]),
+                    np.hstack([self._difference, zero]),
+                    np.hstack([stroke, -one]),
+                    np.hstack([stroke, one]),
+                ]
+            )
+        )
+        count = self._rows.shape[0]
+        self._program = osqp.OSQP()
+        self._program.setup(
+            sparse.triu(sparse.csc_matrix(whole), format="csc"),
+            np.zeros(n + 1),
+            self._rows,
+            np.full(count, -np.inf),
+            np.full(count, np.inf),
+            verbose=False,
+            eps_abs=1e-6,
+            eps_rel=1e-6,
+            max_iter=20000,
+            adaptive_rho=False,  # a solution depends on the state alone
+            polishing=False,
+        )
+
+    def reset(self) -> None:
+        """Begin anew: the device is at rest."""
+        self._y = np.zeros(len(self._model[0]))
+        self._last = 0.0
+        self._begun = False
+
+    def __call__(self, t: float, coordinate: float, rate: float) -> float:
+        """Load of the take-off [N, N m] from t on.
+
+        Parameters
+        ----------
+        t : float
+            [s].
+        coordinate, rate : float
+            Of the joint, as its channels.
+
+        Raises
+        ------
+        SolverError
+            The program has no solution.
+        """
+        self._follow(coordinate - self._rest, rate)
+        wave = self._forecast.ahead(t, self._horizon + 1)
+        free = self._free @ self._y + self._by_wave @ wave
+        loads = self._solve(free)
+        self._last = float(np.clip(loads[0], -self._limits[0], self._limits[0]))
+        return self._last
+
+    def _follow(self, s: float, rate: float) -> None:
+        """States of the memory from the model, s and s' from the device."""
+        if self._begun:
+            step, held, early, late = self._model
+            guess = step @ self._y + held * self._last
+            by_wave = early + late
+            load = (rate - guess[1]) / by_wave[1]  # that explains the rate
+            self._forecast.observe(load)
+            self._y = guess + by_wave * load
+        self._y[:2] = s, rate
+        self._begun = True
+
+    def _solve(self, free: Array) -> Array:
+        n, r, c = self._horizon, self._weight, self._damping
+        moves = self._difference @ free
+        moves[0] -= self._y[0]
+        linear = moves + r * c * self._per_load.T @ moves
+        load, lower, upper = self._limits
+        change = np.full(n, self._rate_limit * self._period)
+        first, none = np.zeros(n), np.full(n, np.inf)
+        first[0] = self._last
+        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach]
+        high = [np.full(n, load), first + change, (upper - free) / self._reach, none]
+        bounds = np.concatenate(low), np.concatenate(high)
+        best = np.append(-np.linalg.solve(self._hessian, linear), 0.0)
+        rows = self._rows @ best
+        if np.all(rows >= bounds[0]) and np.all(rows <= bounds[1]):
+            return best[:n]  # no limit matters
+        slopes = np.append(linear, 0.0) / (self._scale * self._unit)
+        return self._unit * self._solve_within(slopes, *(bound / self._unit for bound in bounds))
+
+    def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
+        self._program.update(q=linear, l=low, u=high)
+        self._program.warm_start(x=np.zeros(len(linear)), y=np.zeros(len(low)))
+        found = self._program.solve(raise_error=False)
+        if found.info.status not in ("solved", "solved inaccurate"):
+            raise SolverError(f"model-predictive control: the program is {found.info.status}")
+        return np.asarray(found.x[:-1])
+
+    def state(self) -> list[float]:
+        """What it remembers, for checkpoints."""
+        return [float(self._begun), self._last, *self._y, *self._forecast.state()]
+
+    def restore(self, values: list[float]) -> None:
+        """Go back to a state."""
+        n = len(self._y)
+        self._begun, self._last = bool(values[0]), values[1]
+        self._y = np.array(values[2 : 2 + n])
+        self._forecast.restore(values[2 + n :])
+
+
+def _toeplitz(column: Array, count: int) -> Array:
+    """Lower triangular, (count, count): what loads do to later samples."""
+    out = np.zeros((count, count))
+    for k in range(count):
+        out += column[k] * np.eye(count, k=-k)
+    return out

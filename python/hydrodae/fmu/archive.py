@@ -1,0 +1,146 @@
+"""Writes the archive of an FMU."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import re
+import tomllib
+import zipfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hydrodae.case import Case, CaseLike, read_case, to_toml
+from hydrodae.errors import CaseError
+from hydrodae.fmu.description import Description, model_description
+from hydrodae.fmu.variables import Variable, choose, number_at
+
+_PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
+
+
+def export(
+    case: CaseLike,
+    path: str | os.PathLike[str],
+    *,
+    fmi: int = 3,
+    inputs: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+    parameters: Sequence[str] = (),
+    set: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write a case as an FMU for co-simulation.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or the path of its file.
+    path : path
+        Of the FMU, usually with the ending .fmu; a file that is there is replaced.
+    fmi : int
+        Version of the standard, 2 or 3.
+    inputs, outputs : sequence of str, optional
+        Names or patterns such as ``"joints/*"`` of what `hydrodae.Simulation` writes and reads,
+        vectors by component; by default all. Inputs that a controller of the case writes are none.
+    parameters : sequence of str
+        Dotted keys of numbers of the case that an importer may set before the run begins.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
+
+    Returns
+    -------
+    Path
+        Of the FMU.
+
+    Raises
+    ------
+    CaseError
+        The case cannot start, needs Python functions or libraries of its own, or has no such
+        variables; or this machine is of another sort than FMUs are made for.
+    """
+    if fmi not in _PLATFORMS:
+        raise CaseError(f"version {fmi!r} of FMI: there are 2 and 3")
+    read = read_case(case, set)
+    _require_self_contained(read)
+    chosen = choose(read, inputs, outputs, parameters)
+    files, values = _files(read)
+    text = read.text
+    content = _variables_text({**read.overrides, **values}, chosen)
+    token = hashlib.sha256("\n".join([text, content, _hashes(files)]).encode()).hexdigest()
+    identifier = re.sub(r"\W|^(?=\d)", "_", Path(path).stem, flags=re.ASCII)
+    told = Description(identifier, read.title, token, read.end_time, _step(read), chosen)
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", model_description(told, fmi))
+        archive.write(_library(), f"binaries/{_PLATFORMS[fmi]}/{identifier}.so")
+        archive.writestr("resources/case.toml", text)
+        archive.writestr("resources/variables.txt", f"hydrodae-fmu\t1\ntoken\t{token}\n{content}")
+        for name, file in files.items():
+            archive.write(file, f"resources/{name}")
+    return Path(path)
+
+
+def _require_self_contained(case: Case) -> None:
+    scene = case.scene
+    names = [*scene.python_drives, *scene.python_forces, *scene.python_controllers]
+    if names:
+        raise CaseError(f"{names[0]!r} is a Python function, which an FMU cannot take along")
+    if case.libraries:
+        raise CaseError("laws of shared libraries cannot be part of an FMU")
+
+
+def _library() -> Path:
+    """The shared library with the functions of FMI, beside the kernel."""
+    machine = platform.system(), platform.machine()
+    if machine != ("Linux", "x86_64"):
+        raise CaseError(f"FMUs are made on Linux, x86_64; this is {' '.join(machine)}")
+    from hydrodae import _core
+
+    path = Path(_core.__file__).parent / "lib" / "hydrodae_fmu.so"
+    if not path.is_file():
+        raise CaseError(f"{path}: not there; install the package again")
+    return path
+
+
+def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
+    """Files that the case reads, by their name in the FMU, and the keys that name them as TOML."""
+    root = tomllib.loads(case.text)
+    keys = {"hydro.database": root.get("hydro", {}).get("database")}
+    for wave in root.get("wave", []):
+        keys[f"wave.{wave['name']}.file"] = wave.get("file")
+    folder = case.directory if case.path is None else case.path.parent
+    files: dict[str, Path] = {}
+    values: dict[str, str] = {}
+    for key, found in keys.items():
+        if key in case.overrides:
+            found = tomllib.loads(f"value = {case.overrides[key]}")["value"]
+        if found is not None:
+            name = f"{len(files)}_{Path(found).name}"
+            files[name] = folder / found
+            values[key] = to_toml(name)
+    return files, values
+
+
+def _hashes(files: Mapping[str, Path]) -> str:
+    return "\n".join(hashlib.sha256(file.read_bytes()).hexdigest() for file in files.values())
+
+
+def _variables_text(values: Mapping[str, str], variables: Sequence[Variable]) -> str:
+    """Fields with tabs in between; what the lines are says cpp/app/fmi/contents.h."""
+    lines = [["set", key, value] for key, value in values.items()]
+    lines.append(["time", "0"])
+    for v in variables:
+        start = [] if v.start is None else [repr(v.start)]
+        lines.append([v.kind, str(v.reference), *start, v.name])
+    for line in lines:
+        if any(set(field) & set("\t\n\r") for field in line):
+            raise CaseError(f"{line[-1]!r}: names with tabs or line ends cannot be in an FMU")
+    return "".join("\t".join(line) + "\n" for line in lines)
+
+
+def _step(case: Case) -> float:
+    """Suggested communication step [s]: that of the output."""
+    try:
+        return number_at(case, "output.step")
+    except CaseError:
+        return case.end_time / 1000.0

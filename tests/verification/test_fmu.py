@@ -1,0 +1,239 @@
+"""FMUs under FMPy, an importer that others wrote: validity, motion, states, mistakes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.verification.fmu_device import Device, problems, simulate
+
+import hydrodae
+from hydrodae import CaseError, Simulation
+from hydrodae.cli import main
+from hydrodae.fmu import export
+
+CART = """
+title = "Cart on a spring"
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { displacement = [0.5, 0.0, 0.0] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+stiffness = 200.0
+[solver]
+end_time = 2.0
+rtol = 1e-9
+[output]
+step = 0.05
+"""
+X, V, LOAD = "joints/slide/displacement", "joints/slide/displacement_rate", "forces/pto/load"
+VERSIONS = [2, 3]
+
+
+def cart(**values: object) -> hydrodae.Case:
+    return hydrodae.Case.from_text(CART).with_values(values)
+
+
+@pytest.fixture(scope="module", params=VERSIONS)
+def fmu(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("fmu")
+    return export(
+        cart(), folder / "cart.fmu", fmi=request.param, parameters=["body.cart.mass", "solver.rtol"]
+    )
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_fmpy_finds_no_problem(version: int, repository: Path, tmp_path: Path) -> None:
+    for name in ("sphere/control.toml", "f3of/waves.toml"):
+        path = export(repository / "cases" / name, tmp_path / "3 devices.fmu", fmi=version)
+        assert problems(path) == []
+
+
+def test_the_importer_of_fmpy_sees_an_oscillation(fmu: Path) -> None:
+    result = simulate(
+        fmu, stop_time=2.0, output_interval=0.05, output=[X, V], start_values={LOAD: 20.0}
+    )
+    t = result["time"]
+    assert len(t) == 41
+    # a constant load of 20 N against a spring of 200 N/m
+    assert result[X] == pytest.approx(0.1 + 0.4 * np.cos(10.0 * t), abs=1e-7)
+    assert result[V] == pytest.approx(-4.0 * np.sin(10.0 * t), abs=1e-6)
+
+
+def test_steps_are_those_of_a_simulation(fmu: Path, tmp_path: Path) -> None:
+    run = Simulation(cart())
+    with Device(fmu, tmp_path) as device:
+        device.begin()
+        for k in range(40):
+            t = k * 0.05
+            load = -7.0 * device.get(V)[0]
+            assert load == -7.0 * run.read(V)
+            device.set(LOAD, load)
+            run.write(LOAD, load)
+            device.step(t, 0.05)
+            while run.time < t + 0.05:
+                run.advance(t + 0.05)
+            assert device.get("time", X) == [t + 0.05, run.read(X)]
+
+
+def test_a_hundred_rollbacks_change_nothing(fmu: Path, tmp_path: Path) -> None:
+    with Device(fmu, tmp_path) as device:
+        device.begin()
+        device.step(0.0, 0.3)
+        saved = device.save()
+        device.load(saved)
+        found = []
+        for _ in range(100):
+            device.set(LOAD, 5.0)
+            device.step(0.3, 0.05)
+            found.append(device.get(X, V, LOAD))
+            device.set(LOAD, -3.0)
+            device.step(0.35, 0.01)
+            device.load(saved)
+            assert device.get("time", LOAD) == [0.3, 0.0]
+        assert found == [found[0]] * 100
+
+
+CONTINUE = """
+import sys
+from pathlib import Path
+from tests.verification.fmu_device import Device, problems, simulate
+path, folder, state = map(Path, sys.argv[1:])
+with Device(path, folder) as device:
+    device.load(state.read_bytes())
+    device.step(0.3, 0.05)
+    print(*(x.hex() for x in device.get("time", "joints/slide/displacement")))
+"""
+
+
+def test_a_state_goes_on_in_a_new_process(fmu: Path, tmp_path: Path, repository: Path) -> None:
+    with Device(fmu, tmp_path / "a") as device:
+        device.set("body.cart.mass", 3.0)
+        device.begin(stop=2.5)
+        device.set(LOAD, 11.0)
+        device.step(0.0, 0.3)
+        (tmp_path / "state").write_bytes(device.save())
+        device.step(0.3, 0.05)
+        expected = [x.hex() for x in device.get("time", X)]
+    arguments = [str(fmu), str(tmp_path / "b"), str(tmp_path / "state")]
+    out = subprocess.run(
+        [sys.executable, "-c", CONTINUE, *arguments],
+        cwd=repository,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert out.stdout.split() == expected
+
+
+def test_a_reset_begins_anew(fmu: Path, tmp_path: Path) -> None:
+    with Device(fmu, tmp_path) as device:
+        device.set("body.cart.mass", 8.0)
+        device.begin()
+        device.step(0.0, 0.1)
+        # 200 N/m and 8 kg: 5 rad/s
+        assert device.get(X)[0] == pytest.approx(0.5 * np.cos(0.5), abs=1e-7)
+        device.fmu.reset()
+        assert device.get("body.cart.mass", LOAD) == [2.0, 0.0]
+        device.begin()
+        assert device.get("time", X) == [0.0, 0.5]
+
+
+def test_the_run_goes_on_to_a_later_stop_time(fmu: Path, tmp_path: Path) -> None:
+    with Device(fmu, tmp_path) as device:
+        device.begin(stop=3.0)
+        device.step(0.0, 3.0)
+        assert device.get(X)[0] == pytest.approx(0.5 * np.cos(30.0), abs=1e-6)
+
+
+MISTAKES = {
+    "a run begins at t = 0 s": lambda d: d.begin(start=1.0),
+    "the run has not begun": lambda d: d.step(0.0, 0.1),
+    "has no value before the run begins": lambda d: d.get(X),
+    "is an output": lambda d: d.set(X, 1.0),
+    "no variable with the reference 9999": lambda d: d.set_references([9999], [1.0]),
+    "is fixed since": lambda d: (d.begin(), d.set("solver.rtol", 1e-3)),
+    "the case ends at 2 s": lambda d: (d.begin(), d.step(0.0, 2.1)),
+    "but the run is at 0 s": lambda d: (d.begin(), d.step(0.1, 0.1)),
+    "expected > 0": lambda d: (d.begin(), d.step(0.0, -0.1)),
+    "forces/pto/load": lambda d: (d.begin(), d.set(LOAD, float("nan"))),
+    "these bytes are no state": lambda d: d.load(b"nothing of the kind"),
+    "mass": lambda d: (d.set("body.cart.mass", -1.0), d.begin()),
+}
+
+
+@pytest.mark.parametrize("message", MISTAKES)
+def test_mistakes_are_told(
+    message: str, fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with Device(fmu, tmp_path) as device:
+        with pytest.raises(Exception, match="failed with status"):
+            MISTAKES[message](device)
+        assert message in capfd.readouterr().out
+
+
+def test_resources_of_another_fmu_are_refused(
+    fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(tmp_path / "parts")
+    other = tmp_path / "parts" / "resources" / "variables.txt"
+    other.write_text(other.read_text().replace("token\t", "token\tx"))
+    mixed = tmp_path / "mixed.fmu"
+    with zipfile.ZipFile(mixed, "w") as archive:
+        for file in (tmp_path / "parts").rglob("*.*"):
+            archive.write(file, file.relative_to(tmp_path / "parts"))
+    with pytest.raises(Exception, match="instantiate"):
+        Device(mixed, tmp_path / "mixed")
+    assert "of different FMUs" in capfd.readouterr().out
+
+
+def test_a_controller_of_the_case_runs_inside(repository: Path, tmp_path: Path) -> None:
+    case = repository / "cases" / "control" / "case.toml"
+    path = tmp_path / "float.fmu"
+    assert main(["fmu", str(case), "-o", str(path), "--outputs", "joints/*", "controllers/*"]) == 0
+    results = hydrodae.run(case)
+    with Device(path, tmp_path / "float") as device:
+        assert LOAD not in device.references  # the controller has it
+        device.begin()
+        for k in range(200):
+            device.step(k * 0.05, 0.05)
+        found = device.get(X, "controllers/pi/output")
+    last = [float(results[name][-1]) for name in (X, "controllers/pi/output")]
+    assert found == pytest.approx(last, rel=1e-6)
+
+
+def test_what_cannot_be_in_an_fmu_is_refused(tmp_path: Path) -> None:
+    controller = """
+    [[controller]]
+    type = "python"
+    name = "law"
+    inputs = ["joints/slide/displacement"]
+    outputs = ["forces/pto/load"]
+    period = 0.05
+    """
+    with pytest.raises(CaseError, match="'law' is a Python function"):
+        export(hydrodae.Case.from_text(CART + controller), tmp_path / "x.fmu")
+    with pytest.raises(CaseError, match="no input 'forces/pto/laod'; did you mean"):
+        export(cart(), tmp_path / "x.fmu", inputs=["forces/pto/laod"])
+    with pytest.raises(CaseError, match=r"solver\.atol: a parameter must be a number"):
+        export(cart(), tmp_path / "x.fmu", parameters=["solver.atol"])
+    with pytest.raises(CaseError, match="there are 2 and 3"):
+        export(cart(), tmp_path / "x.fmu", fmi=1)

@@ -1,0 +1,198 @@
+"""Controllers designed from the linear model of a case against closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+import hydrodae
+from hydrodae import CaseError
+from hydrodae.cli import main
+from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant, match
+
+OMEGA, AMPLITUDE, PERIOD = 1.2, 0.01, 0.1  # rad/s, m: of cases/sphere/control.toml; s
+SLIDE = "joints/guide/displacement"
+SPRING = """
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [-1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "guide"
+stiffness = 200.0
+damping = 3.0
+[solver]
+end_time = 1.0
+"""
+
+
+@pytest.fixture(scope="module")
+def sphere(repository: Path) -> Plant:
+    return Plant(repository / "cases" / "sphere" / "control.toml", "guide")
+
+
+def test_the_model_of_a_cart_is_exact() -> None:
+    """2 kg, 200 N/m, 3 N s/m: the motion from rest under a held load, in closed form."""
+    plant = Plant(hydrodae.Case.from_text(SPRING), "guide")
+    step, held, early, late = plant.sampled(0.07)
+    y = step @ [0.3, 0.0] + held * 5.0
+    decay, omega = 0.75, np.sqrt(100.0 - 0.75**2)
+    mean, start = 5.0 / 200.0, 0.3 - 5.0 / 200.0
+    phase = omega * 0.07
+    expected = mean + start * np.exp(-decay * 0.07) * (
+        np.cos(phase) + decay / omega * np.sin(phase)
+    )
+    assert y[0] == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_allclose(early + late, held, rtol=1e-12)
+    z = plant.impedance([4.0])[0]
+    assert z == pytest.approx(3.0 + 1j * (4.0 * 2.0 - 200.0 / 4.0))
+
+
+def test_the_memory_of_the_model_has_the_impedance_of_the_tables(sphere: Plant) -> None:
+    system, entry = sphere.matrices
+    for omega in (0.6, OMEGA, 2.0):
+        rate = np.linalg.solve(1j * omega * np.eye(len(system)) - system, entry)[1]
+        assert 1.0 / rate == pytest.approx(sphere.impedance(omega)[0], rel=2e-3)
+
+
+def test_design_reaches_the_most_power(repository: Path, capsys: pytest.CaptureFixture) -> None:
+    """A run with the gains that the command prints takes |F|^2 / (8 Re Z) within 2 %."""
+    path = repository / "cases" / "sphere" / "control.toml"
+    assert main(["control", "design", str(path), "--joint", "guide"]) == 0
+    told = dict(line.split("=") for line in capsys.readouterr().out.splitlines() if "=" in line)
+    gains = {f"controller.pi.{k.strip()}": float(v.split("#")[0]) for k, v in told.items()}
+    results = hydrodae.run(path, set=gains)
+    most = match(Plant(path, "guide"), 2.0 * np.pi / OMEGA).power * AMPLITUDE**2
+    assert mean_power(results) == pytest.approx(most, rel=0.02)
+
+
+def mean_power(results: hydrodae.Results, periods: int = 6) -> float:
+    """What the power take-off absorbs over the last periods of the wave [W]."""
+    span = periods * 2.0 * np.pi / OMEGA
+    work, end = results["energy/work/pto"].values, results.time[-1]
+    return float(np.interp(end - span, results.time, work) - work[-1]) / span
+
+
+def test_design_says_what_it_needs(repository: Path) -> None:
+    path = repository / "cases" / "sphere" / "control.toml"
+    with pytest.raises(CaseError, match="expected > 0"):
+        match(Plant(path, "guide"), -1.0)
+    with pytest.raises(CaseError, match="say which period"):
+        match(Plant(hydrodae.Case.from_text(SPRING), "guide"))
+    with pytest.raises(CaseError, match="one free motion; this one has 2"):
+        Plant(repository / "cases" / "f3of" / "waves.toml", "hinge1")
+
+
+def make_law(plant: Plant, **values: object) -> ModelPredictive:
+    pytest.importorskip("osqp", reason="needs the extra control")
+    given: dict = {"period": PERIOD, "horizon": 80, "damping": 0.0, "weight": 1e-8, **values}
+    return ModelPredictive(plant, KnownSea(plant, PERIOD, 20.0), **given)
+
+
+def predictive_case(repository: Path, **values: object) -> hydrodae.Case:
+    folder = repository / "cases" / "sphere"
+    text = (folder / "control.toml").read_text()
+    head, tail = text.split("gain_p")[0], "[solver]" + text.split("[solver]")[1]
+    head = head.replace('"pid"', '"python"').replace("inputs = [", f'inputs = ["{SLIDE}", ')
+    case = hydrodae.Case.from_text(head + tail, folder)
+    return case.with_values({"controller.pi.period": PERIOD, **values})
+
+
+def test_prediction_finds_the_most_power(repository: Path, sphere: Plant) -> None:
+    """Without limits, in a regular wave that it knows: |F|^2 / (8 Re Z), by no formula of it."""
+    results = hydrodae.run(predictive_case(repository), controllers={"pi": make_law(sphere)})
+    most = match(sphere, 2.0 * np.pi / OMEGA).power * AMPLITUDE**2
+    assert mean_power(results) == pytest.approx(most, rel=0.02)
+
+
+def test_limits_are_kept(repository: Path, sphere: Plant) -> None:
+    short = {"solver.end_time": 60.0}
+    free = hydrodae.run(predictive_case(repository, **short), controllers={"pi": make_law(sphere)})
+    stroke = 0.6 * float(np.abs(free[SLIDE]).max())
+    force = 0.6 * float(np.abs(free["forces/pto/force"]).max())
+    limits = {"stroke": (-stroke, stroke), "load_limit": force, "rate_limit": 1e4}
+    law = make_law(sphere, weight=1e-6, **limits)
+    held = hydrodae.run(predictive_case(repository, **short), controllers={"pi": law})
+    assert np.abs(held[SLIDE]).max() < 1.01 * stroke
+    load = held["controllers/pi/output"].to_numpy()
+    assert np.abs(load).max() <= force
+    assert np.abs(np.diff(load)).max() <= 1e4 * PERIOD * 1.001
+    assert held["energy/work/pto"][-1] < 0.0
+
+
+def test_the_program_is_solved(sphere: Plant) -> None:
+    """The cost that the class states, written down again and minimised by SciPy."""
+    count, limit, c, r, unit = 12, 1500.0, 2e4, 1e-6, 1e3
+    law = make_law(sphere, horizon=count, damping=c, weight=r, load_limit=limit)
+    first = law(14.0, sphere.rest + 0.01, 0.0)
+    step, held, early, late = sphere.sampled(PERIOD)
+    wave = KnownSea(sphere, PERIOD, 20.0).ahead(14.0, count + 1)
+
+    def cost(loads: np.ndarray) -> float:
+        y = np.zeros(len(step))
+        y[0], total = 0.01, 0.0
+        for k, u in enumerate(unit * loads):
+            after = step @ y + held * u + early * wave[k] + late * wave[k + 1]
+            move = after[0] - y[0]
+            total += u * move + 0.5 * r * PERIOD * (u + c * move / PERIOD) ** 2
+            y = after
+        return float(total)
+
+    bounds = [(-limit / unit, limit / unit)] * count
+    found = unit * minimize(cost, np.zeros(count), bounds=bounds, method="L-BFGS-B", tol=1e-15).x
+    assert np.abs(found[2:]).min() == pytest.approx(limit)
+    assert abs(found[0]) < 0.9 * limit
+    assert first == pytest.approx(found[0], rel=1e-4)
+
+
+def test_a_state_of_the_controller_goes_on_alike(sphere: Plant) -> None:
+    one, two = make_law(sphere, load_limit=50.0), make_law(sphere, load_limit=50.0)
+    inputs = [(PERIOD * k, 0.002 * np.sin(k), 0.003 * np.cos(k)) for k in range(12)]
+    for values in inputs[:6]:
+        one(*values)
+    two.restore(one.state())
+    assert [one(*v) for v in inputs[6:]] == [two(*v) for v in inputs[6:]]
+
+
+def test_two_sines_are_foretold() -> None:
+    """Means of two sines over the steps obey a recursion of order 4: the forecast finds it."""
+    forecast = AutoregressiveForecast(order=8, window=200, every=10)
+
+    def load(t: np.ndarray) -> np.ndarray:
+        return np.asarray(3.0 * np.sin(1.1 * t) + 2.0 * np.cos(1.7 * t + 0.4))
+
+    def integral(t: np.ndarray) -> np.ndarray:
+        return np.asarray(-3.0 / 1.1 * np.cos(1.1 * t) + 2.0 / 1.7 * np.sin(1.7 * t + 0.4))
+
+    ends = 0.2 * np.arange(201)
+    for mean in np.diff(integral(ends)) / 0.2:
+        forecast.observe(float(mean))
+    ahead = forecast.ahead(40.0, 20)
+    np.testing.assert_allclose(ahead, load(40.0 + 0.2 * np.arange(20)), atol=0.06)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"weight": 0.0}, "weight > 0"),
+        ({"load_limit": 0.0}, "limits must be positive"),
+        ({"stroke": (1.0, -1.0)}, "stroke ascending"),
+    ],
+)
+def test_wrong_numbers_are_refused(sphere: Plant, values: dict, message: str) -> None:
+    with pytest.raises(CaseError, match=message):
+        make_law(sphere, **values)

@@ -1,0 +1,104 @@
+"""The arm of the control competition: its loop against one equation, its scores."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from tests.verification.wecccomp import Arm
+
+import hydrodae
+from hydrodae.frequency import LinearModel
+from hydrodae.frequency.sea import wave_components
+
+FLOAT = [f"bodies/float/{name}" for name in ("surge", "heave", "pitch")]
+
+
+def load(folder: Path, name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"wecccomp_{name}", folder / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # where dataclasses look themselves up
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def folder(repository: Path) -> Path:
+    return repository / "cases" / "wecccomp"
+
+
+@pytest.fixture(scope="module")
+def database(folder: Path, reference: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """hydro.h5 as README.md makes it."""
+    path = tmp_path_factory.mktemp("wecccomp") / "hydro.h5"
+    load(folder, "make_database").make(reference / "wecccomp").write(path)
+    return path
+
+
+def test_the_loop_is_its_reduction(folder: Path, database: Path, reference: Path) -> None:
+    """Thirteen constraint rows and links of 1e-4 kg, or one equation: the same within 1e-6."""
+    damping, ramp = 200.0, 5.0
+    case = hydrodae.Case(
+        path=folder / "case.toml",
+        values={
+            "hydro.database": str(database),
+            "sea.ramp": ramp,
+            "solver.end_time": 12.0,
+            "solver.rtol": 1e-10,
+            "force.pto.damping": damping,
+            "wave.sea.significant_height": 0.2,  # so that the angles are not small
+        },
+    )
+    results = hydrodae.run(case)
+    model = LinearModel(case)
+    waves = wave_components(case)
+    columns = [model.coordinates.index(name) for name in FLOAT]
+    force = model.excitation(waves[:, 0], 0.0)[:, columns]
+    arm = Arm(
+        reference / "wecccomp" / "model.json",
+        hydrodae.hdb.read(database),
+        waves,
+        force,
+        ramp,
+        damping,
+    )
+    stroke, rate = arm.run(results.time)
+    assert np.ptp(results["joints/A/angle"].to_numpy()) > np.radians(15.0)
+    for name, expected in (("displacement", stroke), ("displacement_rate", rate)):
+        found = results[f"joints/slide/{name}"].to_numpy()
+        np.testing.assert_allclose(found, expected, atol=1e-6 * np.abs(expected).max())
+
+
+def test_a_score_is_what_the_competition_says(folder: Path) -> None:
+    """A sine of 10 N and 0.1 m/s in phase, 20 s: mean 0.35 W, peaks at the percentile."""
+    score = load(folder, "score")
+    t = np.arange(25.0, 45.0, 0.001)
+    f, rate = -10.0 * np.sin(np.pi * t), 0.1 * np.sin(np.pi * t)
+    s = -0.1 / np.pi * np.cos(np.pi * t)
+    found = score.evaluate(t, f, s, rate)
+    # |sin| is above sin(0.98 pi / 2) for 2 % of the time
+    high = np.sin(0.49 * np.pi)
+    fee = 2.0 + 10.0 * high / 60.0 + 0.1 / np.pi * high / 0.08 - 0.35 / (0.7 * high**2)
+    assert found.power == pytest.approx(0.35, rel=1e-3)
+    assert found.ec == pytest.approx(0.35 / fee, rel=1e-3)
+    given = score.evaluate(t, -f, s, rate)
+    assert given.power == pytest.approx(-0.5 / 0.7, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sea", [1, 2, 3, 4, 5, 6])
+def test_prediction_beats_the_best_damper(folder: Path, database: Path, sea: int) -> None:
+    pytest.importorskip("osqp", reason="needs the extra control")
+    score = load(folder, "score")
+    best = score.run(sea, "passive", database=str(database))
+    for controller in ("predictive", "autoregressive"):
+        found = score.run(sea, controller, database=str(database))
+        assert found.ec > best.ec, controller
+        assert found.most_force <= 60.0
+        assert found.most_stroke <= 0.08
