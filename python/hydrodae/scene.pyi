@@ -1990,11 +1990,16 @@ class ForceTypes(TypedList):
         pretension: float = ...,
         winch_time: _Numbers = ...,
         winch_length: _Numbers = ...,
+        radii: _Numbers = ...,
+        axes: _Rows = ...,
+        turns: _Numbers = ...,
+        friction: _Numbers = ...,
+        slip_viscosity: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "rope".
 
-        Elastic rope without mass over points of bodies, which pulls only; with a winch if
-        wanted.
+        Elastic rope without mass over points and sheaves of bodies, which pulls only; with
+        friction and a winch if wanted.
 
         Parameters
         ----------
@@ -2017,7 +2022,24 @@ class ForceTypes(TypedList):
         winch_time : list of numbers, s, optional
             Times, ascending, of `winch_length`.
         winch_length : list of numbers, m, optional
-            Unstretched lengths at these times. Allowed: > 0.
+            Unstretched lengths at these times; with friction the winch is at the first point.
+            Allowed: > 0.
+        radii : list of numbers, m, optional
+            Radii of the sheaves, one for each point, which is the centre; 0: a point, as the
+            ends. Allowed: >= 0.
+        axes : list of points, optional
+            Axes of the sheaves, one for each point (any where there is none), world axes: from
+            the first point to the last the rope runs round them by the rule of the right hand.
+        turns : list of numbers, optional
+            Full turns about each sheave, beside the angle between its straight parts. Allowed:
+            >= 0.
+        friction : list of numbers, optional
+            Coefficient mu of friction on each point or sheave: the tensions beside it differ by
+            up to exp(mu phi), phi the angle of wrap. A sheave without it turns freely. Allowed:
+            >= 0.
+        slip_viscosity : number, s/m, default 1e-09
+            Growth of the friction with the speed of slip, over EA: what makes slip unique. 1e-9
+            s/m of a rope at a strain of 0.001 are 1e-6 of its tension at 1 m/s. Allowed: > 0.
 
         Returns
         -------
@@ -2179,6 +2201,7 @@ class ForceTypes(TypedList):
         added_mass: _Numbers = ...,
         added_mass_axial: _Numbers = ...,
         breaking_load: _Numbers = ...,
+        contact_diameter: _Numbers = ...,
         pretension: float = ...,
         attachment_at: _Numbers = ...,
         attachment_mass: _Numbers = ...,
@@ -2239,6 +2262,9 @@ class ForceTypes(TypedList):
             C_at: added mass along the line. Allowed: >= 0.
         breaking_load : list of numbers, N, optional
             Breaking loads of the parts; reported, nothing breaks. Allowed: > 0.
+        contact_diameter : list of numbers, m, optional
+            Width of the parts where they lie on the seabed, their axes half of it above: links
+            are wider than D; default: D, the axis on the seabed. Allowed: > 0.
         pretension : number, N, optional
             Tension at B in the reference pose; the length of the first part follows from it.
             Allowed: > 0.
@@ -2258,10 +2284,10 @@ class ForceTypes(TypedList):
         seabed_depth : number, m, optional
             Depth of the seabed; default: that of the water. Allowed: > 0.
         seabed_stiffness : number, N/m3, optional
-            Normal stiffness of the seabed, over D; default: the line lies a tenth of D deep.
-            Allowed: > 0.
+            Normal stiffness of the seabed, over the width in contact; default: the line lies a
+            tenth of D deep. Allowed: > 0.
         seabed_damping : number, N s/m3, default 0
-            Normal damping of the seabed, over D, on the way down. Allowed: >= 0.
+            Normal damping of the seabed, over the same width, on the way down. Allowed: >= 0.
         seabed_friction : number, default 0
             Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at
             rest. Allowed: >= 0.

@@ -275,7 +275,7 @@ stiffness = [5e7]
 
 def orcaflex(reference: Path, depth: int, motion: str) -> tuple[np.ndarray, np.ndarray]:
     """Computed and OrcaFlex's tension at the fairlead [kN], from t = 0 every 0.1 s."""
-    anchor, length, n = {50: (400, 410, 41), 200: (700, 760, 76), 600: (1500, 1700, 170)}[depth]
+    anchor, length, n = {50: (400, 410, 82), 200: (700, 760, 76), 600: (1500, 1700, 170)}[depth]
     folder = reference / "lines"
     with (folder / f"orcaflex_motion_ZZP1_{motion}.csv").open() as file:
         rows = [[float(x) for x in row] for row in list(csv.reader(file))[1:]]
@@ -301,7 +301,7 @@ drive = {{ time = {times}, values = {heave} }}
         f"point_b = [0.0, 0.0, 0.0]\nlength = [{length}.0]\nsegments = [{n}]\nmass = [390.0]\n"
         "diameter = [0.252]\nstiffness = [1.674e9]\ndamping_ratio = [1.0]\ndrag = [1.37]\n"
         f"drag_axial = [{0.64 / math.pi!r}]\nadded_mass = [1.0]\n"
-        "seabed_stiffness = 1e5\nseabed_damping = 1e4\n"
+        f"contact_diameter = [{3.35 * 0.14!r}]\nseabed_stiffness = 1e5\nseabed_damping = 1e4\n"
         "seabed_friction = 0.5"
     )
     run = hydrodae.run(case(text, "end_time = 29.9\nrtol = 1e-3", 0.1))
@@ -315,17 +315,22 @@ drive = {{ time = {times}, values = {heave} }}
 @pytest.mark.parametrize(
     ("depth", "motion", "bar"),
     [
-        (50, "A1", 0.15),  # most of it at rest: 1.4 % more tension than other codes
-        (50, "A2", 0.13),
+        (50, "A1", 0.09),
+        (50, "A2", 0.08),
         (200, "A1", 0.06),
-        (200, "A2", 0.05),
-        (600, "A1", 0.065),
-        (600, "A2", 0.05),
+        (200, "A2", 0.045),
+        (600, "A1", 0.075),
+        (600, "A2", 0.035),
     ],
 )
 def test_tensions_of_orcaflex(reference: Path, depth: int, motion: str, bar: float) -> None:
-    """Largest difference over the range, from slack to snap. Their axial drag is over D."""
+    """Largest difference over the range, from slack to snap. Their axial drag is over D.
+
+    Chain of 140 mm, whose links are 3.35 d wide: its axis lies 0.23 m above the bed. Where half the
+    line rattles on the bed, in 50 m, it takes twice their segments.
+    """
     ours, theirs = orcaflex(reference, depth, motion)
+    assert ours.mean() == pytest.approx(theirs.mean(), rel=3e-3)
     assert np.abs(ours - theirs).max() < bar * np.ptp(theirs)
 
 

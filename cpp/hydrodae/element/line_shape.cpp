@@ -15,7 +15,7 @@ double net_weight(const LineModel& m, const LineNode& node) {
 }
 
 /// Where a node lies on the bed.
-double lowest(const LineModel& m, int node) {
+double resting_height(const LineModel& m, int node) {
   return m.bed + m.nodes[static_cast<std::size_t>(node)].axis_height;
 }
 
@@ -139,7 +139,7 @@ VectorX line_shape(const LineModel& m, const double* x, const Vector3& free_end)
     spread(m, a, b, places);
   }
   for (int i = 0; i < m.n_unknown(); ++i)
-    places[3 * i + 2] = std::max(places[3 * i + 2], lowest(m, i + 1));
+    places[3 * i + 2] = std::max(places[3 * i + 2], resting_height(m, i + 1));
   return places;
 }
 
