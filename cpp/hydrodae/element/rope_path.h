@@ -21,7 +21,7 @@ inline constexpr int most_rope_nodes = 20;
 /// A point of the rope, or a sheave.
 template <class S> struct RopeNode {
   double radius = 0.0;
-  Vec3<S> place, velocity;
+  Vec3<S> place = Vec3<S>::Zero(), velocity = Vec3<S>::Zero();
   Vec3<S> axis = Vec3<S>::Zero(), axis_rate = Vec3<S>::Zero(); ///< a, a'
   Vec3<S> across = Vec3<S>::Zero();                            ///< b, across the axis
   S spin = S(0); ///< of its body about the axis [rad/s]
