@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 from tests.attack import (  # noqa: F401  the modules register their families
+    buoyancy,
     driven,
     drives,
     hinges,
