@@ -132,7 +132,7 @@ def test_interpolation_makes_the_tables_causal(nemoh, reference):
         assert off[1] < 0.06 < off[0]
         truth = np.interp(nemoh.omega[bad], other.omega, np.abs(other.excitation[:, 0, i]))
         off = np.abs(np.abs(clean.excitation[bad, 0, i]) - truth)
-        assert off.max() < 0.01 * np.abs(other.excitation[:, 0, i]).max()
+        assert off.max() < 0.015 * np.abs(other.excitation[:, 0, i]).max()
 
 
 def test_bad_frequencies_at_the_end_are_left_out(nemoh, monkeypatch):
@@ -298,7 +298,7 @@ def test_doctor_repairs_writes_and_draws(reference, tmp_path, capsys):
     assert picture.stat().st_size > 50_000
     db = hdb.read(out)
     assert db.omega.size == 420
-    assert db.repairs[0].startswith("irregular: left out 16")
+    assert db.repairs[0].startswith("irregular: interpolated 16")
     assert "repaired   irregular: left out" in db.summary()
 
 

@@ -103,7 +103,8 @@ def _poles(problem: Problem, goal: Goal, say: Progress) -> ComplexArray:
     """Raise the number of common poles until a full-rank fit is well below the goal."""
     best: tuple[float, ComplexArray] | None = None
     behind = 0
-    for count in range(12, min(MOST_POLES, problem.samples.omega.size // 2) + 1, 4):
+    most = min(MOST_POLES, problem.samples.omega.size // 4 * 2)
+    for count in range(min(12, most), most + 1, 4):
         poles = _relocated(problem, count)
         coefficients, _, _ = solve_residues(poles, problem.samples)
         modes = from_residues(poles, coefficients, problem, count * problem.size)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, median_filter
 
 from hydrodae import irf
-from hydrodae.hdb.checks.band import Band, inside
+from hydrodae.hdb.checks.band import Band, damping_sizes, inside
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
@@ -68,7 +68,8 @@ def suspect_rows(database: HydroDatabase) -> NDArray[np.bool_]:
     spread = 1.4826 * float(np.median(np.abs(spike - middle)))
     found = spike - middle > max(SPREADS * spread, LEAST)
     found[-2:] = False
-    found |= scaled_damping_eigenvalues(database) < NEGATIVE
+    # noise of what hardly damps the device is no reason to drop a frequency
+    found |= scaled_damping_eigenvalues(database, damping_sizes(database)) < NEGATIVE
     return np.asarray(binary_dilation(found), dtype=bool)
 
 
