@@ -24,15 +24,21 @@ ls -lh "$folder"/*.whl
 "$python" -m venv "$work/venv"
 "$work/venv/bin/python" -m pip install -q "$work"/whole/*.whl
 
-# In a mount namespace of its own an empty file lies over each library that the wheel brings along.
+# In a mount namespace of its own an empty file lies over each library that the wheel brings along,
+# but for those that Python itself needs.
 cat >"$work/try.sh" <<'TRY'
 set -euo pipefail
 shopt -s nullglob
+modules=$("$1/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_config_var("DESTSHARED"))')
+needed=$(ldd "$modules"/*.so "$(readlink -f "$1/venv/bin/python")" 2>/dev/null || true)
 for inside in "$1"/venv/lib/python3*/site-packages/hydrodae.libs/*; do
   name=$(basename "$inside")
   for file in /lib/*-linux-gnu/"${name%%-*}".so* /lib64/"${name%%-*}".so*; do
     real=$(readlink -f "$file")
-    [[ -s $real ]] && mount --bind /dev/null "$real"
+    if [[ -s $real && $needed != *"/${name%%-*}.so"* ]]; then
+      mount --bind /dev/null "$real"
+      printf 'hidden: %s\n' "$real"
+    fi
   done
 done
 cd "$1"
