@@ -35,7 +35,7 @@ def draw_regular(results: Results, layout: parts.Layout) -> Figure:
     ):
         axis.plot(results.time, np.degrees(values), label=label)
     axis.set(xlabel="time, s", ylabel="pitch, deg", title=results.title)
-    axis.legend(loc="upper left")
+    figure.legend(loc="outside right upper")
     axis.grid(alpha=0.3)
     return figure
 
