@@ -36,35 +36,16 @@ SEAS = (
 )
 RATE = "displacement_rate"
 PERIOD = 0.04  # of the model-predictive controller [s]
-NATURAL = 0.819  # period of the device [s]
 
 #: What each controller has in each sea: damping [N s/m]; damping and stiffness [N/m]; damping and
 #: weight [m/(N s)] of the model-predictive one.
 SETTINGS: dict[str, tuple[tuple[float, ...], ...]] = {
     "passive": ((150.0,), (200.0,), (300.0,), (150.0,), (200.0,), (300.0,)),
     "pi": 2 * ((147.0, -415.0), (210.0, -930.0), (297.0, -1170.0)),
-    "latching": ((150.0,), (200.0,), (300.0,), (150.0,), (200.0,), (300.0,)),
     "predictive": 2 * ((0.0, 1e-3), (200.0, 2e-3), (300.0, 1.5e-3)),
 }
 SETTINGS["autoregressive"] = SETTINGS["predictive"]
 
-LATCH = """
-[[force]]
-type = "dry_friction"
-name = "latch"
-joint = "slide"
-static = 60.0
-kinetic = 0.0
-
-[[controller]]
-type = "latching"
-name = "latching"
-inputs = ["joints/slide/displacement_rate"]
-outputs = ["forces/latch/static"]
-hold_load = 60.0
-hold_time = {hold}
-period = 0.05
-"""
 PREDICTIVE = f"""
 [[controller]]
 type = "python"
@@ -104,8 +85,6 @@ def case_of(sea: int, controller: str, settings: tuple[float, ...], database: st
     """The case in sea 1 ... 6 with what its controller needs."""
     height, peak, gamma = SEAS[sea - 1]
     text = (HERE / "case.toml").read_text()
-    if controller == "latching":
-        text += LATCH.format(hold=0.5 * (peak - NATURAL))
     if controller in ("predictive", "autoregressive"):
         text += PREDICTIVE
     values: dict[str, Any] = {
@@ -116,7 +95,7 @@ def case_of(sea: int, controller: str, settings: tuple[float, ...], database: st
         "sea.ramp": 5.0 * peak,
         "solver.end_time": 100.0 * peak,
     }
-    if controller in ("passive", "latching", "pi"):
+    if controller in ("passive", "pi"):
         values["force.pto.damping"] = settings[0]
     if controller == "pi":
         values["force.pto.stiffness"] = settings[1]
@@ -156,8 +135,6 @@ def run(
     results = hydrodae.run(case, controllers=law)
     seconds = time.process_time() - before
     force = results["forces/pto/force"].to_numpy()
-    if controller == "latching":
-        force = force + results["forces/latch/force"].to_numpy()
     slide = (results[f"joints/slide/{name}"].to_numpy() for name in ("displacement", RATE))
     score = evaluate(results.time, force, *slide)
     return replace(score, seconds=seconds)

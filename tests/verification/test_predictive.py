@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -119,19 +120,29 @@ def test_prediction_finds_the_most_power(repository: Path, sphere: Plant) -> Non
     assert mean_power(results) == pytest.approx(most, rel=0.02)
 
 
-def test_limits_are_kept(repository: Path, sphere: Plant) -> None:
-    short = {"solver.end_time": 60.0}
-    free = hydrodae.run(predictive_case(repository, **short), controllers={"pi": make_law(sphere)})
-    stroke = 0.6 * float(np.abs(free[SLIDE]).max())
-    force = 0.6 * float(np.abs(free["forces/pto/force"]).max())
-    limits = {"stroke": (-stroke, stroke), "load_limit": force, "rate_limit": 1e4}
-    law = make_law(sphere, weight=1e-6, **limits)
-    held = hydrodae.run(predictive_case(repository, **short), controllers={"pi": law})
-    assert np.abs(held[SLIDE]).max() < 1.01 * stroke
-    load = held["controllers/pi/output"].to_numpy()
-    assert np.abs(load).max() <= force
-    assert np.abs(np.diff(load)).max() <= 1e4 * PERIOD * 1.001
-    assert held["energy/work/pto"][-1] < 0.0
+def driven(plant: Plant, law: ModelPredictive, end: float) -> tuple[np.ndarray, np.ndarray]:
+    """Strokes and loads of the linear model under a controller."""
+    step, held, early, late = plant.sampled(PERIOD)
+    wave = KnownSea(plant, PERIOD, 20.0).ahead(0.0, round(end / PERIOD) + 1)
+    y, out = np.zeros(len(step)), []
+    for k, (now, then) in enumerate(pairwise(wave)):
+        load = law(k * PERIOD, plant.rest + y[0], y[1])
+        out.append((y[0], load))
+        y = step @ y + held * load + early * now + late * then
+    strokes, loads = np.array(out).T
+    return strokes, loads
+
+
+def test_limits_are_kept(sphere: Plant) -> None:
+    weight, end = 1e-6, 45.0
+    free, loads = driven(sphere, make_law(sphere, weight=weight), end)
+    stroke, force = 0.8 * np.abs(free).max(), 0.6 * np.abs(loads).max()
+    within, _ = driven(sphere, make_law(sphere, weight=weight, stroke=(-stroke, stroke)), end)
+    assert 0.98 * stroke < np.abs(within).max() < 1.01 * stroke
+    law = make_law(sphere, weight=weight, load_limit=force, rate_limit=1e3)
+    _, loads = driven(sphere, law, end)
+    assert np.abs(loads).max() == pytest.approx(force)
+    assert np.abs(np.diff(loads)).max() <= 1e3 * PERIOD * 1.001
 
 
 def test_the_program_is_solved(sphere: Plant) -> None:

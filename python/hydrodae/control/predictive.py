@@ -15,8 +15,9 @@ from hydrodae.extras import install_command
 
 Array = NDArray[np.float64]
 
-#: How dear it is to exceed the stroke, against the curvature of the program.
-_EXCEED = 1e3
+#: How dear it is to exceed the stroke, against all slopes of the program: dearer than what the
+#: loads can earn by it, so that the stroke is kept where they can keep it.
+_EXCEED = 10.0
 
 
 class ModelPredictive:
@@ -134,7 +135,7 @@ class ModelPredictive:
         finite = [span for span in (*spans, self._rate_limit * period) if math.isfinite(span)]
         self._unit = finite[0] if finite else 1.0
         whole = np.zeros((n + 1, n + 1))
-        whole[:n, :n], whole[n, n] = hessian / self._scale, _EXCEED
+        whole[:n, :n], whole[n, n] = hessian / self._scale, 1.0
         one, zero = np.ones((n, 1)), np.zeros((n, 1))
         stroke = self._by_load / self._reach
         self._rows = sparse.csc_matrix(
@@ -144,6 +145,7 @@ class ModelPredictive:
                     np.hstack([self._difference, zero]),
                     np.hstack([stroke, -one]),
                     np.hstack([stroke, one]),
+                    np.append(np.zeros(n), 1.0),
                 ]
             )
         )
@@ -212,14 +214,15 @@ class ModelPredictive:
         change = np.full(n, self._rate_limit * self._period)
         first, none = np.zeros(n), np.full(n, np.inf)
         first[0] = self._last
-        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach]
-        high = [np.full(n, load), first + change, (upper - free) / self._reach, none]
+        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach, [0.0]]
+        high = [np.full(n, load), first + change, (upper - free) / self._reach, none, [np.inf]]
         bounds = np.concatenate(low), np.concatenate(high)
         best = np.append(-np.linalg.solve(self._hessian, linear), 0.0)
         rows = self._rows @ best
         if np.all(rows >= bounds[0]) and np.all(rows <= bounds[1]):
             return best[:n]  # no limit matters
-        slopes = np.append(linear, 0.0) / (self._scale * self._unit)
+        slopes = linear / (self._scale * self._unit)
+        slopes = np.append(slopes, _EXCEED * np.abs(slopes).sum())
         return self._unit * self._solve_within(slopes, *(bound / self._unit for bound in bounds))
 
     def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
