@@ -57,7 +57,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     how.add_argument("--size", metavar="WxH", default="1280x720", help="pixels (1280x720)")
     how.add_argument("--rate", metavar="N", type=float, default=25.0, help="frames a second (25)")
     how.add_argument(
-        "--speed", metavar="S", type=float, default=1.0, help="of the video: simulated time over real"
+        "--speed",
+        metavar="S",
+        type=float,
+        default=1.0,
+        help="of the video: simulated time over real",
     )
 
 
@@ -113,7 +117,9 @@ def _shape(text: str) -> tuple[str, str]:
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.partition("x")
     if not (width.isdigit() and height.isdigit()) or min(int(width), int(height)) < 64:
-        raise CaseError(f"--size {text!r}: expected WIDTHxHEIGHT of at least 64 pixels, as 1280x720")
+        raise CaseError(
+            f"--size {text!r}: expected WIDTHxHEIGHT of at least 64 pixels, as 1280x720"
+        )
     return int(width), int(height)
 
 

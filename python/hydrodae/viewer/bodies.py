@@ -122,10 +122,10 @@ def _surface(
     members = _members(entry["name"], tables)
     if members:
         return np.concatenate(members), NOTHING, "its Morison members"
-    if len(ends) > 1:
+    sides = _box_of_inertia(entry)
+    if len(ends) > 1 and not (sides is not None and _inside(ends, center, sides, entry)):
         longest = max(float(np.linalg.norm(a - b)) for a in ends for b in ends)
         return shapes.rods(center, ends, SLENDER * longest), NOTHING, "rods to what it holds"
-    sides = _box_of_inertia(entry)
     if sides is not None:
         hull = shapes.box(length=sides[0], width=sides[1], height=sides[2]) @ _axes(entry).T
         return hull + center, NOTHING, "the solid box that has its inertia"
@@ -144,7 +144,7 @@ def _from_hydrostatics(hs: Hydrostatics) -> Array:
     radius, draught = float(np.sqrt(area / np.pi)), volume / area
     length = draught * 1.15  # with a freeboard
     hull = shapes.cylinder(radius=radius, length=length)
-    return np.asarray(hull + [middle[0], middle[1], 0.5 * length - draught])
+    return np.asarray(hull + np.array([middle[0], middle[1], 0.5 * length - draught]))
 
 
 def _members(body: str, tables: Mapping[str, Any]) -> list[Array]:
@@ -173,7 +173,15 @@ def _box_of_inertia(entry: Mapping[str, Any]) -> Array | None:
     if squares.min() < -1e-6 * squares.max() or squares.max() <= 0.0:
         return None
     longest = float(np.sqrt(squares.max()))
-    return np.maximum(np.sqrt(np.maximum(squares, 0.0)), 0.02 * longest)
+    return np.asarray(np.maximum(np.sqrt(np.maximum(squares, 0.0)), 0.02 * longest))
+
+
+def _inside(ends: Sequence[Array], center: Array, sides: Array, entry: Mapping[str, Any]) -> bool:
+    """Whether a box about the centre of gravity reaches all ends: then it says more than rods."""
+    if entry.get("motion", "rigid") != "rigid":
+        return False  # moments of inertia across the plane may be dummies
+    arms = (np.array(ends) - center) @ _axes(entry)
+    return bool(np.all(np.abs(arms) <= 0.55 * sides + 1e-9 * sides.max()))
 
 
 def _axes(entry: Mapping[str, Any]) -> Array:

@@ -7,7 +7,8 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -59,26 +60,35 @@ def opened(text: str, size: tuple[int, int], sharp: float = 1.0) -> Iterator[Any
         raise ViewError(
             f"pictures and videos need playwright: {install_command('view')}"
         ) from error
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "view.html"
         file.write_text(text, encoding="utf-8")
         try:
-            browser = playwright.chromium.launch(
-                executable_path=executable(playwright.chromium.executable_path), args=_flags()
-            )
+            with sync_playwright() as playwright:
+                program = executable(playwright.chromium.executable_path)
+                browser = playwright.chromium.launch(executable_path=program, args=_flags())
+                page = browser.new_page(
+                    viewport={"width": size[0], "height": size[1]}, device_scale_factor=sharp
+                )
+                _load(page, file)
+                yield page
+                browser.close()
         except Error as error:
-            raise ViewError(f"the browser does not start: {error.message}") from error
-        width, height = size
-        page = browser.new_page(
-            viewport={"width": width, "height": height}, device_scale_factor=sharp
-        )
-        errors: list[str] = []
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.goto(file.as_uri())
-        if errors or not page.evaluate("Boolean(window.hydrodae)"):
-            raise ViewError(f"the page cannot be drawn: {'; '.join(errors) or 'no reason given'}")
-        yield page
-        browser.close()
+            raise ViewError(f"the browser failed: {error.message}") from error
+
+
+def _load(page: Any, file: Path) -> None:
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(file.as_uri())
+    if errors or not page.evaluate("Boolean(window.hydrodae)"):
+        raise ViewError(f"the page cannot be drawn: {'; '.join(errors) or 'no reason given'}")
+
+
+def _apart(call: Callable[[], None]) -> None:
+    """Call in a thread of its own: a notebook's has a loop, in which playwright does not work."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(call).result()
 
 
 def executable(own: str) -> str:
@@ -129,10 +139,14 @@ def picture(text: str, path: Path, time: float, size: tuple[int, int]) -> Path:
     if path.suffix.lower() not in PICTURES:
         raise ViewError(f"{path}: no such kind of picture; known are {', '.join(PICTURES)}")
     path.parent.mkdir(parents=True, exist_ok=True)
-    with opened(text, size, sharp=1.5) as page:
-        page.evaluate("hydrodae.hideControls()")
-        page.evaluate("time => hydrodae.show(time)", time)
-        page.screenshot(path=path)
+
+    def draw() -> None:
+        with opened(text, size, sharp=1.5) as page:
+            page.evaluate("hydrodae.hideControls()")
+            page.evaluate("time => hydrodae.show(time)", time)
+            page.screenshot(path=path)
+
+    _apart(draw)
     return path
 
 
@@ -159,23 +173,41 @@ def video(
     even = (size[0] // 2 * 2, size[1] // 2 * 2)  # the coding of colours takes pairs of pixels
     command = [ffmpeg, "-y", "-loglevel", "error", "-f", "image2pipe", "-c:v", "mjpeg"]
     command += ["-framerate", f"{rate:g}", "-i", "-", *flags, str(path)]
-    with opened(text, even) as page, tempfile.TemporaryFile() as said:
-        page.evaluate("hydrodae.hideControls()")
-        with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said) as encoder:
-            assert encoder.stdin is not None
-            try:
-                for i, time in enumerate(times):
-                    page.evaluate("time => hydrodae.show(time)", time)
-                    encoder.stdin.write(page.screenshot(type="jpeg", quality=92))
-                    if progress is not None:
-                        progress(i + 1, len(times))
-                encoder.stdin.close()
-            except BrokenPipeError:
-                pass  # ffmpeg has ended: its code and words tell why
+
+    def draw() -> None:
+        with opened(text, even) as page:
+            page.evaluate("hydrodae.hideControls()")
+            frames = _frames(page, times, progress)
+            _encode(command, frames, path)
+
+    _apart(draw)
+    return path
+
+
+def _frames(
+    page: Any, times: list[float], progress: Callable[[int, int], None] | None
+) -> Iterator[bytes]:
+    for i, time in enumerate(times):
+        page.evaluate("time => hydrodae.show(time)", time)
+        yield page.screenshot(type="jpeg", quality=92)
+        if progress is not None:
+            progress(i + 1, len(times))
+
+
+def _encode(command: list[str], frames: Iterator[bytes], path: Path) -> None:
+    with (
+        tempfile.TemporaryFile() as said,
+        subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said) as encoder,
+    ):
+        assert encoder.stdin is not None
+        with suppress(BrokenPipeError):  # ffmpeg has ended: its code and words tell why
+            for frame in frames:
+                encoder.stdin.write(frame)
+            encoder.stdin.close()
+        encoder.wait()
         if encoder.returncode:
             said.seek(0)
             raise ViewError(f"{path}: ffmpeg failed: {said.read().decode(errors='replace')}")
-    return path
 
 
 def find_ffmpeg() -> str:

@@ -39,7 +39,7 @@ def make_curves(
             raise CaseError(f"no channel matches {pattern!r}")
     owners = _owners(tables)
     centers = {body.name: body.center for body in bodies}
-    curves = []
+    curves = list[Curve]()
     for name in source.names:
         asked = any(fnmatchcase(name, pattern) for pattern in more)
         if asked or _usual(name):

@@ -17,7 +17,12 @@ FAR = 4.0
 #: Samples that are looked at to find how far bodies go.
 LOOKS = 60
 #: Directions of looking: azimuth and elevation of the camera [deg].
-VIEWS = {"oblique": (-62.0, 17.0), "side": (-90.0, 3.0), "front": (180.0, 3.0), "top": (-90.0, 89.9)}
+VIEWS = {
+    "oblique": (-62.0, 17.0),
+    "side": (-90.0, 10.0),
+    "front": (180.0, 10.0),
+    "top": (-90.0, 89.9),
+}
 
 
 @dataclass(frozen=True)
@@ -28,8 +33,10 @@ class Frame:
     ----------
     center : (3,) array
         Middle [m].
+    half : (3,) array
+        Half the sides of the box around what is shown [m].
     radius : float
-        Half the diagonal of what is shown [m].
+        Half its diagonal [m].
     reach : float
         Likewise of everything, far lines included [m].
     water, bed : float
@@ -37,6 +44,7 @@ class Frame:
     """
 
     center: Array
+    half: Array
     radius: float
     reach: float
     water: float
@@ -61,16 +69,19 @@ def frame_of(stage: Stage) -> Frame:
     everything = np.concatenate([near, *ends])
     if _size(everything) <= FAR * _size(near) or _size(near) == 0.0:
         near = everything
-    center, radius = 0.5 * (near.min(axis=0) + near.max(axis=0)), 0.5 * _size(near)
-    if radius == 0.0:
-        radius = 1.0
+    center, half = 0.5 * (near.min(axis=0) + near.max(axis=0)), 0.5 * np.ptp(near, axis=0)
+    if not half.any():
+        half = np.full(3, 0.5)
+    radius = float(np.linalg.norm(half))
     reach = float(np.linalg.norm(everything - center, axis=1).max(initial=radius))
     sides = np.abs(everything - center)[:, :2].max(initial=0.0)
     water = 2.2 * radius
     if stage.sea is not None and len(stage.sea.waves):
         main = stage.sea.waves[np.argmax(stage.sea.waves[:, 3])]
         water = max(water, min(1.5 * np.pi / float(main[1]), 3.5 * radius))
-    return Frame(center, radius, max(reach, radius), water, float(max(1.3 * sides, 1.1 * water)))
+    return Frame(
+        center, half, radius, max(reach, radius), water, float(max(1.3 * sides, 1.1 * water))
+    )
 
 
 def camera_of(text: str, frame: Frame) -> tuple[float, float, float]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.mooring import catenary
+from hydrodae.mooring import Catenary, catenary
 from hydrodae.viewer.bodies import bodies_of_rope
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body, Line
@@ -101,8 +101,14 @@ def _hanging(
     away = end - start
     reach = float(np.hypot(away[0], away[1]))
     towards = away[:2] / reach if reach > 0.0 else np.array([1.0, 0.0])
-    shape = catenary(
-        reach,
+    shape = _at_rest(force, length, away)
+    places = np.column_stack([np.outer(shape.x, towards), shape.z]) + start
+    return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1])
+
+
+def _at_rest(force: Mapping[str, Any], length: Sequence[float], away: Array) -> Catenary:
+    return catenary(
+        float(np.hypot(away[0], away[1])),
         float(away[2]),
         length,
         force["weight"],
@@ -112,23 +118,17 @@ def _hanging(
         friction=force.get("friction", 0.0),
         n=POINTS,
     )
-    places = np.column_stack([np.outer(shape.x, towards), shape.z]) + start
-    return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1])
 
 
 def _length_of(force: Mapping[str, Any], away: Array, tension: float) -> float:
-    """Unstretched length of the first part that gives the tension of a sample, by bisection."""
+    """Unstretched length of the first part that gives the tension at B, by bisection."""
     rest = sum(force["length"][1:])
     span = float(np.linalg.norm(away))
     low, high = max(0.5 * span - rest, 1e-3 * span), 4.0 * span + force["length"][0]
-
-    def pull(first: float) -> float:
-        parts = [first, *force["length"][1:]]
-        return float(_hanging(force, parts, np.zeros(3), away)[1][-1])
-
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if pull(middle) > tension else (low, middle)
+        pull = _at_rest(force, [middle, *force["length"][1:]], away).tension
+        low, high = (middle, high) if pull > tension else (low, middle)
     return 0.5 * (low + high)
 
 

@@ -69,9 +69,7 @@ def page_text(stage: Stage, frame: Frame, camera: tuple[float, float, float]) ->
     return _filled(_read(folder, "page.html"), parts)
 
 
-def page_data(
-    stage: Stage, frame: Frame, camera: tuple[float, float, float]
-) -> dict[str, Any]:
+def page_data(stage: Stage, frame: Frame, camera: tuple[float, float, float]) -> dict[str, Any]:
     """Return what the program of the page reads: plain values, and places of numbers."""
     numbers = Numbers()
     data = {
@@ -119,6 +117,7 @@ def page_data(
         "bed": stage.bed,
         "home": {
             "center": frame.center.tolist(),
+            "half": frame.half.tolist(),
             "radius": frame.radius,
             "water": frame.water,
             "bed": frame.bed,

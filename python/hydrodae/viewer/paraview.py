@@ -175,7 +175,11 @@ def _points(root: h5py.Group, points: Iterator[Array]) -> int:
 
 
 def _readme(stage: Stage, path: Path) -> Path:
-    rows = [f"{stage.title} ({stage.state})", "", "Open the .vtkhdf files in ParaView 5.12 or later."]
+    rows = [
+        f"{stage.title} ({stage.state})",
+        "",
+        "Open the .vtkhdf files in ParaView 5.12 or later.",
+    ]
     rows += ["", "bodies.vtkhdf, cell data 'body':"]
     rows += [f"  {i:3} {body.name}: {body.origin}" for i, body in enumerate(stage.bodies)]
     if stage.lines:

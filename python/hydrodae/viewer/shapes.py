@@ -109,10 +109,13 @@ def shape_of(body: str, what: str, center: Array, ends: Sequence[Array]) -> Arra
 
 
 def rods(center: Array, ends: Sequence[Array], diameter: float) -> Array:
-    """One rod through two ends, or one from the centre of gravity to each end."""
+    """One rod through two ends that the centre lies between, or one from it to each end."""
     apart = [e for e in ends if np.linalg.norm(e - center) > 1e-9]
     if len(ends) == 2:
-        return rod(ends[0], ends[1], diameter)
+        a, b = ends[0] - center, ends[1] - center
+        span = float(np.sum((b - a) ** 2))
+        if np.linalg.norm(np.cross(a, b)) <= 0.1 * span and np.dot(a, b) <= 0.01 * span:
+            return rod(ends[0], ends[1], diameter)
     parts = [rod(center, end, diameter) for end in apart]
     parts.append(sphere(radius=0.8 * diameter) + center)
     return np.concatenate(parts)

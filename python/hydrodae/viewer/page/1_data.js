@@ -40,7 +40,8 @@ function between(values, width, sample, c) {
 /// Number with three figures and its unit in a size that people read: 12.3 kN, 4 mm.
 function withUnit(value, unit) {
   const prefixes = unit === "m" ? [[1e3, "k"], [1, ""], [1e-2, "c"], [1e-3, "m"]]
-    : [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""]];
+    : [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"]];
+  if (value === 0) return `0 ${unit}`;
   const size = Math.abs(value);
   const found = prefixes.find(([p]) => size >= p * 0.9999) ?? prefixes[prefixes.length - 1];
   return `${Number((value / found[0]).toPrecision(3))} ${found[1]}${unit}`;

@@ -48,13 +48,27 @@ const controls = new L.OrbitControls(camera, canvas);
 controls.target.set(...DATA.home.center);
 controls.minDistance = RADIUS / 20, controls.maxDistance = RADIUS * 60;
 
+/// Distance from which the whole box around the scene is seen in a direction, with a margin.
+function fitting(direction) {
+  const up = Math.tan((camera.fov * Math.PI) / 360), across = up * camera.aspect;
+  const right = new L.Vector3().crossVectors(camera.up, direction).normalize();
+  const above = new L.Vector3().crossVectors(direction, right);
+  let distance = 0.5 * RADIUS;
+  for (let i = 0; i < 8; ++i) {
+    const corner = new L.Vector3(...DATA.home.half.map((h, c) => ((i >> c) & 1 ? h : -h)));
+    const near = corner.dot(direction);
+    distance = Math.max(distance, near + Math.abs(corner.dot(right)) / (0.82 * across),
+      near + Math.abs(corner.dot(above)) / (0.78 * up));
+  }
+  return distance;
+}
+
 /// Puts the camera at an azimuth (from +x) and elevation [deg], `zoom` times as near as usual.
 function look(azimuth, elevation, zoom = 1) {
   const a = (azimuth * Math.PI) / 180, e = (elevation * Math.PI) / 180;
-  const half = Math.min(1, camera.aspect) * Math.tan((camera.fov * Math.PI) / 360);
-  const distance = (RADIUS * 0.92) / half / zoom;
   const direction = new L.Vector3(Math.cos(a) * Math.cos(e), Math.sin(a) * Math.cos(e), Math.sin(e));
   controls.target.set(...DATA.home.center);
+  const distance = fitting(direction) / zoom;
   camera.position.copy(controls.target).addScaledVector(direction, distance);
   controls.update();
   redraw();
