@@ -10,6 +10,8 @@ from functools import cache
 import numpy as np
 from tests.attack import (  # noqa: F401  the modules register their families
     buoyancy,
+    contacts,
+    control,
     driven,
     drives,
     hinges,
@@ -17,6 +19,8 @@ from tests.attack import (  # noqa: F401  the modules register their families
     long,
     mechanisms,
     memories,
+    moorings,
+    ptos,
     rest,
     scales,
     starts,

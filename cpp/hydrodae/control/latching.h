@@ -10,7 +10,7 @@ namespace hydrodae::control {
 /// go. What it writes is the largest load that the dry friction of the joint holds: the kernel
 /// locates the standstill, and the joint sticks there exactly.
 ///
-///   ready:    friction holds up to `load`; at a standstill (an event with s' = 0): held
+///   ready:    friction holds up to `load`; at a standstill (an event, or the start at rest): held
 ///   held:     for `time`, then the friction holds nothing
 ///   released: for `rest`, then ready
 class Latching final : public Law {
@@ -22,7 +22,7 @@ public:
   /// @param in  s'
   void sample(double t, std::span<const double> in, std::span<double> out) override {
     fastest_ = std::max(fastest_, std::abs(in[0]));
-    if (phase_ == Phase::ready && std::abs(in[0]) <= standstill * fastest_ && fastest_ > 0.0)
+    if (phase_ == Phase::ready && std::abs(in[0]) <= standstill * fastest_)
       go(Phase::held, t + time_);
     else if (phase_ == Phase::held && t >= until_)
       go(Phase::released, t + rest_);

@@ -346,9 +346,9 @@ void Collocation::accept(double h) {
     find_inner_error(h);
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
-  local_error_ = (*stage_error_)(s_, h, yp_.head(s_.n_q), rates_, e_.time_scale());
+  local_error_ = (*stage_error_)(s_, h, yp_, rates_, e_.time_scale());
   step_error_.setZero(s_.lambda0);
-  step_error_.head(s_.n_q) = stage_error_->pattern();
+  step_error_.head(s_.z0) = stage_error_->pattern();
   y0_ = y_;
   t0_ = t_;
   done_ = h;
@@ -362,9 +362,13 @@ void Collocation::accept(double h) {
     y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
     y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
     evaluate_rates(1.0, yp_);
+    const VectorX aside = y_.head(s_.z0);
     if (project_ && (!saddle_->accelerations(t_, y_, yp_) || !saddle_->project(t_, y_) ||
                      !saddle_->accelerations(t_, y_, yp_)))
       fail("the constraints cannot be met at the end of the step");
+    // With constraints the end is of the order of the stages. Along them it was found off by 1/10
+    // to 1/300 of what it was aside of them.
+    step_error_.head(s_.z0) += 0.1 * (y_.head(s_.z0) - aside);
   }
   e_.accept(t_, y_, yp_);
   if (nodes_.size() <= 2) {

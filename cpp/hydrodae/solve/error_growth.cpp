@@ -9,6 +9,9 @@ namespace {
 constexpr double rough = 0.5; ///< change of the equations from which on growth is not believed
 // Growth per radian of the motion that may come of looks far apart; chaotic motions have 0.2 to 1.
 constexpr double doubtful = 0.15;
+// How much more than by themselves errors may show in the positions once the constraints take part,
+// and where that is not believed.
+constexpr double hidden = 1e3, doubtfully_hidden = 10.0;
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
@@ -61,17 +64,21 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   steps_ = 0;
   growth_.setOnes();
   fade_.setOnes();
-  const VectorX before = sizes(error_.vector, unit);
-  if (!error_.vector.isZero(0.0) && error_.vector.allFinite()) {
-    at(t, y_, yp_);
-    if (carry(t, rate, error_.vector)) {
-      const VectorX after = sizes(error_.vector, unit);
-      for (Index g = 0; g < s_.n_groups; ++g) {
-        if (before[g] > 0.0)
-          growth_[g] = after[g] / before[g];
-        if (!last) // what an impact does to an error is not carried: no growth is told there
-          follow(g, rate[g] * (t - since_));
-      }
+  const VectorX before = sizes(error_.vector, unit), fresh = sizes(error_.fresh, unit);
+  VectorX shown = VectorX::Ones(s_.n_groups);
+  at(t, y_, yp_);
+  if (VectorX carried = error_.fresh; carry(t, rate, carried)) {
+    const VectorX after = sizes(error_.vector, unit);
+    carried.tail(s_.lambda0 - s_.n_q).setZero();
+    const VectorX places = sizes(carried, unit);
+    for (Index g = 0; g < s_.n_groups; ++g) {
+      if (fresh[g] > 0.0)
+        shown[g] =
+            std::clamp(places[g] / fresh[g], 1.0, change_[g] > rough ? doubtfully_hidden : hidden);
+      if (before[g] > 0.0)
+        growth_[g] = after[g] / before[g];
+      if (!last && before[g] > 0.0) // no growth is told where the error of an impact is not carried
+        follow(g, rate[g] * (t - since_));
     }
   }
   // It tells growth only, and is kept from growing without end.
@@ -81,6 +88,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
     if (const double own = size[s_.group[static_cast<std::size_t>(i)]]; !(own <= large))
       error_.vector[i] = std::isfinite(own) ? 1e-3 * error_.vector[i] / own : 0.0;
   error_.added += sizes(error_.fresh - error_.gathered, unit);
+  error_.added.array() *= shown.array();
   error_.gathered.setZero();
   window_ = t;
   error_.piled += error_.added;
@@ -184,10 +192,10 @@ void ErrorGrowth::find_change(const VectorX& rate) {
 /// The implicit midpoint rule on F_y d + F_y' d' = 0, with the mean of the derivatives at both
 /// ends, lest what turns or swings between them feeds the error; memory states by backward Euler,
 /// since some fade within the step; the constraints hold at its end, and so do the loads of states
-/// of forces, which may fade within a thousandth of it.
-bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
+/// of forces, which may fade within a thousandth of it. For the vector of the run and for `fresh`.
+bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& fresh) {
   const double h = t - since_;
-  if (h <= 0.0)
+  if (h <= 0.0 || !error_.vector.allFinite() || !fresh.allFinite())
     return false;
   const system::Pattern& p = e_.pattern;
   if (!lu_)
@@ -195,6 +203,7 @@ bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
   e_.accept(t, y_, yp_);
   e_.jacobian(t, y_, yp_);
   rhs_.setZero(s_.n);
+  VectorX fresh_rhs = VectorX::Zero(s_.n);
   std::vector<double>& values = lu_->values();
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
@@ -205,20 +214,27 @@ bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& vector) {
                    by_rate =
                        (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
       values[k] = (half ? 0.5 * by_y : by_y) + by_rate;
-      if (row < s_.lambda0 && c < s_.lambda0)
-        rhs_[row] += (by_rate - (half ? 0.5 * by_y : 0.0)) * vector[c];
+      if (row < s_.lambda0 && c < s_.lambda0) {
+        const double from = by_rate - (half ? 0.5 * by_y : 0.0);
+        rhs_[row] += from * error_.vector[c];
+        fresh_rhs[row] += from * fresh[c];
+      }
     }
   find_change(rate);
   by_y_ = e_.parts.by_y;
   by_rate_ = e_.parts.by_yp;
   if (!lu_->factorise())
     return false; // a singular pose: the error stays what it was until the next look
-  lu_->solve(rhs_.data());
-  constexpr double most = 1e3; // beyond, the constraints are about to become dependent
-  if (!rhs_.allFinite() || rhs_.head(s_.n_q).norm() > most * vector.norm())
-    return false;
-  vector = rhs_.head(s_.lambda0);
-  return true;
+  const auto solved = [&](VectorX& rhs, VectorX& vector) {
+    constexpr double most = 1e3; // beyond, the constraints are about to become dependent
+    lu_->solve(rhs.data());
+    if (!rhs.allFinite() || rhs.head(s_.n_q).norm() > most * vector.norm())
+      return false;
+    vector = rhs.head(s_.lambda0);
+    return true;
+  };
+  const bool carried = solved(rhs_, error_.vector);
+  return solved(fresh_rhs, fresh) && carried;
 }
 
 } // namespace hydrodae::solve

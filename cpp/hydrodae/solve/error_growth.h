@@ -36,7 +36,7 @@ public:
 
   /// @param y, yp state at t, from which on these rows hold
   /// @param error that the run has so far; empty: none
-  /// @param coherent the errors of steps are of one kind, as those of fixed steps of a low order:
+  /// @param coherent the errors of steps are of one kind, as those of fixed steps:
   ///   they add up in size radian by radian of the motion; otherwise look by look
   /// @param every so many steps the error is carried along at first; where the equations change
   ///   much between two such looks, down to a quarter of that, where little, up to four times as
@@ -72,7 +72,7 @@ public:
   }
 
 private:
-  bool carry(double t, const VectorX& rate, VectorX& vector);
+  bool carry(double t, const VectorX& rate, VectorX& fresh);
   void linearise(double t);
   void find_change(const VectorX& rate);
   void follow(Index group, double phase);

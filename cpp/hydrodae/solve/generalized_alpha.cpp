@@ -40,7 +40,9 @@ public:
     alpha_f_ = rho / (rho + 1.0);
     gamma_ = 0.5 - alpha_m_ + alpha_f_;
     beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
-    error_constant_ = std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6.0);
+    const double shift = alpha_m_ - alpha_f_;
+    error_constant_ = beta_ + 0.5 * shift - 1.0 / 6.0;
+    rate_constant_ = shift * (alpha_m_ - 0.5) + gamma_ * (0.5 + shift) - 1.0 / 6.0;
     e_.accept(t_, y_, yp_);
   }
 
@@ -51,7 +53,7 @@ public:
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }
   void remember(Archive& a) override {
-    a(a_, y0_, yp0_, t0_, local_error_, inner_error_, step_error_, e_.statistics.last_step,
+    a(a_, y0_, yp0_, t0_, change_, local_error_, inner_error_, step_error_, e_.statistics.last_step,
       e_.statistics.last_order);
   }
 
@@ -70,10 +72,12 @@ private:
   NewtonMatrix<double> newton_matrix_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
   double error_constant_ = 0; ///< of the positions, of h^3 q'''
+  double rate_constant_ = 0;  ///< of u and z, of h^3 x'''
   double t_ = 0.0, t0_ = 0.0, h_;
   Index n_x_;
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
   VectorX velocity_;                  ///< G^T mu of the last residual, tangent
+  VectorX change_;                    ///< of x' over the last step; empty: there was none
   VectorX local_error_, inner_error_; ///< (n_bodies,)
   VectorX step_error_;                ///< (lambda0,)
   double factored_ = 0.0;             ///< step of the matrix at hand [s]; 0: none
@@ -166,26 +170,25 @@ bool GeneralizedAlpha::newton(double t, double h) {
   return false;
 }
 
-/// Error of the positions in the last step: a stands for x' at (alpha_m - alpha_f) h, hence
-/// (beta + (alpha_m - alpha_f) / 2 - 1/6) h^3 q''' along each coordinate; and turns do not
-/// commute, h^3 w x w' / 12 (Magnus).
+/// Error of the last step. With d = alpha_m - alpha_f, k = d (alpha_m - 1/2) the algorithm's own a
+/// is x' + d h x'' + k h^2 x''', hence (beta + d / 2 - 1/6) h^3 q''' of the positions along each
+/// coordinate and (k + gamma (1/2 + d) - 1/6) h^3 x''' of the rest; and turns do not commute,
+/// -h^3 w x w' / 12 (Magnus).
 void GeneralizedAlpha::estimate(double h) {
-  step_error_ = VectorX::Zero(s_.lambda0);
-  step_error_.head(s_.n_q) =
-      to_positions(s_, y_, error_constant_ * h * h * (yp_ - yp0_).segment(s_.u0, s_.n_u));
-  local_error_.resize(static_cast<Index>(s_.bodies.size()));
-  for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
-    const system::BodyData& b = s_.bodies[i];
-    const VectorX change = (yp_ - yp0_).segment(b.u0, b.n_active);
-    const Index n = b.n_translations, turns = b.n_active - n;
-    double angle = error_constant_ * h * h * change.tail(turns).norm();
+  const VectorX change = (yp_ - yp0_).segment(s_.u0, n_x_);
+  VectorX moved = error_constant_ * h * h * change.head(s_.n_u);
+  for (const system::BodyData& b : s_.bodies)
     if (b.rotation == system::BodyData::Rotation::free) {
-      const Vector3 w = y_.segment<3>(b.u0 + n), rate = yp_.segment<3>(b.u0 + n);
-      angle += h * h * h / 12.0 * w.cross(rate).norm();
+      const Index k = b.u0 + b.n_translations;
+      moved.segment<3>(k - s_.u0) -=
+          h * h * h / 12.0 * Vector3(y_.segment<3>(k)).cross(Vector3(yp_.segment<3>(k)));
     }
-    local_error_[static_cast<Index>(i)] =
-        std::max(error_constant_ * h * h * change.head(n).norm() / b.lever, angle);
-  }
+  step_error_ = VectorX::Zero(s_.lambda0);
+  step_error_.head(s_.n_q) = to_positions(s_, y_, moved);
+  if (change_.size() == change.size())
+    step_error_.segment(s_.u0, n_x_) = rate_constant_ * h * (change - change_);
+  change_ = change;
+  local_error_ = body_sizes(s_, step_error_.head(s_.n_q));
 }
 
 /// The cubic of the last step, followed to the end of this one, misses it by h^4 q'''' / 6, and

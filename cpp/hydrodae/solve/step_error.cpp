@@ -47,14 +47,16 @@ VectorX to_positions(const system::Regime& s, const VectorX& y, const VectorX& t
   return dq;
 }
 
-/// Body by body the error along v.
+/// Body by body the error along v, of the size `errors` in the positions.
 void StageError::take_pattern(const system::Regime& s, const VectorX& v, const VectorX& errors) {
   const VectorX sizes = body_sizes(s, v);
   pattern_ = v;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    const double size = sizes[static_cast<Index>(i)];
-    pattern_.segment(s.bodies[i].q0, s.bodies[i].n_position) *=
-        size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
+    const system::BodyData& b = s.bodies[i];
+    const double size = sizes[static_cast<Index>(i)],
+                 part = size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
+    pattern_.segment(b.q0, b.n_position) *= part;
+    pattern_.segment(b.u0, b.n_active) *= part;
   }
 }
 
@@ -72,18 +74,18 @@ StageError::StageError(const RungeKutta& rk)
 
 VectorX StageError::operator()(const system::Regime& s, double h, const VectorX& start,
                                const MatrixX& stages, double time_scale) {
-  const auto q = stages.topRows(s.n_q);
+  const auto moving = stages.topRows(s.z0);
   const Index n = stages.cols();
   auto coefficient = [&](int row) {
-    VectorX v = q * last_.row(row).tail(n).transpose();
+    VectorX v = moving * last_.row(row).tail(n).transpose();
     if (with_start_)
-      v += last_(row, 0) * start;
+      v += last_(row, 0) * start.head(s.z0);
     return v;
   };
   const VectorX v = coefficient(1);
   // h^3 q''' / 12 (Lobatto IIIC: / 6) from the change of q'' = 2 v_1 / h.
   if (degree_ == 1 && order_ == 2) {
-    const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.n_q);
+    const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.z0);
     before_ = v;
     VectorX sizes = body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
     take_pattern(s, change, sizes);

@@ -29,13 +29,14 @@ public:
   explicit StageError(const RungeKutta& rk);
 
   /// @param h step [s]
-  /// @param start q' (n_q,) at the start of the step; stages: Y' (n, s) at the stages
+  /// @param start y' (n,) at the start of the step; stages: Y' (n, s) at the stages
   /// @param time_scale longest of the bodies [s]; the ratio of coefficients is averaged over it
   /// @returns (n_bodies,) error of the positions as body_sizes measures it
   VectorX operator()(const system::Regime& system, double h, const VectorX& start,
                      const MatrixX& stages, double time_scale);
 
-  /// The same as a change of the positions (n_q,): the pattern of the last coefficient known.
+  /// The same as a change of positions and velocities (z0,): the pattern of the last coefficient
+  /// known, body by body.
   const VectorX& pattern() const { return pattern_; }
 
   void remember(Archive& a) { a(before_, highest_, below_); }

@@ -23,10 +23,18 @@ int steps_between_looks(const std::string& method) {
 
 /// What the tolerance leaves at least, in units of it: Newton's iteration, samples between the ends
 /// of steps; BDF and the interpolant of order 7 keep less close to it than collocation.
+constexpr double usual_least = 10.0, least_of_radau = 3.0, fixed_least = 1e-2;
+
 double least_error(const model::SolverOptions& options) {
   if (options.step > 0.0)
-    return 1e-2 * options.rtol;
-  return (options.method == "radau" ? 3.0 : 10.0) * options.rtol;
+    return fixed_least * options.rtol;
+  return (options.method == "radau" ? least_of_radau : usual_least) * options.rtol;
+}
+
+/// Do the errors of steps add up radian by radian? Those of fixed steps are of one kind, and BDF
+/// makes so many steps between two looks that their sum would cancel.
+bool adds_by_radian(const model::SolverOptions& options) {
+  return options.step > 0.0 || options.method == "ida";
 }
 
 /// d ln(frequency) / d ln(speed) by the change of the equations: 0 of a linear oscillator; of a
@@ -38,20 +46,18 @@ double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change 
 
 Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
-    : s_(s), every_(steps_between_looks(options.method)),
-      coherent_(options.method == "generalized_alpha" ||
-                (options.step > 0.0 && options.order == 2)),
-      doubt_(options.step > 0.0 ? 3.0 : 2.0), allowed_(options.error_guard),
-      least_(least_error(options)), unit_(VectorX::Ones(s.z0)), fastest_(VectorX::Zero(s.n_groups)),
-      largest_(fastest_), when_(fastest_), missing_(fastest_), rates_(fastest_),
-      displaced_(fastest_), start_(y.head(s.n_q)),
+    : s_(s), every_(steps_between_looks(options.method)), coherent_(adds_by_radian(options)),
+      exact_(options.step > 0.0), doubt_(options.step > 0.0 ? 3.0 : 2.0),
+      allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
+      fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
+      rates_(fastest_), displaced_(fastest_), start_(y.head(s.n_q)),
       energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
   find_guided();
-  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(),
-                                          options.step > 0.0, every_);
+  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(), coherent_,
+                                          every_);
 }
 
 /// Motion of a group, no less than what its tolerance is made for [levers or rad].
@@ -101,6 +107,10 @@ void Trust::accept(double t, Integrator& integrator, const VectorX& reached, con
   const auto at = [&](double time, VectorX& out, VectorX& rates) {
     integrator.interpolate(time, out, rates);
   };
+  if (event && exact_) { // it is located within the tolerance, which the steps do not know
+    least_ *= usual_least / fixed_least;
+    exact_ = false;
+  }
   measure(y, reached);
   take_inner(t, integrator.inner_error());
   if (growth_->add(t, integrator.step_error(), unit_, rates_, event, at))
@@ -224,6 +234,7 @@ void Trust::strike(int mechanism) { energies_[static_cast<std::size_t>(mechanism
 /// What the methods before have left inside their steps stays.
 void Trust::use(const model::SolverOptions& options) {
   every_ = steps_between_looks(options.method);
+  coherent_ = adds_by_radian(options);
   least_ = std::max(least_, least_error(options));
 }
 
@@ -236,7 +247,7 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
 
 void Trust::remember(Archive& a) {
   a(*growth_, unit_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_, energies_,
-    looked_, least_);
+    looked_, least_, exact_);
 }
 
 Trust::Estimate Trust::estimate(const VectorX& reached) const {
@@ -247,7 +258,9 @@ Trust::Estimate Trust::estimate(const VectorX& reached) const {
     for (Index i = 0; i < s_.z0; ++i)
       if (s_.group[static_cast<std::size_t>(i)] == g)
         now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
-    const double error = std::max({largest_[g] / size(g, reached), now / size(g, reached), least_});
+    // An error as large as the motion: beyond, growth says no more.
+    const double whole = size(g, reached),
+                 error = std::max(std::min(std::max(largest_[g], now) / whole, 1.0), least_);
     if (error > out.error)
       out = {error, worst_of(g).name, when_[g]};
   }

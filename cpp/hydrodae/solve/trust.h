@@ -68,7 +68,8 @@ private:
   const system::Regime& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
-  bool coherent_; ///< errors of steps are of one kind
+  bool coherent_; ///< errors of steps add up radian by radian
+  bool exact_;    ///< steps are fixed, and nothing was located so far
   double doubt_;  ///< factor within which the estimate is meant; of fixed steps it is rougher
   double allowed_;
   double least_;           ///< what the tolerance leaves [-]

@@ -163,7 +163,10 @@ def _run(scene: Scene, case: Case, time_limit: float) -> Results:
     """Run the case; CPU time, since on a busy machine wall time says little about the method."""
     deadline = time.process_time() + time_limit
     return run(
-        case, progress=lambda _time, _end: time.process_time() < deadline, drives=scene.drives
+        case,
+        progress=lambda _time, _end: time.process_time() < deadline,
+        drives=scene.drives,
+        controllers={name: make() for name, make in (scene.controllers or {}).items()} or None,
     )
 
 

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case, to_toml
+from hydrodae.controllers import Controller
 from hydrodae.drives import Drive
 from hydrodae.results import Results
 
@@ -67,6 +68,8 @@ class Scene:
         there is a truth, the right motion.
     drives : mapping, optional
         Python functions of time by the name of the constraint that they drive.
+    controllers : mapping, optional
+        Makes a Python controller for each run, by the name of the controller.
     database : callable, optional
         Writes the hydrodynamic database `hydro.h5` at a path.
     """
@@ -85,6 +88,7 @@ class Scene:
     impossible: str = ""
     told: str = ""
     drives: Mapping[str, Drive] | None = field(default=None, repr=False)
+    controllers: Mapping[str, Callable[[], Controller]] | None = field(default=None, repr=False)
     database: Callable[[Path], None] | None = field(default=None, repr=False)
 
     @property
