@@ -209,6 +209,22 @@ def test_what_goes_in_is_stored_or_spent() -> None:
         assert run[f"forces/line/power_{part}"].values.min() > -1e-6 * size
 
 
+def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:
+    for strength, told in ((1e9, False), (1.5e5, True)):
+        keys = chain(8, f"drag = [1.2]\nadded_mass = [1.0]\nbreaking_load = [{strength}]")
+        run = hydrodae.run(
+            case(WATER + DRIVEN.replace("PERIOD", "10.0") + line(keys), "end_time = 4.0")
+        )
+        ratio = run["forces/line/tension_ratio"].values
+        assert bool(ratio.max() > 1.0) is told
+        lines = [text for text in run.summary().splitlines() if "BREAKING LOAD" in text]
+        assert len(lines) == told
+        if told:
+            first = float(run.time[np.argmax(ratio > 1.0)])
+            assert f"line: BREAKING LOAD EXCEEDED from t = {first:.4g} s" in lines[0]
+            assert f"{ratio.max():.3g} times" in lines[0]
+
+
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_methods_agree(method: str) -> None:
     keys = chain(8, "drag = [1.2]\nadded_mass = [1.0]\ndamping_ratio = [0.5]")

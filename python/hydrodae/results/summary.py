@@ -31,6 +31,7 @@ def summary(results: Recording) -> str:
     lines += _power(results)
     lines += _controllers(results)
     lines += _impacts(results)
+    lines += _overloads(results)
     lines += _work(results)
     lines += [f"  note: {note}" for note in results.notes]
     lines += [f"  {line}" for line in (_energy_balance(results), *_errors(results)) if line]
@@ -155,6 +156,22 @@ def _impacts(results: Recording) -> list[str]:
         if "peak_force" in table:
             peak = table["peak_force"]
             lines[-1] += f", peak force {float(peak.max()):.4g} {peak.attrs['unit']}"
+    return lines
+
+
+def _overloads(results: Recording) -> list[str]:
+    """One line for each mooring line whose samples exceed its breaking load."""
+    lines = []
+    for channel in results.channels("forces/*/tension_ratio"):
+        ratio = results[channel].to_numpy()
+        over = np.flatnonzero(ratio > 1.0)
+        if not len(over):
+            continue
+        name, first, most = channel.split("/")[1], int(over[0]), int(np.argmax(ratio))
+        lines.append(
+            f"  {name}: BREAKING LOAD EXCEEDED from t = {results.time[first]:.4g} s, at most "
+            f"{ratio[most]:.3g} times at t = {results.time[most]:.4g} s; the line goes on unbroken"
+        )
     return lines
 
 
