@@ -299,7 +299,7 @@ def test_doctor_repairs_writes_and_draws(reference, tmp_path, capsys):
     db = hdb.read(out)
     assert db.omega.size == 420
     assert db.repairs[0].startswith("irregular: interpolated 16")
-    assert "repaired   irregular: left out" in db.summary()
+    assert "repaired   irregular: interpolated" in db.summary()
 
 
 def test_doctor_draws_a_pdf_of_fits_and_exits_with_2_on_an_error(

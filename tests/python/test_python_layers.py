@@ -24,15 +24,15 @@ LAYERS = [
     {"plot"},
     # one database
     {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
-    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.interaction"},
+    {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.extra", "hdb.interaction"},
     {"hdb.mesh_statics"},
     {"hdb.tables"},
     {"hdb.scales", "hdb.files", "hdb.summary"},
     {"hdb.kernels"},
     {"hdb.radiation_kernel"},
     {"hdb.database"},
-    {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.prepare", "hdb.writers"},
-    {"hdb.importing"},
+    {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.writers"},
+    {"hdb.importing", "hdb.prepare"},
     {"hdb.computing", "hdb.cylinder_array"},
     {"hdb"},
     # one case
