@@ -39,7 +39,7 @@ LAYERS = [
     {"case"},
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
-    {"states", "mooring"},
+    {"states", "mooring", "arrays"},
     # many runs of a case, and what people ask about it
     {"study.reference"},
     {"study"},
