@@ -6,11 +6,13 @@ roll, which is free, pitch and yaw.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from parts import ARM_DEPTH, DAMPING, NODE_DEPTH, STIFFNESS, Layout
+from scipy.spatial.transform import Rotation
 
 from hydrodae import Results, Scene, run
 from hydrodae.frequency import LinearModel, Response
@@ -26,27 +28,50 @@ def take_offs(layout: Layout) -> list[tuple[str, str]]:
     return [(arm, node) for arm, nodes in layout.arms.items() for node in nodes]
 
 
-def turns(response: Response, layout: Layout, arm: str, node: str) -> Complex:
-    """Turns (nw, 3) of a node against an arm, axes of the arm [rad/m]."""
+@dataclass(frozen=True)
+class Linear:
+    """Response per metre of wave amplitude, and how the bodies are turned at rest."""
+
+    response: Response
+    rotations: Mapping[str, Array]  # rotation vectors from the reference pose [rad]
+
+
+def turns(found: Linear, layout: Layout, arm: str, node: str) -> Complex:
+    """Turns (nw, 3) of a node against an arm, axes of the arm [rad/m].
+
+    They are small changes of the rotation vector of the node against the arm as it is at rest,
+    where moorings may have turned both.
+    """
     first, second = (np.array(layout.nodes[name]) for name in layout.arms[arm])
     x = (second - first) / np.linalg.norm(second - first)
     axes = np.array([[x[0], x[1], 0.0], [-x[1], x[0], 0.0], [0.0, 0.0, 1.0]])
-    bodies = [
-        np.stack([response[f"bodies/{body}/{turn}"] for turn in TURNS], axis=1)
-        for body in (node, arm)
-    ]
-    return np.asarray((bodies[0] - bodies[1]) @ axes.T)
+    rest = {body: Rotation.from_rotvec(found.rotations[body]) for body in (arm, node)}
+
+    def turned(body: str, angles: Array) -> Array:
+        now = dict(rest)
+        now[body] = rest[body] * Rotation.from_rotvec(angles)
+        return np.asarray(axes @ (now[arm].inv() * now[node]).as_rotvec())
+
+    total = np.zeros((found.response.omega.size, 3), dtype=complex)
+    step = 1e-5
+    for body in (arm, node):
+        for column, turn in enumerate(TURNS):
+            angles = step * np.eye(3)[column]
+            slope = (turned(body, angles) - turned(body, -angles)) / (2.0 * step)
+            total += np.outer(found.response[f"bodies/{body}/{turn}"], slope)
+    return total
 
 
-def linear(scene: Scene, omega: Sequence[float] | Array, heading: float = 0.0) -> Response:
+def linear(scene: Scene, omega: Sequence[float] | Array, heading: float = 0.0) -> Linear:
     """Response of a scene linearised about its equilibrium, per metre of wave amplitude."""
-    return LinearModel(scene.case()).response(np.asarray(omega, dtype=float), heading)
+    model = LinearModel(scene.case())
+    return Linear(model.response(np.asarray(omega, dtype=float), heading), model.rotations)
 
 
 def deviation(model: LinearModel, layout: Layout, arm: str, node: str) -> float:
     """Return the standard deviation of the relative pitch in the sea of the case [deg]."""
     waves = wave_components(model.case)
-    found = model.response(waves[:, 0], float(waves[0, 1]))
+    found = Linear(model.response(waves[:, 0], float(waves[0, 1])), model.rotations)
     pitch = np.abs(turns(found, layout, arm, node)[:, 1])
     return float(np.degrees(np.sqrt(0.5 * np.sum((waves[:, 2] * pitch) ** 2))))
 

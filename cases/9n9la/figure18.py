@@ -28,7 +28,7 @@ SQUID_FOLDER = HERE.parent / "4n3la"
 import parts  # noqa: E402
 import study  # noqa: E402
 
-from hydrodae.frequency import LinearModel, Response  # noqa: E402
+from hydrodae.frequency import LinearModel  # noqa: E402
 
 Array = NDArray[np.float64]
 SQUID = parts.SQUID
@@ -56,7 +56,7 @@ def scene(layout: parts.Layout, folder: Path, variant: str) -> Scene:
     return parts.device(layout, folder, stiffness * parts.STIFFNESS, damping * parts.DAMPING)
 
 
-def pitch(found: Response, layout: parts.Layout, arm: str, node: str) -> Array:
+def pitch(found: study.Linear, layout: parts.Layout, arm: str, node: str) -> Array:
     """Amplitude of the pitch of a node against its arm (nw,) [deg/m]."""
     return np.asarray(np.degrees(np.abs(study.turns(found, layout, arm, node)[:, 1])))
 

@@ -40,7 +40,7 @@ LAYERS = [
     {"case"},
     {"builder"},
     {"simulate", "simulation", "frequency", "scene"},
-    {"states", "mooring", "fmu"},
+    {"states", "mooring", "fmu", "arrays"},
     {"control"},
     {"viewer"},
     # many runs of a case, and what people ask about it

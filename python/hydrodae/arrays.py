@@ -1,0 +1,267 @@
+"""Arrays of a device: copies of a scene on a layout, and databases whose far bodies are uncoupled.
+
+A copy has a name space of its own: the body `flap` of the unit `u3` is `u3_flap`, in the scene, in
+the results (`bodies/u3_flap`) and in the database (`hydro = "u3_flap"`).
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.coordinates import body_name
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Tables of which every unit has its own entries; the others are of the whole array.
+OF_UNITS = ("body", "joint", "constraint", "marker", "force", "morison", "controller")
+#: Keys that name entries of these tables, or channels of theirs.
+REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b")
+CHANNELS = ("inputs", "outputs")
+#: Keys that are places in the world.
+PLACES = (
+    "center_of_gravity",
+    "center_of_buoyancy",
+    "point",
+    "point_a",
+    "point_b",
+    "points",
+    "path",
+)
+
+
+def hexagonal(count: int, spacing: float) -> dict[str, tuple[float, float]]:
+    """Places of units on a hexagonal grid, from the middle outwards in rings: 1, 7, 19, 37, ...
+
+    Parameters
+    ----------
+    count : int
+        Of units; of the last ring, those that are nearest to the direction of +x, turning left.
+    spacing : float
+        Between neighbours [m].
+
+    Returns
+    -------
+    dict of (x, y)
+        By the names u1, u2, ... [m].
+
+    Raises
+    ------
+    CaseError
+        A count or a spacing that is not > 0.
+    """
+    if count < 1 or not spacing > 0.0:
+        raise CaseError(f"hexagonal: {count} units {spacing:g} m apart: expected both > 0")
+    rings = int(np.ceil(np.sqrt(count)))
+    grid = [(a, b) for a in range(-rings, rings + 1) for b in range(-rings, rings + 1)]
+    points = [(a + 0.5 * b, b * np.sqrt(0.75)) for a, b in grid]
+    ring = [max(abs(a), abs(b), abs(a + b)) for a, b in grid]
+    angle = [round(float(np.arctan2(y, x)) % (2.0 * np.pi), 9) for x, y in points]
+    order = sorted(range(len(grid)), key=lambda i: (ring[i], angle[i]))
+    return {
+        f"u{n}": (spacing * points[i][0], spacing * float(points[i][1]))
+        for n, i in enumerate(order[:count], start=1)
+    }
+
+
+def place(
+    device: Scene, units: Mapping[str, ArrayLike], directory: str | Path, title: str = ""
+) -> Scene:
+    """Place copies of a device, free of each other; join them by what is added to the scene.
+
+    Parameters
+    ----------
+    device : Scene
+        One device. Its waves, sea, solver, output and so on become those of the array.
+    units : dict of (x, y)
+        Shift of each copy by its name [m]; none is turned.
+    directory : path
+        Folder that relative paths of the array refer to.
+    title : str
+        Of the array.
+
+    Raises
+    ------
+    CaseError
+        A name that cannot stand before those of bodies, a shift that is not two numbers, or no
+        units.
+    """
+    tables = tomllib.loads(device.to_toml())
+    tables.pop("title", None)
+    if not units:
+        raise CaseError("an array needs at least one unit")
+    array = Scene(title or f"{len(units)} x {device.title}", directory=directory)
+    own = {str(e["name"]) for table in OF_UNITS for e in tables.get(table, []) if "name" in e}
+    for table in (t for t in tables if t not in OF_UNITS):
+        for entry in _entries(tables[table]):
+            _add(array, table, entry)
+    for unit, shift in units.items():
+        offset = np.asarray(shift, dtype=float)
+        if body_name(unit) != unit or offset.shape != (2,):
+            raise CaseError(f"unit {unit!r}: expected letters, digits, _ and -, and a shift x, y")
+        for table in (t for t in OF_UNITS if t in tables):
+            for entry in tables[table]:
+                keys = {key: _moved(key, value, unit, own, offset) for key, value in entry.items()}
+                _add(array, table, keys)
+    return array
+
+
+def _entries(table: Any) -> list[dict[str, Any]]:
+    return table if isinstance(table, list) else [table]
+
+
+def _add(scene: Scene, table: str, entry: Mapping[str, Any]) -> None:
+    keys = dict(entry)
+    add = getattr(scene, table)
+    if "type" in keys:
+        add = getattr(add, keys.pop("type"))
+    add(keys.pop("name"), **keys) if "name" in keys else add(**keys)
+
+
+def _moved(key: str, value: Any, unit: str, own: set[str], offset: Array) -> Any:
+    """Value of a key in the copy."""
+    if key in REFERENCES:
+        if isinstance(value, list):
+            return [f"{unit}_{name}" if name in own else name for name in value]
+        return f"{unit}_{value}" if key == "hydro" or value in own else value
+    if key in CHANNELS:
+        names = value if isinstance(value, list) else [value]
+        return [
+            "/".join(f"{unit}_{part}" if part in own else part for part in name.split("/"))
+            for name in names
+        ]
+    if key in PLACES:
+        return (np.asarray(value, dtype=float) + np.array([*offset, 0.0])).tolist()
+    return value
+
+
+@dataclass(frozen=True)
+class Limited:
+    """A database whose far bodies do not radiate into each other, and what that costs.
+
+    Attributes
+    ----------
+    database : HydroDatabase
+        Without fits and kernel, which held the coupling; the excitation is whole.
+    left_out : float
+        Share of the pairs of bodies that are uncoupled [-].
+    error : float
+        Largest entry of A or B that is left out, over the largest ones of the diagonals of the
+        motions that it joins [-].
+    smallest : float
+        Smallest eigenvalue of what is left of B, scaled likewise; well below 0 the radiation can
+        feed a motion [-].
+    """
+
+    database: HydroDatabase
+    left_out: float
+    error: float
+    smallest: float
+
+    def __str__(self) -> str:
+        """One line: what is left out, and the error."""
+        return (
+            f"{100.0 * self.left_out:.0f} % of the pairs uncoupled: A and B miss up to "
+            f"{100.0 * self.error:.2g} % of the diagonal; smallest eigenvalue of B "
+            f"{self.smallest:.1e} of the largest damping"
+        )
+
+
+def limit(
+    database: HydroDatabase,
+    *,
+    radius: float | None = None,
+    units: Mapping[str, ArrayLike] | None = None,
+) -> Limited:
+    """Uncouple the radiation of bodies that are far apart, or in different units.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+        Of the whole array.
+    radius : float, optional
+        Bodies whose reference points are farther apart in plan [m] do not feel each other.
+    units : mapping, optional
+        In place of that, names of units: only bodies of one unit, `<unit>_<body>`, feel each other.
+
+    Raises
+    ------
+    DatabaseError
+        Neither or both are given, or a body belongs to no unit.
+    """
+    if (radius is None) == (units is None):
+        raise DatabaseError("limit: give either a radius or units")
+    names = list(database.bodies)
+    if radius is not None:
+        points = np.array([database.reference_point(name)[:2] for name in names])
+        near = np.linalg.norm(points[:, None] - points[None, :], axis=2) <= radius
+    else:
+        owner = np.array([_unit_of(name, list(units or {})) for name in names])
+        near = owner[:, None] == owner
+    bodies = [names.index(label.rpartition(".")[0]) for label in database.coordinates]
+    kept = near[np.ix_(bodies, bodies)]
+    limited = replace(
+        database,
+        added_mass=database.added_mass * kept,
+        radiation_damping=database.radiation_damping * kept,
+        added_mass_inf=database.added_mass_inf * kept,
+        added_mass_inf_std=database.added_mass_inf_std * kept,
+        repairs=(*database.repairs, "coupling: blocks of A and B of far bodies set to zero"),
+        kernel=None,
+        memory={},
+    )
+    pairs = len(names) * (len(names) - 1)
+    scaled = [_scaled(table) for table in (database.added_mass, database.radiation_damping)]
+    lost = max(float(np.abs(table * ~kept).max(initial=0.0)) for table in scaled)
+    smallest = float(np.linalg.eigvalsh(_scaled(database.radiation_damping) * kept).min())
+    return Limited(limited, float((~near).sum()) / max(pairs, 1), lost, smallest)
+
+
+def _unit_of(name: str, units: list[str]) -> str:
+    """Longest unit whose prefix the name has."""
+    found = [unit for unit in units if name.startswith(f"{unit}_")]
+    if not found:
+        raise DatabaseError(f"body {name!r} belongs to none of the units {', '.join(units)}")
+    return max(found, key=len)
+
+
+def _scaled(table: Array) -> Array:
+    """Entries over the roots of the largest diagonal entries of both motions, all frequencies.
+
+    Motions of one kind share their scale; those without any are left out (zero).
+    """
+    diagonal = np.abs(np.einsum("wii->wi", table)).max(axis=0)
+    size = np.sqrt(diagonal)
+    scale = np.where(size > 1e-9 * size.max(initial=0.0), size, np.inf)
+    return np.asarray(table / np.outer(scale, scale))
+
+
+def places_of(
+    bodies: Mapping[str, ArrayLike], units: Mapping[str, ArrayLike]
+) -> dict[str, tuple[float, float]]:
+    """Places of all bodies of an array by their names, as `hydrodae.hdb.cylinders` takes them.
+
+    Parameters
+    ----------
+    bodies : dict of (x, y)
+        Places of the bodies of one device [m].
+    units : dict of (x, y)
+        As in `place`.
+    """
+    return {
+        f"{unit}_{body}": (
+            float(np.asarray(at, float)[0] + np.asarray(shift, float)[0]),
+            float(np.asarray(at, float)[1] + np.asarray(shift, float)[1]),
+        )
+        for unit, shift in units.items()
+        for body, at in bodies.items()
+    }

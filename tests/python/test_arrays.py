@@ -1,0 +1,132 @@
+"""Copies of a device on a layout, and databases whose far bodies are uncoupled."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae import arrays, hdb
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.tables import tables
+
+NODE = hdb.Cylinder(0.3, 0.6, -0.3)
+UNITS = arrays.hexagonal(3, 2.0)
+
+
+def device(directory: Path) -> hydrodae.Scene:
+    """A float on a spring to an arm that hangs from a fixed point."""
+    scene = hydrodae.Scene("float", directory=directory)
+    scene.hydro(database="hydro.h5", radiation="constant", frequency=3.0)
+    scene.body("float", hydro="float", mass=173.887, center_of_gravity=[0, 0, -0.3],
+               inertia=[9.1, 9.1, 7.8])  # fmt: skip
+    scene.body("arm", mass=5.0, center_of_gravity=[0.5, 0, 1.0], inertia=[0.1, 0.5, 0.5])
+    scene.joint.revolute("hinge", body_a="ground", body_b="arm", point=[1, 0, 1], axis=[0, 1, 0])
+    scene.force.spring_damper("spring", body_a="float", body_b="arm", point_a=[0, 0, 0],
+                              point_b=[0, 0, 1], stiffness=300.0, damping=50.0)  # fmt: skip
+    scene.force.pto_linear("pto", joint="hinge", damping=10.0)
+    scene.wave.regular("wave", height=0.02, period=2.1)
+    scene.solver(end_time=2.0, rtol=1e-8)
+    scene.output(step=0.1)
+    return scene
+
+
+@pytest.fixture(scope="module")
+def array_database() -> hdb.HydroDatabase:
+    places = arrays.places_of({"float": (0.0, 0.0)}, UNITS)
+    water = hdb.Water(np.array([2.8, 2.9, 3.0, 3.1]), 3.0)
+    return hdb.cylinders(places, NODE, water, modes=40, orders=2)[0]
+
+
+def test_hexagonal_grid_is_as_dense_as_its_spacing() -> None:
+    points = np.array(list(arrays.hexagonal(19, 3.0).values()))
+    distance = np.linalg.norm(points[:, None] - points[None, :], axis=2)
+    distance[np.arange(19), np.arange(19)] = np.inf
+    assert distance.min() == pytest.approx(3.0)
+    assert np.sum(np.isclose(distance[0], 3.0)) == 6
+    assert np.linalg.norm(points, axis=1).max() == pytest.approx(6.0)
+
+
+def test_copies_have_names_and_places_of_their_own(tmp_path: Path) -> None:
+    text = arrays.place(device(tmp_path), UNITS, tmp_path).to_toml()
+    found = tomllib.loads(text)
+    (x, y) = UNITS["u2"]
+    bodies = {entry["name"]: entry for entry in found["body"]}
+    assert len(bodies) == 6
+    assert bodies["u2_float"]["hydro"] == "u2_float"
+    assert bodies["u2_arm"]["center_of_gravity"] == pytest.approx([0.5 + x, y, 1.0])
+    hinge = next(entry for entry in found["joint"] if entry["name"] == "u2_hinge")
+    assert (hinge["body_a"], hinge["body_b"]) == ("ground", "u2_arm")
+    assert hinge["axis"] == [0, 1, 0]
+    assert len(found["wave"]) == 1
+
+
+def test_uncoupled_copies_move_as_one_device_alone(
+    tmp_path: Path, array_database: hdb.HydroDatabase
+) -> None:
+    """Radiation within the units: each moves as alone, in the waves that reach it."""
+    limited = arrays.limit(array_database, units=UNITS).database
+    limited.write(tmp_path / "hydro.h5")
+    scene = arrays.place(device(tmp_path), UNITS, tmp_path)
+    together = hydrodae.run(scene)
+    single = tmp_path / "single"
+    single.mkdir()
+    labels = [f"u2_float.{dof}" for dof in ("surge", "sway", "heave", "roll", "pitch", "yaw")]
+    limited.select(labels).write(single / "hydro.h5")
+    alone = hydrodae.run(arrays.place(device(single), {"u2": UNITS["u2"]}, single))
+    for name in ("bodies/u2_float/position", "joints/u2_hinge/angle"):
+        assert together[name].values == pytest.approx(alone[name].values, abs=1e-6)
+    array_database.write(tmp_path / "hydro.h5")
+    coupled = hydrodae.run(arrays.place(device(tmp_path), UNITS, tmp_path))
+    angle = "joints/u2_hinge/angle"
+    assert np.abs(coupled[angle].values - alone[angle].values).max() > 1e-5
+
+
+def test_error_of_a_limited_interaction_is_what_is_left_out(
+    array_database: hdb.HydroDatabase,
+) -> None:
+    near = arrays.limit(array_database, radius=2.5)
+    assert (near.left_out, near.error) == (0.0, 0.0)
+    far = arrays.limit(array_database, radius=1.0)
+    assert far.left_out == 1.0
+    a, b = array_database.added_mass, array_database.radiation_damping
+    heave = array_database.index(["u1_float.heave", "u2_float.heave"])
+    for table in (a, b):
+        i, j = heave
+        largest = np.sqrt(table[:, i, i].max() * table[:, j, j].max())
+        assert far.error >= np.abs(table[:, i, j]).max() / largest
+    assert far.error < 1.0
+    assert np.all(far.database.added_mass[:, heave[0], heave[1]] == 0.0)
+    assert "100 % of the pairs uncoupled" in str(far)
+
+
+def test_every_name_and_place_of_the_tables_is_known() -> None:
+    """A key that is added to the tables has to be known here, or copies would share it."""
+    words = {
+        "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file",
+        "protocol", "role", "host", "law",
+    }  # fmt: skip
+    for table in (t for t in tables() if t.name in arrays.OF_UNITS):
+        for kind in (table, *table.types):
+            for key in kind.keys:
+                if key.kind in ("word", "words") and not key.choices:
+                    known = {*arrays.REFERENCES, *arrays.CHANNELS, *words}
+                    assert key.name in known, f"{kind.name}.{key.name}"
+                if key.kind in ("vector3", "points") and key.unit == "m":
+                    assert key.name in arrays.PLACES, f"{kind.name}.{key.name}"
+
+
+def test_impossible_arrays_are_refused(tmp_path: Path, array_database: hdb.HydroDatabase) -> None:
+    with pytest.raises(CaseError, match="at least one unit"):
+        arrays.place(device(tmp_path), {}, tmp_path)
+    with pytest.raises(CaseError, match=r"'a\.b'"):
+        arrays.place(device(tmp_path), {"a.b": (0, 0)}, tmp_path)
+    with pytest.raises(DatabaseError, match="belongs to none of the units"):
+        arrays.limit(array_database, units={"x": (0, 0)})
+    with pytest.raises(DatabaseError, match="either a radius or units"):
+        arrays.limit(array_database)
+    with pytest.raises(CaseError, match="expected both > 0"):
+        arrays.hexagonal(0, 1.0)
