@@ -17,7 +17,10 @@ Array = NDArray[np.float64]
 
 #: How dear it is to exceed the stroke, against all slopes of the program: dearer than what the
 #: loads can earn by it, so that the stroke is kept where they can keep it.
-_EXCEED = 10.0
+_EXCEED = 1.0
+
+#: Step of OSQP that each solution begins with.
+_RHO = 0.1
 
 
 class ModelPredictive:
@@ -158,10 +161,12 @@ class ModelPredictive:
             np.full(count, -np.inf),
             np.full(count, np.inf),
             verbose=False,
-            eps_abs=1e-6,
-            eps_rel=1e-6,
-            max_iter=20000,
-            adaptive_rho=False,  # a solution depends on the state alone
+            eps_abs=1e-5,
+            eps_rel=1e-5,
+            max_iter=50000,
+            rho=_RHO,
+            adaptive_rho=True,
+            adaptive_rho_interval=50,  # counted in iterations, not in time
             polishing=False,
         )
 
@@ -227,6 +232,8 @@ class ModelPredictive:
 
     def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
         self._program.update(q=linear, l=low, u=high)
+        # a solution depends on the state alone, not on the one before
+        self._program.update_settings(rho=_RHO)
         self._program.warm_start(x=np.zeros(len(linear)), y=np.zeros(len(low)))
         found = self._program.solve(raise_error=False)
         if found.info.status not in ("solved", "solved inaccurate"):
