@@ -53,8 +53,10 @@ def make(folder: Path) -> hdb.HydroDatabase:
     table = table[table["omega"] <= HIGHEST]
     modes = (1, 3, 5)
 
+    names = table.dtype.names or ()
+
     def matrix(kind: str) -> np.ndarray:
-        rows = [[table[f"{kind}{i}{j}" if f"{kind}{i}{j}" in table.dtype.names else f"{kind}{j}{i}"]
+        rows = [[table[f"{kind}{i}{j}" if f"{kind}{i}{j}" in names else f"{kind}{j}{i}"]
                  for j in modes] for i in modes]  # fmt: skip
         full = np.moveaxis(np.array(rows), 2, 0)
         return np.asarray(0.5 * (full + full.swapaxes(1, 2)))

@@ -42,7 +42,7 @@ PERIOD = 0.04  # of the model-predictive controller [s]
 SETTINGS: dict[str, tuple[tuple[float, ...], ...]] = {
     "passive": ((150.0,), (200.0,), (300.0,), (150.0,), (200.0,), (300.0,)),
     "pi": 2 * ((147.0, -415.0), (210.0, -930.0), (297.0, -1170.0)),
-    "predictive": 2 * ((0.0, 1e-3), (200.0, 2e-3), (300.0, 1.5e-3)),
+    "predictive": 2 * ((0.0, 1e-3), (200.0, 3e-3), (300.0, 1.5e-3)),
 }
 SETTINGS["autoregressive"] = SETTINGS["predictive"]
 

@@ -144,3 +144,31 @@ def test_the_sphere_under_one_law_in_three_programs(repository: Path, way: str) 
     for name in ("joints/guide/displacement", "controllers/pi/output", "energy/work/pto"):
         scale = float(abs(own[name]).max())
         np.testing.assert_allclose(other[name], own[name], atol=1e-9 * scale)
+
+
+def test_the_sphere_under_one_law_as_an_fmu(repository: Path, tmp_path: Path) -> None:
+    """The same law in the importer: motion within 1e-9 of the case with its own controller."""
+    pytest.importorskip("fmpy", reason="needs the extra cosim")
+    from tests.verification.fmu_device import Device
+
+    from hydrodae.fmu import export
+
+    folder = repository / "cases" / "sphere"
+    text = (folder / "control.toml").read_text()
+    short = {"solver.end_time": 6.0, "sea.ramp": 2.0}
+    own = hydrodae.run(hydrodae.Case.from_text(text, folder), set=short)
+    bare = text.split("[[controller]]")[0] + "[solver]" + text.split("[solver]")[1]
+    path = export(hydrodae.Case.from_text(bare, folder), tmp_path / "sphere.fmu", set=short)
+    kp, ki, period, integral = 9.567e4, -2.096e5, 0.05, 0.0
+    slide = "joints/guide/displacement"
+    found = [0.0]
+    with Device(path, tmp_path / "sphere") as device:
+        device.begin()
+        for k in range(120):
+            (rate,) = device.get(slide + "_rate")
+            device.set("forces/pto/load", kp * -rate + integral)
+            integral += period * ki * -rate
+            device.step(k * period, period)
+            found += device.get(slide)
+    expected = own[slide].to_numpy()
+    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())

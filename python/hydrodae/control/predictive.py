@@ -15,9 +15,11 @@ from hydrodae.extras import install_command
 
 Array = NDArray[np.float64]
 
-#: How dear it is to exceed the stroke, against all slopes of the program: dearer than what the
-#: loads can earn by it, so that the stroke is kept where they can keep it.
-_EXCEED = 10.0
+#: How dear it is to exceed the stroke, against the curvature of the program.
+_EXCEED = 1e4
+
+#: Step of OSQP that each solution begins with.
+_RHO = 0.1
 
 
 class ModelPredictive:
@@ -54,8 +56,8 @@ class ModelPredictive:
     load_limit, rate_limit : float, optional
         Largest |u| [N, N m] and |u'| [N/s, N m/s].
     stroke : (float, float), optional
-        Least and largest coordinate of the joint [m, rad], as the channel counts it. Kept as well
-        as the loads allow.
+        Least and largest coordinate of the joint [m, rad], as the channel counts it. What exceeds
+        it is dear, not forbidden: it is kept to about a hundredth where the loads can keep it.
 
     Raises
     ------
@@ -135,7 +137,7 @@ class ModelPredictive:
         finite = [span for span in (*spans, self._rate_limit * period) if math.isfinite(span)]
         self._unit = finite[0] if finite else 1.0
         whole = np.zeros((n + 1, n + 1))
-        whole[:n, :n], whole[n, n] = hessian / self._scale, 1.0
+        whole[:n, :n], whole[n, n] = hessian / self._scale, _EXCEED
         one, zero = np.ones((n, 1)), np.zeros((n, 1))
         stroke = self._by_load / self._reach
         self._rows = sparse.csc_matrix(
@@ -145,7 +147,6 @@ class ModelPredictive:
                     np.hstack([self._difference, zero]),
                     np.hstack([stroke, -one]),
                     np.hstack([stroke, one]),
-                    np.append(np.zeros(n), 1.0),
                 ]
             )
         )
@@ -158,10 +159,12 @@ class ModelPredictive:
             np.full(count, -np.inf),
             np.full(count, np.inf),
             verbose=False,
-            eps_abs=1e-6,
-            eps_rel=1e-6,
-            max_iter=20000,
-            adaptive_rho=False,  # a solution depends on the state alone
+            eps_abs=1e-5,
+            eps_rel=1e-5,
+            max_iter=50000,
+            rho=_RHO,
+            adaptive_rho=True,
+            adaptive_rho_interval=50,  # counted in iterations, not in time
             polishing=False,
         )
 
@@ -214,19 +217,20 @@ class ModelPredictive:
         change = np.full(n, self._rate_limit * self._period)
         first, none = np.zeros(n), np.full(n, np.inf)
         first[0] = self._last
-        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach, [0.0]]
-        high = [np.full(n, load), first + change, (upper - free) / self._reach, none, [np.inf]]
+        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach]
+        high = [np.full(n, load), first + change, (upper - free) / self._reach, none]
         bounds = np.concatenate(low), np.concatenate(high)
         best = np.append(-np.linalg.solve(self._hessian, linear), 0.0)
         rows = self._rows @ best
         if np.all(rows >= bounds[0]) and np.all(rows <= bounds[1]):
             return best[:n]  # no limit matters
-        slopes = linear / (self._scale * self._unit)
-        slopes = np.append(slopes, _EXCEED * np.abs(slopes).sum())
+        slopes = np.append(linear, 0.0) / (self._scale * self._unit)
         return self._unit * self._solve_within(slopes, *(bound / self._unit for bound in bounds))
 
     def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
         self._program.update(q=linear, l=low, u=high)
+        # a solution depends on the state alone, not on the one before
+        self._program.update_settings(rho=_RHO)
         self._program.warm_start(x=np.zeros(len(linear)), y=np.zeros(len(low)))
         found = self._program.solve(raise_error=False)
         if found.info.status not in ("solved", "solved inaccurate"):
