@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae import cli
+from hydrodae import cli, hdb
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
@@ -20,6 +20,7 @@ from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.source import tables_of
 from hydrodae.viewer.stage import Body, Sea
+from tests.python.nemoh_writer import NemohFolder
 
 
 def volumes(triangles):
@@ -356,6 +357,34 @@ def test_meshes_are_kept_by_the_database(repository, tmp_path, capsys):
     assert "wetted surface of" in after.summary()
     assert cli.main(["hdb", "mesh", str(case), "--body", "spere=sphere:radius=5"]) == 2
     assert "sphere" in capsys.readouterr().err
+
+
+def test_meshes_of_a_nemoh_folder_are_kept(tmp_path):
+    folder = NemohFolder()
+    folder.write(tmp_path)
+    assert hdb.read(tmp_path).bodies["body1"].mesh is None
+    corners = [[1, 0, 0], [1, 1, 0], [1, 1, -1], [1, 0, -1]]
+    lines = ["2 0", *(f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(corners, start=1))]
+    text = "\n".join([*lines, "0 0 0 0", "1 2 3 4", "0 0 0 0", ""])
+    (tmp_path / "mesh").mkdir(exist_ok=True)
+    (tmp_path / "mesh" / "body1.dat").write_text(text)
+    database = hdb.read(tmp_path)
+    assert database.bodies["body1"].mesh is not None
+    database = database.moved_to({"body1": [0.0, 0.0, -0.5]})
+    database.write(tmp_path / "hydro.h5")
+    again = HydroDatabase.read(tmp_path / "hydro.h5").bodies["body1"].mesh
+    np.testing.assert_array_equal(again, [corners])
+
+
+def test_the_libraries_of_the_page_are_those_that_are_named(repository):
+    named = json.loads((repository / "python" / "viewer" / "package.json").read_text())
+    page = repository / "python" / "hydrodae" / "viewer" / "page"
+    licences = (page / "libraries.LICENSE.txt").read_text()
+    for name in ("three", "uplot"):
+        assert f"{name} {named['devDependencies'][name]}\n" in licences
+    revision = named["devDependencies"]["three"].split(".")[1]
+    assert f'"{revision}"' in (page / "libraries.min.js").read_text()
+    assert (page / "libraries.min.js").stat().st_size < 2**20
 
 
 def test_results_whose_case_has_gone_ask_for_it(tmp_path, repository):

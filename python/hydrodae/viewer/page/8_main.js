@@ -244,5 +244,6 @@ window.hydrodae = {
   place: (name) => bodies.find((body) => body.name === name).group.position.toArray(),
   resolution: () => ratio,
   leftOut: () => bare,
+  sharpen: (pixels) => (still = pixels),
   hideControls() { document.body.classList.add("still"); },
 };
