@@ -57,10 +57,11 @@ def main() -> None:
         before = processor_time()
         frames, passed, ratio, left_out = page.evaluate(COUNT, seconds)
         spent = processor_time() - before
+    megabytes, milliseconds = page_file.stat().st_size / 1e6, 1000.0 * spent / frames
     print(
-        f"{page_file.name}: {page_file.stat().st_size / 1e6:.2f} MB, {frames / passed:.1f} frames a "
-        f"second at {ratio:.2f} of the {SIZE[0]} x {SIZE[1]} pixels, {left_out} of 2 details left "
-        f"out; {1000.0 * spent / frames:.0f} ms of processor time a frame"
+        f"{page_file.name}: {megabytes:.2f} MB, {frames / passed:.1f} frames a second at "
+        f"{ratio:.2f} of the {SIZE[0]} x {SIZE[1]} pixels, {left_out} of 2 details left out; "
+        f"{milliseconds:.0f} ms of processor time a frame"
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae import cli
+from hydrodae import cli, hdb
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
@@ -20,6 +20,7 @@ from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.source import tables_of
 from hydrodae.viewer.stage import Body, Sea
+from tests.python.nemoh_writer import NemohFolder
 
 
 def volumes(triangles):
@@ -241,6 +242,7 @@ def test_the_page_holds_everything_and_nothing_from_outside(seen):
 
 def test_the_page_has_the_motion_in_single_precision(seen, results):
     found = re.search(r'<script id="data" type="application/json">(.*?)</script>', seen.html())
+    assert found is not None
     data = json.loads(found[1])
     numbers = np.frombuffer(base64.b64decode(data["numbers"]), dtype="<f4")
     place, count = data["bodies"][0]["position"]
@@ -327,7 +329,9 @@ def test_meshes_of_the_database_are_drawn_where_the_body_is(repository):
     stage = hydrodae.view(repository / "cases" / "f3of" / "waves.toml").stage
     database = HydroDatabase.read(repository / "cases" / "f3of" / "hydro.h5")
     for body in stage.bodies:
-        volume = database.bodies[body.name].hydrostatics.displaced_volume
+        statics = database.bodies[body.name].hydrostatics
+        assert statics is not None
+        volume = statics.displaced_volume
         # open where bodies touch, across y only
         assert volumes(body.surface)[[0, 2]] == pytest.approx([volume] * 2, rel=1e-5)
         assert body.surface[..., 2].max() == pytest.approx(0.0, abs=1e-6)
@@ -343,13 +347,44 @@ def test_meshes_are_kept_by_the_database(repository, tmp_path, capsys):
         == 0
     )
     before, after = HydroDatabase.read(case), HydroDatabase.read(tmp_path / "a.h5")
-    assert len(after.bodies["sphere"].mesh) > len(before.bodies["sphere"].mesh)
+    finer, coarse = after.bodies["sphere"].mesh, before.bodies["sphere"].mesh
+    assert finer is not None
+    assert coarse is not None
+    assert len(finer) > len(coarse)
     np.testing.assert_array_equal(after.added_mass, before.added_mass)
     moved = after.renamed({"sphere": "ball"}).moved_to({"ball": [0.0, 0.0, -1.0]})
-    np.testing.assert_array_equal(moved.bodies["ball"].mesh, after.bodies["sphere"].mesh)
+    np.testing.assert_array_equal(moved.bodies["ball"].mesh, finer)
     assert "wetted surface of" in after.summary()
     assert cli.main(["hdb", "mesh", str(case), "--body", "spere=sphere:radius=5"]) == 2
     assert "sphere" in capsys.readouterr().err
+
+
+def test_meshes_of_a_nemoh_folder_are_kept(tmp_path):
+    folder = NemohFolder()
+    folder.write(tmp_path)
+    assert hdb.read(tmp_path).bodies["body1"].mesh is None
+    corners = [[1, 0, 0], [1, 1, 0], [1, 1, -1], [1, 0, -1]]
+    lines = ["2 0", *(f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(corners, start=1))]
+    text = "\n".join([*lines, "0 0 0 0", "1 2 3 4", "0 0 0 0", ""])
+    (tmp_path / "mesh").mkdir(exist_ok=True)
+    (tmp_path / "mesh" / "body1.dat").write_text(text)
+    database = hdb.read(tmp_path)
+    assert database.bodies["body1"].mesh is not None
+    database = database.moved_to({"body1": [0.0, 0.0, -0.5]})
+    database.write(tmp_path / "hydro.h5")
+    again = HydroDatabase.read(tmp_path / "hydro.h5").bodies["body1"].mesh
+    np.testing.assert_array_equal(again, [corners])
+
+
+def test_the_libraries_of_the_page_are_those_that_are_named(repository):
+    named = json.loads((repository / "python" / "viewer" / "package.json").read_text())
+    page = repository / "python" / "hydrodae" / "viewer" / "page"
+    licences = (page / "libraries.LICENSE.txt").read_text()
+    for name in ("three", "uplot"):
+        assert f"{name} {named['devDependencies'][name]}\n" in licences
+    revision = named["devDependencies"]["three"].split(".")[1]
+    assert f'"{revision}"' in (page / "libraries.min.js").read_text()
+    assert (page / "libraries.min.js").stat().st_size < 2**20
 
 
 def test_results_whose_case_has_gone_ask_for_it(tmp_path, repository):
@@ -383,8 +418,7 @@ def test_paraview_files_have_the_places_of_the_stage(seen, tmp_path):
 
 def test_paraview_files_are_read_by_vtk(seen, tmp_path):
     vtk = pytest.importorskip("vtk", reason="needs the package vtk")
-    from vtk.util.numpy_support import vtk_to_numpy
-
+    vtk_to_numpy = pytest.importorskip("vtk.util.numpy_support").vtk_to_numpy
     written = seen.paraview(tmp_path)
     for path, name in zip(written[1:3], ("load", "elevation"), strict=True):
         reader = vtk.vtkHDFReader()

@@ -10,7 +10,7 @@ from matplotlib.image import imread
 
 import hydrodae
 from hydrodae.viewer import ViewError, browser
-from hydrodae.viewer.view import View
+from hydrodae.viewer.viewing import View
 
 SIZE = (480, 300)
 

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from hydrodae.viewer.browser import ViewError
-from hydrodae.viewer.view import View, view
+from hydrodae.viewer.viewing import View, view
 
 __all__ = ["View", "ViewError", "view"]

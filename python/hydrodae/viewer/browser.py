@@ -19,10 +19,12 @@ from hydrodae.extras import install_command
 BROWSER = "HYDRODAE_BROWSER"
 #: Names under which systems have a browser that playwright can drive.
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+#: Range and sampling of colours that players expect.
+TELEVISION = "scale=out_range=tv,format=yuv420p"
 #: Flags of ffmpeg by the ending of a video.
 ENCODERS = {
-    ".mp4": ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-movflags", "+faststart"],
-    ".webm": ["-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "30", "-b:v", "0"],
+    ".mp4": ["-c:v", "libx264", "-vf", TELEVISION, "-crf", "20", "-movflags", "+faststart"],
+    ".webm": ["-c:v", "libvpx-vp9", "-vf", TELEVISION, "-crf", "30", "-b:v", "0"],
     ".gif": ["-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer"],
 }
 PICTURES = (".png", ".jpg", ".jpeg")
@@ -177,6 +179,7 @@ def video(
     def draw() -> None:
         with opened(text, even) as page:
             page.evaluate("hydrodae.hideControls()")
+            page.evaluate("hydrodae.sharpen(1)")
             frames = _frames(page, times, progress)
             _encode(command, frames, path)
 

@@ -129,7 +129,7 @@ def _length_of(force: Mapping[str, Any], away: Array, tension: float) -> float:
         middle = 0.5 * (low + high)
         pull = _at_rest(force, [middle, *force["length"][1:]], away).tension
         low, high = (middle, high) if pull > tension else (low, middle)
-    return 0.5 * (low + high)
+    return float(0.5 * (low + high))
 
 
 def _places(source: Source, bodies: Mapping[str, Body], body: str, point: Any) -> Array:

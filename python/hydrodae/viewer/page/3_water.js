@@ -147,7 +147,11 @@ function makeWater() {
     position.needsUpdate = normal.needsUpdate = color.needsUpdate = true;
   };
   const elevation = (t, x, y) => new Waves([x], [y]).at(t)[0];
-  return { mesh, place, elevation };
+  const matt = new L.MeshLambertMaterial({
+    vertexColors: true, transparent: true, depthWrite: false, side: L.DoubleSide,
+    forceSinglePass: true,
+  });
+  return { mesh, place, elevation, glossy: mesh.material, matt };
 }
 
 function makeBed() {

@@ -112,7 +112,7 @@ function draw() {
 }
 
 /// While it moves, what costs most for its worth is left out first if 30 frames a second are not
-/// reached: pixels, the net on the water, edges, more pixels; and comes back if there is time.
+/// reached: pixels, the net and the gloss of the water, edges, more pixels; and comes back if there is time.
 function adapt(milliseconds) {
   slow = 0.9 * slow + 0.1 * milliseconds;
   if (slow > 29) {
@@ -129,7 +129,10 @@ function adapt(milliseconds) {
 }
 
 function showDetails(level) {
-  water?.mesh.children.forEach((net) => (net.visible = level < 1));
+  if (water) {
+    water.mesh.children.forEach((net) => (net.visible = level < 1));
+    water.mesh.material = level < 1 ? water.glossy : water.matt;
+  }
   const drawn = bodies.flatMap((body) => body.group.children.filter((c) => c.isLineSegments));
   drawn.forEach((edges) => (edges.visible = level < 2));
 }
@@ -241,5 +244,6 @@ window.hydrodae = {
   place: (name) => bodies.find((body) => body.name === name).group.position.toArray(),
   resolution: () => ratio,
   leftOut: () => bare,
+  sharpen: (pixels) => (still = pixels),
   hideControls() { document.body.classList.add("still"); },
 };
