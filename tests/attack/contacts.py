@@ -163,16 +163,18 @@ def pressed_incline(
     end = 6.0
     creep = 1e-3
 
+    solved: truth.Truth
     if how == "dry":
         up = pull + friction * press
         top, height = 1.0 / up, 0.5 / up
         back = max(pull - friction * press, 0.0)
 
-        def solved(t: Any) -> Any:
+        def flown(t: Any) -> Any:
             late = np.maximum(t - top, 0.0)
             early = np.minimum(t, top)
             return (early - 0.5 * up * early**2 - 0.5 * back * late**2)[:, None]
 
+        solved = flown
         law: dict[str, Any] = {"type": "dry_friction"}
     else:
 

@@ -72,7 +72,7 @@ def pi_block(
             wanted = -gain * state[1] + integral
             given = min(max(wanted, -limit), limit)
             integral += period * (-rise * state[1] + (given - wanted) / (gain / rise))
-            return given
+            return float(given)
 
         return s.length * held(answer, period, late * period, time * s.rate)[:, None]
 

@@ -14,6 +14,7 @@ from tests.attack import rest, sea, suite, truth
 from tests.attack.family import FAMILIES
 from tests.attack.parts import GRAVITY
 
+import hydrodae
 from hydrodae.study.stability import Cell, Scene, run_cell
 from hydrodae.study.stability.grid import PASS, WRONG
 
@@ -177,3 +178,9 @@ def test_random_settings_follow_the_seed() -> None:
     scene: Scene = SCENES["driven_arm_1"]
     same = [suite.described(scene, suite.random_method("ida:random", scene, 3)) for _ in range(2)]
     assert same[0] == same[1] != suite.described(scene, suite.random_method("ida:random", scene, 4))
+
+
+def test_the_summary_tells_work_of_a_billionth_of_a_joule(tmp_path: Path) -> None:
+    scene = SCENES["mass_on_spring_3"]
+    results = hydrodae.run(scene.case({"rtol": 1e-6}, tmp_path))
+    assert "work in J: spring" in str(results.summary())

@@ -6,6 +6,7 @@ import copy
 import re
 import tomllib
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
@@ -259,7 +260,9 @@ def mutated(corpus: Corpus, random: Random) -> str:
         tables["solver"]["end_time"] = random.choice((0.1, 1.0, 5.0))
     sound = random.random() < 0.5
     for _ in range(random.choice((1, 2, 3) if sound else (1, 1, 2, 2, 3, 5, 10))):
-        random.choice(SOUND if sound else MUTATIONS)(tables, corpus, random)
+        # What an earlier change left may not be changed so.
+        with suppress(AttributeError, KeyError, TypeError):
+            random.choice(SOUND if sound else MUTATIONS)(tables, corpus, random)
     if sound and random.random() < 0.3:
         _change_a_little(tables, corpus, random)
     text = case_text(tables)

@@ -186,7 +186,7 @@ void GeneralizedAlpha::estimate(double h) {
   step_error_ = VectorX::Zero(s_.lambda0);
   step_error_.head(s_.n_q) = to_positions(s_, y_, moved);
   if (change_.size() == change.size())
-    step_error_.segment(s_.u0, n_x_) = rate_constant_ * h * (change - change_);
+    step_error_.segment(s_.u0, s_.n_u) = rate_constant_ * h * (change - change_).head(s_.n_u);
   change_ = change;
   local_error_ = body_sizes(s_, step_error_.head(s_.n_q));
 }

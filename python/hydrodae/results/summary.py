@@ -124,12 +124,13 @@ def _work(results: Recording) -> list[str]:
         name.removeprefix(head): float(results[name].to_numpy()[-1])
         for name in results.channels(f"{head}*")
         if len(results.time)
+        and results[name].ndim == 1
         and not str(results[name].attrs.get("description", "")).startswith("Part of")
     }
     largest = max(map(abs, done.values()), default=0.0)
     if not largest > 0.0:
         return []
-    scale, unit = next((s, u) for s, u in _JOULES if largest >= s)
+    scale, unit = next(((s, u) for s, u in _JOULES if largest >= s), (1.0, "J"))
     told = sorted(
         ((name, work) for name, work in done.items() if abs(work) >= least * largest),
         key=lambda item: -abs(item[1]),
@@ -139,7 +140,7 @@ def _work(results: Recording) -> list[str]:
     return [f"  work in {unit}: {', '.join(parts)}; gain of kinetic energy {moving / scale:+.3g}"]
 
 
-_JOULES = [(1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ"), (1.0, "J"), (1e-3, "mJ"), (0.0, "J")]
+_JOULES = [(1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ"), (1.0, "J"), (1e-3, "mJ")]
 
 
 def _impacts(results: Recording) -> list[str]:
