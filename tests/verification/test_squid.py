@@ -113,6 +113,7 @@ def test_case_files_are_those_of_the_scripts(
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:memory fit .all. finds no radiation")
 def test_runs_in_small_waves_are_as_the_linear_model(cases: Any, tmp_path: Path) -> None:
     parts, study = cases("parts"), cases("study")
     parts.database(parts.SQUID).write(tmp_path / "hydro.h5")
