@@ -10,6 +10,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+from tests.python.nemoh_writer import NemohFolder
 
 import hydrodae
 from hydrodae import cli, hdb
@@ -20,7 +21,6 @@ from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.source import tables_of
 from hydrodae.viewer.stage import Body, Sea
-from tests.python.nemoh_writer import NemohFolder
 
 
 def volumes(triangles):
