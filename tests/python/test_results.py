@@ -20,7 +20,7 @@ def test_scalar_channel_carries_time_unit_and_frame(results_file):
     assert angle.attrs["unit"] == "rad"
     assert angle.attrs["frame"] == "marker A of hinge1"
     assert angle.attrs["description"] == "joints/hinge1/angle."
-    assert angle.coords["time"].attrs == {"unit": "s"}
+    assert angle.coords["time"].attrs == {"unit": "s", "units": "s"}
     # closed form of the synthetic run at one full period
     expected = np.radians(10.0) * np.exp(-0.14)
     assert float(angle.sel(time=14.0, method="nearest")) == pytest.approx(expected, rel=1e-12)

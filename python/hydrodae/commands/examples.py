@@ -27,6 +27,12 @@ EXAMPLES = {
         "hydrodae mooring linearise case.toml",
         "hydrodae mooring import lines.dat",
     ),
+    "control": ("hydrodae control design case.toml --joint slide --period 8",),
+    "fmu": ("hydrodae fmu case.toml -o device.fmu --inputs 'forces/pto/*'",),
+    "view": (
+        "hydrodae view case.h5",
+        "hydrodae view case.h5 --picture case.png --time 40 --camera side",
+    ),
     "plot": (
         "hydrodae plot case.h5",
         "hydrodae plot case.h5 'joints/*/angle' bodies/float/position.z -o motion.pdf",
