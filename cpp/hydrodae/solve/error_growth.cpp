@@ -11,7 +11,7 @@ constexpr double rough = 0.5; ///< change of the equations from which on growth 
 constexpr double doubtful = 0.15;
 // How much more than by themselves errors may show in the positions once the constraints take part,
 // and where that is not believed.
-constexpr double hidden = 1e3, doubtfully_hidden = 10.0;
+constexpr double hidden = 1e3, doubtfully_hidden = 2.0;
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
