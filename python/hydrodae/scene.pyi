@@ -1992,14 +1992,11 @@ class ForceTypes(TypedList):
         winch_length: _Numbers = ...,
         radii: _Numbers = ...,
         axes: _Rows = ...,
-        turns: _Numbers = ...,
-        friction: _Numbers = ...,
-        slip_viscosity: float = ...,
     ) -> str:
         """Add `[[force]]` with the type "rope".
 
-        Elastic rope without mass over points and sheaves of bodies, which pulls only; with
-        friction and a winch if wanted.
+        Elastic rope without mass over points and sheaves of bodies, which pulls only; with a
+        winch if wanted.
 
         Parameters
         ----------
@@ -2022,24 +2019,13 @@ class ForceTypes(TypedList):
         winch_time : list of numbers, s, optional
             Times, ascending, of `winch_length`.
         winch_length : list of numbers, m, optional
-            Unstretched lengths at these times; with friction the winch is at the first point.
-            Allowed: > 0.
+            Unstretched lengths at these times. Allowed: > 0.
         radii : list of numbers, m, optional
             Radii of the sheaves, one for each point, which is the centre; 0: a point, as the
             ends. Allowed: >= 0.
         axes : list of points, optional
             Axes of the sheaves, one for each point (any where there is none), world axes: from
             the first point to the last the rope runs round them by the rule of the right hand.
-        turns : list of numbers, optional
-            Full turns about each sheave, beside the angle between its straight parts. Allowed:
-            >= 0.
-        friction : list of numbers, optional
-            Coefficient mu of friction on each point or sheave: the tensions beside it differ by
-            up to exp(mu phi), phi the angle of wrap. A sheave without it turns freely. Allowed:
-            >= 0.
-        slip_viscosity : number, s/m, default 1e-09
-            Growth of the friction with the speed of slip, over EA: what makes slip unique. 1e-9
-            s/m of a rope at a strain of 0.001 are 1e-6 of its tension at 1 m/s. Allowed: > 0.
 
         Returns
         -------

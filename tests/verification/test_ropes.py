@@ -168,3 +168,21 @@ stiffness = 1e4
     )
     with pytest.raises(CaseError, match=message):
         run_text(text, 0.5)
+
+
+def test_a_rope_that_holds_a_body_at_two_points_reports_its_load() -> None:
+    """Both points together: T times the sum of the directions to their neighbours."""
+    text = heaving({"plate": (10.0, (0.0, 0.0, 0.0))})
+    text += (
+        '[[force]]\ntype = "rope"\nname = "rope"\n'
+        'bodies = ["ground", "plate", "plate", "ground"]\n'
+        "points = [[-1.0, 0.0, 2.0], [-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 2.0]]\n"
+        "stiffness = 1e4\n"
+    )
+    run = run_text(text, 1.0)
+    drop = 2.0 - height_of(run, "plate")
+    up = run["forces/rope/tension"].values * 2.0 * drop / np.hypot(0.5, drop)
+    assert up.max() > 50.0
+    load = run["forces/rope/plate/force"].values
+    assert load[:, 2] == pytest.approx(up, rel=1e-9, abs=1e-9)
+    assert np.abs(load[:, :2]).max() < 1e-9

@@ -18,12 +18,11 @@ namespace hydrodae::element {
 ///   force on point i = T (e_i - e_(i-1)),  e_i: direction from point i to point i + 1
 ///
 /// l: sum of the distances [m]. A winch that changes L0 in time gives the power -T L0'. Over
-/// sheaves and points with friction it runs as rope_path.h and rope_sheaves.h say.
+/// sheaves it runs as rope_path.h says.
 struct Rope {
   static constexpr std::string_view type = "rope";
   static constexpr std::string_view doc = "Elastic rope without mass over points and sheaves of "
-                                          "bodies, which pulls only; with friction "
-                                          "and a winch if wanted.";
+                                          "bodies, which pulls only; with a winch if wanted.";
   static constexpr Port port = Port::points;
   static constexpr std::size_t most_points = 100, most_with_sheaves = 20;
   std::string name;
@@ -33,22 +32,20 @@ struct Rope {
   double damping = 0.0;
   std::optional<double> length, pretension;
   std::vector<double> winch_time, winch_length;
-  std::vector<double> radii, turns, friction; ///< of each point; empty: zeros
+  std::vector<double> radii; ///< of each point; empty: zeros
   std::vector<Vector3> axes;
-  double slip_viscosity = 1e-9;
 
   bool has_sheave(std::size_t point) const { return !radii.empty() && radii[point] > 0.0; }
-  bool has_friction(std::size_t point) const { return !friction.empty() && friction[point] > 0.0; }
-  bool is_plain() const; ///< neither sheaves nor friction
+  bool is_plain() const; ///< without sheaves
 
-  /// What the port joins, by the names of the bodies: the points, and after them two for each
-  /// sheave, at its radius along its axis and across it.
+  /// What the port joins, by the names of the bodies: the points, and after them one for each
+  /// sheave, at its radius along its axis.
   std::vector<std::pair<std::string, Vector3>> ends() const;
 
   /// Unstretched length that does not follow a winch [m].
   double free_length() const;
 
-  /// Ropes of one shape make one list: as many points, sheaves and points with friction.
+  /// Ropes of one shape make one list: as many points and sheaves.
   std::size_t shape() const;
 
   static std::shared_ptr<const Elements> list(const std::vector<Rope>& ropes);
@@ -73,26 +70,14 @@ struct Rope {
         {"pretension", &R::pretension, "N", "Tension in the reference pose, in place of `length`.",
          false, more_than(0)},
         {"winch_time", &R::winch_time, "s", "Times, ascending, of `winch_length`."},
-        {"winch_length", &R::winch_length, "m",
-         "Unstretched lengths at these times; with friction the winch is at the first point.",
-         false, more_than(0)},
+        {"winch_length", &R::winch_length, "m", "Unstretched lengths at these times.", false,
+         more_than(0)},
         {"radii", &R::radii, "m",
          "Radii of the sheaves, one for each point, which is the centre; 0: a point, as the ends.",
          false, at_least(0)},
         {"axes", &R::axes, "-",
          "Axes of the sheaves, one for each point (any where there is none), world axes: from the "
          "first point to the last the rope runs round them by the rule of the right hand."},
-        {"turns", &R::turns, "-",
-         "Full turns about each sheave, beside the angle between its straight parts.", false,
-         at_least(0, 100)},
-        {"friction", &R::friction, "-",
-         "Coefficient mu of friction on each point or sheave: the tensions beside it differ by up "
-         "to exp(mu phi), phi the angle of wrap. A sheave without it turns freely.",
-         false, at_least(0)},
-        {"slip_viscosity", &R::slip_viscosity, "s/m",
-         "Growth of the friction with the speed of slip, over EA: what makes slip unique. 1e-9 s/m "
-         "of a rope at a strain of 0.001 are 1e-6 of its tension at 1 m/s.",
-         false, more_than(0)},
     };
   }
 };

@@ -10,7 +10,7 @@ namespace hydrodae::element {
 
 bool Rope::is_plain() const {
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (has_sheave(i) || has_friction(i))
+    if (has_sheave(i))
       return false;
   return true;
 }
@@ -20,11 +20,8 @@ std::vector<std::pair<std::string, Vector3>> Rope::ends() const {
   for (std::size_t i = 0; i < points.size(); ++i)
     out.emplace_back(bodies[i], points[i]);
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (has_sheave(i)) {
-      const Vector3 a = axes[i].normalized();
-      out.emplace_back(bodies[i], points[i] + radii[i] * a);
-      out.emplace_back(bodies[i], points[i] + radii[i] * a.unitOrthogonal());
-    }
+    if (has_sheave(i))
+      out.emplace_back(bodies[i], points[i] + radii[i] * axes[i].normalized());
   return out;
 }
 
@@ -41,8 +38,7 @@ RopePath<double> reference_path(const Rope& rope) {
     nodes[i].axis = rope.axes[i].normalized();
   }
   RopePath<double> path;
-  lay_rope<double>(nodes.data(), static_cast<int>(rope.points.size()),
-                   rope.turns.empty() ? nullptr : rope.turns.data(), path);
+  lay_rope<double>(nodes.data(), static_cast<int>(rope.points.size()), path);
   return path;
 }
 
@@ -64,12 +60,10 @@ double Rope::free_length() const {
 }
 
 std::size_t Rope::shape() const {
-  std::size_t sheaves = 0, rough = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  std::size_t sheaves = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
     sheaves += has_sheave(i) ? 1 : 0;
-    rough += has_friction(i) ? 1 : 0;
-  }
-  return points.size() + 128 * (sheaves + 128 * rough);
+  return points.size() + 128 * sheaves;
 }
 
 namespace {
@@ -79,26 +73,16 @@ constexpr double largest_fleet_angle = pi / 12.0;
 /// Keys that hold one entry for each point.
 std::optional<Fault> fault_of_lists(const Rope& rope) {
   const std::vector<std::pair<std::string, std::size_t>> all = {{"radii", rope.radii.size()},
-                                                                {"axes", rope.axes.size()},
-                                                                {"turns", rope.turns.size()},
-                                                                {"friction", rope.friction.size()}};
+                                                                {"axes", rope.axes.size()}};
   for (const auto& [key, size] : all)
     if (size > 0 && size != rope.points.size())
       return Fault{key, "'" + key + "' takes one entry for each of the points, ends included"};
-  for (const std::size_t end : {std::size_t(0), rope.points.size() - 1}) {
+  for (const std::size_t end : {std::size_t(0), rope.points.size() - 1})
     if (rope.has_sheave(end))
       return Fault{"radii", "the ends of a rope are points: their radius is 0"};
-    if (rope.has_friction(end))
-      return Fault{"friction", "a rope is made fast at its ends: their friction is 0"};
-  }
-  for (std::size_t i = 0; i < rope.points.size(); ++i) {
+  for (std::size_t i = 0; i < rope.points.size(); ++i)
     if (rope.has_sheave(i) && (rope.axes.empty() || rope.axes[i].norm() == 0.0))
       return Fault{"axes", "a sheave needs the direction of its axis in 'axes'"};
-    if (!rope.turns.empty() && rope.turns[i] != std::floor(rope.turns[i]))
-      return Fault{"turns", "'turns' are whole numbers: angles beside them follow from the points"};
-    if (!rope.turns.empty() && rope.turns[i] > 0.0 && !rope.has_sheave(i) && !rope.has_friction(i))
-      return Fault{"turns", "turns about a point without radius and friction do nothing"};
-  }
   return {};
 }
 
@@ -150,7 +134,7 @@ std::optional<Fault> Rope::fault() const {
   if (is_plain())
     return {};
   if (points.size() > most_with_sheaves)
-    return Fault{"points", "a rope with sheaves or friction takes 20 points at most"};
+    return Fault{"points", "a rope with sheaves takes 20 points at most"};
   return fault_of_path(*this);
 }
 

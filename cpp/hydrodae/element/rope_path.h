@@ -23,8 +23,6 @@ template <class S> struct RopeNode {
   double radius = 0.0;
   Vec3<S> place = Vec3<S>::Zero(), velocity = Vec3<S>::Zero();
   Vec3<S> axis = Vec3<S>::Zero(), axis_rate = Vec3<S>::Zero(); ///< a, a'
-  Vec3<S> across = Vec3<S>::Zero();                            ///< b, across the axis
-  S spin = S(0); ///< of its body about the axis [rad/s]
 };
 
 /// A straight part from one node to another.
@@ -32,8 +30,7 @@ template <class S> struct RopeSpan {
   int from = 0, to = 0;
   Vec3<S> e;
   S length;
-  Vec3<S> off, on;     ///< rho where it leaves `from`, and comes on `to`; zero at points
-  S off_rate, on_rate; ///< at which these turn about their axes [rad/s]
+  Vec3<S> off, on; ///< rho where it leaves `from`, and comes on `to`; zero at points
 };
 
 template <class S> struct RopePath {
@@ -43,12 +40,9 @@ template <class S> struct RopePath {
   std::array<bool, most_rope_nodes> touched; ///< does it touch the node?
 };
 
-/// Of a body where the rope touches it; a sheave without friction does not turn with it.
-template <class S>
-Vec3<S> contact_velocity(const RopeNode<S>& node, const Vec3<S>& rho, bool rough) {
-  const S spin = rough ? node.spin : S(0);
-  return node.velocity +
-         S(node.radius) * (spin * cross(node.axis, rho) - dot(rho, node.axis_rate) * node.axis);
+/// Of a sheave where the rope touches it, which turns freely about its axis.
+template <class S> Vec3<S> contact_velocity(const RopeNode<S>& node, const Vec3<S>& rho) {
+  return node.velocity - S(node.radius) * dot(rho, node.axis_rate) * node.axis;
 }
 
 /// rho of the tangent from a sheave to `target` (leaves), or from there to the sheave. No number
@@ -112,20 +106,6 @@ template <class S> void span_between(const RopeNode<S>& a, const RopeNode<S>& b,
   s.e = d / s.length;
 }
 
-/// Rates at which the points of contact turn: the derivative of the conditions in time.
-template <class S> void turn_rates(const RopeNode<S>& a, const RopeNode<S>& b, RopeSpan<S>& s) {
-  const Contact<S> c(a, b, s);
-  const Vec3<S> v = b.velocity - a.velocity;
-  // What rho does as its axis tilts: -(rho . a') a.
-  const S tilt_a = dot(s.off, a.axis_rate), tilt_b = dot(s.on, b.axis_rate);
-  S g_a(0), g_b(0);
-  if (a.radius > 0.0)
-    g_a = dot(v, s.off) - S(b.radius) * tilt_b * dot(b.axis, s.off) - tilt_a * dot(c.d, a.axis);
-  if (b.radius > 0.0)
-    g_b = dot(v, s.on) + S(a.radius) * tilt_a * dot(a.axis, s.on) - tilt_b * dot(c.d, b.axis);
-  c.solve(g_a, g_b, s.off_rate, s.on_rate);
-}
-
 /// From `a` to `b` about `axis`, in [-pi/2, 3 pi/2): below zero the rope has left the sheave.
 template <class S> S angle_about(const Vec3<S>& axis, const Vec3<S>& a, const Vec3<S>& b) {
   using std::atan2;
@@ -143,9 +123,7 @@ template <class S> S angle_between(const Vec3<S>& a, const Vec3<S>& b) {
 }
 
 /// The path over n nodes, of which those stay aside that the rope has left.
-/// @param turns  (n,) full turns beside; null: none
-template <class S>
-void lay_rope(const RopeNode<S>* nodes, int n, const double* turns, RopePath<S>& path) {
+template <class S> void lay_rope(const RopeNode<S>* nodes, int n, RopePath<S>& path) {
   path.touched.fill(true);
   path.wrap.fill(S(0));
   for (bool whole = false; !whole;) {
@@ -165,8 +143,7 @@ void lay_rope(const RopeNode<S>* nodes, int n, const double* turns, RopePath<S>&
       const bool sheave = nodes[i].radius > 0.0;
       const S angle = sheave ? angle_about(nodes[i].axis, before.on, after.off)
                              : angle_between(before.e, after.e);
-      const double more = turns ? 2.0 * pi * turns[i] : 0.0;
-      path.wrap[i] = angle + S(more);
+      path.wrap[i] = angle;
       if (path.wrap[i] < S(0)) {
         path.wrap[i] = S(0);
         path.touched[i] = false;

@@ -58,10 +58,10 @@ void check_morison(const Scene& scene) {
   if (scene.hydro && (e.water_density || e.water_depth))
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
                      "the hydrodynamic database tells density and depth of the water");
-  const bool felt =
-      !scene.morison.empty() || !std::get<std::vector<element::Line>>(scene.forces).empty() ||
-      std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                  [](const Body& body) { return body.volume > 0.0; });
+  const bool felt = !scene.morison.empty() ||
+                    !std::get<std::vector<element::Line>>(scene.forces).empty() ||
+                    std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                [](const Body& body) { return body.volume > 0.0; });
   if (!scene.hydro && !felt && (e.water_density || e.water_depth))
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
                      "nothing in the scene feels the water");

@@ -32,9 +32,10 @@ public:
                    const model::SolverOptions& options, double t0, const VectorX& y,
                    const VectorX& yp)
       : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, newton_tolerance),
-        newton_matrix_(system, pattern_), t_(t0), t0_(t0), h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y),
-        yp0_(yp), trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)),
-        a_new_(a_), velocity_(VectorX::Zero(system.n_u)) {
+        newton_matrix_(system, pattern_), t_(t0), t0_(t0), h_(options.step),
+        n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp), trial_(y), trial_yp_(yp),
+        residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
+        velocity_(VectorX::Zero(system.n_u)) {
     const double rho = options.spectral_radius;
     alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
     alpha_f_ = rho / (rho + 1.0);

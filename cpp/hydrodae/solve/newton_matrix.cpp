@@ -11,8 +11,8 @@ using system::HydroData;
 template <class Scalar>
 NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
     : s_(s), lu_(pattern.column_start, pattern.row),
-      n_of_positions_(static_cast<std::size_t>(
-          pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
+      n_of_positions_(
+          static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
   const HydroData& h = s.hydro;
   if (!s.has_memory())
     return;

@@ -78,8 +78,10 @@ void declare(const System& s, const ElementList& list, Declaration& out) {
         out.loads.push_back({component, body, work});
     };
     int last = -1; // that moves
+    std::size_t point = 0;
     for_each_body(s, port, [&](int body) {
-      load(port.component, body, laws.work);
+      if (laws.shape.port != element::Port::points || is_first_of_its_body(port, point++))
+        load(port.component, body, laws.work);
       out.pairs.push_back({last, body});
       if (body >= 0 && s.bodies[static_cast<std::size_t>(body)].n_active > 0)
         last = body;

@@ -23,11 +23,17 @@ void Observer::observe_ports(const ElementList& list, const ElementScratch<doubl
   const joint::Vec12<double>* rows = scratch.rows.data();
   for (const PortData& port : list.ports) {
     if (shape.port == element::Port::points) {
-      for (std::size_t i = 0; i < port.points.size(); ++i)
-        if (const int body = port.points[i].body; body >= 0) {
-          const BodyState<double>& b = ws_.bodies[static_cast<std::size_t>(body)];
-          add_load(to_world(b, load_at<double>(b, port.points[i], load + 3 * i)));
-        }
+      for (std::size_t i = 0; i < port.points.size(); ++i) {
+        const int body = port.points[i].body;
+        if (body < 0 || !is_first_of_its_body(port, i))
+          continue;
+        const BodyState<double>& b = ws_.bodies[static_cast<std::size_t>(body)];
+        Vector6 sum = Vector6::Zero(); // of all its points on the body
+        for (std::size_t k = i; k < port.points.size(); ++k)
+          if (port.points[k].body == body)
+            sum += load_at<double>(b, port.points[k], load + 3 * k);
+        add_load(to_world(b, sum));
+      }
     } else {
       joint::Vector12 sum = joint::Vector12::Zero();
       for (int i = 0; i < shape.width; ++i)

@@ -258,6 +258,15 @@ void for_each_body(const System& s, const PortData& port, Visitor&& visit) {
   for (const joint::Marker& point : port.points)
     visit(point.body);
 }
+
+/// Is a point of Port::points the first of those on its body?
+inline bool is_first_of_its_body(const PortData& port, std::size_t point) {
+  for (std::size_t i = 0; i < point; ++i)
+    if (port.points[i].body == port.points[point].body)
+      return false;
+  return true;
+}
+
 /// Takes the waves away.
 void calm(System& system);
 
