@@ -233,7 +233,9 @@ def test_the_time_limit_counts_the_work_of_the_run_alone(
 ) -> None:
     """Waiting for a busy machine is not counted; work is."""
     asked: list[Callable[[float, float], bool]] = []
-    monkeypatch.setattr(grid, "run", lambda case, progress, drives: asked.append(progress))
+    monkeypatch.setattr(
+        grid, "run", lambda case, progress, drives, controllers: asked.append(progress)
+    )
     scene = SCENES["pendulum"]
     grid._run(scene, scene.case({}, tmp_path), 0.05)
     time.sleep(0.1)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/system/mechanisms.h"
+
 namespace hydrodae::solve {
 
 namespace {
@@ -12,14 +14,25 @@ constexpr double doubtful = 0.15;
 // How much more than by themselves errors may show in the positions once the constraints take part,
 // and where that is not believed.
 constexpr double hidden = 1e3, doubtfully_hidden = 2.0;
+
+/// By group: do the rows that hold leave no motion of its own to any of its mechanisms?
+std::vector<bool> guided_groups(const system::Regime& s) {
+  const std::vector<bool> mechanisms = system::guided_mechanisms(s);
+  std::vector<bool> out(static_cast<std::size_t>(s.n_groups), true);
+  for (const system::BodyData& b : s.bodies)
+    if (b.group >= 0 && b.mechanism >= 0 && !mechanisms[static_cast<std::size_t>(b.mechanism)])
+      out[static_cast<std::size_t>(b.group)] = false;
+  return out;
+}
+
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, bool coherent, int every)
-    : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), y_(y), yp_(yp),
-      growth_(VectorX::Ones(s.n_groups)), fade_(growth_), change_(VectorX::Zero(s.n_groups)),
-      row_size_(s.n), since_(t), window_(t), coherent_(coherent), fewest_(std::max(1, every / 4)),
-      most_(4 * every), every_(every) {
+    : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), guided_(guided_groups(s)), y_(y),
+      yp_(yp), growth_(VectorX::Ones(s.n_groups)), fade_(growth_),
+      change_(VectorX::Zero(s.n_groups)), row_size_(s.n), since_(t), window_(t),
+      coherent_(coherent), fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
   linearise(t);
   first_by_y_ = by_y_;
   first_u_ = y_.segment(s.u0, s.n_u);
@@ -73,8 +86,8 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
     const VectorX places = sizes(carried, unit);
     for (Index g = 0; g < s_.n_groups; ++g) {
       if (fresh[g] > 0.0)
-        shown[g] =
-            std::clamp(places[g] / fresh[g], 1.0, change_[g] > rough ? doubtfully_hidden : hidden);
+        shown[g] = std::clamp(places[g] / fresh[g], is_guided(g) ? 0.0 : 1.0,
+                              change_[g] > rough ? doubtfully_hidden : hidden);
       if (before[g] > 0.0)
         growth_[g] = after[g] / before[g];
       if (!last && before[g] > 0.0) // no growth is told where the error of an impact is not carried

@@ -66,6 +66,10 @@ public:
   /// relative to their own size (n_groups,): 0 where frequencies do not depend on amplitudes.
   const VectorX& change() const { return error_.change; }
 
+  /// Do the rows that hold, those of drives among them, leave a group no motion of its own? Then
+  /// errors of its steps are gone once the constraints take part.
+  bool is_guided(Index group) const { return guided_[static_cast<std::size_t>(group)]; }
+
   void remember(Archive& a) {
     a(error_, by_y_, by_rate_, first_by_y_, first_u_, growth_, fade_, change_, since_, window_,
       every_, steps_);
@@ -83,6 +87,7 @@ private:
   Equations e_;
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;
+  std::vector<bool> guided_;           ///< (n_groups,)
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
   std::vector<double> first_by_y_;     ///< at the first
   VectorX first_u_;                    ///< velocities there (n_u,)

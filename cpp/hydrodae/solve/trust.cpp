@@ -173,7 +173,7 @@ void Trust::take_energy(double t, const VectorX& reached, const system::Recorder
                  kept = remembered(e, phase, b);
     e.missing = kept * e.missing + b.error - e.seen;
     e.seen = b.error;
-    if (!(kinetic > 0.0))
+    if (e.guided || !(kinetic > 0.0))
       continue;
     const double part = std::abs(e.missing) / (2.0 * kinetic);
     const double change = growth_->change()[e.group];
@@ -256,7 +256,7 @@ Trust::Estimate Trust::estimate(const VectorX& reached) const {
   for (Index g = 0; g < s_.n_groups; ++g) {
     double now = e.piled[g] + e.added[g];
     for (Index i = 0; i < s_.z0; ++i)
-      if (s_.group[static_cast<std::size_t>(i)] == g)
+      if (s_.group[static_cast<std::size_t>(i)] == g && !growth_->is_guided(g))
         now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
     // An error as large as the motion: beyond, growth says no more.
     const double whole = size(g, reached),
