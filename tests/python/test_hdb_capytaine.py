@@ -140,6 +140,13 @@ def test_study_dimensions_must_be_selected(tmp_path):
         hdb.read(save(two, tmp_path / "two.nc", 3))
 
 
+def test_headings_in_degrees_are_refused(tmp_path):
+    ds = dataset(3, OMEGA)
+    ds = ds.assign_coords(wave_direction=[0.0, 90.0])
+    with pytest.raises(DatabaseError, match=r"wave_direction 90: expected radians.*degrees\?"):
+        hdb.read(save(ds, tmp_path / "degrees.nc", 3))
+
+
 def test_flexible_modes_are_left_out_with_a_warning(tmp_path):
     ds = dataset(3, OMEGA, bodies=())
     names = [*DOFS[:5], "bending"]

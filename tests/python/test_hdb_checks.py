@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import re
 
 import netCDF4
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from hydrodae import hdb
+from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.importing import read_source
@@ -243,3 +245,14 @@ def test_report_prints_the_worst_first_and_counts():
     assert lines[0] == "error   b: bad [w = 2.2 rad/s]"
     assert lines[-1] == "checks: 1 error, 0 warning, 1 info"
     assert not report.ok
+
+
+@pytest.mark.parametrize(
+    ("factor", "message"),
+    [(2.0 * np.pi, r"rad/s taken for Hz\?"), (0.5 / np.pi, r"Hz taken for rad/s\?")],
+)
+def test_a_and_b_tell_the_unit_of_the_frequencies(sphere, factor, message):
+    assert unit_findings(sphere) == []
+    (found,) = unit_findings(dataclasses.replace(sphere, omega=factor * sphere.omega))
+    assert found.severity == "error"
+    assert re.search(message, found.message)

@@ -36,9 +36,9 @@ def solves(monkeypatch):
     asked: list[float] = []
     solve = bem._solve
 
-    def remember(cpt, device, omega, settings, solver):
+    def remember(cpt, device, omega, settings):
         asked.append(omega)
-        return solve(cpt, device, omega, settings, solver)
+        return solve(cpt, device, omega, settings)
 
     monkeypatch.setattr(bem, "_solve", remember)
     return asked
@@ -173,6 +173,35 @@ def test_command_from_a_mesh_file(tmp_path, capsys):
     np.testing.assert_allclose(db.reference_point("can"), [2, 0, -1.5])
     assert db.hydrostatic_stiffness("can")[2, 2] == pytest.approx(1025 * 9.81 * np.pi * 9, rel=0.03)
     assert hdb.check(db).ok
+
+
+def test_waves_much_longer_than_the_water_is_deep(tmp_path):
+    """k h from 0.04 to 0.17: the usual Green function of Capytaine is not defined there."""
+    omega = np.array([0.07, 0.1, 0.2, 0.3])
+    panels = shapes.cylinder(0.35, radius=1.0, draft=1.0)
+    settings = bem.Settings(omega=omega, rho=1000.0, water_depth=3.0)
+    body = bem.WettedBody("buoy", panels, np.zeros(3))
+    ours, report = hdb.import_database(bem.compute([body], settings, tmp_path))
+    (told,) = report.find("shallow water")
+    assert "FinGreen3D" in told.message
+    water = hdb.Water(omega, depth=3.0, rho=1000.0)
+    exact, _ = hdb.cylinders({"buoy": (0.0, 0.0)}, hdb.Cylinder(1.0, 1.0, 0.0), water)
+    for name in ("added_mass", "radiation_damping"):
+        for i in (0, 2):  # surge, heave
+            found = getattr(ours, name)[:, i, i] / getattr(exact, name)[:, i, i]
+            np.testing.assert_allclose(found, 1.0, atol=0.07)
+    force = ours.excitation[:, 0, [0, 2]] / exact.excitation[:, 0, [0, 2]]
+    np.testing.assert_allclose(force, 1.0, atol=0.04)
+
+
+def test_a_frequency_that_capytaine_cannot_solve_is_named(tmp_path, monkeypatch):
+    def fails(*_args, **_options):
+        raise NotImplementedError("no such\n thing")
+
+    monkeypatch.setattr(cpt.BEMSolver, "solve", fails)
+    settings = dataclasses.replace(SETTINGS, water_depth=30.0)
+    with pytest.raises(DatabaseError, match=r"w = 0.4 rad/s in 30 m .*no such thing; with FinG"):
+        bem.compute([hemisphere()], settings, tmp_path)
 
 
 @pytest.mark.parametrize(

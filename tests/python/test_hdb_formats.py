@@ -38,6 +38,18 @@ def test_several_files_in_a_folder_ask_which(tmp_path):
         resolve(tmp_path)
 
 
+def test_several_runs_of_wamit_and_a_nemoh_run_without_its_input(tmp_path):
+    for name in ("a.1", "b.1"):
+        (tmp_path / name).write_text("1.0 1 1 1.0 1.0\n")
+    with pytest.raises(DatabaseError, match=r"which one is meant\? a\.1, b\.1: name the file"):
+        resolve(tmp_path)
+    results = tmp_path / "run" / "results"
+    results.mkdir(parents=True)
+    (results / "RadiationCoefficients.tec").write_text("")
+    with pytest.raises(DatabaseError, match=r"RadiationCoefficients\.tec without the Nemoh\.cal"):
+        resolve(tmp_path / "run")
+
+
 def test_exports_of_orcawave_that_are_not_read_name_those_that_are(tmp_path):
     (tmp_path / "buoy.csv").write_text("Frequency;A11")
     for source in (tmp_path, tmp_path / "buoy.csv"):
@@ -219,3 +231,23 @@ def test_exchanged_limits_of_added_mass_are_put_right(reference, tmp_path):
     assert not any("exchanged" in f.message for f in right.findings)
     assert any("exchanged" in f.message for f in wrong.findings)
     np.testing.assert_array_equal(wrong.added_mass_inf, right.added_mass_inf)
+
+
+def test_orcaflex_in_kilograms_and_newtons(reference, tmp_path):
+    """The same numbers, called kg and N instead of t and kN: a thousandth of all."""
+    source = reference / "hdb" / "multibody_orcawave" / "Multibody_res.yml"
+    text = source.read_text("utf-8-sig").replace("\n", "\r\n")
+
+    def in_units(length, mass, force):
+        words = f"User\r\n  LengthUnits: {length}\r\n  MassUnits: {mass}\r\n  ForceUnits: {force}"
+        path = tmp_path / f"{mass}.yml"
+        path.write_text(text.replace("UnitsSystem: SI", f"UnitsSystem: {words}\r\n  g: 9.81"))
+        return path
+
+    tonnes, kilograms = (read_source(in_units("m", *u)) for u in (("te", "kN"), ("kg", "N")))
+    assert (tonnes.rho, tonnes.gravity) == (pytest.approx(1025.0), 9.81)
+    assert kilograms.rho == pytest.approx(1.025)
+    for name in ("added_mass", "radiation_damping", "excitation"):
+        np.testing.assert_allclose(getattr(tonnes, name), 1e3 * getattr(kilograms, name))
+    with pytest.raises(DatabaseError, match=r"units ft kg N: expected SI, or m, te, kN"):
+        hdb.read(in_units("ft", "kg", "N"))

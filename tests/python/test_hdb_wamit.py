@@ -10,6 +10,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.importing import read_source
 from hydrodae.hdb.readers.kinds import kind
 
@@ -198,3 +199,25 @@ def test_a_run_of_another_number_of_frequencies_is_noticed(reference, tmp_path):
         (folder / name).write_text("".join(r for r in rows if "3.141593E+02" not in r))
     _, report = hdb.import_database(folder, rho=1000.0)
     assert "asks for 422" in report.find("frequency grid")[0].message
+
+
+@pytest.mark.parametrize("option", [1, 2, 3, 4])
+def test_a_and_b_tell_what_the_first_column_holds(reference, tmp_path, option):
+    known = read_source(reference / "hdb" / "sphere_wamit", rho=1000.0)
+    lines = []
+    for line in (reference / "hdb" / "sphere_wamit" / "sphere.1").read_text().splitlines()[1:]:
+        words = line.split()
+        period = float(words[0])
+        if words[1] != words[2] or period <= 0.0:
+            continue
+        w = 2.0 * np.pi / period
+        k = wavenumber(np.array([w]), known.water_depth, known.gravity)[0]
+        first = {1: period, 2: w, 3: w**2 / known.gravity, 4: k}[option]
+        lines.append(" ".join([f"{first:.6E}", *words[1:]]))
+    (tmp_path / "bare.1").write_text("\n".join(lines))
+    water = {"depth": known.water_depth, "rho": 1000.0, "gravity": known.gravity}
+    data = read_source(tmp_path, **water)
+    np.testing.assert_allclose(data.omega, known.omega, rtol=1e-5)
+    told = [f.message for f in data.findings if "first column" in f.message]
+    assert len(told) == 1
+    assert f"(IPEROUT {option})" in told[0]

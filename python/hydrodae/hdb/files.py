@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import h5py
 import numpy as np
 
+from hydrodae import outputs
 from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import coordinates as co
@@ -72,10 +73,13 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
     ------
     DatabaseError
         A body has no reference point (the file format demands it).
+    CaseError
+        A file of another kind is there.
     """
     for name in database.bodies:
         database.reference_point(name)
     target = Path(path)
+    outputs.spare(target, outputs.DATABASE)
     if not target.parent.is_dir():
         raise DatabaseError(f"cannot write {target}: no folder {target.parent}")
     partial = target.with_name(target.name + ".part")

@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from hydrodae import outputs
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.coordinates import DOFS, split_label
 from hydrodae.hdb.database import HydroDatabase
@@ -50,7 +51,7 @@ def write_bemio(database: HydroDatabase, path: str | Path) -> None:
     db = database.reordered(_six_of_each(database))
     statics = {name: _hydrostatics(db, name) for name in db.bodies}
     target = Path(path)
-    partial = _partial(target)
+    partial = _partial(target, outputs.BEMIO)
     end = 1.25 * memory_length(db)
     time = np.linspace(0.0, end, KERNEL_TIMES)
     both = np.linspace(-end, end, KERNEL_TIMES)
@@ -190,7 +191,7 @@ def write_capytaine(database: HydroDatabase, path: str | Path) -> None:
         "history": f"written by {db.generator}; source {db.source}, sha256 {db.source_sha256}",
         "capytaine_version": "written by hydrodae in the layout of 3.0",
     }
-    partial = _partial(target)
+    partial = _partial(target, outputs.NETCDF)
     xr.Dataset(data, coords=coords, attrs=attrs).to_netcdf(partial, engine="netcdf4")
     os.replace(partial, target)
 
@@ -232,7 +233,8 @@ def _hydrostatics(db: HydroDatabase, name: str) -> Hydrostatics:
     return hs
 
 
-def _partial(target: Path) -> Path:
+def _partial(target: Path, kind: str) -> Path:
+    outputs.spare(target, kind)
     if not target.parent.is_dir():
         raise DatabaseError(f"cannot write {target}: no folder {target.parent}")
     return target.with_name(target.name + ".part")

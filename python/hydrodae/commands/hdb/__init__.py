@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from hydrodae import outputs
 from hydrodae.commands.hdb import (
     array,
     compare,
@@ -29,6 +30,9 @@ _ACTIONS = {
     "sensitivity": sensitivity.run,
     "mesh": mesh.run,
 }
+
+#: What is written by all but these is a database.
+_OTHERS = ("show", "export", "compare", "sensitivity")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,4 +60,6 @@ def run(args: argparse.Namespace) -> int:
     HydrodaeError
         Bad arguments or data.
     """
+    if args.hdb_action not in _OTHERS and args.output is not None:
+        outputs.spare(args.output, outputs.DATABASE)  # before work that may be long
     return _ACTIONS[args.hdb_action](args)

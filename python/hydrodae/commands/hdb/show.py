@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from hydrodae import outputs
 from hydrodae.commands.hdb.options import add_water_options, water_of
 from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
@@ -55,6 +56,8 @@ def run_export(args: argparse.Namespace) -> int:
 
     if Path(args.output).suffix.lower() not in WRITERS:
         raise CaseError(f"-o {args.output!r}: expected a name that ends in .h5 (BEMIO) or .nc")
+    bemio = Path(args.output).suffix.lower() == ".h5"
+    outputs.spare(args.output, outputs.BEMIO if bemio else outputs.NETCDF)
     export(read(args.database, **water_of(args)), args.output)
     print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
     return 0

@@ -20,8 +20,10 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.extras import install_command
+from hydrodae.hdb.bem.green import solve
 from hydrodae.hdb.bem.lids import lid
 from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.shallow import SHALLOW
 
 Array = NDArray[np.float64]
 TABLES = ("added_mass", "radiation_damping", "diffraction_force", "Froude_Krylov_force")
@@ -108,13 +110,14 @@ def compute(
     -------
     Path
         A netCDF file as Capytaine makes them, NaN included where Capytaine failed: read it with
-        `hydrodae.hdb.import_database`, which counts and names them.
+        `hydrodae.hdb.import_database`, which counts and names them, and tells the frequencies that
+        were solved with the Green function of shallow water (`green.solve`).
 
     Raises
     ------
     DatabaseError
         Capytaine is missing, a body is deeper than the water, a lid covers too little, too many
-        panels, or NaN at w = inf.
+        panels, a frequency at which Capytaine has no Green function, or NaN at w = inf.
     """
     _check_depth(bodies, settings.water_depth)
     cpt = _capytaine()
@@ -127,10 +130,9 @@ def compute(
     todo = [(w, f) for w, f in zip(omega, files, strict=True) if not f.is_file()]
     if todo:
         device = _device(cpt, bodies, settings)
-        solver = cpt.BEMSolver(method="direct")
         start = monotonic()
         for i, (w, file) in enumerate(todo, start=1):
-            data = _solve(cpt, device, float(w), settings, solver)
+            data = _solve(cpt, device, float(w), settings)
             partial = file.with_suffix(".part")
             cpt.io.xarray.separate_complex_values(data).to_netcdf(partial)
             partial.rename(file)
@@ -225,38 +227,24 @@ def _lid(body: WettedBody) -> Array:
         raise DatabaseError(f"{body.name}: {error}") from error
 
 
-def _solve(cpt: Any, device: Any, omega: float, settings: Settings, solver: Any) -> xr.Dataset:
-    common: dict[str, Any] = {
-        "body": device,
-        "omega": omega,
-        "rho": settings.rho,
-        "g": settings.gravity,
-        "water_depth": settings.water_depth,
-    }
-    problems = [cpt.RadiationProblem(radiating_dof=d, **common) for d in device.dofs]
-    if np.isfinite(omega):
-        problems += [cpt.DiffractionProblem(wave_direction=h, **common) for h in settings.heading]
-    results = [solver.solve(p, keep_details=False, _check_wavelength=False) for p in problems]
+def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Dataset:
+    water = {"rho": settings.rho, "g": settings.gravity, "water_depth": settings.water_depth}
+    results, shallow = solve(cpt, device, omega, water, settings.heading, "direct")
     names = list(device.dofs)
     data: xr.Dataset = cpt.assemble_dataset(results)
     data = data.sel(influenced_dof=names, radiating_dof=names)
     data = data.assign_coords(influenced_dof=names, radiating_dof=names)
+    data.attrs[SHALLOW] = int(shallow)
     if not np.isfinite(omega) and np.isnan(data["added_mass"].values).any():
         raise DatabaseError("Capytaine gave NaN for the added mass at w = inf")
     if settings.kochin and np.isfinite(omega):
-        far = _kochin(cpt, problems, settings.kochin).sel(radiating_dof=names)
+        # Kochin functions follow from the sources of the indirect method
+        sources, _ = solve(cpt, device, omega, water, settings.heading, "indirect")
+        theta = np.linspace(0.0, 2.0 * np.pi, settings.kochin, endpoint=False)
+        axis = xr.DataArray(theta, dims=["theta"], coords={"theta": theta})
+        far = cpt.io.xarray.kochin_data_array(sources, axis).sel(radiating_dof=names)
         data = data.merge(far, join="left", compat="override")
     return data
-
-
-def _kochin(cpt: Any, problems: list[Any], count: int) -> xr.Dataset:
-    """Kochin functions of all motions and waves, by the sources of the indirect method."""
-    theta = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
-    solver = cpt.BEMSolver(method="indirect")
-    results = [solver.solve(p, keep_details=True, _check_wavelength=False) for p in problems]
-    axis = xr.DataArray(theta, dims=["theta"], coords={"theta": theta})
-    found: xr.Dataset = cpt.io.xarray.kochin_data_array(results, axis)
-    return found
 
 
 def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> Path:
@@ -264,6 +252,7 @@ def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> P
     for file in files:
         with xr.open_dataset(file) as opened:
             parts.append(opened.load())
+    shallow = [float(p["omega"].values.item()) for p in parts if p.attrs.get(SHALLOW)]
     data = xr.concat(
         parts, "omega", data_vars="all", coords="minimal", compat="override", join="outer"
     )
@@ -271,6 +260,7 @@ def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> P
     data = data.assign_coords(body_name=[b.name for b in bodies])
     points = np.array([b.point for b in bodies], dtype=float)
     data["rotation_center"] = (("body_name", "space_coordinate"), points)
+    data.attrs[SHALLOW] = sorted(shallow)
     data.to_netcdf(target)
     return target
 

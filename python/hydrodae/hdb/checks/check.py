@@ -2,7 +2,8 @@
 
 Every check is cheap and has caught something in real files. Oracles: long-wave limits of the
 excitation (hydrostatics, displacement, phase), energy (damping and A_inf positive semidefinite,
-damping from excitation), causality (Ogilvie's relation, irregular frequencies), length of memory.
+damping from excitation), causality (Ogilvie's relation, units, irregular frequencies), length of
+memory.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
+from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_time
@@ -46,6 +48,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *_energy(database, judged),
             *energy_findings(database, judged),
             *_causality(database),
+            *unit_findings(database),
             *irregular_findings(database, judged),
             *fit_findings(database),
             *long_wave_findings(database, judged),

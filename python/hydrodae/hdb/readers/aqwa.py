@@ -1,4 +1,4 @@
-"""Output of AQWA: `.AH1` (all coefficients as numbers), or the listing `.LIS` of one structure.
+"""Output of AQWA: `.AH1` (all coefficients as numbers), or the listing `.LIS`.
 
 AQWA's forces are F cos(wt - phase): the phase is a lag, counted from the crest at the centre of
 gravity. With x(t) = Re(X e^{+iwt}) and the phase zero at the origin of the world,
@@ -16,7 +16,13 @@ from numpy.typing import NDArray
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.aqwa_common import aqwa_data, to_world, unique_headings
+from hydrodae.hdb.readers.aqwa_common import (
+    aqwa_data,
+    structure_names,
+    to_world,
+    unique_headings,
+    unit_of_mass,
+)
 from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.source import SourceData
 
@@ -46,7 +52,7 @@ def aqwa_file(path: Path) -> Path | None:
 
 
 def read_aqwa(path: Path) -> SourceData:
-    """Read an `.AH1` file, or a `.LIS` listing of one structure.
+    """Read an `.AH1` file, or a `.LIS` listing.
 
     Parameters
     ----------
@@ -135,32 +141,31 @@ class _Ah1:
     def data(self) -> SourceData:
         """Put the sections together."""
         n, nw, nh = self.count, self.omega.size, self.heading_deg.size
-        general = self.block("GENERAL", 1, 5, n)[0]
-        depth, rho, gravity = general[:3]
+        depth, rho, gravity = self.block("GENERAL", 1, 5, n)[0, :3]
+        unit = unit_of_mass(self.path, rho, gravity)
         centers = list(self.block("COG", 1, 3, n))
         force = self.block("FORCERAO", 3, 12, n * nh * nw).reshape(n, nh, nw, 2, 6)
         turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
-        flat = turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
-        names = [f"structure{i + 1}" if n > 1 else self.path.stem for i in range(n)]
+        flat = unit * turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
         heading, kept = unique_headings(self.heading_deg)
         k = wavenumber(self.omega, depth, gravity)
         a_inf = None
         if "ADDEDMASS_HF" in self.sections:
             table = self.block("ADDEDMASS_HF", 2, 36, n * n).reshape(n, n, 6, 6)
-            a_inf = table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
+            a_inf = unit * table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
         data = aqwa_data(
             self.path,
-            names,
+            structure_names(self.path, n),
             self.omega,
-            (self.matrices("ADDEDMASS"), self.matrices("DAMPING"), a_inf),
+            (unit * self.matrices("ADDEDMASS"), unit * self.matrices("DAMPING"), a_inf),
             heading,
             centers,
-            (float(rho), float(gravity), float(depth)),
+            (float(unit * rho), float(gravity), float(depth)),
         )
         data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
         buoyancy = self.block("COB", 1, 3, n)
         volume = self.block("DISPLACEMENT", 1, 1, n)[:, 0]
-        stiffness = self.block("HYDSTIFFNESS", 1, 36, n).reshape(n, 6, 6)
+        stiffness = unit * self.block("HYDSTIFFNESS", 1, 36, n).reshape(n, 6, 6)
         for i, name in enumerate(data.reference_points):
             statics = Hydrostatics.from_stiffness(
                 stiffness[i], centers[i], float(volume[i]), buoyancy[i], data.rho, data.gravity

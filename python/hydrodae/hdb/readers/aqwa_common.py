@@ -7,12 +7,37 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+def unit_of_mass(path: Path, rho: float, gravity: float) -> float:
+    """Kilograms in the unit of mass of a file: AQWA works in kg, m, N or in t, m, kN.
+
+    Raises
+    ------
+    DatabaseError
+        Neither, as feet and pounds.
+    """
+    if 9.0 < gravity < 10.5:
+        if 100.0 < rho < 20000.0:
+            return 1.0
+        if 0.1 < rho < 20.0:
+            return 1000.0
+    raise DatabaseError(
+        f"{path}: density {rho:g} and gravity {gravity:g}: neither kg, m, N nor t, m, kN; choose "
+        f"metric units in AQWA"
+    )
+
+
+def structure_names(path: Path, count: int) -> list[str]:
+    """Names of the structures: that of the file if there is one only."""
+    return [f"structure{i + 1}" if count > 1 else path.stem for i in range(count)]
 
 
 def to_world(force: Complex, k: Array, heading: Array, centers: list[Array]) -> Complex:

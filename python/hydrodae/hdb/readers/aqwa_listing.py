@@ -1,7 +1,9 @@
-"""The listing `.LIS` of AQWA-LINE: tables for people, here of one structure.
+"""The listing `.LIS` of AQWA-LINE: tables for people.
 
 Conventions as in `.AH1` (`hydrodae.hdb.readers.aqwa`); added mass and damping carry five digits,
-forces three, but the listing tells Froude-Krylov and diffraction apart.
+forces three, but the listing tells Froude-Krylov and diffraction apart. Every page is headed by its
+structure. Of several structures a page headed `S T R U C T U R E   s` with the title
+`H/I ADDED MASS FOR FORCE ON STR# k` holds rows of forces on k and columns of motions of s.
 """
 
 from __future__ import annotations
@@ -14,14 +16,26 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.aqwa_common import aqwa_data, to_world, unique_headings
+from hydrodae.hdb.readers.aqwa_common import (
+    aqwa_data,
+    structure_names,
+    to_world,
+    unique_headings,
+    unit_of_mass,
+)
+from hydrodae.hdb.readers.aqwa_pages import (
+    NUMBER,
+    pages_of_structures,
+    read_matrix,
+    read_radiation,
+)
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_NUMBER = r"[-+]?\d+\.?\d*(?:E[-+]?\d+)?"
 _FORCES = {
     "diffraction": "DIFFRACTION FORCES-VARIATION WITH WAVE PERIOD/FREQUENCY",
     "froude_krylov": "FROUDE KRYLOV FORCES-VARIATION WITH WAVE PERIOD/FREQUENCY",
@@ -38,7 +52,7 @@ _STATED = {
 
 
 def read_listing(path: Path) -> SourceData:
-    """Read the listing of one structure.
+    """Read a listing.
 
     Parameters
     ----------
@@ -51,40 +65,55 @@ def read_listing(path: Path) -> SourceData:
     Raises
     ------
     DatabaseError
-        A table is missing or wrong, or there are several structures; the message names the line.
+        A table is missing or wrong; the message names the line.
     """
-    lines = path.read_text(errors="replace").splitlines()
-    structures = set(re.findall(r"F O R   S T R U C T U R E\s+(\d+)", "\n".join(lines)))
-    if len(structures) != 1:
-        raise DatabaseError(
-            f"{path}: {len(structures)} structures; the listing of one can be read, of several "
-            f"the .AH1 file (AQWA's option AHD1), which holds the coupling too"
-        )
-    values = {key: _stated(path, lines, pattern) for key, pattern in _STATED.items()}
-    center = _center(path, lines)
-    rows = {key: _forces(path, lines, title) for key, title in _FORCES.items()}
-    omega, a, b, a_inf = _radiation(path, lines, [w for w, _ in rows["diffraction"]])
-    tables, headings_deg = {}, np.zeros(0)
+    text = path.read_text(errors="replace")
+    lines = text.splitlines()
+    pages = pages_of_structures(lines)
+    if not pages:
+        raise DatabaseError(f"{path}: no page FOR STRUCTURE n in it")
+    structures = sorted(pages)
+    water = [_stated(path, lines, _STATED[key]) for key in ("rho", "gravity", "depth")]
+    unit = unit_of_mass(path, water[0], water[1])
+    centers = [_center(path, pages[s]) for s in structures]
+    forces = {
+        key: [_forces(path, pages[s], title) for s in structures] for key, title in _FORCES.items()
+    }
+    asked = sorted({w for rows in forces["diffraction"] for w, _ in rows})
+    omega, a, b, a_inf, coupled = read_radiation(path, pages, asked)
+    tables: dict[str, Complex] = {}
+    headings_deg = np.zeros(0)
     for key, title in _FORCES.items():
-        tables[key], headings_deg = _force_table(path, title, rows[key], omega)
+        parts = [_force_table(path, title, rows, omega) for rows in forces[key]]
+        if any(not np.array_equal(h, parts[0][1]) for _, h in parts):
+            raise DatabaseError(f"{path}: {title}: structures with different directions")
+        tables[key] = np.concatenate([unit * table for table, _ in parts], axis=2)
+        headings_deg = parts[0][1]
     heading, kept = unique_headings(headings_deg)
-    water = (values["rho"], values["gravity"], values["depth"])
-    data = aqwa_data(path, [path.stem], omega, (a, b, a_inf), heading, [center], water)
-    k = wavenumber(omega, values["depth"], values["gravity"])
-    data.froude_krylov = to_world(tables["froude_krylov"][:, kept], k, heading, [center])
-    data.diffraction = to_world(tables["diffraction"][:, kept], k, heading, [center])
-    buoyancy = np.array([values["bx"], values["by"], values["bz"]])
-    name = next(iter(data.reference_points))
-    statics = Hydrostatics.from_stiffness(
-        _stiffness(path, lines), center, values["volume"], buoyancy, data.rho, data.gravity
-    )
-    data.hydrostatics[name] = (statics, center)
+    rho, gravity, depth = unit * water[0], water[1], water[2]
+    limits = (unit * a, unit * b, None if a_inf is None else unit * a_inf)
+    names = structure_names(path, len(structures))
+    data = aqwa_data(path, names, omega, limits, heading, centers, (rho, gravity, depth))
+    if not coupled:
+        text = "no tables of interaction (H/I): each structure is taken to radiate alone"
+        data.findings.append(Finding("warning", "coordinates", text))
+    k = wavenumber(omega, depth, gravity)
+    data.froude_krylov = to_world(tables["froude_krylov"][:, kept], k, heading, centers)
+    data.diffraction = to_world(tables["diffraction"][:, kept], k, heading, centers)
+    for name, s, center in zip(data.reference_points, structures, centers, strict=True):
+        own = {key: _stated(path, pages[s], _STATED[key]) for key in ("volume", "bx", "by", "bz")}
+        buoyancy = np.array([own["bx"], own["by"], own["bz"]])
+        stiffness = unit * _stiffness(path, pages[s])
+        statics = Hydrostatics.from_stiffness(
+            stiffness, center, own["volume"], buoyancy, data.rho, data.gravity
+        )
+        data.hydrostatics[name] = (statics, center)
     return data
 
 
 def _stated(path: Path, lines: list[str], pattern: str) -> float:
     for line in lines:
-        found = re.search(f"{pattern}({_NUMBER})", line)
+        found = re.search(f"{pattern}({NUMBER})", line)
         if found:
             return float(found[1])
     words = re.sub(r"\\s[+*]?|\[ \.\]\*|=", " ", pattern).split()
@@ -93,66 +122,17 @@ def _stated(path: Path, lines: list[str], pattern: str) -> float:
 
 def _center(path: Path, lines: list[str]) -> Array:
     for line in lines:
-        found = re.search(rf"GX=\s*({_NUMBER})\s+GY=\s*({_NUMBER})\s+GZ=\s*({_NUMBER})", line)
+        found = re.search(rf"GX=\s*({NUMBER})\s+GY=\s*({NUMBER})\s+GZ=\s*({NUMBER})", line)
         if found:
             return np.array([float(v) for v in found.groups()])
     raise DatabaseError(f"{path}: no line 'STRUCTURE C.O.G. GX= GY= GZ='")
 
 
-def _matrix(path: Path, lines: list[str], start: int) -> Array:
-    """Six rows `X`, `Y`, `Z`, `RX`, `RY`, `RZ` of six numbers after line `start` (from 0)."""
-    rows = []
-    for at in range(start + 1, min(start + 40, len(lines))):
-        words = lines[at].split()
-        if len(words) < 2 or words[0] not in ("X", "Y", "Z", "RX", "RY", "RZ"):
-            continue
-        if not re.fullmatch(_NUMBER, words[1]):
-            continue  # the heading of the columns
-        try:
-            rows.append([float(word) for word in words[1:7]])
-        except ValueError:
-            raise DatabaseError(f"{path}:{at + 1}: expected six numbers") from None
-        if len(rows) == 6:
-            return np.array(rows)
-    raise DatabaseError(f"{path}:{start + 1}: no matrix of 6 rows follows")
-
-
 def _stiffness(path: Path, lines: list[str]) -> Array:
     for at, line in enumerate(lines):
         if line.strip() == "STIFFNESS MATRIX":
-            return _matrix(path, lines, at)
+            return read_matrix(path, lines, at)
     raise DatabaseError(f"{path}: no STIFFNESS MATRIX")
-
-
-def _radiation(
-    path: Path, lines: list[str], asked: list[float]
-) -> tuple[Array, Array, Array, Array | None]:
-    """Frequencies [rad/s], A, B, and A at 100 rad/s, each about the centre of gravity.
-
-    Of the frequencies only those `asked` for: the listing adds one close to zero.
-    """
-    found: dict[float, dict[str, Array]] = {}
-    omega = None
-    for at, line in enumerate(lines):
-        stated = re.search(rf"WAVE FREQUENCY =\s*({_NUMBER})", line)
-        if stated and "INCIDENT" not in line:
-            omega = float(stated[1])
-        what = " ".join(line.split())
-        if omega is not None and what in ("ADDED MASS", "DAMPING"):
-            if lines[at + 1].strip().startswith("---"):
-                found.setdefault(omega, {})[what] = _matrix(path, lines, at)
-    high = found.pop(100.0, {}).get("ADDED MASS")
-    grid = np.unique(asked)
-    usual = sorted(
-        w
-        for w, tables in found.items()
-        if len(tables) == 2 and np.abs(grid - w).min() < 1e-3 * max(w, 1.0)
-    )
-    if not usual:
-        raise DatabaseError(f"{path}: no tables of added mass and damping")
-    a = np.array([found[w]["ADDED MASS"] for w in usual])
-    b = np.array([found[w]["DAMPING"] for w in usual])
-    return np.array(usual), a, b, high
 
 
 def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float], Complex]:
@@ -165,7 +145,7 @@ def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float
             words = lines[at].split()
             if lines[at].startswith("1"):  # a new page
                 break
-            if len(words) not in (14, 15) or not re.fullmatch(_NUMBER, words[0]):
+            if len(words) not in (14, 15) or not re.fullmatch(NUMBER, words[0]):
                 continue
             try:
                 values = np.array([float(word) for word in words])

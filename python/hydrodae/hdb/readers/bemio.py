@@ -71,7 +71,7 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     a, b, a_inf = [], [], []
     forces: dict[str, list[Array]] = {"": [], "froude-krylov/": [], "scattering/": []}
     for g, count in zip(groups, counts, strict=True):
-        full = (count, starts[-1], omega.size)
+        full = (count, int(starts[-1]), omega.size)
         a.append(_table(path, g, "added_mass/all", full)[:6, kept])
         b.append(_table(path, g, "radiation_damping/all", full)[:6, kept])
         a_inf.append(_table(path, g, "added_mass/inf_freq", full[:2])[:6, kept])

@@ -23,6 +23,7 @@ from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers.reference import reference_by_statics
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.shallow import shallow_findings
 
 Array = NDArray[np.float64]
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")
@@ -66,7 +67,7 @@ def read_capytaine(path: Path) -> SourceData:
     forces = {key: _force(path, ds, name, raw, order) for key, name in FORCES.items()}
     heading = np.zeros(0)
     if any(v is not None for v in forces.values()):
-        heading = np.atleast_1d(ds["wave_direction"].values).astype(float)
+        heading = _headings(path, ds)
     if np.any(omega == 0.0):
         findings.append(Finding("info", "w = 0", "row at zero frequency set aside"))
     at_infinity = a[np.isinf(omega)]
@@ -91,6 +92,7 @@ def read_capytaine(path: Path) -> SourceData:
         findings=findings,
         extra=kept_tables(ds),
     )
+    findings += shallow_findings(ds)
     _attach_bodies(data, ds, raw, path)
     return data
 
@@ -104,6 +106,17 @@ def open_dataset(path: Path) -> xr.Dataset:
         return xr.open_dataset(path, engine=engine)
     except (OSError, ValueError, TypeError) as error:
         raise DatabaseError(f"{path}: not a readable netCDF file ({error})") from error
+
+
+def _headings(path: Path, ds: xr.Dataset) -> Array:
+    """Directions of travel, which Capytaine writes in radians."""
+    heading = np.atleast_1d(ds["wave_direction"].values).astype(float)
+    if np.abs(heading).max() > 2.0 * np.pi + 1e-6:
+        raise DatabaseError(
+            f"{path}: wave_direction {np.abs(heading).max():g}: expected radians, at most 2 pi; "
+            f"are these degrees?"
+        )
+    return heading
 
 
 def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:

@@ -89,6 +89,15 @@ def _folder(path: Path) -> tuple[Path, str]:
     below = [p for p in sorted(path.iterdir()) if p.is_dir() and wamit_stem(p) is not None]
     if len(below) == 1:
         return below[0], "wamit"
+    runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
+    if len(runs) > 1:
+        raise DatabaseError(f"{path}: which one is meant? {', '.join(runs[:6])}: name the file")
+    lost = find(path, "RadiationCoefficients.tec")
+    if lost is not None:
+        raise DatabaseError(
+            f"{path}: {lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
+            f"water, the bodies and their reference points"
+        )
     foreign = [p for p in sorted(path.iterdir()) if p.suffix.lower() in {*FOREIGN, *ORCAWAVE}]
     if foreign:
         raise DatabaseError(_foreign(foreign[0]))

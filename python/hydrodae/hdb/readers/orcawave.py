@@ -1,6 +1,7 @@
 """Results of OrcaWave as a vessel type of an OrcaFlex data file (`.yml`).
 
-Units of OrcaFlex's SI are t, kN and m: tables are multiplied by 1000. Amplitudes and phases follow
+Units of OrcaFlex's SI are t, kN and m: tables are multiplied by 1000, unless the file says kg, N
+and m. Amplitudes and phases follow
 the conventions stated in the file; they are turned into x(t) = Re(X e^{+iwt}) with the phase zero
 of the wave at the origin. Directions are those of travel.
 """
@@ -18,14 +19,12 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-#: t to kg, kN to N.
-KILO = 1000.0
-STANDARD_GRAVITY = 9.80665
 #: Positive senses that agree with right-handed axes, x forward, z up; others change the sign.
 SENSES = {
     "SurgePositive": "forward",
@@ -86,8 +85,9 @@ def read_orcawave(path: Path) -> SourceData:
     if not isinstance(types, list) or not types:
         raise DatabaseError(f"{path}: no VesselTypes in it")
     findings: list[Finding] = []
-    rho, gravity, depth, files = _water(path, model, findings)
-    bodies = [_Vessel(path, vessel, depth, gravity) for vessel in types]
+    unit, _ = kilograms_of(path, model.get("General") or {})
+    rho, gravity, depth, files = water_of(path, model, findings)
+    bodies = [_Vessel(path, vessel, depth, gravity, unit) for vessel in types]
     names = unique_names([str(b.name).removesuffix(" type") for b in bodies])
     omega, heading = bodies[0].omega, bodies[0].heading
     for body in bodies[1:]:
@@ -134,43 +134,13 @@ def read_orcawave(path: Path) -> SourceData:
     return data
 
 
-def _water(
-    path: Path, model: dict[str, Any], findings: list[Finding]
-) -> tuple[float, float, float, list[Path]]:
-    """Density, gravity and depth: of OrcaWave's own input beside the file, else of the model.
-
-    A model that imports results keeps its own depth (100 m unless changed), whatever the depth of
-    the diffraction analysis was.
-    """
-    for beside in sorted(path.parent.iterdir()):
-        if beside == path or beside.suffix.lower() not in (".yml", ".yaml"):
-            continue
-        head = beside.read_text("utf-8-sig", "replace")[:400]
-        if "# Type: Diffraction" not in head:
-            continue
-        settings = read_yaml(beside)
-        rho, depth = settings.get("WaterDensity"), settings.get("WaterDepth")
-        if isinstance(rho, float) and isinstance(depth, float):
-            text = f"density and depth from {beside.name} beside it"
-            findings.append(Finding("info", "assumption", text))
-            return KILO * rho, STANDARD_GRAVITY, depth, [path, beside]
-    environment = model.get("Environment") or {}
-    rho, depth = environment.get("Density"), environment.get("WaterDepth")
-    if not isinstance(rho, float) or not isinstance(depth, float):
-        raise DatabaseError(f"{path}: no Density and WaterDepth in Environment")
-    text = (
-        f"depth {depth:g} m is that of the OrcaFlex model; the diffraction analysis may have had "
-        f"another one (OrcaWave's own .yml, put beside it, tells)"
-    )
-    findings.append(Finding("warning", "assumption", text))
-    return KILO * rho, STANDARD_GRAVITY, depth, [path]
-
-
 class _Vessel:
     """Tables of one vessel type, at its first draught, in SI units."""
 
-    def __init__(self, path: Path, vessel: dict[str, Any], depth: float, gravity: float) -> None:
-        self.path, self.name = path, vessel.get("Name", "vessel")
+    def __init__(
+        self, path: Path, vessel: dict[str, Any], depth: float, gravity: float, unit: float
+    ) -> None:
+        self.path, self.name, self.kilograms = path, vessel.get("Name", "vessel"), unit
         self.sign = np.array(
             [1.0 if vessel.get(key, word) == word else -1.0 for key, word in SENSES.items()]
         )
@@ -181,7 +151,7 @@ class _Vessel:
             )
         draught = self._entry(vessel, "Draughts")[0]
         self.draught = draught
-        self.unit = vessel.get("WavesReferredToBy", "period (s)")
+        self.waves = vessel.get("WavesReferredToBy", "period (s)")
         entries = self._entry(draught, _TABLES)
         w = np.array([self._omega(e.get("AMDPeriodOrFrequency")) for e in entries])
         a = np.array([self._square(e, "AddedMassMatrixX") for e in entries])
@@ -210,9 +180,9 @@ class _Vessel:
             value = np.inf if value.lower() == "infinity" else np.nan
         if not isinstance(value, float) or np.isnan(value):
             raise DatabaseError(f"{self.path}: {self.name}: {value!r} is no period or frequency")
-        if self.unit.startswith("frequency (rad"):
+        if self.waves.startswith("frequency (rad"):
             return value
-        if self.unit.startswith("frequency (Hz"):
+        if self.waves.startswith("frequency (Hz"):
             return float(2.0 * np.pi * value)
         if value == 0.0:
             return float(np.inf)
@@ -223,7 +193,7 @@ class _Vessel:
         table = np.array(rows, dtype=float) if isinstance(rows, list) else np.zeros(0)
         if table.shape != (6, 6):
             raise DatabaseError(f"{self.path}: {self.name}: {first}: expected 6 x 6 numbers")
-        return KILO * table * np.outer(self.sign, self.sign)
+        return self.kilograms * table * np.outer(self.sign, self.sign)
 
     def _forces(
         self, vessel: dict[str, Any], depth: float, gravity: float
@@ -243,7 +213,7 @@ class _Vessel:
             raise DatabaseError(f"{self.path}: {self.name}: phases in {unit} about the {relative}")
         sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
-        factor = KILO * (1.0 if relative == "crest" else -1.0)
+        factor = self.kilograms * (1.0 if relative == "crest" else -1.0)
         if vessel.get("RAOWaveUnit", "amplitude") != "amplitude":
             factor *= 2.0
         heading = np.array([block["RAODirection"] for block in blocks], dtype=float)
@@ -280,7 +250,7 @@ class _Vessel:
         if block.shape != (3, 3):
             raise DatabaseError(f"{self.path}: {self.name}: no 3 x 3 HydrostaticStiffness")
         stiffness = np.zeros((6, 6))
-        stiffness[2:5, 2:5] = KILO * block * np.outer(self.sign[2:5], self.sign[2:5])
+        stiffness[2:5, 2:5] = self.kilograms * block * np.outer(self.sign[2:5], self.sign[2:5])
         mass_center = self._vector(self.draught, "CentreOfMass")
         if abs(mass_center[2] - self.point[2]) > 1e-6:
             return None  # the file does not say whether the weight is in the stiffness

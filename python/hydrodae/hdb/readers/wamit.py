@@ -86,7 +86,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         findings.append(Finding("info", "excitation", text))
     else:
         rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
-        option = first_column(stem, control, findings)
+        option = first_column(stem, control, rows, (length, depth, gravity), findings)
     modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
     rows, lines = _of_modes(rows, lines, (1, 2), modes)
     omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)

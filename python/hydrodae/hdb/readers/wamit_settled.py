@@ -9,11 +9,17 @@ from numpy.typing import NDArray
 
 from hydrodae import infinity
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.causality import causal_line
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import SEA_WATER, USUAL_GRAVITY, Water
 from hydrodae.hdb.readers.wamit_control import Control
+from hydrodae.hdb.readers.wamit_tables import to_omega
 
 Array = NDArray[np.float64]
+#: What the first column of the tables may hold, by IPEROUT.
+COLUMNS = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
+#: Correlation of A with what B implies that is no chance.
+CLEAR = 0.98
 
 
 def settled(
@@ -53,13 +59,62 @@ def settled(
     return float(rho), float(depth), float(gravity), float(length)
 
 
-def first_column(stem: Path, control: Control, findings: list[Finding]) -> int:
-    """IPEROUT: what the first column of the tables holds."""
-    if control.first_column is None:
+def first_column(
+    stem: Path,
+    control: Control,
+    rows: Array,
+    constants: tuple[float, float, float],
+    findings: list[Finding],
+) -> int:
+    """IPEROUT: what the first column of the tables holds.
+
+    Without a `.cfg` that says it, the diagonal entries of A and B tell, which belong to each other
+    (`hydrodae.hdb.causality`) by one of the four meanings only; tables too short for that hold
+    periods, as WAMIT writes unless told otherwise.
+
+    Parameters
+    ----------
+    stem : Path
+    control : Control
+    rows : (m, 5) array
+        Lines of the `.1` file.
+    constants : tuple of float
+        Length scale, depth, gravity [m, m, m/s2].
+    findings : list of Finding
+        Told there.
+    """
+    if control.first_column is not None:
+        return control.first_column
+    fits = [_fit(stem, rows, option, constants) for option in COLUMNS]
+    best = int(np.argmax(fits))
+    if fits[0] > CLEAR or fits[best] <= CLEAR:
         text = f"no {stem.name}.cfg: first column taken as the period (IPEROUT 1)"
         findings.append(Finding("info", "assumption", text))
         return 1
-    return control.first_column
+    option = list(COLUMNS)[best]
+    text = (
+        f"no {stem.name}.cfg: first column taken as the {COLUMNS[option]} (IPEROUT {option}), by "
+        f"which A and B agree; a line IPEROUT={option} in {stem.name}.cfg confirms it"
+    )
+    findings.append(Finding("warning", "assumption", text))
+    return option
+
+
+def _fit(stem: Path, rows: Array, option: int, constants: tuple[float, float, float]) -> float:
+    """Correlation of A with what B implies if the first column means that; 0 if it is another."""
+    omega = to_omega(stem, rows[:, 0], option, *constants)
+    usual = np.isfinite(omega) & (omega > 0.0) & (rows[:, 1] == rows[:, 2])
+    usual &= ~np.isnan(rows[:, 4])
+    grid = np.unique(omega[usual])
+    if not grid.size:
+        return 0.0
+    modes = np.unique(rows[usual, 1])
+    tables = np.zeros((2, grid.size, modes.size))
+    place = (np.searchsorted(grid, omega[usual]), np.searchsorted(modes, rows[usual, 1]))
+    tables[0][place], tables[1][place] = rows[usual, 3], rows[usual, 4] * omega[usual]
+    slope, correlation = causal_line(grid, *tables)
+    right = np.abs(np.log(np.maximum(slope, 1e-9))) < np.log(1.25)
+    return float(np.median(np.where(right, correlation, 0.0))) if slope.size else 0.0
 
 
 def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Array | None:
