@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.test_tcp import free_port
 from tests.verification.fmu_device import Device, problems, simulate
 
 import hydrodae
-from hydrodae import CaseError, Simulation
+from hydrodae import CaseError, Simulation, tcp
 from hydrodae.cli import main
 from hydrodae.fmu import export
 
@@ -114,6 +116,7 @@ def test_a_hundred_rollbacks_change_nothing(fmu: Path, tmp_path: Path) -> None:
 CONTINUE = """
 import sys
 from pathlib import Path
+from tests.python.test_tcp import free_port
 from tests.verification.fmu_device import Device, problems, simulate
 path, folder, state = map(Path, sys.argv[1:])
 with Device(path, folder) as device:
@@ -220,6 +223,41 @@ def test_a_controller_of_the_case_runs_inside(repository: Path, tmp_path: Path) 
     assert found == pytest.approx(last, rel=1e-6)
 
 
+@pytest.mark.parametrize("kind", ["own", "hydrodae", "hotint"])
+def test_controllers_inside_go_back_with_a_state(
+    kind: str, repository: Path, tmp_path: Path
+) -> None:
+    """A PI with its integral, or a program over TCP/IP that remembers nothing."""
+    port = free_port()
+    name = "case.toml" if kind == "own" else "case_tcp.toml"
+    told = {} if kind == "own" else {"controller.pi.port": port, "controller.pi.protocol": kind}
+    path = export(repository / "cases" / "control" / name, tmp_path / "float.fmu", set=told)
+
+    def peer() -> None:
+        with tcp.connect(port=port, hotint=(1, 1) if kind == "hotint" else None) as run:
+            for _, (rate,) in run:
+                run.answer(-600.0 * rate)
+
+    thread = threading.Thread(target=peer)
+    with Device(path, tmp_path / "float") as device:
+        if kind != "own":
+            thread.start()
+        device.begin()
+        for k in range(6):
+            device.step(k * 0.05, 0.05)
+        saved = device.save()
+        device.load(saved)
+        found = []
+        for _ in range(5):
+            for k in range(6, 16):
+                device.step(k * 0.05, 0.05)
+            found.append(device.get(X, V))
+            device.load(saved)
+        assert found == [found[0]] * 5
+    if kind != "own":
+        thread.join(10.0)
+
+
 def test_what_cannot_be_in_an_fmu_is_refused(tmp_path: Path) -> None:
     controller = """
     [[controller]]
@@ -235,5 +273,8 @@ def test_what_cannot_be_in_an_fmu_is_refused(tmp_path: Path) -> None:
         export(cart(), tmp_path / "x.fmu", inputs=["forces/pto/laod"])
     with pytest.raises(CaseError, match=r"solver\.atol: a parameter must be a number"):
         export(cart(), tmp_path / "x.fmu", parameters=["solver.atol"])
+    with pytest.raises(CaseError, match=r"case.toml: an FMU needs a name that ends in .fmu"):
+        export(cart(), tmp_path / "case.toml")
+    assert not (tmp_path / "case.toml").exists()
     with pytest.raises(CaseError, match="there are 2 and 3"):
         export(cart(), tmp_path / "x.fmu", fmi=1)

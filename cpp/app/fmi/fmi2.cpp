@@ -1,6 +1,6 @@
 /// The functions of FMI 2.0 for co-simulation; the standard says what each does.
 
-#include "fmi2.h"
+#include "hydrodae/cosim/fmi2.h"
 
 #include "instance.h"
 

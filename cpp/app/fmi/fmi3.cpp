@@ -1,6 +1,6 @@
 /// The functions of FMI 3.0 for co-simulation; the standard says what each does.
 
-#include "fmi3.h"
+#include "hydrodae/cosim/fmi3.h"
 
 #include "instance.h"
 

@@ -1,7 +1,7 @@
 /// Functions that FMI 3.0 asks every FMU for co-simulation to have, and that this one has no use
 /// for: variables of other types, clocks, events, derivatives. Asked for nothing, they are content.
 
-#include "fmi3.h"
+#include "hydrodae/cosim/fmi3.h"
 #include "instance.h"
 
 using namespace hydrodae::fmi;

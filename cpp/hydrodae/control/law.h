@@ -41,6 +41,12 @@ public:
   /// Is it sampled at the events of stops and dry friction, too?
   virtual bool hears_events() const { return false; }
 
+  /// Is its first input the rate of a joint, whose changes of sign are events that it hears?
+  virtual bool hears_crossings() const { return false; }
+
+  /// The first input crosses zero at t, before it is sampled there.
+  virtual void crossed(double) {}
+
   /// The next sampling instant that it asks for after one at `t` [s], in place of a fixed period;
   /// no number: the period holds.
   virtual double next_time(double) const { return NAN; }

@@ -60,6 +60,8 @@ struct Unknown {
   bool algebraic = false;
   bool absolute = false; ///< the scale alone says what counts, not its value, nor how far the
                          ///< bodies move
+  double length = 0.0;   ///< of the first of six that are place and velocity of a point: what its
+                         ///< displacements are measured by [m]; 0: it is none
 };
 
 /// What a law reports beside its load.

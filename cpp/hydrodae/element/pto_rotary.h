@@ -1,21 +1,22 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "hydrodae/core/field.h"
-#include "hydrodae/element/linear_wrench.h"
+#include "hydrodae/element/elements.h"
 
 namespace hydrodae::element {
 
 /// Linear power take-off on the relative rotations of two bodies, as at a ball joint whose roll,
 /// pitch and yaw are each damped.
 ///
-///   m = -K theta - C omega     on body B [N m], along the axes that body A carries
+///   m = -K theta - C omega + u     on body B [N m], along the axes that body A carries
 ///
-/// theta: rotation vector of B against A [rad], zero in the reference pose; omega: relative angular
-/// velocity. Power C omega . omega is absorbed. About several axes at once the spring keeps energy
-/// to second order in theta.
+/// u: what a controller asks for, else zero. theta: rotation vector of B against A [rad], zero in
+/// the reference pose; omega: relative angular velocity. Without u the power C omega . omega is
+/// absorbed. About several axes at once the spring keeps energy to second order in theta.
 struct PtoRotary {
   static constexpr std::string_view type = "pto_rotary";
   static constexpr std::string_view doc = "Linear power take-off on relative roll, pitch and yaw "
@@ -29,10 +30,52 @@ struct PtoRotary {
   Vector3 stiffness = Vector3::Zero();
   Vector3 damping = Vector3::Zero();
 
-  LinearWrench law() const {
-    LinearWrench out;
-    out.stiffness.diagonal().tail<3>() = stiffness;
-    out.damping.diagonal().tail<3>() = damping;
+  static constexpr int n_signals = 9;
+
+  /// Signals: C, K and u about x, y and z.
+  struct Law {
+    template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      for (int k = 0; k < 3; ++k) {
+        out.load[k] = S(0);
+        out.load[3 + k] = S(in.signals[6 + k]) - S(in.signals[3 + k]) * in.x[3 + k] -
+                          S(in.signals[k]) * in.v[3 + k];
+      }
+    }
+    template <class J> void jacobian(const In<double>& in, J& j) const {
+      j.setZero();
+      for (int k = 0; k < 3; ++k) {
+        j(3 + k, 3 + k) = -in.signals[3 + k];
+        j(3 + k, 9 + k) = -in.signals[k];
+      }
+    }
+    /// Energy stored in the springs [J], to second order in theta.
+    double energy(const In<double>& in) const {
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k)
+        sum += 0.5 * in.signals[3 + k] * in.x[3 + k] * in.x[3 + k];
+      return sum;
+    }
+  };
+  Law law() const { return {}; }
+
+  /// A program may change them while it runs.
+  static std::vector<Signal> inputs() {
+    return {{"damping.x", "N m s/rad", 0.0},
+            {"damping.y", "N m s/rad", 0.0},
+            {"damping.z", "N m s/rad", 0.0},
+            {"stiffness.x", "N m/rad", 0.0},
+            {"stiffness.y", "N m/rad", 0.0},
+            {"stiffness.z", "N m/rad", 0.0},
+            {"moment.x", "N m"},
+            {"moment.y", "N m"},
+            {"moment.z", "N m"}};
+  }
+  std::array<double, n_signals> start_signals() const {
+    std::array<double, n_signals> out{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      out[k] = damping[static_cast<Eigen::Index>(k)];
+      out[3 + k] = stiffness[static_cast<Eigen::Index>(k)];
+    }
     return out;
   }
 

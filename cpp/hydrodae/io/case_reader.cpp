@@ -11,6 +11,7 @@
 #include "hydrodae/io/case_overrides.h"
 #include "hydrodae/io/hydro_file.h"
 #include "hydrodae/io/record_file.h"
+#include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
 #include "hydrodae/model/scene_tables.h"
 #include "hydrodae/model/tables.h"
@@ -159,6 +160,21 @@ void read_records(model::Scene& scene, const std::string& directory) {
   }
 }
 
+/// Where FMUs of controllers are, and which.
+void find_fmus(model::Scene& scene, const std::string& directory) {
+  for (model::Controller& c : scene.controllers) {
+    if (c.type != "fmu" || c.file.empty())
+      continue;
+    c.path = (std::filesystem::path(directory) / c.file).lexically_normal().string();
+    try {
+      c.sha256 = sha256_of_file(c.path);
+    } catch (const CaseError& error) {
+      throw CaseError(scene.positions.at("controller." + c.name + ".file") +
+                      ": key 'file' in [[controller]] " + in_quotes(c.name) + ": " + error.what());
+    }
+  }
+}
+
 model::Scene parse(const std::string& text, const std::string& directory,
                    const Overrides& overrides, const std::string& name, const std::string& path) {
   toml::table root = parse_toml(text, name);
@@ -177,6 +193,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
   if (scene.hydro)
     scene.database = read_database(scene, directory);
   read_records(scene, directory);
+  find_fmus(scene, directory);
   try {
     model::check(scene);
   } catch (const ModelError& error) {

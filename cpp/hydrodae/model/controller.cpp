@@ -26,6 +26,10 @@ Arity arity(const std::string& type) {
     return {1, 1, 1, "a rate"};
   if (type == "latching")
     return {1, 1, 1, "the rate of a joint"};
+  if (type == "bang_bang")
+    return {1, 2, 1, "what it holds at its target, then its target where that is a channel"};
+  if (type == "declutching")
+    return {1, 1, 1, "the rate of a joint"};
   if (type == "table")
     return {1, 1, 1, "the channel of which it is a function"};
   return {0, many, 0, "channels"};
@@ -52,9 +56,27 @@ void check_lookup(const Entry& entry, const Controller& c) {
       refuse(entry, "at", "'at' must ascend");
 }
 
-void check_pid(const Entry& entry, const Controller& c) {
+void check_fmu(const Entry& entry, const Controller& c) {
+  const auto match = [&](const char* key, std::size_t n, const char* other, std::size_t wanted) {
+    if (n != wanted)
+      refuse(entry, key,
+             in_quotes(key) + " must have as many as " + in_quotes(other) + ": " +
+                 std::to_string(wanted) + ", it has " + std::to_string(n));
+  };
+  if (c.file.empty())
+    refuse(entry, "file", "an fmu controller needs the key 'file'");
+  match("fmu_inputs", c.fmu_inputs.size(), "inputs", c.inputs.size());
+  match("fmu_outputs", c.fmu_outputs.size(), "outputs", c.outputs.size());
+  match("parameter_values", c.parameter_values.size(), "parameters", c.parameters.size());
+}
+
+void check_limits(const Entry& entry, const Controller& c) {
   if (c.lower && c.upper && *c.lower > *c.upper)
     refuse(entry, "lower", "'lower' is above 'upper'");
+}
+
+void check_pid(const Entry& entry, const Controller& c) {
+  check_limits(entry, c);
   const bool limited = c.lower || c.upper;
   if (limited && c.gain_i != 0.0 && c.gain_p == 0.0 && !c.tracking_time)
     refuse(entry, "tracking_time",
@@ -74,7 +96,8 @@ Fields<Controller> Controller::fields() {
        "Kind of controller.",
        true,
        any_value,
-       {"pid", "reactive", "resistive", "latching", "table", "python", "tcp"}},
+       {"pid", "reactive", "resistive", "bang_bang", "latching", "declutching", "table", "python",
+        "tcp", "fmu"}},
       {"inputs", &C::inputs, "-",
        "Channels that it reads, as in the results; of a vector one component: "
        "\"bodies/float/velocity.z\"."},
@@ -85,6 +108,10 @@ Fields<Controller> Controller::fields() {
       {"period", &C::period, "s", "Time T between two sampling instants; the first is the start.",
        true, more_than(0, longest_time)},
       {"delay", &C::delay, "s", "Time from a sampling instant to the one when its answer holds.",
+       false, at_least(0, longest_time)},
+      {"lag", &C::lag, "s",
+       "Time constant of the actuator: its output follows what the controller holds like a filter "
+       "of first order.",
        false, at_least(0, longest_time)},
       {"gain_p", &C::gain_p, "out per in", "Proportional gain Kp."},
       {"gain_i", &C::gain_i, "out per in and s", "Integral gain Ki."},
@@ -103,12 +130,23 @@ Fields<Controller> Controller::fields() {
       {"damping", &C::damping, "N s/m or N m s/rad", "Damping C."},
       {"neutral", &C::neutral, "m or rad", "Coordinate s0 at which the spring is slack."},
       {"limit", &C::limit, "N or N m", "Largest load, either way.", false, more_than(0)},
+      {"band", &C::band, "unit of the input",
+       "Half width of the hysteresis: within it the output stays.", false, at_least(0)},
+      {"engaged", &C::engaged, "unit of the output", "Output while the machine works."},
+      {"free", &C::free, "unit of the output", "Output while the machine is free."},
+      {"free_time", &C::free_time, "s", "How long it is free from a standstill on.", false,
+       more_than(0)},
       {"hold_time", &C::hold_time, "s", "How long it holds from the standstill on.", false,
        more_than(0)},
       {"hold_load", &C::hold_load, "N or N m", "Largest load that it holds.", false, more_than(0)},
       {"at", &C::at, "unit of the input", "Values of the input, ascending."},
       {"value", &C::value, "unit of the output",
        "Outputs there; beyond the ends those at the ends."},
+      {"file", &C::file, "-", "FMU for co-simulation, version 2.0 or 3.0 of FMI."},
+      {"fmu_inputs", &C::fmu_inputs, "-", "Its input for each of `inputs`."},
+      {"fmu_outputs", &C::fmu_outputs, "-", "Its output for each of `outputs`."},
+      {"parameters", &C::parameters, "-", "Parameters of it that are set before the start."},
+      {"parameter_values", &C::parameter_values, "as the FMU says", "Their values."},
       {"protocol",
        &C::protocol,
        "-",
@@ -133,7 +171,7 @@ Fields<Controller> Controller::fields() {
 }
 
 Keys controller_keys(const std::string& type) {
-  Keys keys = {"name", "type", "inputs", "outputs", "period", "delay"};
+  Keys keys = {"name", "type", "inputs", "outputs", "period", "delay", "lag"};
   const auto with = [&](const Keys& more) {
     keys.insert(keys.end(), more.begin(), more.end());
     return keys;
@@ -145,14 +183,23 @@ Keys controller_keys(const std::string& type) {
     return with({"stiffness", "damping", "neutral", "limit"});
   if (type == "resistive")
     return with({"damping", "limit"});
+  if (type == "bang_bang")
+    return with({"target", "band", "lower", "upper"});
+  const Keys at_once = {"name", "type", "inputs", "outputs", "period"};
   if (type == "latching") {
-    keys.pop_back(); // it acts at once
+    keys = at_once;
     return with({"hold_time", "hold_load"});
+  }
+  if (type == "declutching") {
+    keys = at_once;
+    return with({"engaged", "free", "free_time", "lag"});
   }
   if (type == "table")
     return with({"at", "value"});
   if (type == "python")
     return keys;
+  if (type == "fmu")
+    return with({"file", "fmu_inputs", "fmu_outputs", "parameters", "parameter_values"});
   if (type == "tcp")
     return with({"protocol", "role", "host", "port", "timeout", "connect_timeout"});
   return {};
@@ -161,13 +208,19 @@ Keys controller_keys(const std::string& type) {
 Keys needed_controller_keys(const std::string& type) {
   if (type == "latching")
     return {"inputs", "hold_time", "hold_load"};
+  if (type == "bang_bang")
+    return {"inputs", "lower", "upper"};
+  if (type == "declutching")
+    return {"inputs", "engaged", "free_time"};
   if (type == "table")
     return {"inputs", "at", "value"};
+  if (type == "fmu")
+    return {"file", "fmu_outputs"};
   return type == "python" || type == "tcp" ? Keys{} : Keys{"inputs"};
 }
 
 bool is_outside(const Controller& controller) {
-  return controller.type == "python" || controller.type == "tcp";
+  return controller.type == "python" || controller.type == "tcp" || controller.type == "fmu";
 }
 
 void check_controller(const Scene& scene, const Controller& c) {
@@ -190,11 +243,27 @@ void check_controller(const Scene& scene, const Controller& c) {
                      (&other != &c ? ", by controller " + in_quotes(other.name) + " too" : ""));
   if (c.type == "pid")
     check_pid(entry, c);
+  if (c.type == "fmu")
+    check_fmu(entry, c);
   if (c.type == "table")
     check_lookup(entry, c);
-  if (c.type == "latching" && (!c.hold_time || !c.hold_load))
-    refuse(entry, c.hold_time ? "hold_load" : "hold_time",
-           "a latching controller needs 'hold_time' and 'hold_load'");
+  const auto needs = [&](const char* key, const std::optional<double>& value) {
+    if (!value)
+      refuse(entry, key, "a " + c.type + " controller needs the key " + in_quotes(key));
+  };
+  if (c.type == "latching") {
+    needs("hold_time", c.hold_time);
+    needs("hold_load", c.hold_load);
+  }
+  if (c.type == "declutching") {
+    needs("engaged", c.engaged);
+    needs("free_time", c.free_time);
+  }
+  if (c.type == "bang_bang") {
+    needs("lower", c.lower);
+    needs("upper", c.upper);
+    check_limits(entry, c);
+  }
 }
 
 } // namespace hydrodae::model

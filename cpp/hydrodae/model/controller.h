@@ -25,17 +25,27 @@ struct Controller {
   std::string name;
   std::string type;
   std::vector<std::string> inputs, outputs;
-  double period = 0.0, delay = 0.0;
+  double period = 0.0, delay = 0.0, lag = 0.0;
   // pid
   double gain_p = 0.0, gain_i = 0.0, gain_d = 0.0, filter_time = 0.0, target = 0.0;
   std::optional<double> lower, upper, tracking_time;
   // reactive, resistive
   double stiffness = 0.0, damping = 0.0, neutral = 0.0;
   std::optional<double> limit;
+  // bang_bang
+  double band = 0.0;
+  // declutching
+  std::optional<double> engaged, free_time;
+  double free = 0.0;
   // latching
   std::optional<double> hold_time, hold_load;
   // table
   std::vector<double> at, value;
+  // fmu
+  std::string file;
+  std::vector<std::string> fmu_inputs, fmu_outputs, parameters;
+  std::vector<double> parameter_values;
+  std::string path, sha256; ///< of that file, found from the folder of the case
   // tcp
   std::string protocol = "hydrodae", role = "server", host = "127.0.0.1";
   int port = 50000;

@@ -25,6 +25,7 @@
 #include "hydrodae/element/morison.h"
 #include "hydrodae/element/pto_general.h"
 #include "hydrodae/element/pto_hydraulic.h"
+#include "hydrodae/element/pto_lagged.h"
 #include "hydrodae/element/pto_linear.h"
 #include "hydrodae/element/pto_rotary.h"
 #include "hydrodae/element/python_law.h"
@@ -322,7 +323,8 @@ using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<eleme
                           std::vector<element::PtoRotary>, std::vector<element::FrictionStribeck>,
                           std::vector<element::EndStop>, std::vector<element::Rope>,
                           std::vector<element::CatenaryLine>, std::vector<element::LibraryLoad>,
-                          std::vector<element::LibraryWrench>, std::vector<element::Line>>;
+                          std::vector<element::LibraryWrench>, std::vector<element::Line>,
+                          std::vector<element::PtoLagged>>;
 
 struct Scene {
   // Written once, in scene.cpp: every list of forces is copied and freed there.

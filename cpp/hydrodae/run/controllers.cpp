@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hydrodae/control/bang_bang.h"
+#include "hydrodae/control/declutching.h"
 #include "hydrodae/control/latching.h"
 #include "hydrodae/control/pid.h"
 #include "hydrodae/control/reactive.h"
@@ -46,8 +48,12 @@ std::unique_ptr<control::Law> make_law(const model::Controller& c,
     return std::make_unique<control::Reactive>(c.stiffness, c.damping, c.neutral, limit);
   if (c.type == "resistive")
     return std::make_unique<control::Resistive>(c.damping, limit);
+  if (c.type == "bang_bang")
+    return std::make_unique<control::BangBang>(c.target, c.band, *c.lower, *c.upper);
   if (c.type == "latching")
     return std::make_unique<control::Latching>(*c.hold_load, *c.hold_time, c.period);
+  if (c.type == "declutching")
+    return std::make_unique<control::Declutching>(*c.engaged, c.free, *c.free_time, c.period);
   return std::make_unique<control::Table>(c.at, c.value);
 }
 
@@ -98,6 +104,8 @@ control::Terminals find_terminals(const model::Controller& controller,
     key = "outputs";
     for (const std::string& name : controller.outputs) {
       const Input& input = input_named(inputs, name);
+      if (controller.lag > 0.0 && !input.lags)
+        throw CaseError("input " + in_quotes(name) + " jumps at events, and cannot follow a 'lag'");
       out.outputs.push_back({name, input.unit, *input.value});
     }
   } catch (const CaseError& error) {
@@ -107,8 +115,8 @@ control::Terminals find_terminals(const model::Controller& controller,
   return out;
 }
 
-Controllers::Controllers(const model::Scene& scene, const std::vector<Channel>& channels,
-                         std::vector<Input>& inputs) {
+Controllers::Controllers(const model::Scene& scene, const system::Regime& regime,
+                         const std::vector<Channel>& channels, std::vector<Input>& inputs) {
   for (const model::Controller& c : scene.controllers) {
     One one;
     one.name = one.cost.name = c.name;
@@ -124,7 +132,13 @@ Controllers::Controllers(const model::Scene& scene, const std::vector<Channel>& 
       one.out.push_back(*one.inputs.back()->value);
     }
     one.in.resize(one.columns.size());
+    one.swings.resize(one.out.size());
     one.law = make_law(c, terminals);
+    if (one.law->hears_crossings())
+      one.watch = std::make_unique<RateWatch>(regime, c.inputs.front());
+    if (c.lag > 0.0)
+      for (const Input* input : one.inputs)
+        input->follow(c.lag);
     all_.push_back(std::move(one));
   }
 }
@@ -143,6 +157,26 @@ bool Controllers::One::is_due(double t, bool event) const {
 bool Controllers::is_due(double t, bool event) const {
   return next_time() <= t || std::any_of(all_.begin(), all_.end(),
                                          [&](const One& one) { return one.is_due(t, event); });
+}
+
+bool Controllers::hear_crossings() const {
+  return std::any_of(all_.begin(), all_.end(), [](const One& one) { return one.watch != nullptr; });
+}
+
+std::optional<double> Controllers::locate(double t0, double t1, int nodes,
+                                          const system::Recorder::Interpolant& at) {
+  std::optional<double> first;
+  for (One& one : all_)
+    if (one.watch)
+      if (const auto crossing = one.watch->locate(t0, first.value_or(t1), nodes, at))
+        first = crossing;
+  return first;
+}
+
+void Controllers::accept(double t, const VectorX& y, const VectorX& yp) {
+  for (One& one : all_)
+    if (one.watch && one.watch->accept(t, y, yp))
+      one.law->crossed(t);
 }
 
 bool Controllers::act(double t, bool event, std::span<const double> row) {
@@ -171,6 +205,8 @@ void Controllers::One::sample(double t, std::span<const double> row) {
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
                                in_quotes(name) + ": " + error.what());
     }
+  for (std::size_t k = 0; k < out.size(); ++k)
+    swings[k].add(out[k]);
   if (next <= t)
     ++count;
   const double own = law->next_time(t);
@@ -182,11 +218,22 @@ void Controllers::One::sample(double t, std::span<const double> row) {
 bool Controllers::One::write(double t) {
   bool changed = false;
   for (; !late.empty() && late.front().first <= t; late.pop_front())
-    for (std::size_t k = 0; k < inputs.size(); ++k) {
-      changed = changed || *inputs[k]->value != late.front().second[k];
-      *inputs[k]->value = late.front().second[k];
-    }
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+      changed = inputs[k]->set(t, late.front().second[k]) || changed;
   return changed;
+}
+
+std::string Controllers::runaway() const {
+  for (const One& one : all_)
+    for (std::size_t k = 0; k < one.swings.size(); ++k)
+      if (const SwingWatch::Growth g = one.swings[k].growth(); g.swings > 0)
+        return "controller " + in_quotes(one.name) + " feeds the motion: over its last " +
+               std::to_string(g.swings) + " swings what it holds " + one.inputs[k]->name +
+               " at has grown from " + rounded_text(g.from) + " to " + rounded_text(g.to) + " " +
+               one.inputs[k]->unit +
+               ", ever by the same factor; its period or delay is too long for what it closes, or "
+               "its gain has the wrong sign";
+  return "";
 }
 
 std::vector<Channel> Controllers::outputs() const {
@@ -231,7 +278,11 @@ void Controllers::finish(const std::string& error) {
     one.law->finish(error);
 }
 
-void Controllers::One::remember(Archive& a) { a(next, count, out, late, *law); }
+void Controllers::One::remember(Archive& a) {
+  a(next, count, out, late, swings, *law);
+  if (watch)
+    a(*watch);
+}
 
 void Controllers::remember(Archive& a) {
   for (One& one : all_)

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "hydrodae/core/channel.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/run/inputs.h"
+#include "hydrodae/run/rate_watch.h"
+#include "hydrodae/run/swing_watch.h"
 
 namespace hydrodae::run {
 
@@ -30,8 +33,8 @@ control::Terminals find_terminals(const model::Controller& controller,
 class Controllers {
 public:
   /// Throws ModelError where a controller names what there is not.
-  Controllers(const model::Scene& scene, const std::vector<Channel>& channels,
-              std::vector<Input>& inputs);
+  Controllers(const model::Scene& scene, const system::Regime& regime,
+              const std::vector<Channel>& channels, std::vector<Input>& inputs);
 
   bool empty() const { return all_.empty(); }
 
@@ -40,10 +43,23 @@ public:
 
   bool is_due(double t, bool event) const;
 
+  /// Does one hear where a rate crosses zero?
+  bool hear_crossings() const;
+
+  /// The first such crossing in (t0, t1] of a step; see RateWatch.
+  std::optional<double> locate(double t0, double t1, int nodes,
+                               const system::Recorder::Interpolant& at);
+
+  /// At the end of an accepted step.
+  void accept(double t, const VectorX& y, const VectorX& yp);
+
   /// Samples those that are due at t [s], and writes what holds from t on.
   /// @param row  all channels at t
   /// @returns whether an input has another value now
   bool act(double t, bool event, std::span<const double> row);
+
+  /// Which one feeds the motion, and how its answers have grown; empty: none does.
+  std::string runaway() const;
 
   /// What each holds: columns of the results.
   std::vector<Channel> outputs() const;
@@ -73,8 +89,10 @@ private:
     double next = 0.0;                ///< sampling instant [s]
     long count = 0;                   ///< of sampling instants
     std::vector<double> in, out;
+    std::vector<SwingWatch> swings;                          ///< of each answer
     std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
     Cost cost;
+    std::unique_ptr<RateWatch> watch; ///< null: it hears no crossing
 
     bool is_due(double t, bool event) const;
     void sample(double t, std::span<const double> row);

@@ -1,5 +1,6 @@
 #include "hydrodae/run/inputs.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydrodae/core/error.h"
@@ -20,7 +21,8 @@ void add_forces(system::Regime& s, std::vector<Input>& out) {
       for (const element::Signal& signal : list.laws->inputs) {
         if (!signal.name.empty())
           out.push_back({"forces/" + list.laws->names[k] + "/" + std::string(signal.name),
-                         element::unit_along(signal.unit, angle), value, signal.least});
+                         element::unit_along(signal.unit, angle), value, signal.least, &s.lags[i],
+                         static_cast<std::size_t>(value - s.signals[i].data())});
         ++value;
       }
     }
@@ -36,7 +38,7 @@ void add_frictions(system::Regime& s, std::vector<Input>& out) {
                law = static_cast<std::size_t>(friction.law);
     const bool angle = s.motions[static_cast<std::size_t>(friction.motion)].motion.is_angle();
     out.push_back({"forces/" + s.elements[list].laws->names[law] + "/static", angle ? "N m" : "N",
-                   &s.static_loads[friction.number], 0.0});
+                   &s.static_loads[friction.number], 0.0, nullptr, 0});
   }
 }
 
@@ -50,11 +52,28 @@ void add_rates(system::Regime& s, std::vector<Input>& out) {
     const auto motion = static_cast<std::size_t>(c.terms.front().motion);
     if (c.velocity_level && c.terms.size() == 1)
       out.push_back({"constraints/" + c.name + "/rate",
-                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &s.rates[k]});
+                     s.motions[motion].motion.is_angle() ? "rad/s" : "m/s", &s.rates[k], -INFINITY,
+                     nullptr, 0});
   }
 }
 
 } // namespace
+
+bool Input::set(double t, double target) const {
+  if (*value == target)
+    return false;
+  if (system::Lag* own = lag()) {
+    own->from = own->at(t, *value);
+    own->since = t;
+  }
+  *value = target;
+  return true;
+}
+
+void Input::follow(double time) const {
+  lags->resize(std::max(lags->size(), number + 1));
+  (*lags)[number] = {time, 0.0, *value};
+}
 
 std::vector<Input> find_inputs(system::Regime& regime) {
   std::vector<Input> out;

@@ -14,6 +14,16 @@ struct Input {
   std::string unit;
   double* value = nullptr; ///< in the regime
   double least = -INFINITY;
+  std::vector<system::Lag>* lags = nullptr; ///< of its list of forces; null: it cannot lag
+  std::size_t number = 0;                   ///< in that list
+
+  system::Lag* lag() const { return lags && number < lags->size() ? &(*lags)[number] : nullptr; }
+
+  /// What it is set to from t [s] on. @returns whether that is another value than before
+  bool set(double t, double target) const;
+
+  /// From now on it follows within a time constant [s].
+  void follow(double time) const;
 };
 
 /// The inputs that forces declare: damping, stiffness, neutral coordinate and load of each power

@@ -37,7 +37,7 @@ def export(
     case : Case or path
         The case, or the path of its file.
     path : path
-        Of the FMU, usually with the ending .fmu; a file that is there is replaced.
+        Of the FMU, with the ending .fmu; a file that is there is replaced.
     fmi : int
         Version of the standard, 2 or 3.
     inputs, outputs : sequence of str, optional
@@ -57,8 +57,11 @@ def export(
     ------
     CaseError
         The case cannot start, needs Python functions or libraries of its own, or has no such
-        variables; or this machine is of another sort than FMUs are made for.
+        variables; `path` does not end in .fmu; or this machine is of another sort than FMUs are
+        made for.
     """
+    if Path(path).suffix != ".fmu":
+        raise CaseError(f"{path}: an FMU needs a name that ends in .fmu")
     if fmi not in _PLATFORMS:
         raise CaseError(f"version {fmi!r} of FMI: there are 2 and 3")
     read = read_case(case, set)
@@ -85,6 +88,10 @@ def _require_self_contained(case: Case) -> None:
     names = [*scene.python_drives, *scene.python_forces, *scene.python_controllers]
     if names:
         raise CaseError(f"{names[0]!r} is a Python function, which an FMU cannot take along")
+    controllers = tomllib.loads(case.text).get("controller", [])
+    inner = [c["name"] for c in controllers if c["type"] == "fmu"]
+    if inner:
+        raise CaseError(f"controller {inner[0]!r} is an FMU, which cannot be part of another one")
     if case.libraries:
         raise CaseError("laws of shared libraries cannot be part of an FMU")
 

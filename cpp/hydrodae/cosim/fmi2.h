@@ -1,6 +1,6 @@
 #pragma once
-/// Types of FMI 2.0 for co-simulation, after the standard (fmi-standard.org), as far as the library
-/// has functions that need them.
+/// Types of FMI 2.0 for co-simulation, after the standard (fmi-standard.org), as far as export and
+/// import need them.
 
 #include <cstddef>
 

@@ -1,0 +1,51 @@
+#pragma once
+#include <cmath>
+
+#include "hydrodae/control/law.h"
+
+namespace hydrodae::control {
+
+/// Declutching (Babarit, Guglielmi, Clement, Ocean Engineering 36 (2009) 1015-1024): from each
+/// standstill of a joint on the machine is free for some time, then it works until the next one.
+///
+///   u = free        for `time` from a standstill on
+///       engaged     else
+///
+/// The standstill, where s' changes its sign, is an event that the kernel locates. A standstill
+/// within `rest` of the one before is not heard.
+class Declutching final : public Law {
+public:
+  /// @param time  for which it is free [s]
+  /// @param rest  from a standstill until the next one that is heard [s]
+  Declutching(double engaged, double free, double time, double rest)
+      : engaged_(engaged), free_(free), time_(time), rest_(rest) {}
+
+  void crossed(double t) override {
+    if (t < heard_ + rest_)
+      return;
+    heard_ = t;
+    until_ = t + time_;
+  }
+
+  /// @param in  s'
+  void sample(double t, std::span<const double> in, std::span<double> out) override {
+    if (!began_ && in[0] == 0.0)
+      crossed(t);
+    began_ = true;
+    out[0] = t < until_ ? free_ : engaged_;
+    next_ = t < until_ ? until_ : INFINITY;
+  }
+
+  bool hears_events() const override { return true; }
+  bool hears_crossings() const override { return true; }
+  double next_time(double) const override { return next_; }
+  void remember(Archive& a) override { a(began_, heard_, until_, next_); }
+
+private:
+  double engaged_, free_, time_, rest_;
+  bool began_ = false;
+  double heard_ = -INFINITY, until_ = -INFINITY; ///< last standstill, end of the free time [s]
+  double next_ = INFINITY;
+};
+
+} // namespace hydrodae::control

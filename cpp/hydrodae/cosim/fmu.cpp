@@ -1,0 +1,182 @@
+#include "hydrodae/cosim/fmu.h"
+
+#include <cstdint>
+#include <optional>
+
+#include "hydrodae/control/law.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/cosim/fmu_archive.h"
+#include "hydrodae/cosim/fmu_slave.h"
+
+namespace hydrodae::cosim {
+
+namespace {
+
+using References = FmuSlave::References;
+
+[[noreturn]] void refuse_key(const model::Controller& c, const char* key, const std::string& why) {
+  throw ModelError("controller." + c.name + "." + key,
+                   "controller " + in_quotes(c.name) + ": " + why);
+}
+
+/// What a case names of an FMU.
+struct Mapping {
+  FmuDescription fmu;
+  References inputs, outputs, parameters;
+
+  explicit Mapping(const model::Controller& c) {
+    const char* key = "file";
+    const auto find = [&](const char* of, const std::vector<std::string>& names,
+                          const char* causality, References& out) {
+      key = of;
+      for (const std::string& name : names)
+        out.push_back(fmu.find(name, causality).reference);
+    };
+    try {
+      fmu = describe_fmu(c.path);
+      find("fmu_inputs", c.fmu_inputs, "input", inputs);
+      find("fmu_outputs", c.fmu_outputs, "output", outputs);
+      find("parameters", c.parameters, "parameter", parameters);
+    } catch (const CaseError& error) {
+      refuse_key(c, key, error.what());
+    }
+  }
+};
+
+std::string no_states(const std::string& name) {
+  return "controller " + in_quotes(name) +
+         ": its FMU cannot save and serialise its state, so that a run with it has no states and "
+         "no checkpoints";
+}
+
+/// At each instant: a step from the last one with what was read there, then new inputs, then what
+/// the FMU answers to these.
+class FmuLaw final : public control::Law {
+public:
+  FmuLaw(const model::Controller& c, double end_time)
+      : name_(c.name), values_(c.parameter_values), end_time_(end_time), map_(c) {
+    try {
+      files_.emplace(c.path, map_.fmu.binaries());
+      library_.emplace((files_->folder() / map_.fmu.library()).string());
+      const auto make = map_.fmu.version == 2 ? make_fmu2_slave : make_fmu3_slave;
+      slave_ = make(map_.fmu, *library_, (files_->folder() / "resources").string(), c.name);
+      set_parameters();
+    } catch (const CaseError& error) {
+      refuse_key(c, "file", c.path + ": " + error.what());
+    }
+  }
+  FmuLaw(const FmuLaw&) = delete;
+  FmuLaw& operator=(const FmuLaw&) = delete;
+  ~FmuLaw() override { FmuLaw::finish(""); }
+
+  void sample(double t, std::span<const double> in, std::span<double> out) override {
+    try {
+      if (!begun_)
+        slave_->begin(t, end_time_);
+      else if (t > t_ && slave_->step(t_, t - t_))
+        throw control::Stopped("controller " + in_quotes(name_) + ": its FMU ends the run");
+      t_ = t;
+      if (!map_.inputs.empty())
+        slave_->set(map_.inputs, in);
+      if (!begun_)
+        slave_->enter();
+      begun_ = true;
+      slave_->get(map_.outputs, out);
+    } catch (const CaseError& error) {
+      throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
+                               in_quotes(name_) + ": " + map_.fmu.path + ": " + error.what());
+    }
+  }
+
+  /// The state as it is serialised, six bytes a number: these are exact.
+  void remember(Archive& a) override {
+    if (!map_.fmu.saves_states)
+      throw CaseError(no_states(name_));
+    bool begun = begun_;
+    std::vector<char> bytes = a.saves() && begun ? slave_->save() : std::vector<char>();
+    std::vector<double> numbers = packed(bytes);
+    std::size_t size = bytes.size();
+    a(begun, t_, size, numbers);
+    if (a.saves())
+      return;
+    if (begun)
+      slave_->load(unpacked(numbers, size));
+    else if (begun_) {
+      slave_->reset();
+      set_parameters();
+    }
+    begun_ = begun;
+  }
+
+  void finish(const std::string&) override {
+    if (!begun_)
+      return;
+    begun_ = false;
+    try {
+      slave_->terminate();
+    } catch (const CaseError&) { // the run has ended, well or not
+    }
+  }
+
+private:
+  static constexpr std::size_t part = 6; ///< bytes that a double holds exactly
+
+  void set_parameters() {
+    if (!map_.parameters.empty())
+      slave_->set(map_.parameters, values_);
+  }
+
+  static std::vector<double> packed(const std::vector<char>& bytes) {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < bytes.size(); k += part) {
+      std::uint64_t number = 0;
+      for (std::size_t i = k; i < std::min(k + part, bytes.size()); ++i)
+        number |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << 8 * (i - k);
+      out.push_back(static_cast<double>(number));
+    }
+    return out;
+  }
+
+  static std::vector<char> unpacked(const std::vector<double>& numbers, std::size_t size) {
+    std::vector<char> out;
+    for (const double value : numbers)
+      for (std::size_t i = 0; i < part && out.size() < size; ++i)
+        out.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> 8 * i & 0xff));
+    return out;
+  }
+
+  std::string name_;
+  std::vector<double> values_; ///< of the parameters
+  double end_time_;            ///< [s]
+  Mapping map_;
+  std::optional<UnpackedFmu> files_;
+  std::optional<FmuLibrary> library_;
+  std::unique_ptr<FmuSlave> slave_; ///< goes before its library, and that before its file
+  bool begun_ = false;
+  double t_ = 0.0; ///< of the FMU [s]
+};
+
+} // namespace
+
+void join_fmus(model::Scene& scene) {
+  for (model::Controller& c : scene.controllers)
+    if (c.type == "fmu")
+      c.make = [c](const control::Terminals& terminals) {
+        return std::make_unique<FmuLaw>(c, terminals.end_time);
+      };
+}
+
+void check_fmus(const model::Scene& scene) {
+  for (const model::Controller& c : scene.controllers)
+    if (c.type == "fmu")
+      Mapping{c};
+}
+
+void require_fmu_states(const model::Scene& scene) {
+  for (const model::Controller& c : scene.controllers)
+    if (c.type == "fmu" && !Mapping(c).fmu.saves_states)
+      throw CaseError(no_states(c.name));
+}
+
+} // namespace hydrodae::cosim

@@ -1,0 +1,19 @@
+#pragma once
+/// Controllers of a case that are FMUs for co-simulation.
+
+#include "hydrodae/model/scene.h"
+
+namespace hydrodae::cosim {
+
+/// Gives each controller of type "fmu" its law, which unpacks and loads the FMU as soon as a run is
+/// made. There ModelError is thrown for an FMU that cannot be used; whatever goes wrong from the
+/// first sampling instant on ends the run with one SolverError.
+void join_fmus(model::Scene& scene);
+
+/// The same mistakes, without loading any library. Throws ModelError.
+void check_fmus(const model::Scene& scene);
+
+/// Throws CaseError where an FMU cannot save its state, so that a run has no checkpoints.
+void require_fmu_states(const model::Scene& scene);
+
+} // namespace hydrodae::cosim

@@ -1,0 +1,35 @@
+#pragma once
+/// What an FMU says of itself.
+
+#include <string>
+#include <vector>
+
+namespace hydrodae::cosim {
+
+struct FmuVariable {
+  std::string name, type, causality; ///< "Real" or "Float64"; "input", "output", "parameter", ...
+  unsigned reference = 0;
+  bool is_array = false;
+};
+
+struct FmuDescription {
+  std::string path; ///< of the FMU
+  int version = 0;  ///< of FMI: 2 or 3
+  std::string identifier, token;
+  bool saves_states = false; ///< can states be got, set and serialised?
+  std::vector<FmuVariable> variables;
+
+  /// Where the shared library for this machine stands: "binaries/linux64/".
+  std::string binaries() const;
+  std::string library() const { return binaries() + identifier + ".so"; }
+
+  /// The 64 bit number of this name and causality. Throws CaseError with the nearest name where
+  /// there is none.
+  const FmuVariable& find(const std::string& name, const std::string& causality) const;
+};
+
+/// Throws CaseError where the file is no FMU for co-simulation of FMI 2.0 or 3.0 with a library for
+/// this machine.
+FmuDescription describe_fmu(const std::string& path);
+
+} // namespace hydrodae::cosim

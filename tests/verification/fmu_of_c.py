@@ -1,0 +1,64 @@
+"""FMUs that are compiled from pi_fmu.c when a test asks for one."""
+
+from __future__ import annotations
+
+import subprocess
+import zipfile
+from pathlib import Path
+
+NAMES = {1: "rate", 2: "load", 3: "kp", 4: "ki", 5: "discard_at", 6: "fail_at", 7: "end_at"}
+PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
+
+
+def description(fmi: int, *, states: bool = True, how: str = "CoSimulation") -> str:
+    """modelDescription.xml of the PI controller."""
+    state = "State" if fmi == 3 else "state"
+    lines = [
+        f'<fmiModelDescription fmiVersion="{fmi}.0" modelName="pi" '
+        f'{"guid" if fmi == 2 else "instantiationToken"}="token-of-pi">',
+        f'<{how} modelIdentifier="pi" canGetAndSetFMU{state}="{str(states).lower()}" '
+        f'canSerializeFMU{state}="{str(states).lower()}"/>',
+        "<ModelVariables>",
+    ]
+    if fmi == 3:
+        lines.append('<Float64 name="time" valueReference="0" causality="independent"/>')
+    for reference, name in NAMES.items():
+        causality = {1: "input", 2: "output"}.get(reference, "parameter")
+        start = "" if causality == "output" else ' start="0"'
+        fixed = ' variability="fixed"' if causality == "parameter" else ""
+        head = f'name="{name}" valueReference="{reference}" causality="{causality}"{fixed}'
+        lines.append(
+            f"<Float64 {head}{start}/>"
+            if fmi == 3
+            else f"<ScalarVariable {head}><Real{start}/></ScalarVariable>"
+        )
+    count = 'name="count" valueReference="9" causality="output" variability="discrete"'
+    if fmi == 3:
+        lines += [f"<Int32 {count}/>", "</ModelVariables>", "<ModelStructure>"]
+        lines += ['<Output valueReference="2"/>', '<Output valueReference="9"/>']
+        lines += ['<InitialUnknown valueReference="2"/>', '<InitialUnknown valueReference="9"/>']
+    else:
+        lines += [f"<ScalarVariable {count}><Integer/></ScalarVariable>", "</ModelVariables>"]
+        unknowns = '<Unknown index="2"/><Unknown index="8"/>'
+        lines += [f"<ModelStructure><Outputs>{unknowns}</Outputs>"]
+        lines += [f"<InitialUnknowns>{unknowns}</InitialUnknowns>"]
+    return "\n".join([*lines, "</ModelStructure>", "</fmiModelDescription>"])
+
+
+def library(folder: Path, fmi: int) -> Path:
+    """The compiled controller."""
+    path = folder / f"pi{fmi}.so"
+    if not path.exists():
+        source = Path(__file__).parent / "pi_fmu.c"
+        options = ["-shared", "-fPIC", "-O1", "-fvisibility=hidden", f"-DFMI={fmi}"]
+        subprocess.run(["cc", *options, str(source), "-o", str(path), "-lm"], check=True)
+    return path
+
+
+def write_fmu(path: Path, fmi: int, xml: str | None = None, binary: str | None = None) -> Path:
+    """The FMU; `xml` in place of its description, `binary` in place of its platform."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", xml or description(fmi))
+        archive.write(library(path.parent, fmi), f"binaries/{binary or PLATFORMS[fmi]}/pi.so")
+        archive.writestr("resources/notes.txt", "nothing")
+    return path

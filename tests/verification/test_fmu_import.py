@@ -1,0 +1,339 @@
+"""FMUs as controllers: against the kernel's own PI, and what can be wrong with one."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from tests.verification.fmu_of_c import description, write_fmu
+
+import hydrodae
+from hydrodae import Case, CaseError, RunInterrupted, Simulation, SolverError
+from hydrodae.fmu import export
+
+CART = """
+title = "Cart on a spring"
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { displacement = [0.5, 0.0, 0.0] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+stiffness = 8.0
+[[controller]]
+name = "pi"
+inputs = ["joints/slide/displacement_rate"]
+outputs = ["forces/pto/load"]
+period = 0.1
+KEYS
+[solver]
+end_time = 5.0
+rtol = 1e-9
+[output]
+step = 0.05
+"""
+OWN = 'type = "pid"\ngain_p = 1.3\ngain_i = 0.7'
+FMU = """type = "fmu"
+file = "pi.fmu"
+fmu_inputs = ["rate"]
+fmu_outputs = ["load"]
+parameters = ["kp", "ki"]
+parameter_values = [1.3, 0.7]"""
+CHANNELS = ("joints/slide/displacement", "forces/pto/force", "controllers/pi/output")
+
+
+def cart(folder: Path, keys: str = FMU) -> Case:
+    (folder / "case.toml").write_text(CART.replace("KEYS", keys))
+    return Case.read(folder / "case.toml")
+
+
+@pytest.fixture(params=[2, 3])
+def fmi(request: pytest.FixtureRequest) -> int:
+    return int(request.param)
+
+
+def test_an_fmu_equals_the_kernels_own_pi(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    own = hydrodae.run(Case.from_text(CART.replace("KEYS", OWN)))
+    other = hydrodae.run(cart(tmp_path))
+    for name in CHANNELS:
+        scale = float(abs(own[name]).max())
+        np.testing.assert_allclose(other[name], own[name], atol=1e-9 * scale)
+    assert other.statistics["controller_calls.pi"] == 50
+    assert "fmu): every 0.1 s joints/slide/displacement_rate [m/s]" in hydrodae.check(
+        cart(tmp_path)
+    )
+
+
+def rest(run: Simulation, end: float = 3.0) -> list[float]:
+    out = []
+    while run.time < end:
+        run.advance(end)
+        out += [float(run.read(name)) for name in CHANNELS]
+    return out
+
+
+def test_rollback_and_another_process_go_on_bit_for_bit(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    simulation = Simulation(cart(tmp_path))
+    begin = simulation.state()
+    rest(simulation, 2.13)
+    saved = simulation.state()
+    went_on = rest(simulation)
+    simulation.restore(saved)
+    assert rest(simulation) == went_on
+    other = Simulation(cart(tmp_path))
+    other.restore(saved)
+    assert rest(other) == went_on
+    fresh, other_way = Simulation(cart(tmp_path)), []
+    fresh.restore(begin)
+    simulation.restore(begin)
+    other_way = rest(simulation)
+    assert rest(fresh) == other_way
+
+
+def test_a_resumed_run_equals_one_that_was_not_cut_off(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    whole = hydrodae.run(cart(tmp_path), tmp_path / "a.h5", checkpoint=0)
+    with pytest.raises(RunInterrupted):
+        hydrodae.run(cart(tmp_path), tmp_path / "b.h5", checkpoint=0, progress=lambda t, _: t < 2.4)
+    resumed = hydrodae.run(cart(tmp_path), tmp_path / "b.h5", checkpoint=0, resume=True)
+    for name in CHANNELS:
+        np.testing.assert_array_equal(resumed[name], whole[name])
+
+
+def test_an_fmu_without_states_has_no_checkpoints(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi, description(fmi, states=False))
+    assert hydrodae.run(cart(tmp_path)).end_time == 5.0
+    with pytest.raises(CaseError, match="'pi': its FMU cannot save and serialise its state"):
+        hydrodae.run(cart(tmp_path), tmp_path / "a.h5", checkpoint=0)
+    with pytest.raises(CaseError, match="its FMU cannot save and serialise its state"):
+        Simulation(cart(tmp_path)).state()
+
+
+def test_another_fmu_is_another_run(tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", 2)
+    saved = Simulation(cart(tmp_path)).state()
+    write_fmu(tmp_path / "pi.fmu", 3)
+    with pytest.raises(CaseError, match="is of another case"):
+        Simulation(cart(tmp_path)).restore(saved)
+
+
+def test_a_step_that_is_not_made_ends_the_run(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    for key, status in (("discard_at", "Discard: the step is too long"), ("fail_at", "Error: it")):
+        keys = FMU.replace('"ki"]', f'"ki", "{key}"]').replace("0.7]", "0.7, 1.95]")
+        text = " has ended in status " + status
+        with pytest.raises(SolverError, match=text) as caught:
+            hydrodae.run(cart(tmp_path, keys), tmp_path / "r.h5")
+        assert f"stopped at t = 2 s: controller 'pi': {tmp_path}/pi.fmu: fmi{fmi}DoStep" in str(
+            caught.value
+        )
+        kept = hydrodae.Results.read(tmp_path / "r.h5")
+        assert kept.status == "failed"
+        assert 1.9 <= kept.end_time <= 2.0
+
+
+def test_an_fmu_may_end_the_run(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    keys = FMU.replace('"ki"]', '"ki", "end_at"]').replace("0.7]", "0.7, 1.95]")
+    with pytest.raises(RunInterrupted, match="controller 'pi': its FMU ends the run"):
+        hydrodae.run(cart(tmp_path, keys), tmp_path / "r.h5")
+
+
+def test_the_executable_loads_fmus(fmi: int, tmp_path: Path, executable: str) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    own = hydrodae.run(cart(tmp_path))
+    out = tmp_path / "results.h5"
+    command = [executable, str(tmp_path / "case.toml"), "-o", str(out)]
+    subprocess.run(command, check=True, capture_output=True)
+    found = hydrodae.Results.read(out)
+    for name in CHANNELS:
+        np.testing.assert_array_equal(found[name], own[name])
+
+
+SECOND = """
+title = "Second device"
+environment.gravity = 0.0
+[[body]]
+name = "float"
+motion = "surge"
+mass = 3.0
+center_of_gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "float"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+stiffness = 27.0
+damping = 0.6
+[solver]
+end_time = 1.0
+rtol = 1e-9
+"""
+
+
+def test_a_second_device_answers(fmi: int, tmp_path: Path) -> None:
+    """A case as the FMU of another: each takes what the other one is at the instants."""
+    x, load = "joints/slide/displacement", "forces/pto/load"
+    export(
+        Case.from_text(SECOND), tmp_path / "b.fmu", fmi=fmi, inputs=[load], outputs=[x],
+        parameters=["body.float.mass"],
+    )  # fmt: skip
+    keys = f"""type = "fmu"
+file = "b.fmu"
+fmu_inputs = ["{load}"]
+fmu_outputs = ["{x}"]
+parameters = ["body.float.mass"]
+parameter_values = [2.5]"""
+    found = hydrodae.run(cart(tmp_path, keys))
+
+    def stepper(mass: float, stiffness: float, damping: float) -> np.ndarray:
+        A = np.zeros((3, 3))
+        A[:2] = [[0.0, 1.0, 0.0], [-stiffness / mass, -damping / mass, 1.0 / mass]]
+        return np.asarray(expm(0.1 * A))
+
+    own, other = stepper(2.0, 8.0, 0.0), stepper(2.5, 27.0, 0.6)
+    a, b, expected = np.array([0.5, 0.0, 0.0]), np.zeros(3), [0.5]
+    for _ in range(50):
+        a[2], b[2] = b[0], a[1]
+        a, b = own @ a, other @ b
+        expected.append(a[0])
+    np.testing.assert_allclose(found[x][::2], expected, atol=1e-7)
+    assert float(abs(found["controllers/pi/output"]).max()) > 0.01
+
+
+def broken(folder: Path, how: str) -> None:
+    """Something that is no FMU of use, at pi.fmu."""
+    path = folder / "pi.fmu"
+    xml = description(2)
+    if how == "no zip":
+        path.write_bytes(b"PK" + os.urandom(300))
+    elif how == "empty":
+        path.write_bytes(b"")
+    elif how == "no description":
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("readme.txt", "hello")
+    elif how == "no xml":
+        write_fmu(path, 2, xml[:200])
+    elif how == "version":
+        write_fmu(path, 2, xml.replace('fmiVersion="2.0"', 'fmiVersion="1.0"'))
+    elif how == "model exchange":
+        write_fmu(path, 2, description(2, how="ModelExchange"))
+    elif how == "platform":
+        write_fmu(path, 2, binary="win64")
+    elif how == "token":
+        write_fmu(path, 2, xml.replace("token-of-pi", "another"))
+    elif how == "functions":
+        write_fmu(path, 3, xml, binary="linux64")
+    elif how == "library":
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("modelDescription.xml", xml)
+            archive.writestr("binaries/linux64/pi.so", "no library")
+    elif how == "outside":
+        write_fmu(path, 2)
+        with zipfile.ZipFile(path, "a") as archive:
+            archive.writestr("resources/../../../tmp/evil", "x")
+    elif how == "damaged":
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("modelDescription.xml", xml)
+        data = bytearray(path.read_bytes())
+        data[200] ^= 0xFF
+        path.write_bytes(data)
+
+
+FAULTS = {
+    "no zip": "pi.fmu: is no zip archive, as an FMU is one",
+    "empty": "pi.fmu: is no zip archive",
+    "no description": "pi.fmu: has no modelDescription.xml: it is no FMU",
+    "no xml": "pi.fmu: modelDescription.xml: .* at byte",
+    "version": "is of version '1.0' of FMI; those of 2.0 and 3.0 can be loaded",
+    "model exchange": "is for model exchange only; a controller needs one for co-simulation",
+    "platform": "no library binaries/linux64/pi.so for this machine; there are win64",
+    "token": "fmi2Instantiate has given no instance",
+    "functions": "its library has no function 'fmi2Instantiate'",
+    "library": "its library cannot be loaded: .*pi.so: ",
+    "outside": "would be unpacked elsewhere",
+    "damaged": "pi.fmu: .*damaged",
+}
+
+
+@pytest.mark.parametrize("how", FAULTS)
+def test_what_is_no_fmu_is_told(how: str, tmp_path: Path) -> None:
+    broken(tmp_path, how)
+    with pytest.raises(CaseError, match=r"case.toml:\d+:\d+: .*controller 'pi'.*" + FAULTS[how]):
+        hydrodae.run(cart(tmp_path))
+    assert not list(Path("/tmp").glob("hydrodae-fmu-*/evil"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('["rate"]', '["rat"]', "the FMU has no input 'rat'; did you mean 'rate'"),
+        ('["rate"]', '["load"]', "'load' of the FMU is of causality 'output', expected 'input'"),
+        ('["load"]', '["count"]', "'count' of the FMU is of type Int.*expected one number of type"),
+        ('"kp"', '"kq"', "the FMU has no parameter 'kq'; did you mean 'kp'"),
+        ('["rate"]', "[]", "'fmu_inputs' must have as many as 'inputs': 1, it has 0"),
+        ("[1.3, 0.7]", "[1.3]", "'parameter_values' must have as many as 'parameters': 2"),
+        ("[1.3, 0.7]", "[-1.3, 0.7]", "fmi.Set.* has ended in status Error: kp is negative"),
+        ('"pi.fmu"', '"po.fmu"', "key 'file' in .*po.fmu"),
+        ('file = "pi.fmu"', "", "needs the key 'file'"),
+        ("fmu_outputs", "damping = 1.0\nfmu_outputs", "a fmu controller has no key 'damping'"),
+    ],
+)
+def test_mistakes_are_told(fmi: int, old: str, new: str, message: str, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    with pytest.raises(CaseError, match=message):
+        hydrodae.run(cart(tmp_path, FMU.replace(old, new)))
+
+
+def test_check_tells_mistakes_before_the_run(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    with pytest.raises(CaseError, match="did you mean 'rate'"):
+        hydrodae.check(cart(tmp_path, FMU.replace('["rate"]', '["rat"]')))
+
+
+def test_an_fmu_cannot_be_in_another_one(tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", 3)
+    with pytest.raises(CaseError, match="'pi' is an FMU, which cannot be part of another one"):
+        export(cart(tmp_path), tmp_path / "x.fmu")
+
+
+def test_nothing_stays_behind(tmp_path: Path, repository: Path) -> None:
+    """Temporary folders go with the run, also with one that fails."""
+    write_fmu(tmp_path / "pi.fmu", 2)
+    cart(tmp_path)
+    script = "import sys, hydrodae; hydrodae.run(sys.argv[1])"
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    subprocess.run(
+        [sys.executable, "-c", script, str(tmp_path / "case.toml")],
+        env={**os.environ, "TMPDIR": str(scratch)},
+        cwd=repository,
+        check=True,
+    )
+    assert list(scratch.iterdir()) == []
