@@ -8,6 +8,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/fmu.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/simulation.h"
@@ -248,6 +249,8 @@ void write_inputs(std::ostream& out, const model::Scene& scene,
         << listed(found.inputs) << " -> " << listed(found.outputs);
     if (c.delay > 0.0)
       out << ", " << c.delay << " s later";
+    if (c.lag > 0.0)
+      out << ", with a lag of " << c.lag << " s";
     out << "\n";
   }
   std::vector<std::string> names;
@@ -277,6 +280,7 @@ std::string examine(const model::Scene& scene) {
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(built, pattern));
   advise_joints(out, scene);
+  cosim::check_fmus(scene);
   write_inputs(out, scene, named.channels(), run::find_inputs(s));
   for (const std::string& note : built.notes)
     out << "  note: " << note << "\n";

@@ -6,6 +6,7 @@
 #include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/fmu.h"
 #include "hydrodae/cosim/tcp.h"
 #include "hydrodae/io/output_place.h"
 #include "hydrodae/io/results_rows.h"
@@ -123,11 +124,11 @@ private:
     }
     const solve::Verification::Difference d = own_->largest();
     statistics_.verified_error = d.error;
-    statistics_.verified_error_of = d.body;
+    statistics_.verified_error_of = d.block;
     statistics_.verified_error_time = d.time;
     if (const double allowed = scene().solver.error_guard; allowed > 0.0 && d.error > allowed)
       throw SolverError(d.time, "not verified: a second run, with " + how + ", has " +
-                                    in_quotes(d.body) + " off by " + rounded_text(d.error) +
+                                    in_quotes(d.block) + " off by " + rounded_text(d.error) +
                                     " of the motion at t = " + number_text(d.time) +
                                     " s, more than " + number_text(allowed) +
                                     " (solver.error_guard); a smaller tolerance or step may do");
@@ -171,9 +172,9 @@ private:
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
     system::watch(limits_, t, bodies);
     if (own_)
-      own_->keep(t, bodies);
+      own_->keep(t, bodies, simulation_.recorder().state());
     if (other_)
-      other_->compare(bodies);
+      other_->compare(bodies, simulation_.recorder().state());
     if (file_)
       file_->append(t, row_);
     statistics_.end_time = last_sample_ = t;
@@ -207,7 +208,7 @@ private:
     statistics_.wall_time = wall_before_ + seconds_since(started_);
     const solve::Trust::Estimate estimate = simulation_.estimate();
     statistics_.estimated_error = estimate.error;
-    statistics_.estimated_error_of = estimate.body;
+    statistics_.estimated_error_of = estimate.block;
     statistics_.estimated_error_time = estimate.time;
   }
 
@@ -256,6 +257,8 @@ void check_options(const model::Scene& scene, const std::string& path, const Run
       throw CaseError("a run with controller " + in_quotes(c.name) +
                       " cannot be verified: the other program would have to begin anew");
   const bool resumable = options.checkpoint >= 0.0 || options.resume;
+  if (resumable)
+    cosim::require_fmu_states(scene);
   if (resumable && path.empty())
     throw CaseError("a checkpoint stands beside the results file: name one");
   if (resumable && options.verify)
@@ -270,6 +273,7 @@ RunStatistics simulate(const model::Scene& given, const std::string& output_path
   check_options(given, output_path, options);
   model::Scene scene = given;
   cosim::join_tcp(scene);
+  cosim::join_fmus(scene);
   if (options.checkpoint >= 0.0)
     run::require_checkpoint_place(output_path);
   if (!output_path.empty())

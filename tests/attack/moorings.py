@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.optimize import root
 from tests.attack import truth
 from tests.attack.family import family, log_uniform, neighbour
-from tests.attack.parts import GRAVITY, beside, body, both, case, position
+from tests.attack.parts import GRAVITY, Array, beside, body, both, case, driven, position
 
+from hydrodae.results import Results
 from hydrodae.study.stability import Scene
 
 KIND = "moorings"
@@ -305,5 +307,113 @@ def hanging_line(
         speed * length, fast, "DOP853 with nodes of its own",
         lambda t: length * solved(np.asarray(t) / tau),
         position("bob", 0, 2, origin=bob),
+    )  # fmt: skip
+    return beside(scene, kind)
+
+
+def _draw_shaken(g: np.random.Generator) -> dict[str, Any]:
+    return {
+        "length": log_uniform(g, 0.01, 100.0), "heavy": log_uniform(g, 1e-2, 1e4),
+        "stretch": log_uniform(g, 1e-3, 0.05), "span": g.uniform(0.75, 0.85),
+        "amplitude": log_uniform(g, 1e-3, 0.03), "rate": g.uniform(0.5, 2.0),
+        "segments": int(g.integers(4, 9)), "kind": neighbour(g),
+    }  # fmt: skip
+
+
+@family(
+    KIND, _draw_shaken,
+    {"length": 10.0, "heavy": 10.0, "stretch": 0.01, "span": 0.8, "amplitude": 0.05, "rate": 2.0,
+     "segments": 6},
+    {"length": 1.0, "heavy": 1e-2, "stretch": 0.05, "span": 0.7, "amplitude": 0.1, "rate": 1.0,
+     "segments": 5},
+    {"length": 100.0, "heavy": 1e4, "stretch": 0.01, "span": 0.8, "amplitude": 1e-3, "rate": 4.0,
+     "segments": 6, "kind": "ship"},
+)  # fmt: skip
+def shaken_line(
+    length: float, heavy: float, stretch: float, span: float, amplitude: float, rate: float,
+    segments: int, kind: str | None = None,
+) -> Scene:  # fmt: skip
+    """The lowest node of a line that hangs between the ground and a point that is shaken sideways.
+
+    No body moves but by the drive. `stretch` is that under the weight of the line, `rate` is
+    sqrt(g / l) at 1.
+    """
+    n, part = segments, 1.0 / segments
+    stiff = 1.0 / stretch
+    inner = 0.02 * part * np.sqrt(stiff)
+
+    def pulls(x: Any, v: Any, taut: bool) -> Any:
+        d, dv = np.diff(x, axis=0), np.diff(v, axis=0)
+        size = np.linalg.norm(d, axis=1)
+        e = d / size[:, None]
+        change = np.sum(e * dv, axis=1)
+        if taut:
+            return (stiff * (size - part) / part)[:, None] * e
+        bend = part * stretch  # half the strain in which tension sets in: of a segment's weight
+        x1 = np.clip((size - part) / part / bend, -1.0, None)
+        smooth = bend * (0.1875 + 0.5 * x1 + 0.375 * x1**2 - 0.0625 * x1**4)
+        slope = 0.5 + 0.75 * x1 - 0.25 * x1**3
+        strain = np.where(x1 >= 1.0, x1 * bend, smooth)
+        slope = np.where(x1 >= 1.0, 1.0, slope)
+        return (stiff * strain + inner / part * change * slope)[:, None] * e
+
+    def whole(inside: Any, end: Any) -> Any:
+        return np.vstack([[0.0, 0.0], inside, end])
+
+    def loads(x: Any, v: Any, taut: bool = False) -> Any:
+        pull = pulls(x, v, taut)
+        force = pull[1:] - pull[:-1]
+        force[:, 1] -= part
+        return force / part
+
+    def rates(t: float, y: Any) -> Any:
+        x, v = y.reshape(2, n - 1, 2)
+        top = [span + amplitude * np.sin(rate * t), 0.0]
+        speed = [amplitude * rate * np.cos(rate * t), 0.0]
+        return np.r_[v.ravel(), loads(whole(x, top), whole(v, speed)).ravel()]
+
+    along = np.linspace(0.0, 1.0, n + 1)[1:-1]
+    sag = np.sqrt(3.0 / 8.0 * span * (1.0 - span))
+    guess = np.column_stack([span * along, -4.0 * sag * along * (1.0 - along)])
+    still = np.zeros((n + 1, 2))
+
+    def unbalanced(x: Any) -> Any:
+        return loads(whole(x.reshape(-1, 2), [span, 0.0]), still, taut=True).ravel()
+
+    near = root(unbalanced, guess.ravel(), method="lm").x
+    rest = root(unbalanced, near, tol=1e-13).x.reshape(-1, 2)
+    begun = np.zeros((n - 1, 2))
+    begun[:, 0] = amplitude * rate * along  # the nodes move with the ends
+    low = (n - 1) // 2
+    tau = float(np.sqrt(length / GRAVITY))
+    solved = truth.integrated(
+        rates, np.r_[rest.ravel(), begun.ravel()],
+        lambda _t, y: [y[2 * low] - rest[low, 0], y[2 * low + 1] - rest[low, 1]], rtol=1e-10,
+        longest=0.02,
+    )  # fmt: skip
+    line = {
+        "type": "line", "name": "line", "body_b": "top", "point_a": [0.0, 0.0, 0.0],
+        "point_b": [span * length, 0.0, 0.0], "length": [length], "segments": [n],
+        "mass": [heavy / length], "stiffness": [stiff * heavy * GRAVITY],
+        "damping": [inner * heavy * GRAVITY * tau],
+    }  # fmt: skip
+    tables = case(
+        [body("top", ["surge"], heavy, [span * length, 0.0, 0.0],
+              velocity=[amplitude * rate * length / tau, 0.0, 0.0])],
+        15.0 * tau, samples=300, forces=[line],
+        constraints=[driven("hand", {"amplitude": amplitude * length,
+                                     "period": 2.0 * np.pi * tau / rate},
+                            body="top", coordinate="surge")],
+    )  # fmt: skip
+
+    def lowest(results: Results) -> Array:
+        places = np.asarray(results["forces/line/position"].values)
+        places = places.reshape(len(places), n + 1, 3)[:, low + 1, [0, 2]]
+        return np.asarray(places - length * rest[low])
+
+    scene = Scene(
+        "", f"a line of {n} segments and {length:g} m whose upper end is shaken", tables,
+        amplitude * length, tau * float(np.sqrt(stretch)), "DOP853 with nodes of its own",
+        lambda t: length * solved(np.asarray(t) / tau), lowest,
     )  # fmt: skip
     return beside(scene, kind)

@@ -186,11 +186,12 @@ template <class Law> Law pressed_friction(Random& random) {
   return law;
 }
 
-/// What a program might give as a law: load_i = -x_i^3 - sin(t) v_i + x_0 v_0.
+/// What a program might give as a law: load_i = -x_i^2 - sin(t) v_i + x_0 v_0.
+/// Quadratic, so that central differences are exact but for rounding.
 template <int w> element::Function smooth_function() {
   return [](double t, const double* x, const double* v, double* load) {
     for (int i = 0; i < w; ++i)
-      load[i] = -x[i] * x[i] * x[i] - std::sin(t) * v[i] + x[0] * v[0];
+      load[i] = -x[i] * x[i] - std::sin(t) * v[i] + x[0] * v[0];
   };
 }
 
@@ -247,6 +248,21 @@ inline std::vector<element::Line> random_lines(Random& random) {
   return {line, hanging};
 }
 
+/// A rope with two sheaves, under each of which it runs, taut whatever the pose.
+inline element::Rope rope_under_sheaves() {
+  element::Rope rope;
+  rope.name = "rope under sheaves";
+  rope.bodies = {"ground", "a", "b", "ground"};
+  rope.points = {{-1.0, 0.1, 5.0}, {0.0, 0.0, 0.2}, {2.0, 0.4, -0.6}, {3.5, 0.6, 5.0}};
+  rope.stiffness = 30.0;
+  rope.damping = 2.0;
+  rope.length = 8.0;
+  rope.radii = {0.0, 0.15, 0.2, 0.0};
+  rope.axes = {
+      {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.1, -1.0, 0.0}, {0.0, 1.0, 0.0}}; // of the sheaves
+  return rope;
+}
+
 /// Adds one force of every kind in the list that this scene can carry; `late`: with a delay where
 /// it can have one.
 inline void add_every_force(model::Scene& scene, Random& random, bool late = false) {
@@ -274,6 +290,8 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
           }
           if constexpr (std::is_same_v<Law, element::Line>)
             list = random_lines(random);
+          if constexpr (std::is_same_v<Law, element::Rope>)
+            list.push_back(rope_under_sheaves());
           if constexpr (requires(Law law) { law.upper; })
             for (Law& law : list)
               law.upper = -0.2; // beyond it

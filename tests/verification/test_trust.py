@@ -128,6 +128,53 @@ def test_a_run_stops_where_it_has_lost_step_with_the_truth() -> None:
         hydrodae.run(pendulum(2.5, 400.0, rtol=1e-4, energy_guard=0.0))
 
 
+CABLE = """
+[environment]
+gravity = 9.81
+[[body]]
+name = "top"
+motion = ["surge"]
+mass = 10.0
+center_of_gravity = [8.0, 0.0, 0.0]
+[[constraint]]
+type = "coordinate"
+name = "hand"
+body = "top"
+coordinate = "surge"
+drive = { amplitude = 1.0, period = 1.5, ramp = 3.0 }
+[[force]]
+type = "line"
+name = "cable"
+body_b = "top"
+point_a = [0.0, 0.0, 0.0]
+point_b = [8.0, 0.0, 0.0]
+length = [10.0]
+segments = [6]
+mass = [1.0]
+stiffness = [1e4]
+[solver]
+end_time = 20.0
+"""
+
+
+def test_lines_are_judged_where_all_bodies_are_driven() -> None:
+    """Shaken until it slackens and snaps, a line without damping goes its own way."""
+    case = hydrodae.Case(text=CABLE)
+    with pytest.raises(hydrodae.SolverError, match="put 'forces/cable' off by about 0"):
+        hydrodae.run(case, set={"solver.method": "gauss", "solver.step": 0.01})
+
+
+def test_the_second_run_sees_lines() -> None:
+    settings = {"solver.end_time": 3.0, "solver.rtol": 1e-3}
+    results = hydrodae.run(hydrodae.Case(text=CABLE), set=settings, verify=True)
+    exact = hydrodae.run(hydrodae.Case(text=CABLE), set=settings | {"solver.rtol": 1e-8})
+    places, truth = (r["forces/cable/position"].values for r in (results, exact))
+    size = np.linalg.norm((truth - truth[0]).reshape(len(truth), -1, 3), axis=2).max()
+    off = np.linalg.norm((places - truth).reshape(len(truth), -1, 3), axis=2).max() / size
+    assert results.statistics["verified_error_of"] == "forces/cable"
+    assert 0.3 * off < results.statistics["verified_error"] < 3.0 * off
+
+
 @pytest.mark.parametrize(
     ("name", "method"),
     [

@@ -210,6 +210,7 @@ LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
           u.name = "node_" + std::to_string(i) + "_" + what + c;
           u.unit = what[0] == 'p' ? "m" : "m/s";
           u.absolute = true;
+          u.length = line.segments[static_cast<std::size_t>(i - 1)].length;
           unknowns.push_back(u);
         }
 }

@@ -101,7 +101,7 @@ void Simulation::make_channels() {
   width_ = recorder_->width() + solver_channels.size() + impacts_.width();
   if (scene_.controllers.empty())
     return;
-  controllers_ = std::make_unique<Controllers>(scene_, channels_, inputs_);
+  controllers_ = std::make_unique<Controllers>(scene_, regime_, channels_, inputs_);
   const std::vector<Channel> held = controllers_->outputs();
   channels_.insert(channels_.end(), held.begin(), held.end());
   width_ += controllers_->width();
@@ -127,6 +127,8 @@ void Simulation::advance(double limit, const Inside& inside) {
   const double end =
       std::min({limit, options_.end_time, controllers_ ? controllers_->next_time() : INFINITY});
   const bool event = take_step(end);
+  if (controllers_)
+    controllers_->accept(t_, y_, yp_);
   if (inside)
     inside();
   recorder_->accept();
@@ -171,7 +173,7 @@ bool Simulation::make_step(double end) {
   for (;;) {
     last_start_ = step_start_;
     step_start_ = t_;
-    if ((switching_ && approaches_events_) || methods_.more())
+    if ((has_events() && approaches_events_) || methods_.more())
       at_(t_, y_start_, yp_start_);
     bound_ = find_bound();
     try {
@@ -184,9 +186,7 @@ bool Simulation::make_step(double end) {
       fall_back(told);
       continue;
     }
-    std::optional<double> event;
-    if (switching_)
-      event = switching_->locate(step_start_, t_, quadrature_nodes_ + 2, at_);
+    const std::optional<double> event = locate();
     if (!event || !inside_of_step(*event)) {
       t_ = event.value_or(t_);
       return event.has_value();
@@ -246,7 +246,7 @@ void Simulation::restart() {
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
-    struck = solve::make_consistent(regime_, t_, y_, yp_);
+    struck = consistency().restore(t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
   for (std::size_t k = 0; struck && k < regime_.switches.size(); ++k)
     if (!switching_->struck()[k].impacts.empty())
@@ -256,12 +256,20 @@ void Simulation::restart() {
   if (history_)
     history_->append(t_, y_, yp_);
   if (!finished()) {
-    before_start_ += integrator_->statistics();
-    pattern_ = system::find_pattern(regime_);
-    make_integrator();
+    if (switching_ || !integrator_->restart(t_, y_, yp_)) { // else the layout of y is the same
+      before_start_ += integrator_->statistics();
+      pattern_ = system::find_pattern(regime_);
+      make_integrator();
+    }
     restart_guards();
   }
   solver_time_ += seconds_since(before);
+}
+
+solve::Consistency& Simulation::consistency() {
+  if (!consistency_)
+    consistency_ = std::make_unique<solve::Consistency>(regime_);
+  return *consistency_;
 }
 
 /// What is made from now on knows on which turn the angles are.

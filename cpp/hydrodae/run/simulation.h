@@ -15,6 +15,7 @@
 #include "hydrodae/run/inputs.h"
 #include "hydrodae/run/method_choice.h"
 #include "hydrodae/run/state.h"
+#include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/switching.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
@@ -98,7 +99,7 @@ public:
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
   long nonzeros() const { return pattern_.nonzeros(); }
   long events() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
-  solve::Trust::Estimate estimate() const { return trust_->estimate(scale_->reached()); }
+  solve::Trust::Estimate estimate() const { return trust_->estimate(); }
   std::vector<std::string> scale_notes() const { return scale_->notes(); }
 
 private:
@@ -115,6 +116,8 @@ private:
   void begin_history();
   void make_channels();
   bool make_step(double end);
+  bool has_events() const;
+  std::optional<double> locate();
   double find_bound();
   bool inside_of_step(double t) const;
   void approach(double event);
@@ -127,6 +130,7 @@ private:
   bool take_back(bool event);
   void watch_steps(bool event, double end);
   void restart();
+  solve::Consistency& consistency();
   void follow_turns();
   void restart_guards();
   void take_inputs();
@@ -154,9 +158,10 @@ private:
   bool written_ = false;                        ///< inputs that the motion does not know yet
   bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
-  std::unique_ptr<system::History> history_;    ///< where loads depend on the past
-  std::unique_ptr<system::Forcing> forcing_;    ///< limits the steps
-  std::unique_ptr<system::MotionScale> scale_;  ///< adapts the tolerances
+  std::unique_ptr<solve::Consistency> consistency_; ///< null: none was needed since a restore
+  std::unique_ptr<system::History> history_;        ///< where loads depend on the past
+  std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps
+  std::unique_ptr<system::MotionScale> scale_;      ///< adapts the tolerances
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::Trust> trust_;
   std::unique_ptr<system::Recorder> recorder_;

@@ -1,4 +1,4 @@
-/// Which method makes the steps of a Simulation, and how another takes over.
+/// Which method makes the steps of a Simulation, how another takes over, and what cuts steps short.
 
 #include <algorithm>
 
@@ -73,6 +73,22 @@ bool Simulation::take_back(bool event) {
     fall_back(error);
     return true;
   }
+}
+
+bool Simulation::has_events() const {
+  return switching_ || (controllers_ && controllers_->hear_crossings());
+}
+
+/// The first event inside the last step, if any.
+std::optional<double> Simulation::locate() {
+  const int nodes = quadrature_nodes_ + 2;
+  std::optional<double> first;
+  if (controllers_)
+    first = controllers_->locate(step_start_, t_, nodes, at_);
+  if (switching_)
+    if (const auto event = switching_->locate(step_start_, first.value_or(t_), nodes, at_))
+      return event;
+  return first;
 }
 
 /// Steps that end where something made them end tell nothing of the method.

@@ -8,10 +8,14 @@
 namespace hydrodae::run {
 
 const std::string& Simulation::fingerprint() {
-  if (fingerprint_.empty())
-    fingerprint_ = io::sha256_of_text(std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
-                                      joined(scene_.overrides, "\n") + '\n' +
-                                      (scene_.database ? scene_.database->sha256 : ""));
+  if (fingerprint_.empty()) {
+    std::string text = std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
+                       joined(scene_.overrides, "\n") + '\n' +
+                       (scene_.database ? scene_.database->sha256 : "");
+    for (const model::Controller& c : scene_.controllers)
+      text += c.sha256;
+    fingerprint_ = io::sha256_of_text(text);
+  }
   return fingerprint_;
 }
 
@@ -21,6 +25,9 @@ void Simulation::remember(Archive& a) {
     event_here_);
   for (const Input& input : inputs_)
     a(*input.value);
+  for (const Input& input : inputs_)
+    if (system::Lag* lag = input.lag())
+      a(*lag);
   if (modes.size() != system_.switches.size())
     throw Error("the state has other switches than the scene");
   for (std::size_t k = 0; k < modes.size() && !a.saves(); ++k)
@@ -90,6 +97,7 @@ void Simulation::set(const State& state) {
     restore(memory, "controllers", *controllers_);
   if (switching_)
     switching_->resume(t_, y_, yp_);
+  consistency_.reset(); // its pivots are those of its past
   make_integrator();
   restore(memory, "integrator", *integrator_);
   restart_guards();

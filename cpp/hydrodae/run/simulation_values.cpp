@@ -52,10 +52,8 @@ std::span<const double> Simulation::read(const std::string& channel) {
 void Simulation::write(const std::string& input, double value) {
   Input& target = input_named(inputs_, input);
   check_value(target, value);
-  if (*target.value == value)
-    return;
-  *target.value = value;
-  written_ = true;
+  if (target.set(t_, value))
+    written_ = true;
 }
 
 /// Before the motion goes on: controllers that are due see it, and act on it.
@@ -66,6 +64,10 @@ void Simulation::take_control() {
   failed_ = true; // until all have answered
   if (controllers_->act(t_, event_here_, row_now()))
     written_ = true;
+  constexpr double far = 100.0; // levers or rad: no device is meant to go there
+  if (const VectorX& reached = scale_->reached(); reached.size() > 0 && reached.maxCoeff() > far)
+    if (const std::string why = controllers_->runaway(); !why.empty())
+      throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + why);
   event_here_ = false;
   failed_ = false;
 }

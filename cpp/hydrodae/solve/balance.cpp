@@ -1,6 +1,5 @@
 #include "hydrodae/solve/balance.h"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/solve/static_step.h"
 #include "hydrodae/system/algebraic.h"
 #include "hydrodae/system/closing.h"
 #include "hydrodae/system/constraints.h"
@@ -66,17 +66,13 @@ CoordinateName coordinate_name(const Regime& s, Index u) {
 std::vector<std::string> unrestored(const Regime& s, const LinearMatrices& m,
                                     const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
-  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
-  if (G.rows() > 0) {
-    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
-    free = svd.matrixV().rightCols(s.n_u - svd.rank());
-  }
+  const MatrixX free = null_space(G);
   std::vector<std::string> out;
   if (free.cols() == 0)
     return out;
   const VectorX forces = free.transpose() * scale.cwiseProduct(m.forces);
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  Eigen::JacobiSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::BDCSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const VectorX sizes = svd.singularValues();
   const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff();
   VectorX drift = VectorX::Zero(free.cols());
@@ -165,10 +161,7 @@ public:
         sizes_.cwiseInverse().asDiagonal() * m.constraints * scale_.asDiagonal();
     VectorX rhs(n);
     rhs << m.forces.cwiseQuotient(weights_), -now.gaps.cwiseQuotient(sizes_);
-    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-    cod.setThreshold(1e-12);
-    cod.compute(kkt);
-    VectorX x = cod.solve(rhs);
+    VectorX x = smallest_solution(kkt, rhs, s_.n_u);
     if (!x.allFinite())
       return INFINITY;
     const double length = x.head(s_.n_u).cwiseAbs().maxCoeff();

@@ -59,6 +59,7 @@ public:
   }
 
   double step(double end, double bound) override;
+  bool restart(double t, const VectorX& y, const VectorX& yp) override;
   const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
@@ -110,7 +111,7 @@ private:
   bool was_full_ = false;                     ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
   std::optional<StageError> stage_error_;
-  VectorX local_error_, inner_error_; ///< (n_bodies,)
+  VectorX local_error_, inner_error_; ///< (n_blocks,)
   VectorX nodes_;                     ///< of the interpolant, on [0, 1]
   double largest_product_ = 0.0;      ///< of prod (x - node) on [0, 1]
   VectorX slope0_, slope_;            ///< rates of the positions at both ends, where it is a line
@@ -158,7 +159,8 @@ void Collocation::evaluate(const system::Regime& s_, const RungeKutta& rk, const
         stages_only *= (x - rk.c[j]) / (rk.c[i] - rk.c[j]);
     const double weight = with_start ? stages_only * x / rk.c[i] : stages_only;
     const Index n = s_.lambda0, m = s_.n - n;
-    y.head(n) += weight * Z_.col(i).head(n);
+    if (with_start || i > 0) // the first stage of Lobatto IIIC misses the start by h^s
+      y.head(n) += weight * Z_.col(i).head(n);
     y.tail(m) += (rk.family == Family::gauss ? stages_only : weight) * Z_.col(i).tail(m);
   }
 }
@@ -323,12 +325,12 @@ void Collocation::find_inner_error(double h) {
   const double x = 1.0 + h / done_;
   evaluate(x, guess_);
   const RungeKutta& rk = newton_->rk();
-  guess_.head(s_.n_q) -=
-      y_.head(s_.n_q) + (rk.stiffly_accurate() ? VectorX(start_.col(rk.stages - 1).head(s_.n_q))
-                                               : VectorX((start_ * rk.end).head(s_.n_q)));
+  const Index n = s_.lambda0;
+  guess_.head(n) -= y_.head(n) + (rk.stiffly_accurate() ? VectorX(start_.col(rk.stages - 1).head(n))
+                                                        : VectorX((start_ * rk.end).head(n)));
   const double missed = std::abs((x - nodes_.array()).prod()) *
                         std::pow(done_ / h, static_cast<double>(nodes_.size()));
-  inner_error_ = largest_product_ / missed * body_sizes(s_, guess_.head(s_.n_q));
+  inner_error_ = largest_product_ / missed * block_sizes(s_, guess_);
 }
 
 /// Where the interpolant is a line: velocities on a line between both ends of the step, positions
@@ -347,8 +349,9 @@ void Collocation::accept(double h) {
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
   local_error_ = (*stage_error_)(s_, h, yp_, rates_, e_.time_scale());
-  step_error_.setZero(s_.lambda0);
-  step_error_.head(s_.z0) = stage_error_->pattern();
+  if (inner_error_.size() > 0)
+    inner_error_ += stage_error_->at_stages();
+  step_error_ = stage_error_->pattern();
   y0_ = y_;
   t0_ = t_;
   done_ = h;
@@ -474,6 +477,22 @@ double Collocation::step(double end, double bound) {
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
   }
+}
+
+/// The number of stages stays; more are tried where there is time between two restarts.
+bool Collocation::restart(double t, const VectorX& y, const VectorX& yp) {
+  t_ = t0_ = t;
+  y_ = y0_ = y;
+  yp_ = yp;
+  done_ = last_h_ = 0.0;
+  last_error_ = 1.0;
+  since_change_ = slack_ = 0;
+  fresh_ = false;
+  stage_error_.emplace(newton_->rk());
+  step_error_ = local_error_ = inner_error_ = VectorX();
+  reach_ = t + h_;
+  e_.accept(t_, y_, yp_);
+  return true;
 }
 
 void Collocation::interpolate(double t, VectorX& y, VectorX& yp) {

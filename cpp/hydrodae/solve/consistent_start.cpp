@@ -87,6 +87,21 @@ std::optional<double> jump(const Regime& s, double t, SaddlePoint& saddle, Vecto
   return work;
 }
 
+/// The stabilised equations, as long as this object is there.
+class Stabilised {
+public:
+  explicit Stabilised(Regime& s) : s_(s), formulation_(s.formulation) {
+    s.formulation = system::Formulation::stabilised;
+  }
+  ~Stabilised() { s_.formulation = formulation_; }
+  Stabilised(const Stabilised&) = delete;
+  Stabilised& operator=(const Stabilised&) = delete;
+
+private:
+  Regime& s_;
+  system::Formulation formulation_;
+};
+
 } // namespace
 
 void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& y, VectorX& yp) {
@@ -106,20 +121,32 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
                            "each other, or a body that moves has no mass");
 }
 
-std::optional<double> make_consistent(Regime& s, double t, VectorX& y, VectorX& yp) {
-  const system::Formulation formulation = s.formulation;
-  s.formulation = system::Formulation::stabilised;
-  const system::Pattern pattern = system::find_pattern(s);
-  Equations equations(s, pattern, 1.0);
-  equations.accept(t, y, yp);
-  SaddlePoint saddle(equations);
+struct Consistency::Parts {
+  system::Pattern pattern;
+  Equations equations;
+  SaddlePoint saddle;
+
+  explicit Parts(const Regime& s)
+      : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
+};
+
+Consistency::Consistency(Regime& system) : s_(system) {
+  const Stabilised lock(s_);
+  parts_ = std::make_unique<Parts>(s_);
+}
+
+Consistency::~Consistency() = default;
+
+std::optional<double> Consistency::restore(double t, VectorX& y, VectorX& yp) {
+  const Stabilised lock(s_);
+  SaddlePoint& saddle = parts_->saddle;
+  parts_->equations.accept(t, y, yp);
   std::optional<double> work;
   bool good = saddle.accelerations(t, y, yp);
-  if (good && s.n_lambda > 0) {
-    work = jump(s, t, saddle, y);
+  if (good && s_.n_lambda > 0) {
+    work = jump(s_, t, saddle, y);
     good = !work || saddle.accelerations(t, y, yp);
   }
-  s.formulation = formulation;
   if (!good)
     throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s" +
                              (saddle.jam().empty() ? "" : ": " + saddle.jam()));

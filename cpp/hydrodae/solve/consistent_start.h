@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "hydrodae/system/jacobian.h"
@@ -16,10 +17,25 @@ namespace hydrodae::solve {
 void consistent_start(const system::Regime& system, const system::Pattern& pattern, VectorX& y,
                       VectorX& yp);
 
-/// Rates and reactions that belong to the positions, velocities and loads of an accepted instant,
-/// whatever formulation is integrated; velocities that drives do not allow any more jump by
-/// impulses of the rows. Throws SolverError where there are none.
-/// @returns the work of all rows through their impulses [J] where velocities jumped
-std::optional<double> make_consistent(system::Regime& system, double t, VectorX& y, VectorX& yp);
+/// Makes accepted instants consistent again where loads or drives have jumped, in a system whose
+/// rows neither come nor go, so that its matrix is ordered once.
+class Consistency {
+public:
+  explicit Consistency(system::Regime& system);
+  Consistency(const Consistency&) = delete;
+  Consistency& operator=(const Consistency&) = delete;
+  ~Consistency();
+
+  /// Rates and reactions that belong to the positions, velocities and loads, whatever formulation
+  /// is integrated; velocities that drives do not allow any more jump by impulses of the rows.
+  /// Throws SolverError where there are none.
+  /// @returns the work of all rows through their impulses [J] where velocities jumped
+  std::optional<double> restore(double t, VectorX& y, VectorX& yp);
+
+private:
+  struct Parts;
+  system::Regime& s_;
+  std::unique_ptr<Parts> parts_;
+};
 
 } // namespace hydrodae::solve

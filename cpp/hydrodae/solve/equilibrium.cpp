@@ -1,12 +1,12 @@
 #include "hydrodae/solve/equilibrium.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/balance.h"
+#include "hydrodae/solve/static_step.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
@@ -57,16 +57,13 @@ bool take_statics(System& s) {
 /// Notes a direction, free of the constraints, in which the forces drive the scene away.
 void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) {
   const MatrixX G = m.constraints * scale.asDiagonal();
-  MatrixX free = MatrixX::Identity(s.n_u, s.n_u);
-  if (G.rows() > 0) {
-    const Eigen::JacobiSVD<MatrixX> svd(G, Eigen::ComputeFullV);
-    free = svd.matrixV().rightCols(s.n_u - svd.rank());
-  }
+  const MatrixX free = null_space(G);
   if (free.cols() == 0)
     return;
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
   const VectorX values =
-      Eigen::SelfAdjointEigenSolver<MatrixX>(0.5 * (K + K.transpose())).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<MatrixX>(0.5 * (K + K.transpose()), Eigen::EigenvaluesOnly)
+          .eigenvalues();
   if (values[0] < -1e-6 * values.cwiseAbs().maxCoeff())
     s.notes.push_back("the equilibrium is unstable: the smallest displacement moves the scene away "
                       "from it");

@@ -18,7 +18,8 @@ constexpr double hidden = 1e3, doubtfully_hidden = 2.0;
 /// By group: do the rows that hold leave no motion of its own to any of its mechanisms?
 std::vector<bool> guided_groups(const system::Regime& s) {
   const std::vector<bool> mechanisms = system::guided_mechanisms(s);
-  std::vector<bool> out(static_cast<std::size_t>(s.n_groups), true);
+  std::vector<bool> out(static_cast<std::size_t>(s.n_error_groups()), true);
+  std::fill(out.begin() + s.n_groups, out.end(), false); // points
   for (const system::BodyData& b : s.bodies)
     if (b.group >= 0 && b.mechanism >= 0 && !mechanisms[static_cast<std::size_t>(b.mechanism)])
       out[static_cast<std::size_t>(b.group)] = false;
@@ -30,29 +31,41 @@ std::vector<bool> guided_groups(const system::Regime& s) {
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, bool coherent, int every)
     : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), guided_(guided_groups(s)), y_(y),
-      yp_(yp), growth_(VectorX::Ones(s.n_groups)), fade_(growth_),
-      change_(VectorX::Zero(s.n_groups)), row_size_(s.n), since_(t), window_(t),
+      yp_(yp), growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
+      change_(VectorX::Zero(s.n_error_groups())), row_size_(s.n), since_(t), window_(t),
       coherent_(coherent), fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
   linearise(t);
   first_by_y_ = by_y_;
   first_u_ = y_.segment(s.u0, s.n_u);
   if (error_.vector.size() > 0)
     return;
-  error_.change = VectorX::Zero(s.n_groups);
   error_.vector = error_.fresh = error_.gathered = VectorX::Zero(s.lambda0);
-  error_.added = error_.piled = error_.plain = error_.level = VectorX::Zero(s.n_groups);
-  error_.rough_level = VectorX::Zero(s.n_groups);
-  error_.since_rough = VectorX::Constant(s.n_groups, INFINITY);
+  error_.change = error_.added = error_.piled = error_.plain = error_.level = error_.rough_level =
+      VectorX::Zero(s.n_error_groups());
+  error_.since_rough = VectorX::Constant(s.n_error_groups(), INFINITY);
 }
 
 /// Root of the sum of squares over the positions and velocities of each group.
 VectorX ErrorGrowth::sizes(const VectorX& vector, const VectorX& unit) const {
-  VectorX out = VectorX::Zero(s_.n_groups);
-  for (Index i = 0; i < s_.z0; ++i) {
+  VectorX out = VectorX::Zero(s_.n_error_groups());
+  for (Index i = 0; i < s_.lambda0; ++i) {
+    if (!s_.is_motion(i))
+      continue;
     const double x = vector[i] / unit[i];
-    out[s_.group[static_cast<std::size_t>(i)]] += x * x;
+    out[s_.error_group[static_cast<std::size_t>(i)]] += x * x;
   }
   return out.cwiseSqrt();
+}
+
+/// The same of the positions alone.
+VectorX ErrorGrowth::place_sizes(VectorX vector, const VectorX& unit) const {
+  vector.segment(s_.u0, s_.z0 - s_.u0).setZero();
+  for (const system::Block& block : s_.blocks)
+    if (block.states >= 0 && block.moves)
+      system::for_each_point(
+          s_.states[static_cast<std::size_t>(block.states)],
+          [&](Index, Index velocity, double) { vector.segment<3>(velocity).setZero(); });
+  return sizes(vector, unit);
 }
 
 /// The derivatives at a look, for the next.
@@ -78,13 +91,12 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   growth_.setOnes();
   fade_.setOnes();
   const VectorX before = sizes(error_.vector, unit), fresh = sizes(error_.fresh, unit);
-  VectorX shown = VectorX::Ones(s_.n_groups);
+  VectorX shown = VectorX::Ones(s_.n_error_groups());
   at(t, y_, yp_);
   if (VectorX carried = error_.fresh; carry(t, rate, carried)) {
     const VectorX after = sizes(error_.vector, unit);
-    carried.tail(s_.lambda0 - s_.n_q).setZero();
-    const VectorX places = sizes(carried, unit);
-    for (Index g = 0; g < s_.n_groups; ++g) {
+    const VectorX places = place_sizes(carried, unit);
+    for (Index g = 0; g < s_.n_error_groups(); ++g) {
       if (fresh[g] > 0.0)
         shown[g] = std::clamp(places[g] / fresh[g], is_guided(g) ? 0.0 : 1.0,
                               change_[g] > rough ? doubtfully_hidden : hidden);
@@ -98,7 +110,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   constexpr double large = 1.0;
   const VectorX size = sizes(error_.vector, unit);
   for (Index i = 0; i < s_.lambda0; ++i)
-    if (const double own = size[s_.group[static_cast<std::size_t>(i)]]; !(own <= large))
+    if (const double own = size[s_.error_group[static_cast<std::size_t>(i)]]; !(own <= large))
       error_.vector[i] = std::isfinite(own) ? 1e-3 * error_.vector[i] / own : 0.0;
   error_.added += sizes(error_.fresh - error_.gathered, unit);
   error_.added.array() *= shown.array();
@@ -116,17 +128,20 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
 /// What the growth of the vector means to what has piled up, over `phase` radians of the motion.
 /// The level of E follows its logarithm, and leaks to zero as fast as growth may come of looks far
 /// apart; so linear equations are followed exactly, and others as far as they grow or fade faster.
-/// Where the equations change much between looks, growth is not believed, nor a long fading.
+/// Where the equations change much between looks, growth is not believed, nor a long fading; but of
+/// lines, which slacken and snap in all looks, and whose growth is true.
 void ErrorGrowth::follow(Index g, double phase) {
   constexpr double deepest = -4.0; // levels below are not come back from
+  const bool line = g >= s_.n_groups;
   const double before = error_.level[g],
                doubt = doubtful * std::min(change_[g] / rough, 1.0) * phase,
                seen = std::log(std::clamp(growth_[g], 1e-12, 1e6)),
-               level = before + (change_[g] > rough ? std::min(seen, 0.0) : seen);
+               level = before + (change_[g] > rough && !line ? std::min(seen, 0.0) : seen);
   double now = level > 0.0 ? std::max(0.0, level - doubt) : std::min(0.0, level + doubt);
   if (error_.change[g] > rough)
     now = std::max(now, deepest);
-  now = std::min(now, between_rough(g, now));
+  if (!line)
+    now = std::min(now, between_rough(g, now));
   error_.piled[g] *= std::exp(now - before);
   error_.level[g] = std::max(now, deepest);
   fade_[g] = std::exp(std::min(0.0, now - error_.level[g]));
@@ -162,14 +177,14 @@ void ErrorGrowth::find_change(const VectorX& rate) {
   change_.setZero();
   row_size_.setZero();
   const auto entries = [&](auto&& visit) {
-    for (Index c = 0; c < s_.z0; ++c)
+    for (Index c = 0; c < s_.lambda0; ++c)
       for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-        if (p.row[k] >= s_.u0 && p.row[k] < s_.z0)
+        if (p.row[k] >= s_.u0 && s_.is_motion(c) && p.row[k] < s_.lambda0 && s_.is_motion(p.row[k]))
           visit(k, p.row[k], c, s_.scale[c]);
   };
   entries([&](Index k, Index row, Index, double scale) {
     const double inertia =
-        std::abs(e_.parts.by_yp[k]) * rate[s_.group[static_cast<std::size_t>(row)]];
+        std::abs(e_.parts.by_yp[k]) * rate[s_.error_group[static_cast<std::size_t>(row)]];
     row_size_[row] =
         std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]), scale * std::abs(by_y_[k]),
                   scale * std::abs(first_by_y_[k]), scale * inertia});
@@ -179,9 +194,9 @@ void ErrorGrowth::find_change(const VectorX& rate) {
       change = difference / row_size_[row];
   };
   entries([&](Index k, Index row, Index column, double scale) {
-    const int group = s_.group[static_cast<std::size_t>(row)];
+    const int group = s_.error_group[static_cast<std::size_t>(row)];
     take(row, scale * std::abs(e_.parts.by_y[k] - by_y_[k]), change_[group]);
-    if (column < s_.u0)
+    if (column < s_.u0 || column >= s_.z0)
       take(row, scale * std::abs(e_.parts.by_y[k] - first_by_y_[k]), error_.change[group]);
   });
   for (const system::BodyData& b : s_.bodies) {
@@ -221,8 +236,8 @@ bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& fresh) {
   for (Index c = 0; c < s_.n; ++c)
     for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
       const Index row = p.row[k];
-      const bool of_force = c >= s_.z0 && c < s_.memory0;
-      const bool moves = row < s_.z0, half = moves && c < s_.lambda0 && !of_force;
+      const bool of_force = c >= s_.z0 && c < s_.memory0 && !s_.is_absolute(c);
+      const bool moves = s_.is_motion(row), half = moves && c < s_.lambda0 && !of_force;
       const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
                    by_rate =
                        (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;

@@ -1,10 +1,10 @@
 #pragma once
 /// The error that a run has piled up. The estimated errors of its steps add up in size, group by
-/// group of bodies, and grow or fade as the equations linearised about the motion carry an error
-/// along: E <- g E + |d|, where g comes of the size of a vector carried from look to look. Between
-/// looks swings are followed roughly: growth counts as far as it exceeds the doubtful (Page's
-/// cumulative sums, Biometrika 41 (1954) 100), and what was not believed of it is taken off from
-/// the next fading, lest a size that goes up and down seems to fade. (Skeel, Math. Comput. 46
+/// group of bodies and line by line, and grow or fade as the equations linearised about the motion
+/// carry an error along: E <- g E + |d|, where g comes of the size of a vector carried from look to
+/// look. Between looks swings are followed roughly: growth counts as far as it exceeds the doubtful
+/// (Page's cumulative sums, Biometrika 41 (1954) 100), and what was not believed of it is taken off
+/// from the next fading, lest a size that goes up and down seems to fade. (Skeel, Math. Comput. 46
 /// (1986) 577, carries the errors themselves; over thousands of periods they would have to keep
 /// their phase.)
 
@@ -23,12 +23,12 @@ public:
     VectorX vector;       ///< carried along, in q, u, z (lambda0,)
     VectorX fresh;        ///< errors since the last look (lambda0,)
     VectorX gathered;     ///< those of them whose size was added (lambda0,)
-    VectorX added;        ///< sizes of these (n_groups,)
-    VectorX piled, plain; ///< E and the sum without growth, by group (n_groups,)
-    VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_groups,)
-    VectorX change;       ///< of the equations, the largest so far (n_groups,)
-    VectorX rough_level;  ///< `level` where the equations changed much last (n_groups,)
-    VectorX since_rough;  ///< looks since then (n_groups,)
+    VectorX added;        ///< sizes of these (n_error_groups,)
+    VectorX piled, plain; ///< E and the sum without growth, by group (n_error_groups,)
+    VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_error_groups,)
+    VectorX change;       ///< of the equations, the largest so far (n_error_groups,)
+    VectorX rough_level;  ///< `level` where the equations changed much last (n_error_groups,)
+    VectorX since_rough;  ///< looks since then (n_error_groups,)
     void remember(Archive& a) {
       a(vector, fresh, gathered, added, piled, plain, level, change, rough_level, since_rough);
     }
@@ -49,21 +49,21 @@ public:
 
   /// Adds the error of an accepted step that ends at t. True when the error was carried along.
   /// @param last of these rows: carries it along in any case
-  /// @param unit what counts as one of each position and velocity (z0,)
-  /// @param rate of the motion of each group [1/s] (n_groups,)
+  /// @param unit what counts as one of each position and velocity, those of points too (lambda0,)
+  /// @param rate of the motion of each group [1/s] (n_error_groups,)
   bool add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate, bool last,
            const Interpolant& at);
 
   const Error& error() const { return error_; }
 
-  /// By how much E has faded for good between these looks (n_groups,): 1 where nothing damps.
+  /// By how much E has faded for good between these looks (n_error_groups,): 1 where nothing damps.
   const VectorX& fade() const { return fade_; }
 
   /// Fades E where the equations changed too much between these looks to tell.
   void fade(Index group, double factor);
 
   /// Largest change of stiffness and gyroscopic moments against those of the start, by group,
-  /// relative to their own size (n_groups,): 0 where frequencies do not depend on amplitudes.
+  /// relative to their own size (n_error_groups,): 0 where frequencies do not depend on amplitudes.
   const VectorX& change() const { return error_.change; }
 
   /// Do the rows that hold, those of drives among them, leave a group no motion of its own? Then
@@ -82,12 +82,13 @@ private:
   void follow(Index group, double phase);
   double between_rough(Index group, double level);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
+  VectorX place_sizes(VectorX vector, const VectorX& unit) const;
 
   const system::Regime& s_;
   Equations e_;
   std::unique_ptr<SparseLu<double>> lu_;
   Error error_;
-  std::vector<bool> guided_;           ///< (n_groups,)
+  std::vector<bool> guided_;           ///< (n_error_groups,)
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
   std::vector<double> first_by_y_;     ///< at the first
   VectorX first_u_;                    ///< velocities there (n_u,)

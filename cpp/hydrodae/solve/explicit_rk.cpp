@@ -41,6 +41,7 @@ public:
   }
 
   double step(double end, double bound) override;
+  bool restart(double t, const VectorX& y, const VectorX& yp) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
@@ -75,7 +76,7 @@ private:
   double last_error_ = 1e-4;
   double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
   VectorX step_error_;      ///< (lambda0,)
-  VectorX local_error_;     ///< (n_bodies,), of fixed steps
+  VectorX local_error_;     ///< (n_blocks,), of fixed steps
 };
 
 void ExplicitRk::fail(const std::string& reason) {
@@ -152,12 +153,12 @@ const VectorX& ExplicitRk::step_error() {
   return step_error_;
 }
 
-/// The same for the positions of each body, relative to the scales.
+/// The same for each block, relative to its size.
 void ExplicitRk::estimate(double h) {
   const system::Regime& s = e_.system;
   auto sizes = [&](std::span<const double> weights) {
     combine(h, weights);
-    return body_sizes(s, stage_.head(s.n_q));
+    return block_sizes(s, stage_);
   };
   if (pair_.order == 5)
     local_error_ = sizes(tableaux::rk5_e);
@@ -255,6 +256,18 @@ double ExplicitRk::step(double end, double bound) {
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
   }
+}
+
+bool ExplicitRk::restart(double t, const VectorX& y, const VectorX& yp) {
+  t_ = t0_ = t;
+  y_ = y0_ = y;
+  yp_ = yp;
+  done_ = usual_jump_ = 0.0;
+  last_error_ = 1e-4;
+  extended_ = false;
+  step_error_ = local_error_ = VectorX();
+  e_.accept(t_, y_, yp_);
+  return saddle_.accelerations(t_, y_, yp_);
 }
 
 /// The three further stages of the interpolant of order 7, and its coefficients.

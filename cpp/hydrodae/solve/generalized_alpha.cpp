@@ -79,7 +79,7 @@ private:
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
   VectorX velocity_;                  ///< G^T mu of the last residual, tangent
   VectorX change_;                    ///< of x' over the last step; empty: there was none
-  VectorX local_error_, inner_error_; ///< (n_bodies,)
+  VectorX local_error_, inner_error_; ///< (n_blocks,)
   VectorX step_error_;                ///< (lambda0,)
   double factored_ = 0.0;             ///< step of the matrix at hand [s]; 0: none
 };
@@ -187,9 +187,10 @@ void GeneralizedAlpha::estimate(double h) {
   step_error_ = VectorX::Zero(s_.lambda0);
   step_error_.head(s_.n_q) = to_positions(s_, y_, moved);
   if (change_.size() == change.size())
-    step_error_.segment(s_.u0, s_.n_u) = rate_constant_ * h * (change - change_).head(s_.n_u);
+    step_error_.segment(s_.u0, s_.memory0 - s_.u0) =
+        rate_constant_ * h * (change - change_).head(s_.memory0 - s_.u0);
   change_ = change;
-  local_error_ = body_sizes(s_, step_error_.head(s_.n_q));
+  local_error_ = block_sizes(s_, step_error_);
 }
 
 /// The cubic of the last step, followed to the end of this one, misses it by h^4 q'''' / 6, and
@@ -198,12 +199,12 @@ void GeneralizedAlpha::find_inner_error(double h) {
   const double last = t_ - t0_;
   if (last == 0.0)
     return;
-  const Index n = s_.n_q;
+  const Index n = s_.lambda0;
   const double x = 1.0 + h / last, v = 1.0 - x;
   const VectorX slope = (y_ - y0_).head(n) / last;
   const VectorX followed = v * y0_.head(n) + x * y_.head(n) +
                            last * x * v * (v * (yp0_.head(n) - slope) - x * (yp_.head(n) - slope));
-  inner_error_ = body_sizes(s_, followed - trial_.head(n)) / 64.0;
+  inner_error_ = block_sizes(s_, followed - trial_.head(n)) / 64.0;
 }
 
 double GeneralizedAlpha::step(double end, double) {

@@ -107,6 +107,7 @@ public:
     start(options, y0, yp0);
   }
   double step(double end, double bound) override;
+  bool restart(double t, const VectorX& y0, const VectorX& yp0) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override;
@@ -127,9 +128,10 @@ private:
   double lost_time = -INFINITY;
   double t_ = 0.0, end_time = 0.0;
   VectorX error_;
-  double first = 0.0;      ///< first step [s]
-  double time_scale = 0.0; ///< longest of the bodies [s]
-  double rounding = 1e3;   ///< of the multipliers, in units of the machine epsilon
+  double first = 0.0;        ///< first step [s]
+  double longest = INFINITY; ///< step [s]
+  double time_scale = 0.0;   ///< longest of the bodies [s]
+  double rounding = 1e3;     ///< of the multipliers, in units of the machine epsilon
   ProgressGuard guard;
 
   Owned<SUNContext, ContextDeleter> context{make_context()};
@@ -147,7 +149,8 @@ private:
   void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);
   std::string diagnosis(int flag);
   void accept();
-  bool restart();
+  bool try_again();
+  void begin_anew(const VectorX& y0, const VectorX& yp0);
   Statistics counts() const;
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user);
@@ -231,9 +234,9 @@ void Ida::start(const model::SolverOptions& options, const VectorX& y0, const Ve
   check(IDASetStopTime(ida, options.end_time), "IDASetStopTime");
   if (options.max_step > 0.0)
     check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");
-  const double left = end_time - t_;
-  first = std::min(
-      {equations.first_step(y0, yp0), left, options.max_step > 0.0 ? options.max_step : left});
+  if (options.max_step > 0.0)
+    longest = options.max_step;
+  first = std::min({equations.first_step(y0, yp0), end_time - t_, longest});
   check(IDASetInitStep(ida, first), "IDASetInitStep");
   matrix.reset(made(make_ida_matrix(context.get()), "SUNMatNewEmpty"));
   linear_solver.reset(made(make_ida_solver(newton, context.get()), "SUNLinSolNewEmpty"));
@@ -277,19 +280,33 @@ std::string Ida::diagnosis(int flag) {
 /// Where loops are ill-conditioned the multipliers are rounded more than foreseen, and Newton's
 /// iteration cannot satisfy their weights: from the last good point once more with weaker ones (the
 /// multipliers only), by tenfolds up to 1e6 epsilon. The motion keeps its tolerance.
-bool Ida::restart() {
+bool Ida::try_again() {
   constexpr double most = 1e6;
   if (rounding >= most)
     return false;
   rounding *= 10.0;
   ++restarts;
-  std::copy(good.begin(), good.end(), N_VGetArrayPointer(y.get()));
-  std::copy(good_rate.begin(), good_rate.end(), N_VGetArrayPointer(yp.get()));
-  before += counts();
   t_ = t_good;
-  first = std::min(equations.first_step(good, good_rate), end_time - t_);
+  begin_anew(good, good_rate);
+  return true;
+}
+
+/// At order 1, from t_.
+void Ida::begin_anew(const VectorX& y0, const VectorX& yp0) {
+  std::copy(y0.begin(), y0.end(), N_VGetArrayPointer(y.get()));
+  std::copy(yp0.begin(), yp0.end(), N_VGetArrayPointer(yp.get()));
+  before += counts();
+  first = std::min({equations.first_step(y0, yp0), end_time - t_, longest});
   check(IDAReInit(memory.get(), t_, y.get(), yp.get()), "IDAReInit");
   check(IDASetInitStep(memory.get(), first), "IDASetInitStep");
+}
+
+bool Ida::restart(double t, const VectorX& y0, const VectorX& yp0) {
+  t_ = t_good = t;
+  good = y0;
+  good_rate = yp0;
+  begin_anew(good, good_rate);
+  accept();
   return true;
 }
 
@@ -304,7 +321,7 @@ const VectorX& Ida::step_error() {
 double Ida::step(double end, double bound) {
   check(IDASetStopTime(memory.get(), std::min(bound, end)), "IDASetStopTime");
   int flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
-  while (flag == IDA_CONV_FAIL && restart())
+  while (flag == IDA_CONV_FAIL && try_again())
     flag = IDASolve(memory.get(), end_time, &t_, y.get(), yp.get(), IDA_ONE_STEP);
   if (flag >= 0) {
     good = view(y.get(), system.n);

@@ -23,6 +23,11 @@ public:
   /// @param bound [s] likewise, but methods of a fixed step keep their step
   virtual double step(double end, double bound) = 0;
 
+  /// Goes on from consistent y, y' at t [s], as after a load has jumped: of the last step only its
+  /// length stays, and what matrices serve. The layout of y must be the same. False where the
+  /// method cannot: another one is to be made.
+  virtual bool restart(double, const VectorX&, const VectorX&) { return false; }
+
   /// What the next steps depend on besides t, y and y' at the end of the last: of one-step methods
   /// the step, its error and the polynomial of the last step. To be restored into an integrator of
   /// the same system and options that was made with that t, y and y'.
@@ -37,16 +42,16 @@ public:
 
   virtual Statistics statistics() const = 0;
 
-  /// Estimated error of the positions in the last step of a fixed length, body by body (n_bodies,),
-  /// angles or displacements over the lever [-]; empty where the method chooses its steps by their
+  /// Estimated error of the last step of a fixed length, block by block (n_blocks,) as block_sizes
+  /// measures it (step_error.h); empty where the method chooses its steps by their
   /// error.
   virtual const VectorX& local_error() const {
     static const VectorX none;
     return none;
   }
 
-  /// Estimated error of the positions inside the last step, that of its ends apart, body by body as
-  /// `local_error`; empty where the tolerance bounds it.
+  /// Estimated error inside the last step, that of its ends apart, block by block as `local_error`;
+  /// empty where the tolerance bounds it.
   virtual const VectorX& inner_error() const { return local_error(); }
 
   /// Nodes that a quadrature over one step needs to be as exact as the method.

@@ -17,19 +17,38 @@ VectorX legendre(int n, double x) {
   return p;
 }
 
+double size_of(const system::BodyData& b, const VectorX& change) {
+  const auto own = change.segment(b.q0, b.n_position);
+  const auto turn = own.tail(b.n_position - b.n_translations);
+  // A quaternion moves by half the angle.
+  const double half = b.rotation == system::BodyData::Rotation::free ? 2.0 : 1.0;
+  return std::max(own.head(b.n_translations).norm() / b.lever, half * turn.norm());
+}
+
+double size_of(const system::Regime& s, const system::StateBlock& states, bool points,
+               const VectorX& change) {
+  double size = 0.0;
+  const auto n = static_cast<Index>(states.unknowns.size());
+  if (!points)
+    return change.segment(states.first, n)
+        .cwiseQuotient(s.scale.segment(states.first, n))
+        .cwiseAbs()
+        .maxCoeff();
+  system::for_each_point(states, [&](Index place, Index, double length) {
+    size = std::max(size, change.segment<3>(place).norm() / length);
+  });
+  return size;
+}
+
 } // namespace
 
-VectorX body_sizes(const system::Regime& s, const VectorX& dq) {
-  VectorX sizes(static_cast<Index>(s.bodies.size()));
-  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    const system::BodyData& b = s.bodies[i];
-    const auto own = dq.segment(b.q0, b.n_position);
-    const auto turn = own.tail(b.n_position - b.n_translations);
-    // A quaternion moves by half the angle.
-    const double half = b.rotation == system::BodyData::Rotation::free ? 2.0 : 1.0;
-    sizes[static_cast<Index>(i)] =
-        std::max(own.head(b.n_translations).norm() / b.lever, half * turn.norm());
-  }
+VectorX block_sizes(const system::Regime& s, const VectorX& change) {
+  VectorX sizes(static_cast<Index>(s.blocks.size()));
+  Index i = 0;
+  for (const system::Block& block : s.blocks)
+    sizes[i++] = block.body >= 0 ? size_of(s.bodies[static_cast<std::size_t>(block.body)], change)
+                                 : size_of(s, s.states[static_cast<std::size_t>(block.states)],
+                                           block.moves, change);
   return sizes;
 }
 
@@ -47,17 +66,24 @@ VectorX to_positions(const system::Regime& s, const VectorX& y, const VectorX& t
   return dq;
 }
 
-/// Body by body the error along v, of the size `errors` in the positions.
+/// Block by block the error along v, of the size `errors`.
 void StageError::take_pattern(const system::Regime& s, const VectorX& v, const VectorX& errors) {
-  const VectorX sizes = body_sizes(s, v);
+  const VectorX sizes = block_sizes(s, v);
   pattern_ = v;
-  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    const system::BodyData& b = s.bodies[i];
+  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+    const system::Block& block = s.blocks[i];
     const double size = sizes[static_cast<Index>(i)],
                  part = size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
-    pattern_.segment(b.q0, b.n_position) *= part;
-    pattern_.segment(b.u0, b.n_active) *= part;
+    if (block.body >= 0) {
+      const system::BodyData& b = s.bodies[static_cast<std::size_t>(block.body)];
+      pattern_.segment(b.q0, b.n_position) *= part;
+      pattern_.segment(b.u0, b.n_active) *= part;
+    } else {
+      const system::StateBlock& states = s.states[static_cast<std::size_t>(block.states)];
+      pattern_.segment(states.first, static_cast<Index>(states.unknowns.size())) *= part;
+    }
   }
+  pattern_.tail(s.lambda0 - s.memory0).setZero(); // linear, and slower than what drives it
 }
 
 StageError::StageError(const RungeKutta& rk)
@@ -70,28 +96,58 @@ StageError::StageError(const RungeKutta& rk)
     values.row(i) = legendre(degree_, x).transpose();
   }
   last_ = values.inverse().bottomRows(2);
+  if (with_start_)
+    return;
+  // Stage i misses (c_i^s / s - sum_j a_ij c_j^(s-1)) h^s q^(s) / (s - 1)!, q' = v_d P_d(x) + ...
+  const int s = rk.stages, d = degree_;
+  const VectorX powers = rk.c.array().pow(d);
+  const VectorX missed = rk.c.array().pow(s) / s - (rk.a * powers).array();
+  of_stages_ = missed.tail(s - 1).cwiseAbs().maxCoeff();
+  for (int k = 1; k <= d; ++k)
+    of_stages_ *= static_cast<double>(d + k) / k; // (2 d)! / (d!)^2 in all
+}
+
+/// v_(d+1) of blocks whose v_d changed much more than it did in the steps before, else 0.
+VectorX StageError::find_kinks(const system::Regime& s, const VectorX& v) {
+  constexpr double memory = 0.8, much = 5.0;
+  const auto n = static_cast<Index>(s.blocks.size());
+  if (before_.size() != v.size()) {
+    before_ = v;
+    return VectorX::Zero(n);
+  }
+  const VectorX change = block_sizes(s, v - before_);
+  before_ = v;
+  if (usual_.size() != n)
+    usual_ = change;
+  const VectorX kinks = (change.array() > much * usual_.array())
+                            .select(change / (2.0 * (2 * degree_ + 1)), VectorX::Zero(n));
+  usual_ = memory * usual_ + (1.0 - memory) * change;
+  return kinks;
 }
 
 VectorX StageError::operator()(const system::Regime& s, double h, const VectorX& start,
                                const MatrixX& stages, double time_scale) {
-  const auto moving = stages.topRows(s.z0);
+  const auto moving = stages.topRows(s.lambda0);
   const Index n = stages.cols();
   auto coefficient = [&](int row) {
     VectorX v = moving * last_.row(row).tail(n).transpose();
     if (with_start_)
-      v += last_(row, 0) * start.head(s.z0);
+      v += last_(row, 0) * start.head(s.lambda0);
     return v;
   };
   const VectorX v = coefficient(1);
+  at_stages_ = of_stages_ * h * block_sizes(s, v);
   // h^3 q''' / 12 (Lobatto IIIC: / 6) from the change of q'' = 2 v_1 / h.
   if (degree_ == 1 && order_ == 2) {
-    const VectorX change = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.z0);
+    const VectorX change =
+        before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(s.lambda0);
     before_ = v;
-    VectorX sizes = body_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
+    VectorX sizes = block_sizes(s, h / (with_start_ ? 6.0 : 3.0) * change);
     take_pattern(s, change, sizes);
     return sizes;
   }
-  const VectorX top = body_sizes(s, v), next = body_sizes(s, coefficient(0));
+  const VectorX top = block_sizes(s, v), next = block_sizes(s, coefficient(0));
+  const VectorX kinks = find_kinks(s, v);
   const double fade = std::exp(-h / time_scale);
   if (highest_.size() != top.size()) {
     highest_ = VectorX::Zero(top.size());
@@ -106,6 +162,7 @@ VectorX StageError::operator()(const system::Regime& s, double h, const VectorX&
     double missed = top[i], amplitude = 2.0 * top[i] / turn;
     for (int k = degree_ + 1; k <= order_; ++k)
       missed *= turn / (2.0 * (2 * k - 1));
+    missed = std::max(missed, kinks[i]);
     for (int k = 1; k <= degree_; ++k)
       amplitude *= 2.0 * (2 * k - 1) / turn;
     errors[i] = h * std::min(std::max(order_ - 0.5, 1.0) * missed,

@@ -37,21 +37,16 @@ bool adds_by_radian(const model::SolverOptions& options) {
   return options.step > 0.0 || options.method == "ida";
 }
 
-/// d ln(frequency) / d ln(speed) by the change of the equations: 0 of a linear oscillator; of a
-/// pendulum that swings by 0.5, 1 and 2.5 rad 0.03, 0.13 and 3.3, where these change by 0.2, 0.7
-/// and 2; 1 of what turns round and round.
-double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change * change); }
-
 } // namespace
 
 Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
     : s_(s), every_(steps_between_looks(options.method)), coherent_(adds_by_radian(options)),
       exact_(options.step > 0.0), doubt_(options.step > 0.0 ? 3.0 : 2.0),
-      allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.z0)),
-      fastest_(VectorX::Zero(s.n_groups)), largest_(fastest_), when_(fastest_), missing_(fastest_),
-      rates_(fastest_), displaced_(fastest_), start_(y.head(s.n_q)),
-      energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
+      allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.lambda0)),
+      reached_(VectorX::Zero(s.n_error_groups())), fastest_(reached_), largest_(reached_),
+      when_(reached_), missing_(reached_), rates_(reached_), displaced_(reached_),
+      start_(y.head(s.lambda0)), energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
@@ -60,13 +55,28 @@ Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
                                           every_);
 }
 
-/// Motion of a group, no less than what its tolerance is made for [levers or rad].
-double Trust::size(Index group, const VectorX& reached) const {
-  double expected = 0.0;
-  for (const system::BodyData& b : s_.bodies)
-    if (b.group == group)
-      expected = std::max(expected, b.length_scale / b.lever * s_.motion_scale[group]);
-  return std::max({reached[group], expected, 1e-300});
+/// Motion that the tolerance of a group is made for [levers or rad].
+double Trust::expected(Index group) const {
+  double out = 0.0;
+  for (const system::Block& block : s_.blocks) {
+    if (block.group != group || !block.moves)
+      continue;
+    if (block.body >= 0) {
+      const system::BodyData& b = s_.bodies[static_cast<std::size_t>(block.body)];
+      out = std::max(out, b.length_scale / b.lever * s_.motion_scale[group]);
+    } else {
+      system::for_each_point(s_.states[static_cast<std::size_t>(block.states)],
+                             [&](Index place, Index, double length) {
+                               out = std::max(out, s_.scale[place] / length);
+                             });
+    }
+  }
+  return out;
+}
+
+/// Motion of a group, no less than that [levers or rad].
+double Trust::size(Index group) const {
+  return std::max({reached_[group], expected(group), 1e-300});
 }
 
 /// Positions count in levers or rad, velocities over the rate at which the group moves; where
@@ -74,6 +84,10 @@ double Trust::size(Index group, const VectorX& reached) const {
 /// own size.
 void Trust::measure(const VectorX& y, const VectorX& reached) {
   constexpr double least_part = 1e-6;
+  reached_.head(s_.n_groups) = reached;
+  for (const system::Block& block : s_.blocks)
+    if (block.states >= 0 && block.moves)
+      measure_points(block, y);
   for (const system::BodyData& b : s_.bodies) {
     if (b.group < 0)
       continue;
@@ -102,6 +116,25 @@ void Trust::measure(const VectorX& y, const VectorX& reached) {
   }
 }
 
+/// Points have no turns, and their tolerances no motion to follow.
+void Trust::measure_points(const system::Block& block, const VectorX& y) {
+  const system::StateBlock& states = s_.states[static_cast<std::size_t>(block.states)];
+  double &reached = reached_[block.group], &fastest = fastest_[block.group];
+  system::for_each_point(states, [&](Index place, Index velocity, double length) {
+    reached = std::max(reached, (y.segment<3>(place) - start_.segment<3>(place)).norm() / length);
+    fastest = std::max(fastest, y.segment<3>(velocity).norm() / length);
+  });
+  const double time =
+      states.body < 0 ? 1.0 : s_.bodies[static_cast<std::size_t>(states.body)].time_scale;
+  const double rate = std::max(fastest / std::max(reached, 1e-300), 1e-3 / time);
+  rates_[block.group] = rate;
+  system::for_each_point(states, [&](Index place, Index velocity, double length) {
+    const double fast = s_.scale[velocity] / s_.scale[place];
+    unit_.segment<3>(place).setConstant(length);
+    unit_.segment<3>(velocity).setConstant(length * std::max(rate, fast));
+  });
+}
+
 void Trust::accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
                    bool event, const system::Recorder& recorder) {
   const auto at = [&](double time, VectorX& out, VectorX& rates) {
@@ -114,7 +147,7 @@ void Trust::accept(double t, Integrator& integrator, const VectorX& reached, con
   measure(y, reached);
   take_inner(t, integrator.inner_error());
   if (growth_->add(t, integrator.step_error(), unit_, rates_, event, at))
-    look(t, reached, recorder);
+    look(t, recorder);
 }
 
 void Trust::take(Index group, double t, double error) {
@@ -126,107 +159,46 @@ void Trust::take(Index group, double t, double error) {
 
 void Trust::take_inner(double t, const VectorX& errors) {
   for (Index i = 0; i < errors.size(); ++i)
-    if (const int group = s_.bodies[static_cast<std::size_t>(i)].group; group >= 0)
-      take(group, t, errors[i]);
+    if (const system::Block& block = s_.blocks[static_cast<std::size_t>(i)];
+        block.moves && block.group >= 0)
+      take(block.group, t, errors[i]);
 }
 
-/// How much of what is missing a mechanism remembers until the next look. Conservative ones forget
-/// nothing; dampers take errors with the energy 4 K w of a swing that they take, as an error that
-/// is carried along tells, too, if only where it turns little from look to look. What drives guide
-/// altogether carries none.
-double Trust::remembered(Energy& e, double phase, const system::Recorder::Balance& now) {
-  constexpr double held = 10.0; // radians of the motion
-  const double weight = std::exp(-phase / held);
-  e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
-  const double taken = now.given - e.given;
-  e.given = now.given;
-  if (e.guided)
-    return 0.0;
-  const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
-  damped_[e.group] = std::max(damped_[e.group], damped);
-  return std::max(growth_->fade()[e.group], damped);
-}
-
-/// Kinetic energy of a body that moves as its tolerance expects: less tells nothing.
-double Trust::least(int mechanism) const {
-  double out = 0.0;
-  for (const system::BodyData& b : s_.bodies) {
-    if (b.group < 0 || b.mechanism != mechanism)
-      continue;
-    const double speed = b.length_scale / b.time_scale * s_.motion_scale[b.group];
-    out = std::max(out, 0.5 * b.mass * speed * speed);
-  }
-  return out;
-}
-
-/// From dE / 2 K of the speed follows the same part of the size of the motion, and of its
-/// frequency.
-void Trust::take_energy(double t, const VectorX& reached, const system::Recorder& recorder) {
-  constexpr double little = 1e-2; // kinetic energy, of all that was exchanged
-  damped_.setZero(s_.n_groups);
-  for (std::size_t m = 0; m < energies_.size() && s_.n_groups > 0; ++m) {
-    Energy& e = energies_[m];
-    const system::Recorder::Balance b =
-        recorder.mechanisms().empty() ? recorder.whole() : recorder.mechanisms()[m];
-    const double kinetic = std::max({b.kinetic, little * b.exchanged, least(static_cast<int>(m))}),
-                 whole = size(e.group, reached), phase = fastest_[e.group] / whole * (t - looked_),
-                 kept = remembered(e, phase, b);
-    e.missing = kept * e.missing + b.error - e.seen;
-    e.seen = b.error;
-    if (e.guided || !(kinetic > 0.0))
-      continue;
-    const double part = std::abs(e.missing) / (2.0 * kinetic);
-    const double change = growth_->change()[e.group];
-    e.late = kept * e.late +
-             (e.struck ? std::max(1.0, out_of_step(change)) : out_of_step(change)) * phase * part;
-    missing_[e.group] = std::max(missing_[e.group], (part + e.late) * whole);
-  }
-  for (Index g = 0; g < s_.n_groups; ++g) // by the mechanism of the group that is damped least
-    if (damped_[g] > 0.0)
-      growth_->fade(g, damped_[g]);
-}
-
-/// The body of a group whose positions the carried error moves most.
-const system::BodyData& Trust::worst_of(Index group) const {
+/// The body or line of a group whose positions the carried error moves most.
+const std::string& Trust::worst_of(Index group) const {
   const ErrorGrowth::Error& e = growth_->error();
-  const VectorX sizes = body_sizes(s_, (e.vector + e.fresh).head(s_.n_q));
-  std::size_t worst = s_.bodies.size();
-  for (std::size_t i = 0; i < s_.bodies.size(); ++i)
-    if (s_.bodies[i].group == group &&
-        (worst == s_.bodies.size() ||
+  const VectorX sizes = block_sizes(s_, e.vector + e.fresh);
+  std::size_t worst = s_.blocks.size();
+  for (std::size_t i = 0; i < s_.blocks.size(); ++i)
+    if (s_.blocks[i].group == group && s_.blocks[i].moves &&
+        (worst == s_.blocks.size() ||
          sizes[static_cast<Index>(i)] > sizes[static_cast<Index>(worst)]))
       worst = i;
-  return s_.bodies[worst];
+  return s_.blocks[worst].name;
 }
 
-void Trust::look(double t, const VectorX& reached, const system::Recorder& recorder) {
+void Trust::look(double t, const system::Recorder& recorder) {
   constexpr double seen = 1e-2;
   missing_.setZero();
-  take_energy(t, reached, recorder);
+  take_energy(t, recorder);
   looked_ = t;
   const ErrorGrowth::Error& e = growth_->error();
-  for (Index g = 0; g < s_.n_groups; ++g) {
+  for (Index g = 0; g < reached_.size(); ++g) {
     const double off = std::max(e.piled[g], missing_[g]);
     take(g, t, off);
-    const double whole = size(g, reached);
+    const double whole = size(g);
     const double most = allowed_ * whole / doubt_;
     // Growth alone, of next to nothing, may be that of looks too far apart.
     const bool grown = e.piled[g] > most && e.plain[g] > seen * most;
     if (allowed_ > 0.0 && (grown || missing_[g] > most))
       throw SolverError(
           t, "stopped at t = " + number_text(t) + " s: the errors of the steps so far have put " +
-                 in_quotes(worst_of(g).name) + " off by about " + rounded_text(off / whole) +
+                 in_quotes(worst_of(g)) + " off by about " + rounded_text(off / whole) +
                  " of the motion, give or take a factor of " + number_text(doubt_) +
                  ", which may be more than " + number_text(allowed_) +
                  " (solver.error_guard; 0: no guard): from here on the motion is not to be "
                  "trusted; a smaller tolerance or step carries it further");
   }
-}
-
-void Trust::find_guided() {
-  const std::vector<bool> guided = system::guided_mechanisms(s_);
-  for (std::size_t m = 0; m < energies_.size(); ++m)
-    energies_[m].guided = guided[m];
 }
 
 void Trust::strike(int mechanism) { energies_[static_cast<std::size_t>(mechanism)].struck = true; }
@@ -246,23 +218,24 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
 }
 
 void Trust::remember(Archive& a) {
-  a(*growth_, unit_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_, energies_,
-    looked_, least_, exact_);
+  a(*growth_, unit_, reached_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_,
+    energies_, looked_, least_, exact_);
 }
 
-Trust::Estimate Trust::estimate(const VectorX& reached) const {
+Trust::Estimate Trust::estimate() const {
   const ErrorGrowth::Error& e = growth_->error();
   Estimate out;
-  for (Index g = 0; g < s_.n_groups; ++g) {
+  for (Index g = 0; g < reached_.size(); ++g) {
     double now = e.piled[g] + e.added[g];
-    for (Index i = 0; i < s_.z0; ++i)
-      if (s_.group[static_cast<std::size_t>(i)] == g && !growth_->is_guided(g))
+    for (Index i = 0; i < s_.lambda0; ++i)
+      if (s_.error_group[static_cast<std::size_t>(i)] == g && s_.is_motion(i) &&
+          !growth_->is_guided(g))
         now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
     // An error as large as the motion: beyond, growth says no more.
-    const double whole = size(g, reached),
+    const double whole = size(g),
                  error = std::max(std::min(std::max(largest_[g], now) / whole, 1.0), least_);
     if (error > out.error)
-      out = {error, worst_of(g).name, when_[g]};
+      out = {error, worst_of(g), when_[g]};
   }
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// How far the motion of a run is to be trusted, against the size of the motion, group by group of
-/// bodies. Three witnesses, of which the worst counts:
+/// bodies, and line by line. Three witnesses, of which the worst counts:
 /// 1. the errors of the steps, carried along by the linearised equations and added (ErrorGrowth);
 /// 2. the energy that is missing: a part e of the kinetic energy is e / 2 of the speed, and as
 ///    frequencies depend on amplitudes, the motion gets out of step the longer it lasts;
@@ -40,30 +40,32 @@ public:
   /// From t on other rows hold: the error is carried on by them, from the state (y, yp).
   void restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
-  /// Largest error of a group of bodies over the run, relative to its motion [-], no less than what
-  /// the tolerance leaves inside each step; the body that is off most.
+  /// Largest error of a group over the run, relative to its motion [-], no less than what the
+  /// tolerance leaves inside each step; the body or line that is off most.
   struct Estimate {
     double error = 0.0;
-    std::string body;
+    std::string block;
     double time = 0.0; ///< when it was largest [s]
   };
-  Estimate estimate(const VectorX& reached) const;
+  Estimate estimate() const;
 
   /// To be restored after `restart` with the same rows.
   void remember(Archive& a);
 
 private:
   double least(int mechanism) const;
-  double size(Index group, const VectorX& reached) const;
+  double size(Index group) const;
+  double expected(Index group) const;
   void measure(const VectorX& y, const VectorX& reached);
-  void look(double t, const VectorX& reached, const system::Recorder& recorder);
-  void take_energy(double t, const VectorX& reached, const system::Recorder& recorder);
+  void measure_points(const system::Block& block, const VectorX& y);
+  void look(double t, const system::Recorder& recorder);
+  void take_energy(double t, const system::Recorder& recorder);
   struct Energy;
   double remembered(Energy& energy, double phase, const system::Recorder::Balance& now);
   void find_guided();
   void take_inner(double t, const VectorX& errors);
   void take(Index group, double t, double error);
-  const system::BodyData& worst_of(Index group) const;
+  const std::string& worst_of(Index group) const;
 
   const system::Regime& s_;
   std::unique_ptr<ErrorGrowth> growth_;
@@ -73,14 +75,15 @@ private:
   double doubt_;  ///< factor within which the estimate is meant; of fixed steps it is rougher
   double allowed_;
   double least_;           ///< what the tolerance leaves [-]
-  VectorX unit_;           ///< of each position and velocity (z0,)
+  VectorX unit_;           ///< of each position and velocity, those of points too (lambda0,)
+  VectorX reached_;        ///< by group: largest displacement so far, in levers or rad
   VectorX fastest_;        ///< by group: largest speed so far, in levers per s or rad/s
   VectorX largest_, when_; ///< by group: of the error in levers or rad, time [s]
   VectorX missing_;        ///< by group: what the missing energy has put off, now
   VectorX damped_;         ///< by group: what dampers leave of an error since the last look
   VectorX rates_;          ///< by group: of the motion [1/s]
   VectorX displaced_;      ///< by group: largest displacement so far [levers]
-  VectorX start_;          ///< positions (n_q,)
+  VectorX start_;          ///< q, u, z (lambda0,)
   struct Energy {          ///< of a mechanism
     int group = 0;
     bool struck = false;  ///< between impacts the time goes as 1 / speed

@@ -19,8 +19,9 @@ double newton_step(const Regime& s, const ElementList& list, JacobianWorkspace& 
   const Index n = shape.n_algebraic, rates = shape.n_states - n;
   ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
   gather<double>(s, list, ws.state, y.data(), scratch);
-  laws.evaluate(t, scratch.in.data(), s.held(list), scratch.out.data());
-  laws.jacobian(t, scratch.in.data(), s.held(list), ws.element_jacobian.data());
+  const double* held = s.held(list, t, scratch.held);
+  laws.evaluate(t, scratch.in.data(), held, scratch.out.data());
+  laws.jacobian(t, scratch.in.data(), held, ws.element_jacobian.data());
   double largest = 0.0;
   for (std::size_t law = 0; law < laws.size(); ++law) {
     const auto k = static_cast<Index>(law);

@@ -201,7 +201,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
   ElementScratch<double>& scratch = ws.state.elements[index_of(s, list)];
   gather<double>(s, list, ws.state, y, scratch);
   const double* in = scratch.in.data();
-  const double* signals = s.held(list);
+  const double* signals = s.held(list, t, scratch.held);
   if (!shape.in_water()) // whose Jacobian holds how the load turns
     list.laws->evaluate(t, in, signals, scratch.out.data());
   list.laws->jacobian(t, in, signals, ws.element_jacobian.data());

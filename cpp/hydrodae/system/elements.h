@@ -175,7 +175,8 @@ void add_loads(const Regime& s, const ElementList& list, Workspace<S>& ws, const
   ElementScratch<S>& scratch = ws.elements[index_of(s, list)];
   const element::Shape& shape = list.laws->shape;
   gather<S>(s, list, ws, y, scratch);
-  list.laws->evaluate(ws.time, scratch.in.data(), s.held(list), scratch.out.data());
+  const double* held = s.held(list, ws.time, scratch.held);
+  list.laws->evaluate(ws.time, scratch.in.data(), held, scratch.out.data());
   const S* out = scratch.out.data();
   const joint::Vec12<S>* rows = scratch.rows.data();
   Index z = list.z0;

@@ -33,6 +33,7 @@ inline Matrix3 gyroscopic_matrix(const Matrix3& inertia, const Vector3& w) {
 template <class S> struct ElementScratch {
   std::vector<S> in, out;
   std::vector<joint::Vec12<S>> rows;
+  std::vector<double> held; ///< signals, where one of them lags
 
   explicit ElementScratch(const ElementList& list)
       : in(list.laws->size() * static_cast<std::size_t>(list.laws->shape.n_in())),

@@ -97,6 +97,7 @@ void find_mechanisms(System& s) {
 }
 
 void set_groups(System& s) {
+  s.blocks.clear();
   s.group.assign(static_cast<std::size_t>(s.lambda0), 0);
   for (const BodyData& b : s.bodies) {
     for (Index k = 0; k < b.n_position; ++k)
@@ -112,6 +113,14 @@ void set_groups(System& s) {
   for (const StateBlock& block : s.states)
     if (!block.unknowns.empty() && block.unknowns.front().absolute)
       std::fill_n(s.error_group.begin() + block.first, block.unknowns.size(), n++);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    s.blocks.push_back(
+        {s.bodies[i].name, static_cast<int>(i), -1, s.bodies[i].group, s.bodies[i].n_active > 0});
+  for (std::size_t i = 0; i < s.states.size(); ++i)
+    if (const StateBlock& block = s.states[i]; !block.unknowns.empty())
+      s.blocks.push_back({block.path, -1, static_cast<int>(i),
+                          s.error_group[static_cast<std::size_t>(block.first)],
+                          block.unknowns.front().length > 0.0});
   s.group_size = VectorX::Zero(n);
   for (const int group : s.error_group)
     ++s.group_size[group];

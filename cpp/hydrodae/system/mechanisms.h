@@ -25,7 +25,7 @@ const BodyData* moving_body(const System& system, const PortData& port);
 /// own?
 std::vector<bool> guided_mechanisms(const Regime& regime);
 
-/// The group of each position, velocity and memory state; needs their offsets.
+/// The group of each position, velocity and memory state, and the blocks; needs their offsets.
 void set_groups(System& system);
 
 } // namespace hydrodae::system

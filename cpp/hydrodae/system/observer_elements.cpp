@@ -65,12 +65,13 @@ void Observer::observe(const ElementList& list, const double* y) {
   ElementScratch<double>& scratch = ws_.elements[index_of(s_, list)];
   gather<double>(s_, list, ws_, y, scratch);
   const double *in = scratch.in.data(), *load = scratch.out.data();
-  laws.evaluate(ws_.time, in, s_.held(list), scratch.out.data());
+  const double* held = s_.held(list, ws_.time, scratch.held);
+  laws.evaluate(ws_.time, in, held, scratch.out.data());
   observe_ports(list, scratch);
   const std::size_t values = laws.channel_size();
   double *energy = element_values_.data(), *declared = energy + laws.size();
-  laws.energy(in, s_.held(list), energy);
-  laws.observe(ws_.time, in, s_.held(list), load, declared);
+  laws.energy(in, held, energy);
+  laws.observe(ws_.time, in, held, load, declared);
   const joint::Vec12<double>* rows = scratch.rows.data();
   for (const PortData& port : list.ports) {
     if (port.delay < 0) // a delayed spring gives back another energy than it took

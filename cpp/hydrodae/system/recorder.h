@@ -53,8 +53,9 @@ public:
   /// @param work of all rows through their impulses, where something struck [J]
   void restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work);
 
-  /// The bodies at the last sample.
+  /// The bodies, and y, at the last sample.
   const std::vector<BodyState<double>>& bodies() const { return observer_.bodies(); }
+  const VectorX& state() const { return y_; }
 
   /// All motions at the end of the last step, angles followed over turns.
   const Turns& turns() const { return turns_; }

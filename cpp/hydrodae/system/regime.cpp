@@ -42,6 +42,7 @@ Regime::Regime(const System& s)
       translation_scale(motion_scale) {
   for (const ElementList& list : elements)
     signals.push_back(list.laws->signals);
+  lags.resize(signals.size());
   for (const SwitchData& element : switches)
     static_loads.push_back(element.static_load);
   for (const CouplerData& c : couplers)

@@ -3,6 +3,7 @@
 /// what programs and events have set. All that changes between two accepted steps, apart from y, is
 /// here; the System itself is constant.
 
+#include "hydrodae/core/archive.h"
 #include "hydrodae/system/system.h"
 
 namespace hydrodae::system {
@@ -16,6 +17,21 @@ namespace hydrodae::system {
 enum class Formulation { stabilised, index_2, index_3, index_1 };
 
 class History;
+
+/// A signal that follows what it is set to like an actuator of first order: T x' = target - x,
+/// exactly, as the target is held.
+///
+///   x(t) = target + (x0 - target) exp(-(t - t0) / T)
+struct Lag {
+  double time = 0.0;              ///< T [s]; 0: at once
+  double since = 0.0, from = 0.0; ///< t0 [s] of the last target, x0
+
+  double at(double t, double target) const {
+    return time > 0.0 && from != target ? target + (from - target) * std::exp((since - t) / time)
+                                        : target;
+  }
+  void remember(Archive& a) { a(since, from); }
+};
 
 struct Regime {
   using Mode = SwitchData::State;
@@ -44,6 +60,7 @@ struct Regime {
   const std::vector<StateBlock>& states = system.states;
   const std::vector<int>&group = system.group, &error_group = system.error_group;
   const VectorX& group_size = system.group_size;
+  const std::vector<Block>& blocks = system.blocks;
   const Index n_q = system.n_q, n_u = system.n_u, n_z = system.n_z, u0 = system.u0, z0 = system.z0,
               memory0 = system.memory0, lambda0 = system.lambda0;
   const int n_groups = system.n_groups, n_mechanisms = system.n_mechanisms;
@@ -61,8 +78,9 @@ struct Regime {
   // What events and programs have set.
   std::vector<Mode> modes;                  ///< (n_switches,)
   std::vector<std::vector<double>> signals; ///< of the laws of each list
-  std::vector<double> static_loads;         ///< (n_switches,) of dry friction
-  std::vector<double> rates;  ///< (n_couplers,) constant part of drives at velocity level
+  std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
+  std::vector<double> static_loads;   ///< (n_switches,) of dry friction
+  std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
   std::vector<double> nearby; ///< (n_motions,) coordinates near those now: they tell the turn
   VectorX motion_scale;       ///< (n_groups,) part of the full scales that its motion takes
   VectorX translation_scale;  ///< (n_groups,) of which its translations take so much
@@ -93,13 +111,25 @@ struct Regime {
     const SwitchData& stop = switches[static_cast<std::size_t>(c.of_switch)];
     return mode(stop) == Mode::lower ? stop.lower : stop.upper;
   }
-  /// Signals of the laws of one of its lists.
+  /// Signals of the laws of one of its lists, as programs have set them.
   const double* held(const ElementList& list) const {
     return signals[static_cast<std::size_t>(&list - elements.data())].data();
+  }
+  /// What they are at the time t [s], those with a lag in `room`.
+  const double* held(const ElementList& list, double t, std::vector<double>& room) const {
+    const auto i = static_cast<std::size_t>(&list - elements.data());
+    if (lags[i].empty())
+      return signals[i].data();
+    room = signals[i];
+    for (std::size_t k = 0; k < lags[i].size(); ++k)
+      room[k] = lags[i][k].at(t, signals[i][k]);
+    return room.data();
   }
   /// f, f', f'' of its drive.
   std::array<double, 3> drive(const CouplerData& c, double t) const;
 
+  /// A position or velocity, of a body or of a point.
+  bool is_motion(Index i) const { return i < z0 || is_absolute(i); }
   /// A state whose scale does not follow the motion.
   bool is_absolute(Index i) const { return i >= z0 && i < lambda0 && relative[i] == 0.0; }
   bool is_algebraic(Index i) const { return algebraic[static_cast<std::size_t>(i)]; }

@@ -180,6 +180,16 @@ struct StateBlock {
   std::vector<element::Unknown> unknowns;
 };
 
+/// Unknowns that guards and estimates judge together: of a body, of points that move by themselves
+/// (nodes of a line), or other states of one element.
+struct Block {
+  std::string name;   ///< "buoy", "forces/chain"
+  int body = -1;      ///< in System::bodies, or
+  int states = -1;    ///< in System::states
+  int group = -1;     ///< in System::error_group; -1: it cannot move
+  bool moves = false; ///< a body, or points: its errors are displacements
+};
+
 struct System {
   // Written once, in system.cpp: it holds much, and many files hold one.
   System();
@@ -207,6 +217,7 @@ struct System {
   Index n_norms = 0; ///< of quaternions
   std::size_t n_rows = 0; ///< of constraint, those among them that never hold or not now
   std::vector<StateBlock> states;
+  std::vector<Block> blocks;          ///< bodies, then states that there are, each in their order
   int n_mechanisms = 0, n_groups = 0; ///< of the bodies that can move (mechanisms.h)
   std::vector<int> group;             ///< (lambda0,) of each position, velocity and state
   std::vector<int> error_group;       ///< (lambda0,) the same; absolute states have their own
@@ -236,6 +247,15 @@ template <class Anysystem, class Visitor> void for_each_list(Anysystem& s, Visit
     visit(list);
   if (s.hydro.n_moving > 0)
     visit(s.hydro);
+}
+
+/// Visits the points of a block of states: visit(place, velocity, length), the first two where they
+/// begin in y, the last what displacements are measured by [m].
+template <class Visitor> void for_each_point(const StateBlock& states, Visitor&& visit) {
+  for (std::size_t k = 0; k < states.unknowns.size(); k += 6) {
+    const Index place = states.first + static_cast<Index>(k);
+    visit(place, place + 3, states.unknowns[k].length);
+  }
 }
 
 /// Visits all laws: visit(list, its index, port).

@@ -11,12 +11,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import null_space
 
+from hydrodae import _core
 from hydrodae.case import CaseLike
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.frequency.kinematics import water_motion
 from hydrodae.frequency.modes import Mode, find_modes
 from hydrodae.frequency.reading import without_memory
-from hydrodae.frequency.response import Response, bristles, make_response
+from hydrodae.frequency.response import (
+    Channels,
+    Damper,
+    Response,
+    bristles,
+    channels_of,
+    make_response,
+)
+from hydrodae.frequency.rotary import RotaryTakeOff, rotary_take_offs
 from hydrodae.frequency.sea import in_waves, wave_components
 from hydrodae.frequency.tables import WaterTables
 from hydrodae.hdb.database import HydroDatabase
@@ -81,6 +91,15 @@ class LinearModel:
         other._given_database = database
         return other
 
+    def sharing_tables_of(self, other: LinearModel) -> LinearModel:
+        """Return this model, which reads nothing again that the other one has of its database."""
+        if self.case.scene.database_path != other.case.scene.database_path:
+            return self
+        shared = self.with_database(other.database) if other.database is not None else self
+        if shared.tables is not None and other.tables is not None:
+            shared.tables.share(other.tables)
+        return shared
+
     def with_law_slopes_taken_out(self, names: Sequence[str]) -> LinearModel:
         """Return the same linearised case without the dampers, and bristles, of some forces.
 
@@ -122,7 +141,12 @@ class LinearModel:
         names = list(self._model["motions"])
         found = [k for k, n in enumerate(names) if n == head or (not coordinate and head in n)]
         if len(found) != 1:
-            raise CaseError(f"joint {joint!r}: no coordinate {coordinate!r} in {', '.join(names)}")
+            wanted = f"{coordinate!r}" if coordinate else "that is its only one"
+            known = ", ".join(name.removeprefix("joints/") for name in names)
+            raise CaseError(
+                f"joint {joint!r} has no coordinate {wanted}{_core.suggestion(head, names)}; "
+                f"there are: {known}"
+            )
         return np.asarray(self._model["motion_map"][found[0]])
 
     @property
@@ -146,6 +170,23 @@ class LinearModel:
         if self.database is None or not self._model["hydro_labels"]:
             return None
         return WaterTables(self.database, self._model)
+
+    @property
+    def dampers(self) -> list[Damper]:
+        """Forces with damping along a joint coordinate."""
+        m = self._model
+        keys = ("dampers", "damper_stiffness", "damper_damping", "damper_delay", "damper_map")
+        return [Damper(*values) for values in zip(*(m[key] for key in keys), strict=True)]
+
+    @property
+    def channels(self) -> Channels:
+        """How the channels of a response follow from the motion and the multipliers."""
+        return channels_of(self._model)
+
+    @cached_property
+    def rotary(self) -> list[RotaryTakeOff]:
+        """Take-offs on the relative rotations of two bodies."""
+        return rotary_take_offs(self, case_tables(self.case))
 
     def added(self, omega: Array) -> tuple[Array, Array]:
         """T^T A T and T^T B T at frequencies inside the database; (nw, n_u, n_u) each."""
@@ -175,16 +216,11 @@ class LinearModel:
             resolved = s * np.eye(len(m["state_by_state"])) - m["state_by_state"]
             driven = m["state_by_xi"] + s * m["state_by_rate"]
             out -= m["load_by_state"] @ np.linalg.solve(resolved, driven)
-        for k, c, tau, row in zip(
-            m["damper_stiffness"],
-            m["damper_damping"],
-            m["damper_delay"],
-            m["damper_map"],
-            strict=True,
-        ):
-            if tau > 0.0:
-                factor = (k + 1j * omega * c) * np.exp(-1j * omega * tau) - k
-                out += factor[:, None, None] * np.outer(row, row)
+        for d in self.dampers:
+            if d.delay > 0.0:
+                late = np.exp(-1j * omega * d.delay)
+                factor = (d.stiffness + 1j * omega * d.damping) * late - d.stiffness
+                out += factor[:, None, None] * np.outer(d.row, d.row)
         return out
 
     def excitation(self, omega: ArrayLike, heading: float) -> Complex:
@@ -264,9 +300,11 @@ class LinearModel:
         # G^T lambda = Z xi - F has a solution: the constraints left are independent.
         rest = (z @ xi[:, :, None])[:, :, 0] - load
         multipliers = rest @ self._constraints_inverse.T
-        return make_response(
+        found = make_response(
             self._model, w, heading, xi, multipliers, force=load, radiation=self.added(w)[1]
         )
+        found.power.update({each.name: each.power(w, xi) for each in self.rotary})
+        return found
 
     def modes(self) -> list[Mode]:
         """Natural modes of the constrained system, longest period first.

@@ -46,6 +46,7 @@ class Dynamics(Protocol):
 
     coordinates: list[str]
     mass: Array
+    damping: Array
     stiffness: Array
 
     @property
@@ -68,41 +69,89 @@ class Dynamics(Protocol):
 
 def find_modes(model: Dynamics) -> list[Mode]:
     """Natural modes, longest period first; see `LinearModel.modes`."""
-    found = [_mode(model, k) for k in range(model.free.shape[1])]
+    reduced = _Reduced(model)
+    found = [_mode(model, reduced, k) for k in range(reduced.n)]
     return sorted((mode for mode in found if mode is not None), key=lambda mode: -mode.period)
 
 
-def _mode(model: Dynamics, k: int) -> Mode | None:
+class _Reduced:
+    """The model in the coordinates of the free motions, without constants taken twice."""
+
+    def __init__(self, model: Dynamics) -> None:
+        self.model, self.free = model, model.free
+        self.n = self.free.shape[1]
+        self.mass, self.damping, self.stiffness = (
+            self.free.T @ matrix @ self.free
+            for matrix in (model.mass, model.damping, model.stiffness)
+        )
+        #: Do the matrices depend on the frequency?
+        self.varies = model.database is not None or bool(np.any(model.late(np.array([0.7, 1.9]))))
+        self._solved: dict[float, tuple[Array, Array]] = {}
+
+    def undamped(self, omega: float) -> tuple[Array, Array]:
+        """Squares of the frequencies, and shapes, with the added mass at `omega`."""
+        key = omega if self.varies else 0.0
+        if key not in self._solved:
+            mass, spring = self.mass, self.stiffness
+            if self.varies:
+                added, _ = self.model.continued(complex(omega))
+                mass = mass + self.free.T @ added.real @ self.free
+                late = self.model.late(np.array([omega]))[0]
+                spring = spring + self.free.T @ late.real @ self.free
+            values, vectors = eigh(0.5 * (spring + spring.T), 0.5 * (mass + mass.T))
+            self._solved[key] = values, vectors
+        return self._solved[key]
+
+    def dynamic_stiffness(self, omega: complex) -> Complex:
+        """Z(w) of the free motions (n, n)."""
+        if self.varies:
+            return self.model.dynamic_stiffness(omega)
+        return np.asarray(-(omega**2) * self.mass + 1j * omega * self.damping + self.stiffness)
+
+
+def _frequency(reduced: _Reduced, k: int, omega: float) -> float | None:
+    """The k-th frequency with the added mass at itself [rad/s]: a fixed point, by secants."""
+
+    def own(w: float) -> float | None:
+        values, _ = reduced.undamped(w)
+        return None if values[k] <= 1e-9 * np.abs(values).max() else float(np.sqrt(values[k]))
+
+    before: tuple[float, float] | None = None
+    for _ in range(200):
+        new = own(omega)
+        if new is None or abs(new - omega) <= 1e-10 * new or not reduced.varies:
+            return new
+        off = new - omega
+        ahead = 0.5 * (omega + new)
+        if before is not None and off != before[1]:
+            secant = omega - off * (omega - before[0]) / (off - before[1])
+            if 0.5 * min(omega, new) < secant < 2.0 * max(omega, new):
+                ahead = secant
+        before, omega = (omega, off), ahead
+    return omega
+
+
+def _mode(model: Dynamics, reduced: _Reduced, k: int) -> Mode | None:
     """Mode with the k-th eigenvalue, added mass at its own frequency."""
-    free = model.free
-    stiffness = free.T @ model.stiffness @ free
-    omega = 1.0
+    middle = 1.0
     if model.database is not None:
         low, high = model.database.omega[[0, -1]]
-        omega = float(np.sqrt(low * high))
-    for _ in range(200):
-        added, _ = model.continued(complex(omega))
-        mass = free.T @ (model.mass + added.real) @ free
-        late = model.late(np.array([omega]))[0]
-        spring = stiffness + free.T @ late.real @ free
-        values, vectors = eigh(0.5 * (spring + spring.T), 0.5 * (mass + mass.T))
-        if values[k] <= 1e-9 * np.abs(values).max():
-            return None
-        new = float(np.sqrt(values[k]))
-        if abs(new - omega) <= 1e-10 * new:
-            break
-        omega = 0.5 * (omega + new)
-    shape = free @ vectors[:, k]
+        middle = float(np.sqrt(low * high))
+    omega = _frequency(reduced, k, middle)
+    if omega is None:
+        return None
+    vector = reduced.undamped(omega)[1][:, k]
+    shape = reduced.free @ vector
     scaled = shape / shape[np.argmax(np.abs(shape))]
     return Mode(
         period=2.0 * np.pi / omega,
-        damping_ratio=_damping_ratio(model, omega, vectors[:, k]),
+        damping_ratio=_damping_ratio(reduced, omega, vector),
         shape=dict(zip(model.coordinates, scaled.tolist(), strict=True)),
         extrapolated=model.database is not None and not low <= omega <= high,
     )
 
 
-def _damping_ratio(model: Dynamics, omega: float, shape: Array) -> float:
+def _damping_ratio(model: _Reduced, omega: float, shape: Array) -> float:
     """Im w / |w| of the damped mode next to an undamped one (omega, shape).
 
     Newton's method on Z(w) v = 0, v0^T v = 1, from the undamped mode.

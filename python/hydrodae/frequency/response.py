@@ -32,7 +32,7 @@ class Response:
     values : (nw, n) complex array
         Phasors; phase zero when the crest passes the origin.
     power : dict of (nw,) arrays
-        Mean power that each damper takes [W/m2].
+        Mean power that each damper along a joint, and each rotary take-off, takes [W/m2].
     excitation_power, radiated_power : (nw,) arrays
         Mean power from the waves, and into radiated waves [W/m2].
     """
@@ -51,6 +51,37 @@ class Response:
         if name not in self.names:
             raise CaseError(f"no response {name!r}; there are: {', '.join(self.names)}")
         return np.asarray(self.values[:, self.names.index(name)])
+
+
+@dataclass(frozen=True)
+class Damper:
+    """A force along a joint coordinate: k [N/m, N m], c [N s/m, N m s], tau [s], row (n_u,)."""
+
+    name: str
+    stiffness: float
+    damping: float
+    delay: float
+    row: Array
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Coordinates, joints and reactions: y = by_xi xi + by_lambda lambda."""
+
+    names: tuple[str, ...]
+    by_xi: Array
+    by_lambda: Array
+
+
+def channels_of(m: Mapping[str, Any]) -> Channels:
+    """Channels of a response, from what the kernel tells of the case."""
+    n, rows = len(m["coordinates"]), len(m["constraints"])
+    still = np.zeros((n + len(m["motions"]), rows))
+    return Channels(
+        (*m["coordinates"], *m["motions"], *m["reactions"]),
+        np.vstack([np.eye(n), m["motion_map"], m["reaction_by_xi"]]),
+        np.vstack([still, m["reaction_by_lambda"]]),
+    )
 
 
 def make_response(
@@ -82,8 +113,7 @@ def make_response(
     radiation : (nw, n_u, n_u) array
         Radiation damping.
     """
-    joints = xi @ m["motion_map"].T
-    reactions = xi @ m["reaction_by_xi"].T + multipliers @ m["reaction_by_lambda"].T
+    channels = channels_of(m)
     squares = np.abs(xi @ m["damper_map"].T) ** 2
     dampers = zip(
         m["dampers"], m["damper_stiffness"], m["damper_damping"], m["damper_delay"], strict=True
@@ -94,13 +124,12 @@ def make_response(
         if c != 0.0 or tau > 0.0
     }
     velocity = 1j * w[:, None] * xi
-    names = (*m["coordinates"], *m["motions"], *m["reactions"])
     return Response(
         omega=w,
         heading=heading,
-        names=names,
-        units=tuple(map(unit_of, names)),
-        values=np.hstack([xi, joints, reactions]),
+        names=channels.names,
+        units=tuple(map(unit_of, channels.names)),
+        values=xi @ channels.by_xi.T + multipliers @ channels.by_lambda.T,
         power=power,
         excitation_power=0.5 * np.sum(force.conj() * velocity, axis=1).real,
         radiated_power=0.5 * np.einsum("wi,wij,wj->w", velocity.conj(), radiation, velocity).real,

@@ -35,6 +35,13 @@ class WaterTables:
         self.database = database
         self._model = model
 
+    def share(self, other: WaterTables) -> None:
+        """Take over the splines of other tables of the same database and coordinates."""
+        if self._model["hydro_labels"] == other._model["hydro_labels"]:
+            self.__dict__.update(
+                {name: getattr(other, name) for name in ("_radiation", "_smooth_excitation")}
+            )
+
     @cached_property
     def _labels(self) -> NDArray[np.intp]:
         return self.database.index(self._model["hydro_labels"])

@@ -1,0 +1,80 @@
+#include "hydrodae/run/rate_watch.h"
+
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/elements.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+constexpr double beyond_zero = 1e-9; ///< of the largest rate
+constexpr int bisections_of_rate = 60;
+
+int motion_of(const system::Regime& s, const std::string& channel) {
+  std::vector<std::string> names;
+  for (const system::JointData& j : s.joints)
+    if (j.type)
+      for (std::size_t m = 0; m < j.type->motions.size(); ++m) {
+        const int motion = j.first_motion + static_cast<int>(m);
+        names.push_back("joints/" + j.name + "/" +
+                        s.motions[static_cast<std::size_t>(motion)].name + "_rate");
+        if (names.back() == channel)
+          return motion;
+      }
+  throw CaseError(in_quotes(channel) + " is no rate of a joint, whose standstill could be found" +
+                  suggestion(channel, names));
+}
+
+} // namespace
+
+RateWatch::RateWatch(const system::Regime& regime, const std::string& channel)
+    : s_(regime), motion_(motion_of(regime, channel)), ws_(regime) {}
+
+double RateWatch::rate(double t, const VectorX& y, const VectorX& yp) {
+  ws_.time = t;
+  system::unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+  const int joint = s_.motions[static_cast<std::size_t>(motion_)].joint;
+  return system::motion_row<double>(s_, ws_, motion_)
+      .gradient.dot(
+          system::joint_velocity<double>(s_.joints[static_cast<std::size_t>(joint)], ws_.bodies));
+}
+
+bool RateWatch::beyond(double rate) const { return side_ * rate < -beyond_zero * fastest_; }
+
+std::optional<double> RateWatch::locate(double t0, double t1, int nodes,
+                                        const system::Recorder::Interpolant& at) {
+  if (side_ == 0.0)
+    return std::nullopt;
+  const auto is_beyond = [&](double t) {
+    at(t, y_, yp_);
+    return beyond(rate(t, y_, yp_));
+  };
+  double a = t0;
+  for (int node = 1; node <= nodes; ++node) {
+    double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
+    if (!is_beyond(b)) {
+      a = b;
+      continue;
+    }
+    for (int i = 0; i < bisections_of_rate && b - a > 1e-15 * std::abs(b); ++i) {
+      const double middle = 0.5 * (a + b);
+      (is_beyond(middle) ? b : a) = middle;
+    }
+    return b;
+  }
+  return std::nullopt;
+}
+
+bool RateWatch::accept(double t, const VectorX& y, const VectorX& yp) {
+  const double now = rate(t, y, yp);
+  const bool crossed = side_ != 0.0 && beyond(now);
+  fastest_ = std::max(fastest_, std::abs(now));
+  if (crossed || side_ == 0.0)
+    side_ = now > 0.0 ? 1.0 : now < 0.0 ? -1.0 : 0.0;
+  return crossed;
+}
+
+} // namespace hydrodae::run

@@ -1,0 +1,65 @@
+#include "hydrodae/solve/static_step.h"
+
+#include <Eigen/QR>
+
+#include "hydrodae/solve/klu.h"
+
+namespace hydrodae::solve {
+
+namespace {
+
+constexpr Index most_dense = 250; ///< unknowns
+
+/// A + d diag(1, -1) by columns, and its factors.
+SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
+  std::vector<Index> start{0}, row;
+  std::vector<double> values;
+  for (Index c = 0; c < A.cols(); ++c) {
+    for (Index r = 0; r < A.rows(); ++r)
+      if (r == c || A(r, c) != 0.0) {
+        row.push_back(r);
+        values.push_back(r != c ? A(r, c) : A(r, c) + (c < n_u ? d : -d));
+      }
+    start.push_back(static_cast<Index>(row.size()));
+  }
+  SparseLu<double> lu(start, row);
+  lu.values() = values;
+  return lu;
+}
+
+} // namespace
+
+VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u) {
+  if (b.size() <= most_dense) {
+    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
+    cod.setThreshold(1e-12);
+    cod.compute(A);
+    return cod.solve(b);
+  }
+  constexpr double shift = 1e-9, enough = 1e-13;
+  constexpr int passes = 5;
+  SparseLu<double> lu = shifted(A, n_u, shift);
+  if (!lu.factorise())
+    return VectorX::Constant(b.size(), INFINITY);
+  VectorX x = VectorX::Zero(b.size()), left = b;
+  for (int k = 0; k < passes && left.norm() > enough * b.norm(); ++k) {
+    VectorX change = left;
+    lu.solve(change.data());
+    const VectorX now = b - A * (x + change);
+    if (!(now.norm() < left.norm()))
+      return k == 0 ? change : x; // what is left has no solution
+    x += change;
+    left = now;
+  }
+  return x;
+}
+
+MatrixX null_space(const MatrixX& G) {
+  if (G.rows() == 0)
+    return MatrixX::Identity(G.cols(), G.cols());
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(G.transpose());
+  const MatrixX Q = qr.householderQ();
+  return Q.rightCols(G.cols() - qr.rank());
+}
+
+} // namespace hydrodae::solve
