@@ -10,6 +10,7 @@ debian_packages=(
   build-essential cmake ninja-build pkg-config git                     # tools
   libeigen3-dev libsundials-dev libsuitesparse-dev libtomlplusplus-dev # mathematics, case files
   libhdf5-dev libaec-dev zlib1g-dev libssl-dev                         # results, file hashes
+  libminizip-dev libpugixml-dev                                        # FMUs
   python3 python3-venv python3-dev
 )
 test_packages=(doctest-dev)

@@ -34,11 +34,13 @@ if TYPE_CHECKING:
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
     from hydrodae.study.equilibrium import equilibrium
+    from hydrodae.study.gradient import gradient, objective
     from hydrodae.study.ladder import ladder
     from hydrodae.study.rao import rao
     from hydrodae.study.sensitivity import sensitivity
     from hydrodae.study.spectral import spectral
     from hydrodae.study.sweep import sweep
+    from hydrodae.study.sweep.optimise import optimise
     from hydrodae.viewer import view
 
     __version__: str
@@ -59,9 +61,12 @@ __all__ = [
     "chart",
     "check",
     "equilibrium",
+    "gradient",
     "hdb",
     "ladder",
     "mooring",
+    "objective",
+    "optimise",
     "rao",
     "recommend",
     "run",
@@ -80,7 +85,10 @@ _LATER = {
     "chart": "study.chart",
     "check": "study.check",
     "equilibrium": "study.equilibrium",
+    "gradient": "study.gradient",
     "ladder": "study.ladder",
+    "objective": "study.gradient",
+    "optimise": "study.sweep.optimise",
     "rao": "study.rao",
     "recommend": "study.chart",
     "sensitivity": "study.sensitivity",

@@ -16,6 +16,7 @@ import numpy as np
 from cycler import cycler
 from matplotlib.figure import Figure
 
+from hydrodae import outputs
 from hydrodae.curve import Curve
 from hydrodae.errors import CaseError
 from hydrodae.panels import (
@@ -200,14 +201,13 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     CaseError
-        The ending is none that matplotlib can write.
+        The ending is none that matplotlib can write, or a file of another kind is there.
     """
     path = Path(path)
     known = figure.canvas.get_supported_filetypes()
     if path.suffix[1:].lower() not in known:
         raise CaseError(f"{path}: no such kind of picture; known are {', '.join(sorted(known))}")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    figure.savefig(outputs.claim(path, outputs.PICTURE))
     return path
 
 

@@ -2290,6 +2290,52 @@ class ForceTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def pto_lagged(
+        self,
+        name: str,
+        *,
+        joint: str,
+        lag: float,
+        load_limit: float,
+        coordinate: str = ...,
+        stiffness: float = ...,
+        neutral: float = ...,
+        damping: float = ...,
+    ) -> str:
+        """Add `[[force]]` with the type "pto_lagged".
+
+        Power take-off along a joint whose load follows -k (s - s0) - c s' with a lag.
+
+        Parameters
+        ----------
+        name : text
+            Name of this force in the results.
+        joint : text
+            Joint along which it acts.
+        coordinate : text, optional
+            Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only
+            one.
+        lag : number, s
+            Time constant T of the machine. Allowed: > 0.
+        stiffness : number, N/m or N m/rad, default 0
+            Stiffness k; negative: it pushes away from `neutral`.
+        neutral : number, m or rad, default 0
+            Joint coordinate s0 at which the spring is slack.
+        damping : number, N s/m or N m s/rad, default 0
+            Damping c. Allowed: >= 0.
+        load_limit : number, N or N m
+            Largest load F_max that is asked for. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
 
 class ControllerTypes(TypedList):
     """A sampled controller: it reads channels, and holds inputs between its instants."""
@@ -2302,6 +2348,7 @@ class ControllerTypes(TypedList):
         outputs: str | Sequence[str],
         period: float,
         delay: float = ...,
+        lag: float = ...,
         gain_p: float = ...,
         gain_i: float = ...,
         gain_d: float = ...,
@@ -2329,6 +2376,9 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
         gain_p : number, out per in, default 0
             Proportional gain Kp.
         gain_i : number, out per in and s, default 0
@@ -2365,6 +2415,7 @@ class ControllerTypes(TypedList):
         outputs: str | Sequence[str],
         period: float,
         delay: float = ...,
+        lag: float = ...,
         stiffness: float = ...,
         damping: float = ...,
         neutral: float = ...,
@@ -2388,6 +2439,9 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
         stiffness : number, N/m or N m/rad, default 0
             Stiffness K; negative: it pushes away.
         damping : number, N s/m or N m s/rad, default 0
@@ -2415,6 +2469,7 @@ class ControllerTypes(TypedList):
         outputs: str | Sequence[str],
         period: float,
         delay: float = ...,
+        lag: float = ...,
         damping: float = ...,
         limit: float = ...,
     ) -> str:
@@ -2436,10 +2491,67 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
         damping : number, N s/m or N m s/rad, default 0
             Damping C.
         limit : number, N or N m, optional
             Largest load, either way. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def bang_bang(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        lower: float,
+        upper: float,
+        delay: float = ...,
+        lag: float = ...,
+        target: float = ...,
+        band: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "bang_bang".
+
+        u = upper or lower by the sign of e = target - input, with hysteresis.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
+        target : number, unit of the input, default 0
+            What the input is to be, where no second input tells it.
+        lower : number, unit of the output
+            Least output.
+        upper : number, unit of the output
+            Largest output.
+        band : number, unit of the input, default 0
+            Half width of the hysteresis: within it the output stays. Allowed: >= 0.
 
         Returns
         -------
@@ -2492,6 +2604,54 @@ class ControllerTypes(TypedList):
         CaseError
             A key or a value is wrong.
         """
+    def declutching(
+        self,
+        name: str,
+        *,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        period: float,
+        engaged: float,
+        free_time: float,
+        lag: float = ...,
+        free: float = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "declutching".
+
+        Frees a machine from each standstill of a joint on, for some time; else it works.
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
+        engaged : number, unit of the output
+            Output while the machine works.
+        free : number, unit of the output, default 0
+            Output while the machine is free.
+        free_time : number, s
+            How long it is free from a standstill on. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
     def table(
         self,
         name: str,
@@ -2502,6 +2662,7 @@ class ControllerTypes(TypedList):
         at: _Numbers,
         value: _Numbers,
         delay: float = ...,
+        lag: float = ...,
     ) -> str:
         """Add `[[controller]]` with the type "table".
 
@@ -2521,6 +2682,9 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
         at : list of numbers, unit of the input
             Values of the input, ascending.
         value : list of numbers, unit of the output
@@ -2544,6 +2708,7 @@ class ControllerTypes(TypedList):
         period: float,
         inputs: str | Sequence[str] = ...,
         delay: float = ...,
+        lag: float = ...,
     ) -> str:
         """Add `[[controller]]` with the type "python".
 
@@ -2563,6 +2728,9 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
 
         Returns
         -------
@@ -2582,6 +2750,7 @@ class ControllerTypes(TypedList):
         period: float,
         inputs: str | Sequence[str] = ...,
         delay: float = ...,
+        lag: float = ...,
         protocol: _TcpProtocol = ...,
         role: _TcpRole = ...,
         host: str = ...,
@@ -2607,6 +2776,9 @@ class ControllerTypes(TypedList):
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
             Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
         protocol : text, default "hydrodae"
             hydrodae: a handshake with names and units, then numbered frames; hotint: bare
             numbers with a flag (docs/tcp.md). Allowed: hydrodae, hotint.
@@ -2621,6 +2793,63 @@ class ControllerTypes(TypedList):
             Longest wait for an answer. Allowed: > 0.
         connect_timeout : number, s, default 60
             Longest wait for the other program to be there. Allowed: > 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def fmu(
+        self,
+        name: str,
+        *,
+        outputs: str | Sequence[str],
+        period: float,
+        file: str,
+        fmu_outputs: str | Sequence[str],
+        inputs: str | Sequence[str] = ...,
+        delay: float = ...,
+        lag: float = ...,
+        fmu_inputs: str | Sequence[str] = ...,
+        parameters: str | Sequence[str] = ...,
+        parameter_values: _Numbers = ...,
+    ) -> str:
+        """Add `[[controller]]` with the type "fmu".
+
+        An FMU for co-simulation (fmi-standard.org).
+
+        Parameters
+        ----------
+        name : text
+            Name of the controller in the results.
+        inputs : text or list of texts, optional
+            Channels that it reads, as in the results; of a vector one component:
+            "bodies/float/velocity.z".
+        outputs : text or list of texts
+            Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
+            them).
+        period : number, s
+            Time T between two sampling instants; the first is the start. Allowed: > 0.
+        delay : number, s, default 0
+            Time from a sampling instant to the one when its answer holds. Allowed: >= 0.
+        lag : number, s, default 0
+            Time constant of the actuator: its output follows what the controller holds like a
+            filter of first order. Allowed: >= 0.
+        file : text
+            FMU for co-simulation, version 2.0 or 3.0 of FMI.
+        fmu_inputs : text or list of texts, optional
+            Its input for each of `inputs`.
+        fmu_outputs : text or list of texts
+            Its output for each of `outputs`.
+        parameters : text or list of texts, optional
+            Parameters of it that are set before the start.
+        parameter_values : list of numbers, as the FMU says, optional
+            Their values.
 
         Returns
         -------

@@ -123,7 +123,10 @@ def run(
         raise
     results = Results(path, owner=folder)
     if status == "interrupted":
-        stopped = RunInterrupted(f"stopped at t = {results.end_time:g} s of {case.end_time:g} s")
+        why = "" if results.message in ("", "stopped on request") else f": {results.message}"
+        stopped = RunInterrupted(
+            f"stopped at t = {results.end_time:g} s of {case.end_time:g} s{why}"
+        )
         stopped.results = results
         raise stopped
     return results

@@ -107,7 +107,7 @@ def test_every_name_and_place_of_the_tables_is_known() -> None:
     """A key that is added to the tables has to be known here, or copies would share it."""
     words = {
         "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file",
-        "protocol", "role", "host", "law",
+        "protocol", "role", "host", "law", "fmu_inputs", "fmu_outputs", "parameters",
     }  # fmt: skip
     for table in (t for t in tables() if t.name in arrays.OF_UNITS):
         for kind in (table, *table.types):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,11 +12,17 @@ import pytest
 
 import hydrodae
 from hydrodae import _core, cli
+from hydrodae.starters import create
 from hydrodae.study.sweep.plan import read_study
+from hydrodae.study.sweep.problem import read_problem
 
 #: Pages whose Python blocks run from the root of the repository, one after the other; those of
 #: python.md run in test_functions.py, that of tcp.md needs a program at the other end.
-RUN = ("docs/results.md", "docs/forces.md")
+RUN = ("docs/results.md", "docs/forces.md", "docs/sweeps.md", "docs/view.md", "docs/databases.md")
+#: Names that a page takes as given.
+GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}
+#: Pages whose calls of hydrodae run one after the other; `cd` changes the folder.
+RUN_COMMANDS = ("docs/commands.md", "docs/first_steps.md", "docs/control.md")
 
 
 def pages(repository: Path) -> list[Path]:
@@ -65,7 +72,10 @@ def test_every_table_of_the_pages_is_one_that_the_kernel_reads(repository: Path)
 
 def test_studies_of_the_pages_can_be_read(repository: Path, tmp_path: Path) -> None:
     pytest.importorskip("rainflow")
-    study, *more = blocks(repository / "docs" / "sweeps.md", "toml")
+    study, *more, problem = blocks(repository / "docs" / "sweeps.md", "toml")
+    squid = repository / "cases" / "4n3la" / "take_offs.toml"
+    assert tomllib.loads(problem) == tomllib.loads(squid.read_text())
+    assert read_problem(squid).maximise
     (tmp_path / "scatter.csv").write_text("height,period,hours\n1.0,6.0,100\n")
     (tmp_path / "study.toml").write_text(study + "\n".join(more))
     found = read_study(tmp_path / "study.toml")
@@ -78,10 +88,36 @@ def test_studies_of_the_pages_can_be_read(repository: Path, tmp_path: Path) -> N
 def test_code_of_a_page_runs(name, repository, tmp_path, monkeypatch, capsys) -> None:
     (tmp_path / "cases").symlink_to(repository / "cases")
     monkeypatch.chdir(tmp_path)
-    known: dict[str, object] = {}
+    known: dict[str, object] = dict(GIVEN.get(name, {}))
     for text in blocks(repository / name, "python"):
         exec(compile(text, name, "exec"), known)
     assert capsys.readouterr().out.strip()
+
+
+@pytest.mark.parametrize("name", RUN_COMMANDS)
+def test_commands_of_a_page_run(name, repository, tmp_path, monkeypatch) -> None:
+    (tmp_path / "cases").symlink_to(repository / "cases")
+    monkeypatch.chdir(tmp_path)
+    done = 0
+    for line in "".join(blocks(repository / name, "sh")).splitlines():
+        words = shlex.split(line, comments=True)
+        if words[0] == "cd":
+            monkeypatch.chdir(words[1])
+        elif words[0] == "hydrodae":
+            assert cli.main(words[1:]) == 0, line
+            done += 1
+    assert done > 0
+
+
+def test_code_of_the_page_for_spectral_runs(repository, tmp_path, monkeypatch, capsys) -> None:
+    """On a starter, whose buoy has the name that the page has."""
+    case = create("point_absorber", tmp_path / "case")
+    monkeypatch.chdir(case.parent)
+    text = case.read_text().replace('name = "buoy"', 'name = "float"')
+    case.write_text(text.replace('body_b = "buoy"', 'body_b = "float"'))
+    (code,) = blocks(repository / "docs" / "spectral.md", "python")
+    exec(compile(code, "spectral.md", "exec"), {})
+    assert "difference" in capsys.readouterr().out
 
 
 def test_code_of_the_pages_for_controllers_and_forces_runs(

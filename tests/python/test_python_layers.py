@@ -15,7 +15,7 @@ import pytest
 #: unless a part of it is listed by itself; those of one layer do not import each other.
 LAYERS = [
     {"errors", "extras", "progress", "tcp", "units", "version"},
-    {"names", "starters"},
+    {"names", "outputs", "starters"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "tables"},
     {"infinity"},
@@ -25,6 +25,7 @@ LAYERS = [
     # one database
     {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
     {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.extra", "hdb.interaction"},
+    {"hdb.causality", "hdb.shallow"},  # relations of tables, and what a run tells
     {"hdb.mesh_statics"},
     {"hdb.tables"},
     {"hdb.scales", "hdb.files", "hdb.summary"},
@@ -38,7 +39,7 @@ LAYERS = [
     # one case
     {"controllers", "drives", "laws"},
     {"case"},
-    {"builder"},
+    {"builder", "case_tables"},
     {"simulate", "simulation", "frequency", "scene"},
     {"states", "mooring", "fmu", "arrays"},
     {"control"},

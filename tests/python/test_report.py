@@ -58,10 +58,17 @@ def flap(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def test_a_report_replaces_nothing_but_pages(flap: Path) -> None:
+    before = (flap / "case.h5").read_bytes()
+    with pytest.raises(ResultsError, match=r"case.h5: a report needs a name that ends in .html"):
+        report(flap / "case.h5", flap / "case.h5")
+    assert (flap / "case.h5").read_bytes() == before
+
+
 def test_report_of_a_run_holds_all_and_needs_no_other_file(flap: Path) -> None:
     results = Results.read(flap / "case.h5")
     path = report(flap / "case.h5")
-    assert path == flap / "case.html"
+    assert path == flap / "case_report.html"
     text = path.read_text()
     page = Page(text)
     assert all(place.startswith("data:image/") for place in page.sources)

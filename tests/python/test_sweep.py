@@ -236,6 +236,9 @@ def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:
     np.testing.assert_allclose(found["annual_energy"], joules)
     assert (found["wall_time"] > 0.0).all()
     assert "annual energy, spectral" in text(found)
+    half = found["mean_power_absorbed_interval"] / found["mean_power_absorbed_mean"]
+    widest = 100.0 * float(half.sel(rung="time").max())
+    assert f"time, W (95 % interval at most {widest:.2g} % to each side; " in text(found)
 
 
 def test_capture_width_is_power_over_the_flux_of_the_waves(tmp_path: Path) -> None:

@@ -27,10 +27,13 @@ SCHEMA = case_schema()
 
 
 def test_every_case_of_the_repository_fits_the_schema(repository: Path) -> None:
-    files = sorted((repository / "cases").rglob("*.toml"))
-    assert len(files) > 20
-    for file in files:
-        case = tomllib.loads(file.read_text())
+    read = {
+        file: tomllib.loads(file.read_text())
+        for file in sorted((repository / "cases").rglob("*.toml"))
+    }
+    cases = {file: case for file, case in read.items() if "case" not in case}  # else a study
+    assert len(cases) > 20
+    for file, case in cases.items():
         assert errors(SCHEMA, case) == [], file
         if importlib.util.find_spec("jsonschema"):  # not required: the small validator does
             import jsonschema

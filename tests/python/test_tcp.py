@@ -212,8 +212,10 @@ NUMBERED_FAULTS: dict[str, tuple[Callable[[socket.socket], None], str]] = {
 def test_faults_of_a_peer_are_one_clear_error(name: str) -> None:
     act, message = NUMBERED_FAULTS[name]
     port = free_port()
+    began = time.monotonic()
     with pytest.raises(SolverError, match=message) as caught:
         with_peer(case(port), raw_peer(port, act))
+    assert time.monotonic() - began < 10.0  # the timeout is 1 s, on a machine with other work
     assert "controller 'pi'" in str(caught.value)
     assert caught.value.results is not None
     assert caught.value.results.status == "failed"
@@ -245,12 +247,13 @@ def test_faults_of_a_bare_peer(act: Callable[[socket.socket], None], message: st
         with_peer(case(port, 'protocol = "hotint"'), raw_peer(port, act))
 
 
-def test_random_frames_never_crash_or_hang() -> None:
+@pytest.mark.parametrize("count", [200, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_random_frames_never_crash_or_hang(count: int) -> None:
     """Frames with a few wrong bytes, cut off or drawn at random: an answer, or one error."""
     random.seed(7)
     good = frame(1, 0.0, 1.0)
     refused = 0
-    for k in range(200):
+    for k in range(count):
         data = bytearray(good)
         if k % 2:
             data = bytearray(random.randbytes(random.randrange(1, 60)))
@@ -261,7 +264,7 @@ def test_random_frames_never_crash_or_hang() -> None:
             with_peer(case(port, end=0.05), raw_peer(port, answers(bytes(data), wait=False)))
         except (SolverError, hydrodae.RunInterrupted):
             refused += 1
-    assert refused > 150
+    assert refused > 0.75 * count
 
 
 def test_a_port_in_use_is_told_before_the_run() -> None:

@@ -132,3 +132,24 @@ def test_moored_in_an_irregular_sea(rm3_planar: Path) -> None:
         tension = run[f"forces/{name}/tension"].values[late]
         assert np.mean(tension) == pytest.approx(static, rel=5e-3)
         assert 0.9 * static < tension.min() < tension.max() < 1.1 * static
+
+
+@pytest.mark.long
+def test_dynamic_lines_in_an_irregular_sea(rm3_planar: Path) -> None:
+    """cases/rm3/moored_lines.toml: at rest as catenaries; tolerances hold what they say."""
+    case = hydrodae.Case(path=rm3_planar / "moored_lines.toml")
+    rest = hydrodae.equilibrium(case)
+    names = ("bow", "port", "starboard")
+    tensions = [rest.tensions[f"forces/{name}/tension"] for name in names]
+    assert tensions == pytest.approx([162.1e3] * 3, rel=5e-3)
+    channels = [f"forces/{name}/tension" for name in names] + [SLIDE]
+    found, exact = (
+        hydrodae.run(hydrodae.Case(path=case.path, values={"solver.rtol": rtol}))
+        for rtol in (1e-3, 1e-6)
+    )
+    for channel in channels:
+        true = exact[channel].values
+        assert np.std(true[1000:]) > (1e3 if "tension" in channel else 0.1)
+        difference = found[channel].values - true
+        assert np.sqrt(np.mean(difference**2)) < 3e-4 * np.std(true[1000:])
+    assert np.mean(exact[channels[0]].values[1000:]) == pytest.approx(tensions[0], rel=5e-3)

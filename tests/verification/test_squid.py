@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +14,8 @@ import pytest
 
 import hydrodae
 from hydrodae import hdb
+from hydrodae.frequency import LinearModel, without_memory
+from hydrodae.study.gradient.parameters import read_parameter, values_of
 
 RADIATION = {"hydro.radiation": "constant", "hydro.frequency": 3.0}
 
@@ -128,3 +131,27 @@ def test_runs_in_small_waves_are_as_the_linear_model(cases: Any, tmp_path: Path)
             seen = study.harmonic(results, channel, period, start, light)[1:]
             largest = np.abs(study.turns(known, parts.SQUID, "LA2", "S2")[:, 1:]).max()
             assert np.abs(seen - turns).max() < 0.01 * largest
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:memory fit .all. finds no radiation")
+def test_best_take_offs_are_as_good_as_those_of_a_grid(
+    cases: Any, repository: Path, tmp_path: Path
+) -> None:
+    """Fewer linearisations by gradients than a grid of 20 x 20 has, and no less power."""
+    place = repository / "cases" / "4n3la"
+    for name in ("irregular.toml", "take_offs.toml"):
+        (tmp_path / name).write_text((place / name).read_text())
+    cases("parts").database(cases("parts").SQUID, fit=False).write(tmp_path / "hydro.h5")
+    found = hydrodae.optimise(tmp_path / "take_offs.toml", tmp_path / "take_offs.nc")
+    assert found.calls < 400
+    case = without_memory(tmp_path / "irregular.toml")[0]
+    keys = [[f"force.pto_*.{key}[{n}]" for n in (1, 2)] for key in ("stiffness", "damping")]
+    parameters = [read_parameter(case, key) for key in keys]
+    first = LinearModel(case)
+    best = 0.0
+    for x in itertools.product(np.linspace(0.0, 300.0, 20), np.linspace(1.0, 100.0, 20)):
+        model = LinearModel(case.with_values(values_of(parameters, x)))
+        power = model.sharing_tables_of(first).irregular()[1]
+        best = max(best, sum(power.values()))
+    assert found.value >= best

@@ -22,6 +22,7 @@ EXAMPLES = {
     "sweep": (
         "hydrodae sweep power_matrix.toml",
         "hydrodae sweep power_matrix.toml --jobs 4 -o power.nc",
+        "hydrodae sweep best_damper.toml --optimise",
     ),
     "mooring": (
         "hydrodae mooring linearise case.toml",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from hydrodae.hdb.findings import CheckReport
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao
+    from hydrodae.study.sweep.optimise import Optimum
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -103,6 +104,20 @@ def of_sweep(results: xarray.Dataset) -> dict[str, Any]:
     found = results.to_dict()
     found["attrs"] = {key: found["attrs"][key] for key in ("hydrodae",) if key in found["attrs"]}
     return found
+
+
+def of_optimum(found: Optimum) -> dict[str, Any]:
+    """Best values, and every evaluation."""
+    return {
+        "values": found.values,
+        "keys": found.keys,
+        "value": found.value,
+        "unit": found.unit,
+        "evaluations": found.evaluations,
+        "calls": found.calls,
+        "message": found.message,
+        "dataset": of_sweep(found.dataset),
+    }
 
 
 def of_database(database: HydroDatabase, report: CheckReport) -> dict[str, Any]:

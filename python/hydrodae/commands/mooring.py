@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from hydrodae import outputs
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the commands below `hydrodae mooring`."""
@@ -60,6 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what one of the commands asks for; returns 0."""
+    if arguments.output is not None:
+        outputs.claim(arguments.output, outputs.TABLES)
     text: str = arguments.work(arguments)
     if arguments.output is None:
         print(text, end="")

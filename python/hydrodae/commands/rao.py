@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 import numpy as np
 
@@ -66,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     if opening and not arguments.json:
         print(opening)
     if arguments.output:
-        output.check_ending(Path(arguments.output))
+        output.check_output(arguments.output)
     found = rao(
         model, periods=_periods(arguments.periods), heading=float(np.radians(arguments.heading))
     )

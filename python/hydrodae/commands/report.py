@@ -15,7 +15,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "sweep.",
     )
     parser.add_argument("results", metavar="RESULTS", help="results of run (.h5) or sweep (.nc)")
-    parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS with .html")
+    parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS_report.html")
     parser.set_defaults(call=run)
 
 

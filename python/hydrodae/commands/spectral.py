@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from hydrodae.commands.arguments import given_case
-from hydrodae.study.rao.output import check_ending
+from hydrodae.study.rao.output import check_output
 from hydrodae.study.spectral import spectral
 
 
@@ -38,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print standard deviations, mean powers and the damping used, and those of runs if asked."""
     if arguments.output:
-        check_ending(Path(arguments.output))
+        check_output(arguments.output)
     found = spectral(given_case(arguments))
     print(found)
     if arguments.output:

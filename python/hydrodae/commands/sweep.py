@@ -6,9 +6,12 @@ import argparse
 from pathlib import Path
 
 from hydrodae.case import parse_assignment
-from hydrodae.commands.machine import add_json, of_sweep, print_json
+from hydrodae.commands.machine import add_json, of_optimum, of_sweep, print_json
+from hydrodae.errors import CaseError
 from hydrodae.progress import ProgressLine
 from hydrodae.study.sweep import sweep, text
+from hydrodae.study.sweep.optimise import optimise
+from hydrodae.study.sweep.optimise import text as told
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,6 +30,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="ADDRESS",
         help="run on the workers of this scheduler of dask.distributed, such as tcp://head:8786",
     )
+    parser.add_argument(
+        "--optimise",
+        action="store_true",
+        help="find the best values of the parameters in [optimise], by gradients",
+    )
     add_json(parser)
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
@@ -39,6 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     CaseError
         As `hydrodae.sweep`.
     """
+    if arguments.optimise:
+        return _optimise(arguments)
     output = Path(arguments.output or Path(arguments.study).with_suffix(".nc"))
     values = dict(map(parse_assignment, arguments.set))
     with ProgressLine(Path(arguments.study).name, "runs") as progress:
@@ -54,5 +64,21 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(of_sweep(results))
         return 0
     print(text(results))
+    print(f"written: {output}")
+    return 0
+
+
+def _optimise(arguments: argparse.Namespace) -> int:
+    if arguments.jobs is not None or arguments.scheduler is not None:
+        raise CaseError("--optimise evaluates one point after the other: no --jobs, --scheduler")
+    output = Path(arguments.output or Path(arguments.study).with_suffix(".nc"))
+    values = dict(map(parse_assignment, arguments.set))
+    with ProgressLine(Path(arguments.study).name, "evaluations") as progress:
+        shown = None if arguments.quiet else progress
+        found = optimise(arguments.study, output, set=values, progress=shown)
+    if arguments.json:
+        print_json(of_optimum(found))
+        return 0
+    print(told(found))
     print(f"written: {output}")
     return 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from hydrodae import outputs
 from hydrodae.results import Results, ResultsError
 
 __all__ = ["report"]
@@ -18,7 +19,7 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
     source : path
         Results file of a run (HDF5), or of a sweep (netCDF).
     output : path, optional
-        Default: `source` with the ending .html.
+        Ends in .html; default: that of `source` with _report.html in place of its ending.
 
     Returns
     -------
@@ -28,12 +29,14 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
     Raises
     ------
     ResultsError
-        `source` is neither.
+        `source` is neither, or `output` is not named as a page.
     """
     path = Path(source)
-    target = Path(output) if output is not None else path.with_suffix(".html")
+    target = Path(output) if output is not None else path.with_name(f"{path.stem}_report.html")
+    if target.suffix != ".html":
+        raise ResultsError(f"{target}: a report needs a name that ends in .html")
+    outputs.claim(target, outputs.PAGE)
     text = _page(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(text, encoding="utf-8")
     return target
 

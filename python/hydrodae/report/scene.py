@@ -98,6 +98,7 @@ _LADDERS = {
     "power take-offs": (
         "pto_linear",
         "pto_general",
+        "pto_lagged",
         "pto_hydraulic",
         "pto_rotary",
         "python_load",

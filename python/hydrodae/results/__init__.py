@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from hydrodae import outputs
 from hydrodae.results.recording import (
     ChannelError,
     Recording,
@@ -110,6 +111,8 @@ class Results(Recording):
         ------
         ResultsError
             `path` is the results file itself.
+        CaseError
+            A file of another kind is there.
         ChannelError
             The pattern matches nothing.
         """
@@ -117,7 +120,7 @@ class Results(Recording):
         if path.exists() and path.samefile(self.path):
             raise ResultsError(f"{path}: is the results file itself; write the copy elsewhere")
         tree = self.to_datatree(pattern)
-        path.parent.mkdir(parents=True, exist_ok=True)
+        outputs.claim(path, outputs.NETCDF)
         tree.to_netcdf(path, engine="netcdf4")
         return path
 

@@ -100,7 +100,7 @@ def _rung(name: str, solve: Callable[[], tuple[float, float]], truth: float) -> 
 
 
 def _ramp(case: Case) -> float:
-    from hydrodae.study.spectral.tables import case_tables
+    from hydrodae.case_tables import case_tables
 
     return float(case_tables(case).get("sea", {}).get("ramp", 0.0))
 

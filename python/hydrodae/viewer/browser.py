@@ -12,6 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+from hydrodae import outputs
 from hydrodae.errors import HydrodaeError
 from hydrodae.extras import install_command
 
@@ -140,7 +141,7 @@ def picture(text: str, path: Path, time: float, size: tuple[int, int]) -> Path:
     """
     if path.suffix.lower() not in PICTURES:
         raise ViewError(f"{path}: no such kind of picture; known are {', '.join(PICTURES)}")
-    path.parent.mkdir(parents=True, exist_ok=True)
+    outputs.claim(path, outputs.PICTURE)
 
     def draw() -> None:
         with opened(text, size, sharp=1.5) as page:
@@ -171,7 +172,7 @@ def video(
     if flags is None:
         raise ViewError(f"{path}: no such kind of video; known are {', '.join(ENCODERS)}")
     ffmpeg = find_ffmpeg()
-    path.parent.mkdir(parents=True, exist_ok=True)
+    outputs.claim(path, outputs.VIDEO)
     even = (size[0] // 2 * 2, size[1] // 2 * 2)  # the coding of colours takes pairs of pixels
     command = [ffmpeg, "-y", "-loglevel", "error", "-f", "image2pipe", "-c:v", "mjpeg"]
     command += ["-framerate", f"{rate:g}", "-i", "-", *flags, str(path)]

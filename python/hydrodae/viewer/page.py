@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from hydrodae import outputs
 from hydrodae.version import version
 from hydrodae.viewer.framing import Frame
 from hydrodae.viewer.stage import Stage
@@ -165,6 +166,5 @@ def _read(folder: Any, name: str) -> str:
 
 def write_page(text: str, path: Path) -> Path:
     """Write the HTML to a file, whose folder is made."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    outputs.claim(path, outputs.PAGE).write_text(text, encoding="utf-8")
     return path

@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.outputs import claim_folder
 from hydrodae.viewer.framing import Frame
 from hydrodae.viewer.stage import Sea, Stage
 
@@ -40,7 +41,7 @@ def write_paraview(stage: Stage, frame: Frame, folder: Path) -> list[Path]:
     list of Path
         What was written; `README.txt` tells the numbers of the bodies and lines.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    claim_folder(folder)
     written = []
     if any(len(body.surface) for body in stage.bodies):
         written.append(_bodies(stage, folder / "bodies.vtkhdf"))

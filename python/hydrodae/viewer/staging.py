@@ -15,7 +15,7 @@ from hydrodae.viewer.source import Run, Source, tables_of
 from hydrodae.viewer.stage import Joint, Stage
 
 #: Forces that take power, or are controlled: their joint is marked.
-DRIVES = ("pto_linear", "pto_hydraulic", "pto_general", "pto_rotary")
+DRIVES = ("pto_linear", "pto_lagged", "pto_hydraulic", "pto_general", "pto_rotary")
 #: Most samples that a page holds; a longer run is thinned out.
 MOST_SAMPLES = 4000
 

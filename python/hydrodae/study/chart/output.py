@@ -13,6 +13,7 @@ import matplotlib
 from matplotlib.figure import Figure
 from rich.table import Table
 
+from hydrodae import outputs
 from hydrodae.plot import COLORS, STYLE
 from hydrodae.study.chart.records import Chart, Run
 
@@ -35,8 +36,7 @@ def write_json(chart: Chart, path: str | os.PathLike[str]) -> Path:
     -------
     Path
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path = outputs.claim(path, outputs.JSON)
     front = chart.front()
     document = {"format": "hydrodae-chart", "format_version": 1, **asdict(chart)}
     document["runs"] = [{**asdict(run), "on_front": run in front} for run in chart.runs]

@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from hydrodae import outputs
 from hydrodae.errors import CaseError
 from hydrodae.frequency import Response
 from hydrodae.plot import STYLE, outside_legend
@@ -36,11 +37,9 @@ def write(path: str | os.PathLike[str], response: Response) -> Path:
     Raises
     ------
     CaseError
-        Another ending.
+        Another ending, or a file of another kind is there.
     """
-    path = Path(path)
-    check_ending(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path = check_output(path)
     if path.suffix.lower() in CSV:
         _write_csv(path, response)
     else:
@@ -48,13 +47,21 @@ def write(path: str | os.PathLike[str], response: Response) -> Path:
     return path
 
 
-def check_ending(path: Path) -> None:
-    """Refuse a file name whose ending says no kind of file."""
+def check_output(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a file that may be written.
+
+    Raises
+    ------
+    CaseError
+        Its ending says no kind of file, or a file of another kind is there.
+    """
+    path = Path(path)
     if path.suffix.lower() not in (*CSV, *NETCDF):
         raise CaseError(
             f"{path}: the ending says the kind of file, {', '.join((*CSV, *NETCDF))}, "
             f"not {path.suffix!r}"
         )
+    return outputs.claim(path, outputs.CSV if path.suffix.lower() in CSV else outputs.NETCDF)
 
 
 def dataset(response: Response) -> xarray.Dataset:

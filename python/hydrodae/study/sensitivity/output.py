@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from hydrodae import outputs
 from hydrodae.study.sensitivity.measure import Row
 
 
@@ -35,7 +36,10 @@ def write(name: str | os.PathLike[str], title: str, rows: Sequence[Row]) -> list
         {k: None if isinstance(v, float) and np.isnan(v) else v for k, v in asdict(row).items()}
         for row in rows
     ]
-    data.write_text(json.dumps({"case": title, "rows": entries}, indent=1) + "\n")
+    picture = outputs.claim(base.with_suffix(".png"), outputs.PICTURE)
+    outputs.claim(data, outputs.JSON).write_text(
+        json.dumps({"case": title, "rows": entries}, indent=1) + "\n"
+    )
     names = list(dict.fromkeys(row.variant for row in rows))[1:]
     results = list(dict.fromkeys(row.result for row in rows))
     figure = Figure(figsize=(8.0, 1.5 + 0.3 * len(names)), layout="constrained")
@@ -51,6 +55,5 @@ def write(name: str | os.PathLike[str], title: str, rows: Sequence[Row]) -> list
     axes.set_title(title)
     axes.grid(alpha=0.3)
     figure.legend(loc="outside lower center", ncols=2, fontsize="small")
-    picture = base.with_suffix(".png")
     figure.savefig(picture, dpi=120)
     return [data, picture]

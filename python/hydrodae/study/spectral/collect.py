@@ -7,55 +7,16 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel
+from hydrodae.frequency.bodies import Bodies
 from hydrodae.study.spectral.factors import Law
 from hydrodae.study.spectral.laws import law_of
 from hydrodae.study.spectral.loads import AlongJoint, Load, by_components, drag
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Any]
-
-DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-
-
-class Bodies:
-    """Velocities of points of the bodies from the rates xi' of a linear model, at its rest."""
-
-    def __init__(self, model: LinearModel, tables: Table) -> None:
-        self.model = model
-        self._bodies = {body["name"]: body for body in tables.get("body", [])}
-
-    def center(self, name: str) -> Array:
-        """Centre of gravity at rest [m]."""
-        given = np.asarray(self._bodies[name]["center_of_gravity"], dtype=float)
-        return np.asarray(given + np.asarray(self.model.offsets[name], dtype=float))
-
-    def rotation(self, name: str) -> Array:
-        """R (3, 3) at rest."""
-        turned = Rotation.from_rotvec(self.model.rotations[name])
-        return np.asarray(turned.as_matrix(), dtype=float)
-
-    def moves(self, name: str) -> bool:
-        """Tell whether it has any coordinate."""
-        return any(label.startswith(f"bodies/{name}/") for label in self.model.coordinates)
-
-    def twist(self, name: str, point: Array) -> Array:
-        """Velocity at a world point and angular velocity, world axes: (6, n_u) over xi'."""
-        out = np.zeros((6, len(self.model.coordinates)))
-        axes, arm = self.rotation(name), point - self.center(name)
-        for column, label in enumerate(self.model.coordinates):
-            if not label.startswith(f"bodies/{name}/"):
-                continue
-            k = DOFS.index(label.rpartition("/")[2])
-            if k < 3:
-                out[k, column] = 1.0
-            else:
-                out[:3, column] = np.cross(axes[:, k - 3], arm)
-                out[3:, column] = axes[:, k - 3]
-        return out
 
 
 def morison_loads(bodies: Bodies, tables: Table, density: float) -> list[Load]:

@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae.case_tables import case_tables
 from hydrodae.frequency import LinearModel
-from hydrodae.study.spectral.collect import Bodies, joint_loads, morison_loads, viscous_loads
+from hydrodae.frequency.bodies import Bodies
+from hydrodae.study.spectral.collect import joint_loads, morison_loads, viscous_loads
 from hydrodae.study.spectral.loads import AlongJoint, Load
 from hydrodae.study.spectral.solve import Equivalents
-from hydrodae.study.spectral.tables import case_tables
 
 
 def nonlinear_loads(model: LinearModel) -> tuple[list[Load], LinearModel]:

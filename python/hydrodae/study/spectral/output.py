@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.study.rao.output import CSV, check_ending
+from hydrodae.study.rao.output import CSV, check_output
 
 if TYPE_CHECKING:
     import xarray
@@ -38,11 +38,9 @@ def write(path: str | os.PathLike[str], found: Any) -> Path:
     Raises
     ------
     CaseError
-        Another ending.
+        Another ending, or a file of another kind is there.
     """
-    path = Path(path)
-    check_ending(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path = check_output(path)
     if path.suffix.lower() in CSV:
         _write_csv(path, found)
     else:

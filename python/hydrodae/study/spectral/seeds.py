@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.simulate import run
-from hydrodae.study.spectral.tables import case_tables
 from hydrodae.units import displayed
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")

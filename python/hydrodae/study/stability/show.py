@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hydrodae import outputs
 from hydrodae.study.stability.grid import PASS, REFUSED, STOPPED, WRONG, Cell
 
 if TYPE_CHECKING:
@@ -103,7 +104,9 @@ def reasons(cells: Sequence[Cell]) -> list[str]:
 def write_json(cells: Sequence[Cell], path: str | Path) -> None:
     """Write the cells as JSON."""
     document = {"cells": [cell.record() for cell in cells]}
-    Path(path).write_text(json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    outputs.claim(path, outputs.JSON).write_text(
+        json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8"
+    )
 
 
 def write_picture(
@@ -140,7 +143,7 @@ def write_picture(
         handles=[Patch(color=colour, label=name) for name, colour in COLOURS.items()],
         loc="outside lower center", ncols=4, frameon=False,
     )  # fmt: skip
-    figure.savefig(path, dpi=150 if panels == 1 else 80)
+    figure.savefig(outputs.claim(path, outputs.PICTURE), dpi=150 if panels == 1 else 80)
 
 
 def _draw_grid(

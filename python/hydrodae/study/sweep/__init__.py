@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.case import Case
+from hydrodae import outputs
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
+from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import dataset, text, write
 from hydrodae.version import version
 
@@ -60,12 +60,12 @@ def sweep(
     Raises
     ------
     CaseError
-        The study or its case cannot be used, or another sweep is writing the same file.
+        The study or its case cannot be used, another sweep is writing the same file, or `output` is
+        a file of another kind.
     """
     plan = read_study(study)
-    case = Case(path=plan.case, values=set or {})
-    target = Path(output)
-    target.parent.mkdir(parents=True, exist_ok=True)
+    case = open_case(plan.case, set or {}, plan.rungs)
+    target = outputs.claim(output, outputs.NETCDF)
     case.with_values(
         {k: v for k, v in plan.points[0].items() if k != RUNG}
     )  # a wrong key is told before anything runs

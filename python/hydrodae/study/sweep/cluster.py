@@ -6,12 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.extras import install_command
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import Point, point_key
 from hydrodae.study.sweep.pool import run_case
+from hydrodae.study.sweep.rungs import open_case
 from hydrodae.version import version
 
 #: How long a scheduler may take to answer [s].
@@ -19,10 +21,8 @@ PATIENCE = 30.0
 
 
 @lru_cache(maxsize=4)
-def _case(path: str, values: tuple[tuple[str, Any], ...]) -> Any:
-    from hydrodae.case import Case
-
-    return Case(path=path, values=dict(values))
+def _case(path: str, values: tuple[tuple[str, Any], ...], rungs: tuple[str, ...]) -> Case:
+    return open_case(path, dict(values), rungs)
 
 
 def run_there(
@@ -34,9 +34,9 @@ def run_there(
 ) -> Row:
     """Run a point in a worker, which reads the case once."""
     try:
-        case = _case(path, tuple(values.items()))
+        case = _case(path, tuple(values.items()), rungs)
     except TypeError:  # values that cannot be compared, such as lists
-        case = _case.__wrapped__(path, tuple(values.items()))
+        case = _case.__wrapped__(path, tuple(values.items()), rungs)
     return run_case(case, measures, rungs, point)
 
 

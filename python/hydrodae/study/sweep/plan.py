@@ -54,11 +54,12 @@ class Study:
 
     def identity(self, case: Case) -> str:
         """A hash of all that the numbers of a point depend on, but for the point itself."""
-        parts = [version(), case.text, *(f"{m}" for m in self.measures), _digest_of_files(case)]
+        parts = [version(), case.text, *(f"{m}" for m in self.measures), digest_of_files(case)]
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
-def _digest_of_files(case: Case) -> str:
+def digest_of_files(case: Case) -> str:
+    """SHA-256 of the database of a case, "" where it has none."""
     path = case.scene.database_path
     return hashlib.sha256(Path(path).read_bytes()).hexdigest() if path else ""
 
@@ -76,7 +77,9 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         given = tomllib.loads(file.read_text())
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise CaseError(f"{file}: {error}") from None
-    _known(file, "", given, TABLES)
+    if "optimise" in given:
+        raise CaseError(f"{file}: has the table [optimise]: call it with --optimise")
+    known(file, "", given, TABLES)
     if not isinstance(given.get("case"), str):
         raise CaseError(f"{file}: key 'case': the path of a case file is needed")
     points, dimensions = _points(file, given)
@@ -160,7 +163,7 @@ def _latin_hypercube(file: Path, table: Any) -> list[Point]:
     """Samples of which each key has one in each of `samples` equal parts of its range."""
     if table is None:
         return [{}]
-    _known(file, "latin_hypercube", table, ("samples", "seed", "range"))
+    known(file, "latin_hypercube", table, ("samples", "seed", "range"))
     samples, ranges = table.get("samples"), table.get("range")
     if not isinstance(samples, int) or samples < 1 or not isinstance(ranges, dict) or not ranges:
         raise CaseError(
@@ -180,7 +183,7 @@ def _from_table(file: Path, table: Any) -> list[Point]:
     """The rows of a CSV file whose first line names the keys."""
     if table is None:
         return [{}]
-    _known(file, "table", table, ("file",))
+    known(file, "table", table, ("file",))
     rows = _read_csv(file, "table", table.get("file"))
     return [{key: _value(text) for key, text in row.items()} for row in rows]
 
@@ -209,7 +212,7 @@ def _value(text: str) -> Any:
 def _scatter(file: Path, table: Any, point: Point) -> Scatter | None:
     if table is None:
         return None
-    _known(file, "scatter", table, ("file", "height", "period"))
+    known(file, "scatter", table, ("file", "height", "period"))
     keys = [table.get(name) for name in ("height", "period")]
     if any(key not in point for key in keys):
         raise CaseError(
@@ -226,7 +229,8 @@ def _scatter(file: Path, table: Any, point: Point) -> Scatter | None:
     return Scatter(keys[0], keys[1], *columns)
 
 
-def _known(file: Path, where: str, table: Any, names: Sequence[str]) -> None:
+def known(file: Path, where: str, table: Any, names: Sequence[str]) -> None:
+    """Raise CaseError for a key of a table that is none of these."""
     if not isinstance(table, dict):
         raise CaseError(f"{file}: [{where}]: expected a table")
     for name in table:

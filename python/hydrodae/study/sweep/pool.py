@@ -16,7 +16,7 @@ from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, Point, point_key
-from hydrodae.study.sweep.rungs import DEFAULT, run_rung
+from hydrodae.study.sweep.rungs import DEFAULT, open_case, run_rung
 
 _KILLED_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
 _case: Case | None = None
@@ -32,7 +32,7 @@ def _begin(
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_KILLED_WITH_PARENT, signal.SIGKILL)
-    _case, _measures, _rungs = Case(path=path, values=values), measures, rungs
+    _case, _measures, _rungs = open_case(path, values, rungs), measures, rungs
 
 
 def run_point(point: Point) -> Row:

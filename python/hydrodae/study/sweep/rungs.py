@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +28,21 @@ _COORDINATES = {
     "position": {"x": "surge", "y": "sway", "z": "heave"},
     "rotation": {"x": "roll", "y": "pitch", "z": "yaw"},
 }
+
+
+def open_case(
+    path: str | os.PathLike[str], values: Mapping[str, Any], rungs: Sequence[str]
+) -> Case:
+    """Read the case of a study; only runs need the memory fit of its database.
+
+    Raises
+    ------
+    CaseError
+        The case cannot be used.
+    """
+    if "time" in rungs:
+        return Case(path=path, values=values)
+    return without_memory(path, values)[0]
 
 
 def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) -> Found:

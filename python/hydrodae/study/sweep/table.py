@@ -142,7 +142,8 @@ def text(results: xr.Dataset) -> str:
             for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
                 power = results[name] if rung is None else results[name].sel({RUNG: rung})
                 how = "" if rung is None else f", {rung}"
-                lines += [f"mean absorbed power{how}, W:", *_rows(power)]
+                told = _worth(results if rung is None else results.sel({RUNG: rung}), name)
+                lines += [f"mean absorbed power{how}, W{told}:", *_rows(power)]
             break
     if "annual_energy" in results:
         energy, hours = results["annual_energy"], float(results["hours"])
@@ -151,6 +152,18 @@ def text(results: xr.Dataset) -> str:
             how = f", {rung}" if rung else ""
             lines.append(f"annual energy{how}: {joules / 3.6e9:,.4g} MWh in {hours:g} h")
     return "\n".join(lines)
+
+
+def _worth(results: xr.Dataset, name: str) -> str:
+    """Widest interval of the means, and the mean time of a run, where they are known."""
+    told = []
+    interval = results.get(name.removesuffix("_mean") + "_interval")
+    if interval is not None and interval.count() > 0:
+        widest = 100.0 * float((interval / results[name]).max())
+        told.append(f"95 % interval at most {widest:.2g} % to each side")
+    if "wall_time" in results:
+        told.append(f"{float(results['wall_time'].mean()):.2g} s a run")
+    return f" ({'; '.join(told)})" if told else ""
 
 
 def _rows(power: xr.DataArray) -> list[str]:

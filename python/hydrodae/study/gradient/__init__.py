@@ -1,0 +1,221 @@
+"""Gradients of mean power, motions and loads with respect to parameters of a case."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.errors import CaseError
+from hydrodae.frequency import without_memory
+from hydrodae.study.gradient.linear import linear_gradient
+from hydrodae.study.gradient.parameters import Parameter, read_parameter, values_of
+from hydrodae.study.gradient.quantity import Found, Quantity, quantity
+from hydrodae.study.gradient.runs import run_gradient
+
+__all__ = ["Gradient", "Objective", "gradient", "objective"]
+
+Array = NDArray[np.float64]
+Keys = str | Sequence[str]
+
+RUNGS: dict[str, Callable[[Case, Quantity, Sequence[Parameter]], Found]] = {
+    "frequency": linear_gradient,
+    "time": run_gradient,
+}
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """A quantity of a case and its gradient; printed, a table.
+
+    Attributes
+    ----------
+    of : str
+    value : float
+    unit : str
+    parameters : tuple of str
+    at : (n,) array
+        Values of the parameters, units of the case file.
+    gradient : (n,) array
+        Unit of the value over those of the parameters.
+    affine : tuple of bool
+        For each parameter: matrices (frequency domain) or value (runs) are affine in it, and the
+        difference is exact to rounding; else it is of fourth order.
+    calls : int
+        Linearisations or runs of the case.
+    rung : str
+    """
+
+    of: str
+    value: float
+    unit: str
+    parameters: tuple[str, ...]
+    at: Array
+    gradient: Array
+    affine: tuple[bool, ...]
+    calls: int
+    rung: str
+
+    def __str__(self) -> str:
+        what = "linearisations" if self.rung == "frequency" else "runs"
+        lines = [f"{self.of} = {self.value:.6g} {self.unit} ({self.calls} {what})"]
+        rows = zip(self.parameters, self.at, self.gradient, self.affine, strict=True)
+        for name, x, slope, affine in rows:
+            how = "affine" if affine else "differences of fourth order"
+            lines.append(f"  d/d {name:40} {slope:13.6g} at {x:g}, {how}")
+        return "\n".join(lines)
+
+
+def gradient(
+    case: CaseLike,
+    of: str,
+    parameters: Sequence[Keys],
+    *,
+    set: Mapping[str, Any] | None = None,
+    rung: str = "frequency",
+    statistic: str = "std",
+    component: str | None = None,
+    start: float = 0.0,
+) -> Gradient:
+    """Gradient of a mean power, or of a statistic of a channel, with respect to keys of a case.
+
+    In the frequency domain the linear system of the case in its sea, Z xi - G^T lambda = F,
+    G xi = 0, is differentiated exactly: Z dxi - G^T dlambda = dF - dZ xi + dG^T lambda. The
+    matrices' own derivatives are differences, exact to rounding where they are affine in the key
+    (masses, stiffnesses, dampings, amplitudes of waves), else of fourth order; the static
+    equilibrium moves with the key. In the time domain runs with the same fixed steps are
+    differenced (internal numerical differentiation).
+
+    Parameters
+    ----------
+    case : Case, Scene or path
+    of : str
+        "mean_power_absorbed" of all take-offs, "mean_power_absorbed.NAME" of one, or a channel.
+    parameters : sequence
+        Each a dotted key of the case ("force.pto.damping"; "*" in a name, "[2]" for a component
+        of a list), or a sequence of keys that change together.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key.
+    rung : str
+        "frequency" or "time".
+    statistic : str
+        Of a channel: "std" (the amplitude over sqrt 2 in one regular wave), in runs also mean,
+        max, min, range, rms, last.
+    component : str, optional
+        Of a channel with components, such as "z".
+    start : float
+        Samples of runs before it are left out [s]; powers are means after the ramp.
+
+    Returns
+    -------
+    Gradient
+
+    Raises
+    ------
+    CaseError
+        A key is not in the case, there is no such quantity, or runs without fixed steps.
+    SolverError
+        A run failed.
+
+    References
+    ----------
+    H. G. Bock, Numerical treatment of inverse problems in chemical reaction kinetics, in Modelling
+    of Chemical Reaction Systems, Springer (1981) 102-125.
+    """
+    known = _read(case, set, rung)
+    found = [read_parameter(known, keys) for keys in parameters]
+    return _gradient(known, quantity(of, statistic, component, start), found, rung)
+
+
+def _read(case: CaseLike, set: Mapping[str, Any] | None, rung: str) -> Case:
+    if rung not in RUNGS:
+        raise CaseError(f"rung {rung!r}: gradients are of {' or '.join(map(repr, RUNGS))}")
+    return without_memory(case, set)[0] if rung == "frequency" else read_case(case, set)
+
+
+def _gradient(case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str) -> Gradient:
+    found = RUNGS[rung](case, what, parameters)
+    names = tuple(parameter.name for parameter in parameters)
+    at = np.array([parameter.value for parameter in parameters])
+    return Gradient(
+        what.name, found.value, found.unit, names, at, found.gradient, found.affine,
+        found.calls, rung,
+    )  # fmt: skip
+
+
+class Objective:
+    """A quantity of a case as a function of parameters, with its gradient, for optimisers.
+
+    ``scipy.optimize.minimize(f, f.start, jac=True, bounds=...)`` with ``f = objective(...)``.
+
+    Parameters
+    ----------
+    case, what, parameters, rung
+        As `objective` makes them.
+    sign : float
+        -1 to maximise.
+    """
+
+    def __init__(
+        self, case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str, sign: float
+    ) -> None:
+        self.case, self.what, self.rung, self.sign = case, what, rung, sign
+        self.parameters = list(parameters)
+        #: Values of the parameters in the case.
+        self.start: Array = np.array([parameter.value for parameter in parameters])
+
+    def at(self, x: Sequence[float] | Array) -> Gradient:
+        """Return value and gradient at x, as they are."""
+        case = self.case.with_values(values_of(self.parameters, list(x)))
+        moved = [read_parameter(case, _keys(p), p.name) for p in self.parameters]
+        return _gradient(case, self.what, moved, self.rung)
+
+    def __call__(self, x: Sequence[float] | Array) -> tuple[float, Array]:
+        """Return value and gradient at x, both with the other sign to maximise."""
+        found = self.at(x)
+        return self.sign * found.value, self.sign * found.gradient
+
+
+def _keys(parameter: Parameter) -> list[str]:
+    return [key if index is None else f"{key}[{index}]" for key, index in parameter.places]
+
+
+def objective(
+    case: CaseLike,
+    of: str,
+    parameters: Mapping[str, Keys] | Sequence[Keys],
+    *,
+    maximise: bool = False,
+    set: Mapping[str, Any] | None = None,
+    rung: str = "frequency",
+    statistic: str = "std",
+    component: str | None = None,
+    start: float = 0.0,
+) -> Objective:
+    """Make a function of parameters that returns a quantity and its gradient.
+
+    Parameters
+    ----------
+    case, of, set, rung, statistic, component, start
+        As in `gradient`.
+    parameters : mapping or sequence
+        As in `gradient`; a mapping names them.
+    maximise : bool
+        Both have the other sign.
+
+    Raises
+    ------
+    CaseError
+        As in `gradient`.
+    """
+    known = _read(case, set, rung)
+    if isinstance(parameters, Mapping):
+        found = [read_parameter(known, keys, name) for name, keys in parameters.items()]
+    else:
+        found = [read_parameter(known, keys) for keys in parameters]
+    what = quantity(of, statistic, component, start)
+    return Objective(known, what, found, rung, -1.0 if maximise else 1.0)

@@ -1,0 +1,76 @@
+"""Gradients in the time domain: forward sensitivities of runs with fixed steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from hydrodae.case import Case
+from hydrodae.case_tables import case_tables
+from hydrodae.errors import CaseError
+from hydrodae.simulate import run
+from hydrodae.study.gradient.differences import derivative
+from hydrodae.study.gradient.parameters import Parameter
+from hydrodae.study.gradient.quantity import POWER, Found, Quantity
+
+#: Methods whose steps do not follow the solution.
+FIXED = ("gauss", "generalized_alpha", "lobatto_iiic", "radau")
+
+
+def run_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) -> Found:
+    """Value and gradient of a quantity of runs of a case.
+
+    Internal numerical differentiation (Bock, 1981): all runs take the same fixed steps, so that
+    their differences are those of one smooth map, the discrete solution, without the jumps that a
+    choice of steps makes in an adaptive one.
+
+    Raises
+    ------
+    CaseError
+        The case does not ask for fixed steps, or cannot be run nearby.
+    SolverError
+        A run failed.
+    """
+    _check_steps(case)
+    here, unit = _measured(case, what)
+    slopes, affine, calls = [], [], 1
+    for parameter in parameters:
+
+        def at(x: float, parameter: Parameter = parameter) -> dict[str, Any]:
+            return _measured(case.with_values(parameter.values(x)), what)[0]
+
+        d, exact, count = derivative(at, parameter.value, here)
+        slopes.append(float(d["value"]))
+        affine.append(exact)
+        calls += count
+    return Found(float(here["value"]), np.array(slopes), tuple(affine), calls, unit)
+
+
+def _check_steps(case: Case) -> None:
+    solver = case_tables(case).get("solver", {})
+    method, step = solver.get("method", "auto"), float(solver.get("step", 0.0))
+    if method not in FIXED or not step > 0.0:
+        raise CaseError(
+            "gradients of runs need fixed steps: set solver.method to one of "
+            f"{', '.join(FIXED)} and solver.step > 0 (here {method!r} and {step:g} s)"
+        )
+
+
+def _measured(case: Case, what: Quantity) -> tuple[dict[str, Any], str]:
+    """The quantity of a run, and its unit."""
+    results = run(case)
+    if what.measure is not None:
+        value, unit = what.measure(results)
+        return {"value": np.array(value)}, unit
+    keys = [f"{POWER}.{name}" for name in what.take_offs(case)]
+    if what.name == POWER and POWER in results.statistics:
+        keys = [POWER]
+    missing = [key for key in keys if key not in results.statistics]
+    if missing:
+        raise CaseError(
+            f"the run tells no {missing[0]}: mean powers are taken after the ramp of the waves "
+            "(sea.ramp), which the run does not reach"
+        )
+    return {"value": np.array(sum(float(results.statistics[key]) for key in keys))}, "W"

@@ -1,0 +1,356 @@
+"""Gradients against closed forms, finite differences of other routes, and runs of other methods."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from scipy.optimize import minimize
+
+import hydrodae
+import hydrodae.case_tables
+from hydrodae.case import Case
+from hydrodae.frequency import LinearModel
+from hydrodae.starters import create
+from hydrodae.study.gradient.differences import derivative
+from hydrodae.study.sweep.optimise import text
+
+REGULAR = [{"name": "sea", "type": "regular", "height": 1.0, "period": 7.0}]
+POWER = "mean_power_absorbed"
+DAMPING = "force.pto.damping"
+TURNING = """
+title = "Rod on the ground by a take-off about skew axes"
+[[body]]
+name = "rod"
+mass = 10.0
+center_of_gravity = [0.0, 0.0, -1.0]
+inertia = [3.0, 2.0, 1.5]
+principal_axes_deg = [0.0, 20.0, -40.0]
+[[joint]]
+name = "ball"
+type = "spherical"
+body_a = "ground"
+body_b = "rod"
+point = [0.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_rotary"
+body_a = "rod"
+body_b = "ground"
+axis = [0.2, 0.5, 1.0]
+axis_x = [1.0, 1.0, 0.0]
+stiffness = [5.0, 6.0, 7.0]
+damping = [1.0, 2.0, 3.0]
+[solver]
+end_time = 1.0
+[output]
+step = 0.1
+"""
+MASS = """
+title = "Mass that a take-off brakes"
+[environment]
+gravity = 0.0
+[[body]]
+name = "float"
+motion = "heave"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial.velocity = [0.0, 0.0, 1.0]
+[[joint]]
+name = "guide"
+type = "prismatic"
+body_a = "ground"
+body_b = "float"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+[[force]]
+type = "pto_linear"
+name = "pto"
+joint = "guide"
+damping = 1.0
+[solver]
+method = "gauss"
+step = 0.02
+end_time = 4.0
+[output]
+step = 0.02
+"""
+
+
+@pytest.fixture(scope="module")
+def buoy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return create("point_absorber", tmp_path_factory.mktemp("cases") / "buoy")
+
+
+@pytest.fixture(scope="module")
+def moored(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return create("moored", tmp_path_factory.mktemp("cases") / "moored")
+
+
+def fourth_order(f: Callable[[float], float], x: float, relative: float) -> float:
+    h = relative * x
+    return (f(x - 2 * h) - 8 * f(x - h) + 8 * f(x + h) - f(x + 2 * h)) / (12 * h)
+
+
+def linear_value(case: Case, of: str) -> float:
+    """By `LinearModel.irregular`, which knows nothing of derivatives."""
+    deviation, power = LinearModel(case).irregular()
+    return sum(power.values()) if of == POWER else deviation[of]
+
+
+@pytest.mark.parametrize("of", [POWER, "bodies/buoy/heave", "joints/slide/displacement"])
+def test_frequency_domain_agrees_with_finite_differences(buoy: Path, of: str) -> None:
+    keys = [DAMPING, "body.buoy.mass", "wave.sea.significant_height", "wave.sea.peak_period"]
+    case = Case.read(buoy)
+    found = hydrodae.gradient(case, of, keys)
+    assert found.value == pytest.approx(linear_value(case, of), rel=1e-12)
+    for key, slope, x in zip(keys, found.gradient, found.at, strict=True):
+
+        def value(there: float, key: str = key) -> float:
+            return linear_value(case.with_values({key: there}), of)
+
+        by = fourth_order(value, x, 2e-3)
+        assert slope == pytest.approx(by, rel=1e-6), key
+    assert found.affine[:3] == (True, True, True)
+    assert not found.affine[3]  # frequencies of the components follow the period
+
+
+def test_frequency_domain_of_a_mooring_moves_the_equilibrium(moored: Path) -> None:
+    """Keys that move the device, and the load of a joint or a body held by lines."""
+    case = Case.read(moored)
+    body = case.body_names[0]
+    of, key = f"bodies/{body}/surge", f"body.{body}.mass"
+    found = hydrodae.gradient(case, of, [key])
+    by = fourth_order(lambda x: linear_value(case.with_values({key: x}), of), found.at[0], 1e-3)
+    assert found.gradient[0] == pytest.approx(by, rel=1e-6)
+
+
+def test_reaction_of_a_joint_with_moving_constraints(tmp_path: Path) -> None:
+    """The hinge of a flap: where it is changes the constraints as well."""
+    case = Case.read(create("flap", tmp_path / "flap"))
+    joint = case.joint_names[0]
+    model = LinearModel(case)
+    name = f"joints/{joint}/reaction_force.x"
+    of = name if name in model.irregular()[0] else next(
+        n for n in model.irregular()[0] if "reaction_force" in n
+    )  # fmt: skip
+    key = f"joint.{joint}.point[2]"
+    point = next(
+        j["point"] for j in hydrodae.case_tables.case_tables(case)["joint"] if j["name"] == joint
+    )
+
+    def value(z: float) -> float:
+        return linear_value(case.with_values({f"joint.{joint}.point": [*point[:2], z]}), of)
+
+    found = hydrodae.gradient(case, of, [key])
+    by = fourth_order(value, float(point[2]), 1e-3)
+    assert found.gradient[0] == pytest.approx(by, rel=1e-6)
+
+
+def test_power_of_a_buoy_in_one_wave_by_its_closed_form(buoy: Path) -> None:
+    """P = c |w F / (K - w^2 M + iw (B + c))|^2 / 2, dP/dc and its zero at c = |Z| / w."""
+    case = Case(path=buoy, values={"wave": REGULAR})
+    model, w = LinearModel(case), 2.0 * np.pi / 7.0
+    z = model.dynamic_stiffness_at(np.array([w]))[0, 0, 0] - 1j * w * 150e3
+    load = 0.5 * abs(model.excitation([w], 0.0)[0, 0])  # of 0.5 m amplitude
+    for c in (50e3, 150e3):
+        square = abs(z + 1j * w * c) ** 2
+        slope = 0.5 * (w * load) ** 2 * (square - c * (2 * w * z.imag + 2 * w**2 * c)) / square**2
+        found = hydrodae.gradient(case, POWER, [DAMPING], set={DAMPING: c})
+        assert found.value == pytest.approx(0.5 * c * (w * load) ** 2 / square, rel=1e-10)
+        assert found.gradient[0] == pytest.approx(slope, rel=1e-9)
+    f = hydrodae.objective(case, POWER, [DAMPING], maximise=True)
+    scaled = minimize(
+        lambda x: tuple(v / 1e4 for v in (f(x * 1e5)[0], f(x * 1e5)[1] * 1e5)),
+        f.start / 1e5,
+        jac=True,
+        bounds=[(0.1, 50.0)],
+    )
+    assert scaled.x[0] * 1e5 == pytest.approx(abs(z) / w, rel=1e-3)
+
+
+def test_rows_of_a_rotary_take_off_are_those_of_the_kernel() -> None:
+    """W^T C W is what its damping adds to the linear model."""
+    case = Case.from_text(TURNING)
+    model = LinearModel(case)
+    without = LinearModel(case.with_values({"force.pto.damping": [0.0, 0.0, 0.0]}))
+    (each,) = model.rotary
+    added = model.damping - without.damping
+    np.testing.assert_allclose(each.map.T @ np.diag(each.damping) @ each.map, added, atol=1e-12)
+    assert np.abs(added).max() > 1.0
+
+
+def test_several_keys_are_one_parameter(buoy: Path) -> None:
+    text = Path(buoy).read_text().replace("damping = 150.0e3", "damping = 75.0e3")
+    second = '[[force]]\nname = "pto2"\ntype = "pto_linear"\njoint = "slide"\ndamping = 75e3\n'
+    case = Case.from_text(text.replace("[solver]", second + "[solver]"), buoy.parent)
+    both = hydrodae.gradient(case, POWER, ["force.pto*.damping"])
+    one = hydrodae.gradient(buoy, POWER, [DAMPING])
+    assert both.value == pytest.approx(one.value)
+    assert both.gradient[0] == pytest.approx(2.0 * one.gradient[0], rel=1e-9)
+    first = hydrodae.gradient(case, f"{POWER}.pto", ["force.pto*.damping"])
+    assert first.value == pytest.approx(0.5 * one.value)
+
+
+def test_one_sided_differences_at_the_edge_of_a_range(buoy: Path) -> None:
+    """Damping 0 has no smaller value: dP/dc there is w^2 |F / Z|^2 / 2."""
+    case = Case(path=buoy, values={"wave": REGULAR, DAMPING: 0.0})
+    found = hydrodae.gradient(case, POWER, [DAMPING])
+    model, w = LinearModel(case), 2.0 * np.pi / 7.0
+    ratio = abs(model.excitation([w], 0.0)[0, 0] / model.dynamic_stiffness_at(np.array([w]))[0])
+    assert found.value == 0.0
+    assert found.gradient[0] == pytest.approx(0.5 * (0.5 * w * ratio[0, 0]) ** 2, rel=1e-8)
+
+
+def test_differences_are_exact_where_affine_and_of_fourth_order_elsewhere() -> None:
+    def at(x: float) -> dict[str, Any]:
+        return {"a": np.array([3.0 * x, 1.0]), "b": np.array(np.sin(x))}
+
+    d, affine, calls = derivative(at, 2.0, at(2.0))
+    assert not affine
+    assert calls == 4
+    np.testing.assert_allclose(d["a"], [3.0, 0.0], atol=1e-11)
+    assert d["b"] == pytest.approx(np.cos(2.0), rel=1e-10)
+    d, affine, calls = derivative(lambda x: {"a": at(x)["a"]}, 2.0, {"a": at(2.0)["a"]})
+    assert (affine, calls) == (True, 2)
+
+
+def test_run_of_a_braked_mass_by_its_closed_form() -> None:
+    """v = v0 exp(-ct/m): mean power m v0^2 (1 - e) / (2 T), e = exp(-2 c T / m); way m v0 / c."""
+    case = Case.from_text(MASS)
+    found = hydrodae.gradient(case, POWER, [DAMPING, "body.float.mass"], rung="time")
+    e = np.exp(-4.0)
+    assert found.value == pytest.approx((1.0 - e) / 4.0, rel=1e-6)
+    by_mass = (0.5 * (1.0 - e) - 2.0 * e) / 4.0
+    np.testing.assert_allclose(found.gradient, [e, by_mass], rtol=1e-5)
+    way = hydrodae.gradient(
+        case, "joints/guide/displacement", [DAMPING], rung="time", statistic="last"
+    )
+    assert way.gradient[0] == pytest.approx(-2.0 * (1.0 - np.exp(-2.0)) + 4.0 * np.exp(-2.0))
+    assert way.unit == "m"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["gauss", "lobatto_iiic", "generalized_alpha"])
+def test_run_in_waves_agrees_with_tight_adaptive_runs(buoy: Path, method: str) -> None:
+    values: dict[str, Any] = {"sea.ramp": 10.0, "solver.end_time": 60.0}
+    step = 0.002 if method == "generalized_alpha" else 0.05
+    fixed = values | {"solver.method": method, "solver.step": step}
+    tight = values | {"solver.method": "radau", "solver.rtol": 1e-11}
+    for of, statistic in ((POWER, "std"), ("joints/slide/displacement", "std")):
+        found = hydrodae.gradient(buoy, of, [DAMPING], set=fixed, rung="time", statistic=statistic)
+
+        def value(x: float, of: str = of) -> float:
+            results = hydrodae.run(buoy, set=tight | {DAMPING: x})
+            if of == POWER:
+                return float(results.statistics[POWER])
+            return float(np.std(results[of].to_numpy()))
+
+        by = fourth_order(value, 150e3, 1e-2)
+        assert found.gradient[0] == pytest.approx(by, rel=1e-4), of
+
+
+@pytest.mark.parametrize(
+    ("of", "keys", "rung", "told"),
+    [
+        (POWER, ["force.pto.dampin"], "frequency", "damping"),
+        (POWER, ["force.ptx.damping"], "frequency", "pto"),
+        (POWER, ["force.pto.type"], "frequency", "expected a number"),
+        (POWER, ["body.buoy.center_of_gravity"], "frequency", "name a component"),
+        (POWER, ["body.buoy.center_of_gravity[3]"], "frequency", "no component 3"),
+        (POWER, [[DAMPING, "body.buoy.mass"]], "frequency", "one parameter has one value"),
+        (f"{POWER}.pta", [DAMPING], "frequency", "there are: pto"),
+        ("bodies/buoy/heav", [DAMPING], "frequency", "bodies/buoy/heave"),
+        (POWER, [DAMPING], "time", "fixed steps"),
+        (POWER, [DAMPING], "spectral", "gradients are of"),
+    ],
+)
+def test_wrong_questions_are_refused(
+    buoy: Path, of: str, keys: Sequence[Any], rung: str, told: str
+) -> None:
+    with pytest.raises(hydrodae.CaseError, match=told):
+        hydrodae.gradient(buoy, of, keys, rung=rung)
+
+
+STUDY = """
+case = "case.toml"
+rungs = ["frequency"]
+[optimise]
+maximise = "mean_power_absorbed"
+method = "METHOD"
+[optimise.parameter.damper]
+keys = "force.pto.damping"
+bounds = [1e4, 1e6]
+start = 3e5
+"""
+
+
+@pytest.mark.parametrize("method", ["L-BFGS-B", "SLSQP"])
+def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
+    study = buoy.parent / f"best_{method}.toml"
+    study.write_text(STUDY.replace("METHOD", method))
+    output = study.with_suffix(".nc")
+    found = hydrodae.optimise(study, output, set={"wave": REGULAR})
+    case = Case(path=buoy, values={"wave": REGULAR, DAMPING: 0.0})
+    w = 2.0 * np.pi / 7.0
+    best = abs(LinearModel(case).dynamic_stiffness_at(np.array([w]))[0, 0, 0]) / w
+    assert found.values["damper"] == pytest.approx(best, rel=1e-3)
+    assert found.keys == {DAMPING: found.values["damper"]}
+    assert found.evaluations < 20
+    assert f"damper = {found.values['damper']:.6g}" in text(found)
+    xarray.testing.assert_identical(found.dataset.load(), xarray.load_dataset(output))
+    # Cut off after four evaluations, as by a kill: the same again, and nothing twice.
+    record = output.with_name(f"best_{method}.runs.jsonl")
+    lines = record.read_text().splitlines()
+    record.write_text("\n".join(lines[:5]) + '\n{"key": "cut o')
+    again = hydrodae.optimise(study, output, set={"wave": REGULAR})
+    assert again.values == found.values
+    assert record.read_text().splitlines() == lines
+    keys = [json.loads(line).get("key") for line in lines]
+    assert len(keys) == len(set(keys)) == found.evaluations + 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("METHOD", "Powell", "L-BFGS-B, SLSQP"),
+        ("[1e4, 1e6]", "[1e6, 1e4]", "least < most"),
+        ("start = 3e5", "start = 3e6", "within the bounds"),
+        ("start = 3e5", "stat = 3e5", "did you mean 'start'"),
+        ("[1e4, 1e6]\nstart = 3e5", "[1e4, 1e5]", "outside the bounds"),
+        ('["frequency"]', '["spectral"]', "frequency"),
+        ('"mean_power_absorbed"', '"power"', "expected 'mean_power_absorbed'"),
+        ("maximise", "minimise = 1\nmaximise", "one of 'maximise' and 'minimise'"),
+    ],
+)
+def test_wrong_problems_are_refused(buoy: Path, old: str, new: str, told: str) -> None:
+    study = buoy.parent / "wrong.toml"
+    study.write_text(STUDY.replace(old, new).replace("METHOD", "SLSQP"))
+    with pytest.raises(hydrodae.CaseError, match=told):
+        hydrodae.optimise(study, study.with_suffix(".nc"))
+
+
+def test_a_sweep_of_a_problem_names_the_option(buoy: Path) -> None:
+    study = buoy.parent / "problem.toml"
+    study.write_text(STUDY)
+    with pytest.raises(hydrodae.CaseError, match="--optimise"):
+        hydrodae.sweep(study, study.with_suffix(".nc"))
+
+
+def test_linear_studies_need_no_memory_fit(buoy: Path, tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(buoy.read_text())
+    database = hydrodae.hdb.HydroDatabase.read(buoy.parent / "hydro.h5")
+    dataclasses.replace(database, memory={}, kernel=None).write(tmp_path / "hydro.h5")
+    best = tmp_path / "best.toml"
+    best.write_text(STUDY.replace("METHOD", "SLSQP"))
+    assert hydrodae.optimise(best, tmp_path / "best.nc").evaluations < 20
+    grid = tmp_path / "grid.toml"
+    grid.write_text('case = "case.toml"\nrungs = ["frequency"]\n[grid]\n"body.buoy.mass" = [4e5]\n')
+    found = hydrodae.sweep(grid, tmp_path / "grid.nc", jobs=1)
+    assert (found["status"] == "completed").all()
