@@ -22,5 +22,8 @@ find cpp python/bindings tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 .venv/bin/clang-format --dry-run -Werror
 .venv/bin/mypy
 
+note "a C++ program that uses the installed library"
+bash tests/package/run.sh
+
 note "Python tests"
 .venv/bin/pytest -n "$(nproc)" "$@"

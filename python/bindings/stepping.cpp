@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "functions.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/cosim/fmu.h"
 #include "hydrodae/cosim/tcp.h"
 #include "hydrodae/run/simulation.h"
 
@@ -24,6 +25,7 @@ public:
         controllers_(std::move(controllers)),
         scene_(functions_.join(scene, drives_, forces_, controllers_)) {
     cosim::join_tcp(scene_);
+    cosim::join_fmus(scene_);
     call([&] { simulation_.emplace(scene_); });
   }
 
