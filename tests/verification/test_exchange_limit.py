@@ -44,8 +44,7 @@ def test_runs_grow_where_the_eigenvalues_say(
     for factor in (0.9, 0.98, 1.02, 1.1):
         period = factor * limit
         text = study.text(period, *load, late, study.SAMPLES * period)
-        run = hydrodae.run(hydrodae.Case.from_text(text))
-        found = study.measured(run, late)
+        found = study.measured(study.run(text), late)
         assert found == pytest.approx(study.eigenvalue(period, *load, late), rel=1e-6)
         assert (found > 1.0) == (factor > 1.0)
 
