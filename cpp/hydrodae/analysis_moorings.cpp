@@ -1,7 +1,6 @@
 #include "hydrodae/analysis_moorings.h"
 
-#include <Eigen/LU>
-
+#include "hydrodae/math/dense.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae {
@@ -27,8 +26,7 @@ Slope slope(const element::Shape& shape, const double* out, const double* jacobi
   const Eigen::Map<const MatrixX> J(jacobian, shape.n_out(), shape.n_columns());
   Slope found{Eigen::Map<const VectorX>(out, w), J.topLeftCorner(w, w), J.block(0, w, w, w)};
   if (a > 0) {
-    const MatrixX follow =
-        J.bottomRightCorner(a, a).partialPivLu().solve(MatrixX(J.bottomLeftCorner(a, 2 * w)));
+    const MatrixX follow = solve_square(J.bottomRightCorner(a, a), J.bottomLeftCorner(a, 2 * w));
     found.by_x -= J.topRightCorner(w, a) * follow.leftCols(w);
     found.by_v -= J.topRightCorner(w, a) * follow.rightCols(w);
   }

@@ -1,7 +1,8 @@
 #include "hydrodae/element/elements.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include "hydrodae/math/dense.h"
 
 namespace hydrodae::element {
 
@@ -39,7 +40,7 @@ AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
   AtRest rest{out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};
   if (const Index a = list.shape.n_algebraic; a > 0) { // these follow x and v
     const MatrixX by_z = J.bottomRightCorner(a, a), f_z = J.topRightCorner(w, a);
-    const MatrixX follow = by_z.partialPivLu().solve(MatrixX(J.bottomLeftCorner(a, 2 * w)));
+    const MatrixX follow = solve_square(by_z, J.bottomLeftCorner(a, 2 * w));
     rest.stiffness += f_z * follow.leftCols(w);
     rest.damping += f_z * follow.rightCols(w);
   }

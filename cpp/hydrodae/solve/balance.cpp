@@ -1,11 +1,11 @@
 #include "hydrodae/solve/balance.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <optional>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/solve/static_step.h"
 #include "hydrodae/system/algebraic.h"
@@ -72,13 +72,12 @@ std::vector<std::string> unrestored(const Regime& s, const LinearMatrices& m,
     return out;
   const VectorX forces = free.transpose() * scale.cwiseProduct(m.forces);
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  const Eigen::BDCSVD<MatrixX> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const VectorX sizes = svd.singularValues();
-  const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff();
-  VectorX drift = VectorX::Zero(free.cols());
-  for (Index k = 0; k < sizes.size(); ++k)
-    if (sizes[k] <= 1e-9 * std::max(sizes[0], weight))
-      drift += svd.matrixU().col(k).dot(forces) * svd.matrixU().col(k);
+  const double weight = s.row_scale.segment(s.u0, s.n_u).cwiseProduct(scale).maxCoeff(),
+               largest = K.rowwise().norm().maxCoeff();
+  MatrixX loose = MatrixX::Identity(K.rows(), K.rows()); // x with x . K = 0
+  if (largest > 1e-9 * weight)
+    loose = null_space(K.transpose(), 1e-9 * std::max(1.0, weight / largest));
+  const VectorX drift = loose * (loose.transpose() * forces);
   if (!(drift.norm() > 1e-9 * weight))
     return out;
   const VectorX moved = (free * drift).cwiseAbs();

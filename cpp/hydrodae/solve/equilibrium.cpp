@@ -1,10 +1,10 @@
 #include "hydrodae/solve/equilibrium.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/solve/balance.h"
 #include "hydrodae/solve/static_step.h"
 #include "hydrodae/system/assemble.h"
@@ -61,9 +61,7 @@ void note_instability(System& s, const LinearMatrices& m, const VectorX& scale) 
   if (free.cols() == 0)
     return;
   const MatrixX K = free.transpose() * scale.asDiagonal() * m.stiffness * scale.asDiagonal() * free;
-  const VectorX values =
-      Eigen::SelfAdjointEigenSolver<MatrixX>(0.5 * (K + K.transpose()), Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const VectorX values = symmetric_eigenvalues(0.5 * (K + K.transpose()));
   if (values[0] < -1e-6 * values.cwiseAbs().maxCoeff())
     s.notes.push_back("the equilibrium is unstable: the smallest displacement moves the scene away "
                       "from it");

@@ -1,7 +1,6 @@
 /// The linear model about a pose at rest.
 
-#include <Eigen/LU>
-
+#include "hydrodae/math/dense.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/residual.h"
 
@@ -21,9 +20,8 @@ void take_out_algebraic(const Regime& s, LinearMatrices& m) {
     return;
   const auto all = Eigen::all;
   const MatrixX A = m.state_by_state, B = m.state_by_xi, D = m.state_by_rate, F = m.load_by_state;
-  const Eigen::PartialPivLU<MatrixX> lu(MatrixX(A(a, a)));
-  const MatrixX by_state = -lu.solve(MatrixX(A(a, d))), by_xi = -lu.solve(MatrixX(B(a, all))),
-                by_rate = -lu.solve(MatrixX(D(a, all)));
+  const MatrixX own = A(a, a), by_state = -solve_square(own, A(a, d)),
+                by_xi = -solve_square(own, B(a, all)), by_rate = -solve_square(own, D(a, all));
   m.stiffness -= F(all, a) * by_xi;
   m.damping -= F(all, a) * by_rate;
   m.load_by_state = F(all, d) + F(all, a) * by_state;

@@ -1,9 +1,9 @@
 #include "hydrodae/solve/pressed_friction.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/dense.h"
 
 namespace hydrodae::solve {
 
@@ -110,7 +110,7 @@ bool SaddlePoint::Pressed::balance(const system::Regime& s, double t) {
       for (Index m = 0; m < n; ++m)
         newton(k, m) =
             (k == m ? 1.0 : 0.0) - slope.row(k).dot(sensitivity.col(m).segment<6>(6 * k));
-    step = newton.partialPivLu().solve(-gap);
+    step = solve_square(newton, -gap);
     load += step;
   }
   return false;

@@ -1,7 +1,6 @@
 #include "hydrodae/solve/static_step.h"
 
-#include <Eigen/QR>
-
+#include "hydrodae/math/dense.h"
 #include "hydrodae/solve/klu.h"
 
 namespace hydrodae::solve {
@@ -30,12 +29,8 @@ SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
 } // namespace
 
 VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u) {
-  if (b.size() <= most_dense) {
-    Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-    cod.setThreshold(1e-12);
-    cod.compute(A);
-    return cod.solve(b);
-  }
+  if (b.size() <= most_dense)
+    return minimum_norm(A, b, 1e-12);
   constexpr double shift = 1e-9, enough = 1e-13;
   constexpr int passes = 5;
   SparseLu<double> lu = shifted(A, n_u, shift);
@@ -52,14 +47,6 @@ VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u) {
     left = now;
   }
   return x;
-}
-
-MatrixX null_space(const MatrixX& G) {
-  if (G.rows() == 0)
-    return MatrixX::Identity(G.cols(), G.cols());
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(G.transpose());
-  const MatrixX Q = qr.householderQ();
-  return Q.rightCols(G.cols() - qr.rank());
 }
 
 } // namespace hydrodae::solve

@@ -13,7 +13,4 @@ namespace hydrodae::solve {
 /// @param n_u rows of K
 VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u);
 
-/// Orthonormal columns that span {x : G x = 0} (n, n - rank).
-MatrixX null_space(const MatrixX& G);
-
 } // namespace hydrodae::solve

@@ -66,22 +66,28 @@ VectorX to_positions(const system::Regime& s, const VectorX& y, const VectorX& t
   return dq;
 }
 
+/// Visits where the unknowns of a block stand: visit(first, how many).
+template <class Visitor>
+void for_each_segment(const system::Regime& s, const system::Block& block, Visitor&& visit) {
+  if (block.body >= 0) {
+    const system::BodyData& b = s.bodies[static_cast<std::size_t>(block.body)];
+    visit(b.q0, static_cast<Index>(b.n_position));
+    visit(b.u0, static_cast<Index>(b.n_active));
+  } else {
+    const system::StateBlock& states = s.states[static_cast<std::size_t>(block.states)];
+    visit(states.first, static_cast<Index>(states.unknowns.size()));
+  }
+}
+
 /// Block by block the error along v, of the size `errors`.
 void StageError::take_pattern(const system::Regime& s, const VectorX& v, const VectorX& errors) {
   const VectorX sizes = block_sizes(s, v);
   pattern_ = v;
   for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    const system::Block& block = s.blocks[i];
     const double size = sizes[static_cast<Index>(i)],
                  part = size > 0.0 ? errors[static_cast<Index>(i)] / size : 0.0;
-    if (block.body >= 0) {
-      const system::BodyData& b = s.bodies[static_cast<std::size_t>(block.body)];
-      pattern_.segment(b.q0, b.n_position) *= part;
-      pattern_.segment(b.u0, b.n_active) *= part;
-    } else {
-      const system::StateBlock& states = s.states[static_cast<std::size_t>(block.states)];
-      pattern_.segment(states.first, static_cast<Index>(states.unknowns.size())) *= part;
-    }
+    for_each_segment(s, s.blocks[i],
+                     [&](Index first, Index n) { pattern_.segment(first, n) *= part; });
   }
   pattern_.tail(s.lambda0 - s.memory0).setZero(); // linear, and slower than what drives it
 }
@@ -111,12 +117,12 @@ StageError::StageError(const RungeKutta& rk)
 VectorX StageError::find_kinks(const system::Regime& s, const VectorX& v) {
   constexpr double memory = 0.8, much = 5.0;
   const auto n = static_cast<Index>(s.blocks.size());
-  if (before_.size() != v.size()) {
-    before_ = v;
-    return VectorX::Zero(n);
-  }
-  const VectorX change = block_sizes(s, v - before_);
+  change_ = before_.size() == v.size() ? VectorX(v - before_) : VectorX::Zero(v.size());
+  const bool first = before_.size() != v.size();
   before_ = v;
+  if (first)
+    return VectorX::Zero(n);
+  const VectorX change = block_sizes(s, change_);
   if (usual_.size() != n)
     usual_ = change;
   const VectorX kinks = (change.array() > much * usual_.array())
@@ -155,20 +161,25 @@ VectorX StageError::operator()(const system::Regime& s, double h, const VectorX&
   }
   highest_ = fade * highest_ + top;
   below_ = fade * below_ + next;
-  VectorX errors(top.size());
+  VectorX errors(top.size()), along = v;
   for (Index i = 0; i < errors.size(); ++i) {
     const double ratio = highest_[i] < below_[i] ? highest_[i] / below_[i] : 1.0;
     const double turn = 2.0 * (2 * degree_ - 1) * ratio; // w h
     double missed = top[i], amplitude = 2.0 * top[i] / turn;
     for (int k = degree_ + 1; k <= order_; ++k)
       missed *= turn / (2.0 * (2 * k - 1));
-    missed = std::max(missed, kinks[i]);
+    if (kinks[i] > missed) { // along the change: v_d itself may be gone with the load
+      missed = kinks[i];
+      for_each_segment(s, s.blocks[static_cast<std::size_t>(i)], [&](Index first, Index length) {
+        along.segment(first, length) = change_.segment(first, length);
+      });
+    }
     for (int k = 1; k <= degree_; ++k)
       amplitude *= 2.0 * (2 * k - 1) / turn;
     errors[i] = h * std::min(std::max(order_ - 0.5, 1.0) * missed,
                              std::max(amplitude, top[i]) * h / (summed_time_scales * time_scale));
   }
-  take_pattern(s, v, errors);
+  take_pattern(s, along, errors);
   return errors;
 }
 

@@ -57,7 +57,7 @@ private:
   double of_stages_ = 0.0;  ///< what they miss, of h |v_d|
   bool with_start_;         ///< the start is a node of the polynomial of q'
   MatrixX last_;            ///< (2, nodes): v_(d-1) and v_d from the nodes' values
-  VectorX before_;          ///< v_d of the last step
+  VectorX before_, change_; ///< v_d of the last step, and how it has changed since
   VectorX usual_;           ///< fading means of the changes of v_d from step to step, by block
   VectorX highest_, below_; ///< fading sums of |v_d| and |v_(d-1)| by block
 };

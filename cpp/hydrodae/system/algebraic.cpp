@@ -1,7 +1,6 @@
 #include "hydrodae/system/algebraic.h"
 
-#include <Eigen/LU>
-
+#include "hydrodae/math/dense.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::system {
@@ -30,7 +29,7 @@ double newton_step(const Regime& s, const ElementList& list, JacobianWorkspace& 
                                       shape.n_out(), shape.n_columns());
     const Eigen::Map<const VectorX> out(scratch.out.data() + k * shape.n_out(), shape.n_out());
     const MatrixX by_z = J.bottomRightCorner(n, n);
-    const VectorX change = by_z.partialPivLu().solve(-out.tail(n));
+    const VectorX change = solve_square(by_z, -out.tail(n));
     for (Index i = 0; i < n; ++i) {
       const Index z = k * shape.n_states + rates + i;
       double& value = y[list.z0 + z];

@@ -1,8 +1,8 @@
 #include "hydrodae/system/observer.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "hydrodae/math/dense.h"
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/elements.h"
 
@@ -171,7 +171,7 @@ void Observer::share_reactions(const double* y) {
       ++column;
     }
   }
-  shared_ = G_T.completeOrthogonalDecomposition().solve(load);
+  shared_ = minimum_norm(G_T, load);
 }
 
 /// Takes the load of a constraint into the balance of its bodies, and its power (nonzero only where

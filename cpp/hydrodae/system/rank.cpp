@@ -1,10 +1,11 @@
 #include "hydrodae/system/rank.h"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "hydrodae/math/dense.h"
 
 namespace hydrodae::system {
 
@@ -37,11 +38,10 @@ bool is_small(const SparseMatrix& part, Index dense_limit) {
 }
 
 std::vector<RankedRow> dense_rows(const SparseMatrix& part) {
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(MatrixX(part).transpose());
-  const auto& order = qr.colsPermutation().indices();
+  const auto [order, pivots] = pivoted_columns(MatrixX(part).transpose());
   std::vector<RankedRow> rows;
   for (Index k = 0; k < part.rows(); ++k)
-    rows.push_back({order[k], k < part.cols() ? std::abs(qr.matrixQR()(k, k)) : 0.0});
+    rows.push_back({order[static_cast<std::size_t>(k)], pivots[k]});
   const double largest = rows.empty() ? 0.0 : rows.front().pivot;
   for (RankedRow& row : rows)
     row.pivot /= largest > 0.0 ? largest : 1.0;
@@ -136,18 +136,15 @@ std::vector<RankedRow> sparse_rows(SparseMatrix part) {
   MatrixX left(part.cols(), asked.cols());
   for (Index k = 0; k < asked.cols(); ++k)
     left.col(k) = equations.remainder(VectorX(asked.col(k)));
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(left);
+  const auto [order, pivots] = pivoted_columns(left);
   for (Index k = 0; k < left.cols(); ++k)
-    rows.push_back({doubtful[static_cast<std::size_t>(qr.colsPermutation().indices()[k])],
-                    k < left.rows() ? std::abs(qr.matrixQR()(k, k)) : 0.0});
+    rows.push_back(
+        {doubtful[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])], pivots[k]});
   return rows;
 }
 
 VectorX dense_solution(const SparseMatrix& part, const VectorX& b) {
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
-  cod.setThreshold(rank_tolerance);
-  cod.compute(MatrixX(part));
-  return cod.solve(b);
+  return minimum_norm(MatrixX(part), b, rank_tolerance);
 }
 
 VectorX sparse_solution(SparseMatrix part, const VectorX& b) {

@@ -1,11 +1,11 @@
 /// The reactions of joints that laws feel.
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/kinematics.h"
@@ -93,12 +93,17 @@ std::string shared_rows(const Regime& s, const JointData& pressed) {
       take(s.lambda(c), in_quotes(c.name), gradients.coupler(c), false);
   if (dropped.empty())
     return {};
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(kept);
+  MatrixX gradients_of_dropped(s.n_u, static_cast<Index>(dropped.size()));
+  for (std::size_t k = 0; k < dropped.size(); ++k)
+    gradients_of_dropped.col(static_cast<Index>(k)) = dropped[k].second;
+  const MatrixX parts = least_squares(kept, gradients_of_dropped);
   std::vector<std::string> names;
-  for (const auto& [name, gradient] : dropped) {
-    const VectorX c = qr.solve(gradient);
+  for (std::size_t k = 0; k < dropped.size(); ++k) {
+    const auto& [name, gradient] = dropped[k];
+    const auto c = parts.col(static_cast<Index>(k));
+    const double size = gradient.norm();
     const bool shares = std::any_of(own.begin(), own.end(), [&](Index i) {
-      return std::abs(c[i]) * kept.col(i).norm() > part * gradient.norm();
+      return std::abs(c[i]) * kept.col(i).norm() > part * size;
     });
     if (shares || name.ends_with(" of " + in_quotes(pressed.name)))
       names.push_back(name);

@@ -7,6 +7,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "hydrodae/math/dense.h"
+
 namespace {
 
 using namespace hydrodae;
@@ -46,11 +48,11 @@ TEST_CASE("large static steps are the smallest ones too") {
 TEST_CASE("the null space of constraints with a row too many") {
   MatrixX G(3, 5);
   G << 1, 0, -1, 0, 0, 0, 1, 0, -1, 0, 1, 1, -1, -1, 0;
-  const MatrixX N = solve::null_space(G);
+  const MatrixX N = null_space(G);
   CHECK(N.cols() == 3);
   CHECK((G * N).cwiseAbs().maxCoeff() < 1e-14);
   CHECK((N.transpose() * N - MatrixX::Identity(3, 3)).cwiseAbs().maxCoeff() < 1e-14);
-  CHECK(solve::null_space(MatrixX::Zero(0, 4)).cols() == 4);
+  CHECK(null_space(MatrixX::Zero(0, 4)).cols() == 4);
 }
 
 } // namespace

@@ -1,0 +1,52 @@
+#include "hydrodae/math/dense.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace hydrodae {
+
+MatrixX solve_square(const MatrixX& A, const MatrixX& B) {
+  return Eigen::PartialPivLU<MatrixX>(A).solve(B);
+}
+
+MatrixX least_squares(const MatrixX& A, const MatrixX& B) {
+  return Eigen::ColPivHouseholderQR<MatrixX>(A).solve(B);
+}
+
+VectorX minimum_norm(const MatrixX& A, const VectorX& b, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixX> cod;
+  if (threshold >= 0.0)
+    cod.setThreshold(threshold);
+  cod.compute(A);
+  return cod.solve(b);
+}
+
+MatrixX null_space(const MatrixX& G, double threshold) {
+  if (G.rows() == 0)
+    return MatrixX::Identity(G.cols(), G.cols());
+  Eigen::ColPivHouseholderQR<MatrixX> qr;
+  if (threshold >= 0.0)
+    qr.setThreshold(threshold);
+  qr.compute(G.transpose());
+  const MatrixX Q = qr.householderQ();
+  return Q.rightCols(G.cols() - qr.rank());
+}
+
+PivotedColumns pivoted_columns(const MatrixX& A) {
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(A);
+  PivotedColumns out{{}, VectorX::Zero(A.cols())};
+  for (Index k = 0; k < A.cols(); ++k) {
+    out.order.push_back(qr.colsPermutation().indices()[k]);
+    if (k < A.rows())
+      out.pivots[k] = std::abs(qr.matrixQR()(k, k));
+  }
+  return out;
+}
+
+VectorX symmetric_eigenvalues(const MatrixX& A) {
+  return Eigen::SelfAdjointEigenSolver<MatrixX>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+} // namespace hydrodae

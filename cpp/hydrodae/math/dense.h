@@ -1,0 +1,37 @@
+#pragma once
+/// Decompositions of dense matrices where ranks matter, or where cost does not. They stand in one
+/// file since Eigen's take long to compile; inner loops keep factors of their own.
+
+#include <vector>
+
+#include "hydrodae/core/types.h"
+
+namespace hydrodae {
+
+/// Thresholds are relative to the largest pivot; this one is Eigen's own, about the rounding.
+inline constexpr double by_rounding = -1.0;
+
+/// X of A X = B, by an LU decomposition with partial pivoting. A is square and has an inverse.
+MatrixX solve_square(const MatrixX& A, const MatrixX& B);
+
+/// X of least |A X - B|, one of them when A lacks rank (column-pivoted QR).
+MatrixX least_squares(const MatrixX& A, const MatrixX& B);
+
+/// Of all x with least |A x - b| the smallest (complete orthogonal decomposition).
+VectorX minimum_norm(const MatrixX& A, const VectorX& b, double threshold = by_rounding);
+
+/// Orthonormal columns that span {x : G x = 0} (n, n - rank).
+MatrixX null_space(const MatrixX& G, double threshold = by_rounding);
+
+/// Columns of A in the order in which a column-pivoted QR takes them, and the sizes of its pivots,
+/// zero beyond the number of rows.
+struct PivotedColumns {
+  std::vector<Index> order;
+  VectorX pivots;
+};
+PivotedColumns pivoted_columns(const MatrixX& A);
+
+/// Eigenvalues of a symmetric matrix, ascending.
+VectorX symmetric_eigenvalues(const MatrixX& A);
+
+} // namespace hydrodae
