@@ -12,6 +12,7 @@
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/system/jacobian.h"
 
 namespace hydrodae::test {
 
@@ -439,6 +440,15 @@ inline VectorX random_state(const system::Regime& s, Random& random) {
     y[i] += (of_law ? s.scale[i] : i < s.n_q ? 0.3 : 1.0) * random();
   }
   return y;
+}
+
+/// The entries of a sparse matrix in their places.
+inline MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
+  MatrixX m = MatrixX::Zero(p.n, p.n);
+  for (Index c = 0; c < p.n; ++c)
+    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+      m(p.row[k], c) += values[k];
+  return m;
 }
 
 } // namespace hydrodae::test

@@ -1,7 +1,6 @@
 /// A law with an algebraic unknown: two springs in series, whose joint has no mass. In the
 /// Jacobian, in the linear model, at rest, and by every method.
 
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "hydrodae/element/laws.h"
@@ -76,14 +75,6 @@ System on_series(const SeriesSprings& springs) {
   return s;
 }
 
-MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
-  MatrixX m = MatrixX::Zero(p.n, p.n);
-  for (Index c = 0; c < p.n; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-      m(p.row[k], c) += values[k];
-  return m;
-}
-
 /// y at the end of a second, and at 0.5 s.
 std::array<VectorX, 2> run(const Regime& s, const std::string& method) {
   model::SolverOptions options;
@@ -130,7 +121,7 @@ TEST_CASE("the Jacobian holds the row of an algebraic unknown") {
       (rates ? dyp : dy)[c].b = 1.0;
       system::Workspace<Dual> dual(s);
       system::residual<Dual>(s, dual, 0.0, dy.data(), dyp.data(), r.data());
-      const VectorX ours = dense(pattern, rates ? parts.by_yp : parts.by_y).col(c);
+      const VectorX ours = test::dense(pattern, rates ? parts.by_yp : parts.by_y).col(c);
       for (Index i = 0; i < s.n; ++i)
         CHECK(ours[i] == doctest::Approx(r[i].b).epsilon(1e-12));
     }

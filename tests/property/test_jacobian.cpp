@@ -1,7 +1,6 @@
 /// The hand-written Jacobian against dual numbers, block by block, on every scene of the type
 /// lists.
 
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "hydrodae/math/dual.h"
@@ -16,14 +15,6 @@ using system::Regime;
 using system::System;
 
 constexpr double instant = 0.7; // of a wave that is neither at its crest nor at its trough [s]
-
-MatrixX dense(const system::Pattern& p, const std::vector<double>& values) {
-  MatrixX m = MatrixX::Zero(p.n, p.n);
-  for (Index c = 0; c < p.n; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-      m(p.row[k], c) += values[k];
-  return m;
-}
 
 /// Exact derivative of the residual along unknown `column` of y or of y'.
 VectorX derivative(const Regime& s, const VectorX& y, const VectorX& yp, Index column, bool by_yp) {
@@ -56,7 +47,8 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     system::JacobianWorkspace ws(s);
     system::JacobianParts parts(pattern);
     system::jacobian(s, pattern, ws, instant, y.data(), yp.data(), parts);
-    const MatrixX by_y = dense(pattern, parts.by_y), by_yp = dense(pattern, parts.by_yp);
+    const MatrixX by_y = test::dense(pattern, parts.by_y),
+                  by_yp = test::dense(pattern, parts.by_yp);
     for (Index c = 0; c < s.n; ++c) {
       CAPTURE(s.names[c]);
       for (bool rates : {false, true}) {
@@ -76,7 +68,8 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     REQUIRE(part.nonzeros() <= pattern.nonzeros());
     system::JacobianParts small(part);
     system::jacobian(s, part, ws, instant, y.data(), yp.data(), small);
-    const MatrixX small_y = dense(part, small.by_y), small_yp = dense(part, small.by_yp);
+    const MatrixX small_y = test::dense(part, small.by_y),
+                  small_yp = test::dense(part, small.by_yp);
     const auto difference = [&](const MatrixX& ours, const MatrixX& all, Index row, Index column,
                                 Index rows, Index columns) {
       const auto block = all.block(row, column, rows, columns).array();

@@ -1,6 +1,5 @@
 /// Purity, momentum and energy of the equations of motion.
 
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "hydrodae/solve/consistent_start.h"

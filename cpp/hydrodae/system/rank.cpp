@@ -136,10 +136,10 @@ std::vector<RankedRow> sparse_rows(SparseMatrix part) {
   MatrixX left(part.cols(), asked.cols());
   for (Index k = 0; k < asked.cols(); ++k)
     left.col(k) = equations.remainder(VectorX(asked.col(k)));
-  const auto [order, pivots] = pivoted_columns(left);
+  const auto [order, sizes] = pivoted_columns(left);
   for (Index k = 0; k < left.cols(); ++k)
     rows.push_back(
-        {doubtful[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])], pivots[k]});
+        {doubtful[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])], sizes[k]});
   return rows;
 }
 
