@@ -23,7 +23,7 @@ int steps_between_looks(const std::string& method) {
 
 /// What the tolerance leaves at least, in units of it: Newton's iteration, samples between the ends
 /// of steps; BDF and the interpolant of order 7 keep less close to it than collocation.
-constexpr double usual_least = 10.0, least_of_radau = 3.0, fixed_least = 1e-2;
+constexpr double usual_least = 10.0, least_of_radau = 3.0, fixed_least = 0.1;
 
 double least_error(const model::SolverOptions& options) {
   if (options.step > 0.0)
@@ -223,6 +223,7 @@ void Trust::remember(Archive& a) {
 }
 
 Trust::Estimate Trust::estimate() const {
+  constexpr double at_rest = 0.01; // of the motion expected: what moves less has none of its own
   const ErrorGrowth::Error& e = growth_->error();
   Estimate out;
   for (Index g = 0; g < reached_.size(); ++g) {
@@ -231,9 +232,11 @@ Trust::Estimate Trust::estimate() const {
       if (s_.error_group[static_cast<std::size_t>(i)] == g && s_.is_motion(i) &&
           !growth_->is_guided(g))
         now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
+    // Tolerances are made for the motion that was expected; the estimate is told of what was reached.
     // An error as large as the motion: beyond, growth says no more.
-    const double whole = size(g),
-                 error = std::max(std::min(std::max(largest_[g], now) / whole, 1.0), least_);
+    const double hoped = expected(g), whole = std::max({reached_[g], at_rest * hoped, 1e-300}),
+                 left = least_ * std::max(hoped / whole, 1.0),
+                 error = std::min(std::max({largest_[g] / whole, now / whole, left}), 1.0);
     if (error > out.error)
       out = {error, worst_of(g), when_[g]};
   }

@@ -47,7 +47,7 @@ class Cell:
     balance : float or None
         Largest error of the energy balance over the largest energy exchanged.
     size : float or None
-        Size of the motion, in the unit of the scene.
+        How far the motion goes from its start, in the unit of the scene.
     estimate : float or None
         The run's own estimate of its error, relative to the size of its motion.
     """
@@ -154,7 +154,7 @@ def run_cell(scene: Scene, method: Method, folder: Path, time_limit: float) -> C
     )
     return Cell(
         scene.name, method.name, outcome, reason, off, spent, method.allowance(scene),
-        results.end_time, None if balance is None else float(balance), scene.size,
+        results.end_time, None if balance is None else float(balance), scene.motion(results),
         None if estimate is None else float(estimate),
     )  # fmt: skip
 

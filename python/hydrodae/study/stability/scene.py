@@ -130,6 +130,17 @@ class Scene:
         loose = max(math.sqrt(rtol or 0.0), SMALLEST)
         return self.size * min(0.1, loose * max(1.0, scales / 10.0))
 
+    def motion(self, results: Results) -> float:
+        """Return how far what is measured goes from its start, in `unit`; `size` without a truth.
+
+        What a run's own estimate is relative to. The size by which a run is judged may be smaller,
+        as that of the delay that a bump causes on a long way.
+        """
+        if self.truth is None or len(results.time) == 0:
+            return self.size
+        exact = self.truth(results.time[results.time <= self.judged_until])
+        return float(np.linalg.norm(exact - exact[0], axis=1).max()) or self.size
+
     def error(self, results: Results) -> float:
         """Return the largest error of a run over its samples, in `unit`; inf if not finite."""
         assert self.measured is not None
