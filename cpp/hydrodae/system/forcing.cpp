@@ -13,17 +13,17 @@ namespace {
 
 constexpr double share_of_period = 0.2; ///< of the shortest wave that matters, in one step
 constexpr double most_turn = 12.0;      ///< of a joint in one step [rad]; see turned_angle
-constexpr double kept = 0.999;          ///< of the variance of the waves: longer than that
+constexpr double kept = 0.999;          ///< of the variance: waves that matter are longer than that
 
 /// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
-/// each component: sqrt(2 sum |C|^2 / max(1/T, w)^4), twice the standard deviation.
-double response(const VectorX& C, const VectorX& omega, double time_scale) {
-  double sum = 0.0;
+/// each component: |C| / max(1/T, w)^2.
+VectorX response(const VectorX& C, const VectorX& omega, double time_scale) {
+  VectorX out(C.size());
   for (Index i = 0; i < C.size(); ++i) {
     const double rate = std::max(1.0 / time_scale, omega[i]);
-    sum += C[i] * C[i] / std::pow(rate, 4.0);
+    out[i] = std::abs(C[i]) / (rate * rate);
   }
-  return std::sqrt(2.0 * sum);
+  return out;
 }
 
 /// 2^k cells of [0, end], of length `cell` at most.
@@ -32,8 +32,10 @@ std::size_t cells(double end, double cell, double fewest, double most) {
   return std::size_t{1} << static_cast<unsigned>(std::ceil(std::log2(count)));
 }
 
-/// The frequency below which all but a thousandth of the waves' variance is [rad/s].
-double highest(std::vector<std::pair<double, double>> parts) {
+using Parts = std::vector<std::pair<double, double>>; ///< frequency [rad/s], variance
+
+/// The frequency below which all but a thousandth of the variance is [rad/s].
+double highest(Parts parts) {
   std::sort(parts.begin(), parts.end());
   double total = 0.0, below = 0.0;
   for (const auto& [omega, variance] : parts)
@@ -109,24 +111,39 @@ void Forcing::add_drives(const Regime& s, double end, double output_step) {
   }
 }
 
+/// Short waves hold a part of the variance of the elevation that hardly moves a body: what counts
+/// is the response of each body, and the elevation itself where laws feel it otherwise.
 void Forcing::add_waves(const Regime& s) {
-  std::vector<std::pair<double, double>> parts; // frequency, variance
+  double most = 0.0;
   for (const ElementList& list : s.elements) {
     const element::WavesFelt waves = list.laws->waves();
-    for (Index i = 0; i < waves.omega.size(); ++i)
-      parts.emplace_back(waves.omega[i], waves.amplitude[i] * waves.amplitude[i]);
-    for (std::size_t k = 0; k < list.ports.size() && waves.omega.size() > 0; ++k) {
+    if (waves.omega.size() == 0)
+      continue;
+    const auto take = [&](const VectorX& squares) {
+      Parts parts;
+      for (Index i = 0; i < waves.omega.size(); ++i)
+        parts.emplace_back(waves.omega[i], squares[i]);
+      most = std::max(most, highest(std::move(parts)));
+    };
+    if (waves.loads.empty())
+      take(waves.amplitude.cwiseAbs2());
+    for (std::size_t k = 0; k < list.ports.size(); ++k) {
       const PortData& port = list.ports[k];
       const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
       if (waves.loads.empty())
         expect(b, false, std::sqrt(2.0) * waves.amplitude.norm());
+      VectorX moved = VectorX::Zero(waves.omega.size()); // squares, in levers or rad
       for (int c = 0; c < 6 && !waves.loads.empty(); ++c)
-        if (const double mass = mass_along(s, port, c); mass > 0.0)
-          expect(b, c >= 3,
-                 response(waves.loads[k].row(c).transpose(), waves.omega, b.time_scale) / mass);
+        if (const double mass = mass_along(s, port, c); mass > 0.0) {
+          const VectorX answer =
+              response(waves.loads[k].row(c).transpose(), waves.omega, b.time_scale) / mass;
+          expect(b, c >= 3, std::sqrt(2.0) * answer.norm());
+          moved += (c < 3 ? answer / b.lever : answer).cwiseAbs2();
+        }
+      take(moved);
     }
   }
-  if (const double most = highest(parts); most > 0.0)
+  if (most > 0.0)
     wave_limit_ = share_of_period * 2.0 * pi / most;
 }
 
