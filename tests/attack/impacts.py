@@ -236,6 +236,7 @@ def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
     {"mass": 1.0, "rate": 3.0, "release": 0.5, "room": 0.4, "restitution": 0.7},
     {"mass": 1e3, "rate": 1.0, "release": 1e-3, "room": 0.5, "restitution": 0.9},
     {"mass": 1.0, "rate": 10.0, "release": 0.1, "room": 0.3, "restitution": 1.0, "kind": "ship"},
+    {"mass": 76.0, "rate": 0.24, "release": 0.024, "room": 0.82, "restitution": 0.48},
 )  # fmt: skip
 def spring_and_stop(
     mass: float, rate: float, release: float, room: float, restitution: float,

@@ -295,6 +295,7 @@ def _draw_coast(g: np.random.Generator) -> dict[str, Any]:
     {"mass": 1.0, "speed": 1.0, "coast": 100.0, "restitution": 0.6},
     {"mass": 1e4, "speed": 0.01, "coast": 300.0, "restitution": 0.0},
     {"mass": 1e-3, "speed": 0.1, "coast": 100.0, "restitution": 0.9, "kind": "ship"},
+    {"mass": 700.0, "speed": 0.007, "coast": 200.0, "restitution": 0.3},
 )  # fmt: skip
 def coast_to_stop(
     mass: float, speed: float, coast: float, restitution: float, kind: str | None = None

@@ -44,7 +44,6 @@ public:
     const double shift = alpha_m_ - alpha_f_;
     error_constant_ = beta_ + 0.5 * shift - 1.0 / 6.0;
     rate_constant_ = shift * (alpha_m_ - 0.5) + gamma_ * (0.5 + shift) - 1.0 / 6.0;
-    lives_ = 1.0 / (1.0 - std::min(rho, 0.99));
     e_.accept(t_, y_, yp_);
   }
 
@@ -75,7 +74,6 @@ private:
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
   double error_constant_ = 0; ///< of the positions, of h^3 q'''
   double rate_constant_ = 0;  ///< of u and z, of h^3 x'''
-  double lives_ = 1;          ///< steps that an error of the rates lives where the scene is stiff
   double t_ = 0.0, t0_ = 0.0, h_;
   Index n_x_;
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
@@ -176,8 +174,7 @@ bool GeneralizedAlpha::newton(double t, double h) {
 /// Error of the last step. With d = alpha_m - alpha_f, k = d (alpha_m - 1/2) the algorithm's own a
 /// is x' + d h x'' + k h^2 x''', hence (beta + d / 2 - 1/6) h^3 q''' of the positions along each
 /// coordinate and (k + gamma (1/2 + d) - 1/6) h^3 x''' of the rest; and turns do not commute,
-/// -h^3 w x w' / 12 (Magnus). Where the equations are stiff, as where friction turns round within a
-/// step, the algorithm keeps an error of the velocities for some steps, by its spectral radius.
+/// -h^3 w x w' / 12 (Magnus).
 void GeneralizedAlpha::estimate(double h) {
   const VectorX change = (yp_ - yp0_).segment(s_.u0, n_x_);
   VectorX moved = error_constant_ * h * h * change.head(s_.n_u);
@@ -188,13 +185,10 @@ void GeneralizedAlpha::estimate(double h) {
           h * h * h / 12.0 * Vector3(y_.segment<3>(k)).cross(Vector3(yp_.segment<3>(k)));
     }
   step_error_ = VectorX::Zero(s_.lambda0);
-  if (change_.size() == change.size()) {
-    auto rates = step_error_.segment(s_.u0, s_.memory0 - s_.u0);
-    rates = rate_constant_ * h * (change - change_).head(s_.memory0 - s_.u0);
-    for (Index k = 0; k < s_.n_u; ++k)
-      moved[k] += std::copysign(lives_ * h * rates[k], moved[k]);
-  }
   step_error_.head(s_.n_q) = to_positions(s_, y_, moved);
+  if (change_.size() == change.size())
+    step_error_.segment(s_.u0, s_.memory0 - s_.u0) =
+        rate_constant_ * h * (change - change_).head(s_.memory0 - s_.u0);
   change_ = change;
   local_error_ = block_sizes(s_, step_error_);
 }

@@ -61,8 +61,14 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
     const Motion m = motion(s_.switches[k]);
     const bool upper = approach(k) == m.rate;
     const double rebound = -s_.switches[k].restitution * m.rate;
-    // A rebound of a height below the tolerance, some rtol times the motion, is none.
-    const double slow = 3.0 * std::sqrt(rtol_) * size_[k].rate * motion_scale(s_.switches[k]);
+    // A rebound of a height below the tolerance, some rtol times the motion, is none: v^2 / 2 a
+    // under the acceleration towards the stop. Nothing else brings a slow one back.
+    const Size& size = size_[k];
+    const double pressed = (upper ? m.acceleration : -m.acceleration) * size.length,
+                 part = std::clamp(pressed / (size.rate * size.rate), 0.0, 1.0),
+                 slow = std::max(3.0 * std::sqrt(rtol_ * part) * motion_scale(s_.switches[k]),
+                                 resting) *
+                        size.rate;
     after[k] = std::abs(rebound) > slow ? rebound : 0.0;
     acts[k] = true;
     set(k, upper ? State::upper : State::lower);
