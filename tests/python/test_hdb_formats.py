@@ -50,19 +50,42 @@ def test_several_runs_of_wamit_and_a_nemoh_run_without_its_input(tmp_path):
         resolve(tmp_path / "run")
 
 
-def test_exports_of_orcawave_that_are_not_read_name_those_that_are(tmp_path):
-    (tmp_path / "buoy.csv").write_text("Frequency;A11")
+@pytest.mark.parametrize("content", ["OrcaWave 11.4e: buoy.owr\n1;2\n", "Frequency;A11\n1;2\n"])
+def test_spreadsheets_of_orcawave_name_what_to_save_instead(tmp_path, content):
+    (tmp_path / "buoy.csv").write_text(content)
     for source in (tmp_path, tmp_path / "buoy.csv"):
-        with pytest.raises(DatabaseError, match=r"OrcaWave as \.csv .* WAMIT format .* \(\.yml\)"):
+        with pytest.raises(
+            DatabaseError, match=r"spreadsheet.*\(\.owr\) in OrcaFlex.*\.yml"
+        ) as error:
+            hdb.read(source)
+        assert ("what stands in which column" in str(error.value)) == ("OrcaWave" not in content)
+
+
+def test_a_spreadsheet_beside_files_of_another_code_is_not_what_is_told(tmp_path):
+    (tmp_path / "a.csv").write_text("1;2\n")
+    (tmp_path / "ship.hdb").write_text("Diodore")
+    with pytest.raises(
+        DatabaseError, match=r"ship\.hdb: a file of Diodore, not read here; BEMRosetta"
+    ):
+        hdb.read(tmp_path)
+
+
+@pytest.mark.parametrize("suffix", [".hdf", ".hdb", ".rao", ".hyd", ".mat", ".owr", ".owd"])
+def test_files_of_unread_codes_name_the_way_to_one_that_is_read(tmp_path, suffix):
+    (tmp_path / f"ship{suffix}").write_text("# something")
+    for source in (tmp_path, tmp_path / f"ship{suffix}"):
+        with pytest.raises(DatabaseError, match=r"not read here; .*WAMIT"):
             hdb.read(source)
 
 
-def test_files_of_unread_codes_name_the_converter(tmp_path):
-    (tmp_path / "ship.hdf").write_text("# Diodore")
-    with pytest.raises(DatabaseError, match=r"Diodore or HydroStar.*BEMRosetta.*WAMIT tables"):
-        hdb.read(tmp_path)
-    with pytest.raises(DatabaseError, match="BEMRosetta"):
-        hdb.read(tmp_path / "ship.hdf")
+def test_a_missing_source_names_what_is_there(tmp_path):
+    with pytest.raises(DatabaseError, match=r"no such file or folder; the folder .* is empty$"):
+        hdb.read(tmp_path / "hydro.h5")
+    with pytest.raises(DatabaseError, match=r"no such file or folder; nor is there a folder "):
+        hdb.read(tmp_path / "nowhere" / "hydro.h5")
+    (tmp_path / "hydra.h5").write_text("")
+    with pytest.raises(DatabaseError, match=r"did you mean 'hydra\.h5'\? \(known: hydra\.h5\)$"):
+        hdb.read(tmp_path / "hydro.h5")
 
 
 def cylinder(reference, name):

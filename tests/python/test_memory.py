@@ -13,6 +13,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 from hydrodae.memory import data as prepare
 from hydrodae.memory.direct import fit_direct
+from hydrodae.memory.goal import Goal
 
 # Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
 RESONANCES = (
@@ -164,7 +165,7 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     omega = np.arange(0.02, 0.83, 0.02)
     short = table(exact_transfer(omega), omega)
     data = prepare.gather(short, LABELS, LABELS)
-    goal = prepare.Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None, 1e-3)
+    goal = Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None, 1e-3)
     pick = np.arange(len(LABELS))
     matrices = prepare.scaled(data.square, data.scale, pick)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)

@@ -32,6 +32,7 @@ from hydrodae.hdb.readers.aqwa_pages import (
     read_radiation,
 )
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.text import read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -67,7 +68,7 @@ def read_listing(path: Path) -> SourceData:
     DatabaseError
         A table is missing or wrong; the message names the line.
     """
-    text = path.read_text(errors="replace")
+    text = read_text(path)
     lines = text.splitlines()
     pages = pages_of_structures(lines)
     if not pages:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import read_lines, read_text
 
 Array = NDArray[np.float64]
 
@@ -103,7 +104,7 @@ def _leading(line: str) -> list[float]:
 
 
 def _cfg(path: Path, control: Control) -> None:
-    for line in path.read_text(errors="replace").splitlines():
+    for line in read_lines(path):
         found = re.match(r"\s*IPEROUT\s*=\s*(\d+)", line, re.IGNORECASE)
         if found:
             control.first_column = int(found[1])
@@ -113,7 +114,7 @@ def _cfg(path: Path, control: Control) -> None:
 
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_lines(path)
     values = [_leading(line) for line in lines]
 
     def expect(row: int, count: int, what: str) -> list[float]:
@@ -166,7 +167,7 @@ def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen = 0
     known = bool(control.points)
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         if line.strip().startswith("Gravity:"):
             found = _numbers(line.split("Gravity:")[1])
             control.gravity = found[0]
@@ -219,8 +220,8 @@ def _frc(stem: Path, control: Control) -> None:
     path, matrix = beside(stem, ".frc"), beside(stem, ".mmx")
     if path is None or matrix is None:
         return
-    form = re.search(r"IALTFRC\s*=\s*(\d)", matrix.read_text(errors="replace"))
-    lines = path.read_text(errors="replace").splitlines()
+    form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(matrix))
+    lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
         found = _leading(lines[2])
         if found and found[0] > LEAST_DENSITY:
@@ -240,7 +241,7 @@ def _hams_file(stem: Path) -> Path | None:
 
 def _hams(path: Path, control: Control) -> None:
     """Depth (negative: infinite), reference point and length of HAMS; its tables hold periods."""
-    text = path.read_text(errors="replace")
+    text = read_text(path)
     depth = re.search(rf"Waterdepth\s+({_NUMBER})", text, re.IGNORECASE)
     if depth is None:
         raise DatabaseError(f"{path}: no line Waterdepth with a number")
@@ -270,7 +271,7 @@ def _after(path: Path, count: int, line: str) -> Array:
 
 
 def _gdf(path: Path, control: Control) -> None:
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_lines(path)
     found = _leading(lines[1]) if len(lines) > 1 else []
     if len(found) < 2:
         raise DatabaseError(f"{path}:2: expected 2 numbers: ULEN and GRAV")

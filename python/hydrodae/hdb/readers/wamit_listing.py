@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import number, read_lines
 
 Array = NDArray[np.float64]
 
@@ -81,7 +82,7 @@ def read_listing(path: Path) -> Listing:
     """
     radiation, forces = _Rows(), {title: _Rows() for title in _FORCES}
     period, heading, table = np.nan, np.nan, ""
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         found = _PERIOD.search(line)
         if found:
             word = found[1].lower()
@@ -129,7 +130,7 @@ def _once(rows: Array, lines: list[int], key: int) -> tuple[Array, list[int]]:
 
 def _values(path: Path, count: int, line: str) -> list[float]:
     try:
-        return [float(word.replace("D", "E")) for word in line.split()]
+        return [number(word) for word in line.split()]
     except ValueError:
         raise DatabaseError(f"{path}:{count}: not numbers: {line.strip()[:60]!r}") from None
 
