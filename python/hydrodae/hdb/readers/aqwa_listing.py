@@ -32,7 +32,7 @@ from hydrodae.hdb.readers.aqwa_pages import (
     read_radiation,
 )
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.readers.text import read_text
+from hydrodae.hdb.readers.text import number, read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -116,7 +116,7 @@ def _stated(path: Path, lines: list[str], pattern: str) -> float:
     for line in lines:
         found = re.search(f"{pattern}({NUMBER})", line)
         if found:
-            return float(found[1])
+            return number(found[1])
     words = re.sub(r"\\s[+*]?|\[ \.\]\*|=", " ", pattern).split()
     raise DatabaseError(f"{path}: no line {' '.join(words)!r} with a number")
 
@@ -125,7 +125,7 @@ def _center(path: Path, lines: list[str]) -> Array:
     for line in lines:
         found = re.search(rf"GX=\s*({NUMBER})\s+GY=\s*({NUMBER})\s+GZ=\s*({NUMBER})", line)
         if found:
-            return np.array([float(v) for v in found.groups()])
+            return np.array([number(v) for v in found.groups()])
     raise DatabaseError(f"{path}: no line 'STRUCTURE C.O.G. GX= GY= GZ='")
 
 
@@ -149,7 +149,7 @@ def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float
             if len(words) not in (14, 15) or not re.fullmatch(NUMBER, words[0]):
                 continue
             try:
-                values = np.array([float(word) for word in words])
+                values = np.array([number(word) for word in words])
             except ValueError:
                 raise DatabaseError(f"{path}:{at + 1}: expected numbers") from None
             if values.size == 15:
