@@ -183,14 +183,14 @@ def _symmetry(db: HydroDatabase) -> list[Finding]:
 
 
 def _worst_pair(db: HydroDatabase, at: int) -> str:
-    """The two coordinates that weigh most in the most negative direction of the scaled B."""
+    """The one or two coordinates that weigh most in the most negative direction of the scaled B."""
     sizes = damping_sizes(db)[at]
     used = np.flatnonzero(sizes > 0.0)
     s = np.sqrt(sizes[used])
     scaled = db.radiation_damping[at][np.ix_(used, used)] / np.outer(s, s)
     weight = np.abs(np.linalg.eigh(scaled)[1][:, 0])
-    first, second = (db.coordinates[used[i]] for i in np.argsort(weight)[[-1, -2]])
-    return f"mostly {first} with {second}"
+    names = [db.coordinates[used[i]] for i in np.argsort(weight)[::-1][:2]]
+    return f"mostly {' with '.join(names)}"
 
 
 def _negative(db: HydroDatabase) -> list[Finding]:

@@ -26,13 +26,12 @@ from hydrodae.hdb.readers.aqwa_common import (
     unit_of_mass,
 )
 from hydrodae.hdb.readers.aqwa_pages import (
-    NUMBER,
     pages_of_structures,
     read_matrix,
     read_radiation,
 )
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.readers.text import number, read_text
+from hydrodae.hdb.readers.text import NUMBER, number, read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import number
+from hydrodae.hdb.readers.text import NUMBER, number
 
 Array = NDArray[np.float64]
 
-NUMBER = r"[-+]?\d+\.?\d*(?:[ED][-+]?\d+)?"
 _STRUCTURE = re.compile(r"S T R U C T U R E\s+(\d+)")
 _TABLE = re.compile(r"(?:H/I )?(ADDED MASS|DAMPING)(?: FOR FORCE ON STR# ?(\d+))?")
 #: Frequency that stands for infinity [rad/s].

@@ -72,6 +72,8 @@ def _hydrostatics(
         return None
     k = np.zeros((6, 6))
     block = ds["hydrostatic_stiffness"].sel(influenced_dof=present, radiating_dof=present)
+    if set(block.dims) != {"influenced_dof", "radiating_dof"}:
+        return None
     k[np.ix_(index, index)] = block.transpose("influenced_dof", "radiating_dof").values
     center = _vector(ds, "center_of_mass", prefix, i)
     if center is not None and not np.allclose(center, point):

@@ -23,7 +23,7 @@ from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.readers.text import line_of
+from hydrodae.hdb.readers.text import line_of, read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -55,8 +55,7 @@ def orcawave_file(path: Path) -> Path | None:
 
 
 def _has_tables(path: Path) -> bool:
-    with open(path, encoding="utf-8-sig", errors="replace") as f:
-        return any(_TABLES in line for line in f)
+    return _TABLES in read_text(path)
 
 
 def read_orcawave(path: Path) -> SourceData:

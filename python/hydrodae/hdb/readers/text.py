@@ -6,6 +6,8 @@ import math
 import re
 from pathlib import Path
 
+#: One number within a line; not the beginning or the end of a garbled one (`1.0x3`, `-1.#IND`).
+NUMBER = r"(?:[-+]|(?<![\w.]))(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?(?![\w.#])"
 _LOST_E = re.compile(r"(?<=[0-9.])([+-]\d{3})\b")
 
 
