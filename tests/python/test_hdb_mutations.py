@@ -194,24 +194,23 @@ def test_a_single_garbled_force_is_told(reference):
 
 
 def test_hydrostatics_of_another_hull_are_told(reference):
-    sphere = hdb.read(reference / "hdb" / "sphere_nemoh_v2.3")
-    (name,) = sphere.bodies
-    assert hull_findings(sphere) == []
-    statics = sphere.bodies[name].hydrostatics
-    low = dataclasses.replace(
-        statics, center_of_buoyancy=statics.center_of_buoyancy * np.array([1.0, 1.0, 10.0])
-    )
-    (found,) = hull_findings(sphere.with_hydrostatics({name: low}))
-    assert "its centre of buoyancy is at" in found.message
-    above = dataclasses.replace(statics, center_of_buoyancy=-statics.center_of_buoyancy)
-    found = hull_findings(sphere.with_hydrostatics({name: above}).with_meshes({}))
-    assert [f.severity for f in found if "above the water" in f.message] == ["error"]
-    flat = dataclasses.replace(statics, waterplane_area=-statics.waterplane_area)
-    found = hull_findings(sphere.with_hydrostatics({name: flat}))
-    assert [f.severity for f in found if "area is negative" in f.message] == ["error"]
-    small = dataclasses.replace(statics, displaced_volume=0.8 * statics.displaced_volume)
-    (found,) = hull_findings(sphere.with_hydrostatics({name: small}))
-    assert "displaces" in found.message
+    cubes = hdb.read(reference / "hdb" / "cubes_nemoh_v3.0.2")
+    assert hull_findings(cubes) == []
+    statics = cubes.bodies["r_cube"].hydrostatics
+
+    def told(**changes):
+        other = dataclasses.replace(statics, **changes)
+        found = hull_findings(cubes.with_hydrostatics({"r_cube": other}))
+        return [(f.severity, f.message.removeprefix("r_cube: ")[:26]) for f in found]
+
+    center, volume = statics.center_of_buoyancy, statics.displaced_volume
+    assert told(center_of_buoyancy=3.0 * center) == [("warning", "its centre of buoyancy is ")]
+    ((severity, text),) = told(displaced_volume=0.8 * volume)
+    assert severity == "warning"
+    assert text.startswith("displaces ")
+    assert ("error", "its centre of buoyancy, z ") in told(center_of_buoyancy=-center)
+    area = -statics.waterplane_area
+    assert told(waterplane_area=area) == [("error", "its waterplane area is neg")]
 
 
 def test_a_garbled_depth_is_no_depth(copy):
@@ -228,6 +227,8 @@ def test_a_garbled_depth_is_no_depth(copy):
 
 def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):
     sphere = hdb.read(reference / "hdb" / "own" / "sphere.nc").select(["sphere.heave"])
-    wrong = dataclasses.replace(sphere, radiation_damping=-sphere.radiation_damping)
+    damping = sphere.radiation_damping.copy()
+    damping[np.abs(sphere.omega - 1.0).argmin()] *= -3.0
+    wrong = dataclasses.replace(sphere, radiation_damping=damping)
     errors = [f for f in hdb.check(wrong).findings if f.severity == "error"]
     assert any("mostly sphere.heave;" in f.message for f in errors)
