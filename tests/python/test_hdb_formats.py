@@ -50,15 +50,23 @@ def test_several_runs_of_wamit_and_a_nemoh_run_without_its_input(tmp_path):
         resolve(tmp_path / "run")
 
 
-@pytest.mark.parametrize("content", ["OrcaWave 11.4e: buoy.owr\n1;2\n", "Frequency;A11\n1;2\n"])
-def test_spreadsheets_of_orcawave_name_what_to_save_instead(tmp_path, content):
-    (tmp_path / "buoy.csv").write_text(content)
-    for source in (tmp_path, tmp_path / "buoy.csv"):
-        with pytest.raises(
-            DatabaseError, match=r"spreadsheet.*\(\.owr\) in OrcaFlex.*\.yml"
-        ) as error:
+def test_spreadsheets_of_orcawave_name_what_to_save_instead(tmp_path):
+    path = tmp_path / "buoy.csv"
+    path.write_text("OrcaWave 11.4e: buoy.owr\n1;2\n")
+    for source in (tmp_path, path):
+        with pytest.raises(DatabaseError, match=r"of OrcaWave.*\(\.owr\) in OrcaFlex.*\.yml"):
             hdb.read(source)
-        assert ("what stands in which column" in str(error.value)) == ("OrcaWave" not in content)
+    path.write_text("Frequency;A11\n1;2\n")
+    with pytest.raises(DatabaseError, match=r"buoy\.csv: a spreadsheet .* in which column"):
+        hdb.read(path)
+    with pytest.raises(DatabaseError, match="no database in it"):
+        hdb.read(tmp_path)
+
+
+def test_a_model_of_orcawave_without_results_says_so(reference):
+    path = reference / "hdb" / "multibody_orcawave" / "Multibody.yml"
+    with pytest.raises(DatabaseError, match=r"OrcaWave's model, without results; run it"):
+        hdb.read(path)
 
 
 def test_a_spreadsheet_beside_files_of_another_code_is_not_what_is_told(tmp_path):

@@ -208,7 +208,9 @@ def test_hydrostatics_of_another_hull_are_told(reference):
     ((severity, text),) = told(displaced_volume=0.8 * volume)
     assert severity == "warning"
     assert text.startswith("displaces ")
-    assert ("error", "its centre of buoyancy, z ") in told(center_of_buoyancy=-center)
+    for factor, severity in ((-1.0, "error"), (0.0, "warning"), (1000.0, "warning")):
+        found = told(center_of_buoyancy=factor * center)
+        assert found[0] == (severity, "its centre of buoyancy, z ")
     area = -statics.waterplane_area
     assert told(waterplane_area=area) == [("error", "its waterplane area is neg")]
 
@@ -223,6 +225,18 @@ def test_a_garbled_depth_is_no_depth(copy):
             DatabaseError, match=r"ControlFile\.in: no line Waterdepth with a number"
         ):
             read_source(path.parent)
+
+
+def test_overflows_are_dropped_and_told(copy):
+    folder = copy("cylinder_hams")
+    path = folder / "Wamit_format" / "Buoy.1"
+    lines = path.read_text().splitlines()
+    at = next(i for i, line in enumerate(lines) if len(line.split()) == 5)
+    words = lines[at].split()
+    lines[at] = " ".join([*words[:3], "1.0E+300", words[4]])
+    path.write_text("\n".join(lines))
+    _, report = hdb.import_database(folder)
+    assert any(f.check == "NaN" for f in report.of("warning"))
 
 
 def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):

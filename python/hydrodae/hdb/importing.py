@@ -22,6 +22,8 @@ from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.source import SourceData, Water, finish
 from hydrodae.hdb.readers.wamit import read_wamit
 
+#: What no coefficient in SI units reaches; larger ones stand for overflows.
+LARGEST = 1e30
 #: Tables of excitation that a source may hold.
 FORCES = ("froude_krylov", "diffraction", "excitation")
 
@@ -97,6 +99,15 @@ def _check_tables(path: Path, data: SourceData) -> None:
             f"{path}: {w.size} frequencies{where}; expected some > 0, each above the one before: "
             f"is the column of frequencies another, or the file cut short?"
         )
+    for name in ("added_mass", "radiation_damping", *FORCES):
+        table = getattr(data, name)
+        if table is not None:
+            table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and told
+    limit = data.added_mass_inf
+    if limit is not None and not np.all(np.abs(limit) < LARGEST):
+        data.added_mass_inf = None
+        text = "it holds values that are not finite: estimated instead"
+        data.findings.append(Finding("warning", "added_mass_inf of the source", text))
     for what, value, low, high, unit in (
         ("density", data.rho, 500.0, 2000.0, "kg/m3"),
         ("gravity", data.gravity, 9.7, 9.9, "m/s2"),

@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 ALIKE = 0.1
 #: What rounding leaves of areas and moments, over the length V^(1/3) to their power.
 ROUNDING = 1e-2
+#: Centres of buoyancy of floating bodies lie within so many V^(1/3): a spar's at 2.
+DEEP = 20.0
 
 
 def hull_findings(database: HydroDatabase) -> list[Finding]:
@@ -50,9 +52,14 @@ def _impossible(statics: Hydrostatics, depth: float) -> list[tuple[str, str]]:
     """Tell what no hull has, with its severity."""
     found, size = [], abs(statics.displaced_volume) ** (1.0 / 3.0)
     height = float(statics.center_of_buoyancy[2])
-    if height > ROUNDING * size or height < -depth:
-        where = "above the water" if height > 0.0 else f"below the ground at {-depth:g} m"
-        found.append(("error", f"its centre of buoyancy, z = {height:.4g} m, is {where}"))
+    center = f"its centre of buoyancy, z = {height:.4g} m, is"
+    if height >= 0.0:
+        severity = "error" if height > ROUNDING * size else "warning"
+        found.append((severity, f"{center} not below the water"))
+    elif height < -depth:
+        found.append(("error", f"{center} below the ground at {-depth:g} m"))
+    elif height < -DEEP * size and statics.waterplane_area > ROUNDING * size**2:
+        found.append(("warning", f"{center} very deep for {statics.displaced_volume:.4g} m3"))
     if statics.waterplane_area < -ROUNDING * size**2:
         text = f"its waterplane area is negative, {statics.waterplane_area:.4g} m2"
         found.append(("error", text))

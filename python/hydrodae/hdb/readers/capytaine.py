@@ -101,7 +101,7 @@ def open_dataset(path: Path) -> xr.Dataset:
     engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
     try:
         return xr.open_dataset(path, engine=engine)
-    except (OSError, ValueError, TypeError) as error:
+    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         raise DatabaseError(f"{path}: not a readable netCDF file ({error})") from error
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from hydrodae.hdb.readers.text import read_text
+
 BEMROSETTA = "BEMRosetta (github.com/BEMRosetta/BEMRosetta)"
 #: Reads them, and saves what is read here.
 CONVERTER = f"{BEMROSETTA} reads it and saves WAMIT tables (.1, .3, .hst)"
@@ -30,29 +32,33 @@ FOREIGN = {
     ".ah2": ("AQWA (drift forces)", NO_TABLES),
     ".owr": ("OrcaWave (its results, binary)", ORCAFLEX),
     ".owd": ("OrcaWave (a model without results)", f"run it; then {ORCAFLEX}"),
-    ".csv": ("", ""),
-    ".xlsx": ("", ""),
 }
 
 
 def foreign(path: Path) -> str | None:
     """Return what a file that is not read here is and what to do, as a message; None if unknown."""
     suffix = path.suffix.lower()
-    if suffix not in FOREIGN:
+    if suffix in FOREIGN:
+        code, advice = FOREIGN[suffix]
+        return f"{path}: a file of {code}, not read here; {advice}"
+    if suffix in (".yml", ".yaml") and "# Type: Diffraction" in read_text(path)[:400]:
+        return f"{path}: OrcaWave's model, without results; run it; then {ORCAFLEX}"
+    if suffix not in (".csv", ".xlsx"):
         return None
-    code, advice = FOREIGN[suffix]
-    if suffix in (".csv", ".xlsx"):
-        code, advice = _sheet(path)
-    return f"{path}: a file of {code}, not read here; {advice}"
-
-
-def _sheet(path: Path) -> tuple[str, str]:
-    """Tell of which code a spreadsheet is; OrcaWave's say so in their first line."""
-    with open(path, "rb") as file:
-        head = file.read(4000)
-    if b"OrcaWave" in head or path.suffix.lower() == ".xlsx":
-        return "OrcaWave (a spreadsheet)", ORCAFLEX
+    if suffix == ".xlsx" or "OrcaWave" in read_text(path)[:4000]:
+        return f"{path}: a spreadsheet of OrcaWave, not read here; {ORCAFLEX}"
     return (
-        "a spreadsheet that does not say what stands in which column",
-        f"give tables in WAMIT's format (.1: period, I, J, A, B); if it is of OrcaWave, {ORCAFLEX}",
+        f"{path}: a spreadsheet that does not say what stands in which column, not read here; give "
+        f"tables in WAMIT's format (.1: period, I, J, A, B)"
     )
+
+
+def foreign_in(folder: Path) -> str | None:
+    """Return the same of the files of a folder; spreadsheets count if they are of OrcaWave."""
+    order = [*FOREIGN, ".yml", ".yaml", ".csv", ".xlsx"]
+    known = [p for p in folder.iterdir() if p.is_file() and p.suffix.lower() in order]
+    for path in sorted(known, key=lambda p: (order.index(p.suffix.lower()), p)):
+        text = foreign(path)
+        if text is not None and "which column" not in text:
+            return text
+    return None

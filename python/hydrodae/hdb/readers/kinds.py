@@ -12,7 +12,7 @@ from hydrodae.hdb import files
 from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.readers.aqwa import aqwa_file
 from hydrodae.hdb.readers.bemio import is_bemio_file
-from hydrodae.hdb.readers.foreign import FOREIGN, foreign
+from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.nemoh_hydrostatics import find
 from hydrodae.hdb.readers.orcawave import orcawave_file
 from hydrodae.hdb.readers.wamit import wamit_stem
@@ -81,10 +81,9 @@ def _folder(path: Path) -> tuple[Path, str]:
             f"{path}: {lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
             f"water, the bodies and their reference points"
         )
-    others = [p for p in path.iterdir() if p.is_file() and p.suffix.lower() in FOREIGN]
-    if others:  # the one that tells most: tables of unknown columns last
-        order = list(FOREIGN)
-        raise DatabaseError(foreign(min(others, key=lambda p: (order.index(p.suffix.lower()), p))))
+    unread = foreign_in(path)
+    if unread is not None:
+        raise DatabaseError(unread)
     raise DatabaseError(
         f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
         f".1 or .out of WAMIT, .AH1 or .LIS of AQWA, or a .yml with OrcaWave's results"
