@@ -19,11 +19,9 @@ from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.mesh_statics import mesh_statics
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.kinds import kind, resolve
-from hydrodae.hdb.readers.source import SourceData, Water, finish
+from hydrodae.hdb.readers.source import LARGEST, SourceData, Water, finish
 from hydrodae.hdb.readers.wamit import read_wamit
 
-#: What no coefficient in SI units reaches; larger ones stand for overflows.
-LARGEST = 1e30
 #: Tables of excitation that a source may hold.
 FORCES = ("froude_krylov", "diffraction", "excitation")
 

@@ -11,7 +11,7 @@ from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.causality import causal_line
 from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.readers.source import SEA_WATER, USUAL_GRAVITY, Water
+from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, Water
 from hydrodae.hdb.readers.wamit_control import Control
 from hydrodae.hdb.readers.wamit_tables import to_omega
 
@@ -20,8 +20,6 @@ Array = NDArray[np.float64]
 COLUMNS = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 #: Correlation of A with what B implies that is no chance.
 CLEAR = 0.98
-#: Coefficients beyond this are overflows.
-LARGEST = 1e30
 
 
 def settled(
