@@ -50,19 +50,50 @@ def test_several_runs_of_wamit_and_a_nemoh_run_without_its_input(tmp_path):
         resolve(tmp_path / "run")
 
 
-def test_exports_of_orcawave_that_are_not_read_name_those_that_are(tmp_path):
-    (tmp_path / "buoy.csv").write_text("Frequency;A11")
-    for source in (tmp_path, tmp_path / "buoy.csv"):
-        with pytest.raises(DatabaseError, match=r"OrcaWave as \.csv .* WAMIT format .* \(\.yml\)"):
+def test_spreadsheets_of_orcawave_name_what_to_save_instead(tmp_path):
+    path = tmp_path / "buoy.csv"
+    path.write_text("OrcaWave 11.4e: buoy.owr\n1;2\n")
+    for source in (tmp_path, path):
+        with pytest.raises(DatabaseError, match=r"of OrcaWave.*\(\.owr\) in OrcaFlex.*\.yml"):
+            hdb.read(source)
+    path.write_text("Frequency;A11\n1;2\n")
+    with pytest.raises(DatabaseError, match=r"buoy\.csv: a spreadsheet .* in which column"):
+        hdb.read(path)
+    with pytest.raises(DatabaseError, match="no database in it"):
+        hdb.read(tmp_path)
+
+
+def test_a_model_of_orcawave_without_results_says_so(reference):
+    path = reference / "hdb" / "multibody_orcawave" / "Multibody.yml"
+    with pytest.raises(DatabaseError, match=r"OrcaWave's model, without results; run it"):
+        hdb.read(path)
+
+
+def test_a_spreadsheet_beside_files_of_another_code_is_not_what_is_told(tmp_path):
+    (tmp_path / "a.csv").write_text("1;2\n")
+    (tmp_path / "ship.hdb").write_text("Diodore")
+    with pytest.raises(
+        DatabaseError, match=r"ship\.hdb: a file of Diodore, not read here; BEMRosetta"
+    ):
+        hdb.read(tmp_path)
+
+
+@pytest.mark.parametrize("suffix", [".hdf", ".hdb", ".rao", ".hyd", ".mat", ".owr", ".owd"])
+def test_files_of_unread_codes_name_the_way_to_one_that_is_read(tmp_path, suffix):
+    (tmp_path / f"ship{suffix}").write_text("# something")
+    for source in (tmp_path, tmp_path / f"ship{suffix}"):
+        with pytest.raises(DatabaseError, match=r"not read here; .*WAMIT"):
             hdb.read(source)
 
 
-def test_files_of_unread_codes_name_the_converter(tmp_path):
-    (tmp_path / "ship.hdf").write_text("# Diodore")
-    with pytest.raises(DatabaseError, match=r"Diodore or HydroStar.*BEMRosetta.*WAMIT tables"):
-        hdb.read(tmp_path)
-    with pytest.raises(DatabaseError, match="BEMRosetta"):
-        hdb.read(tmp_path / "ship.hdf")
+def test_a_missing_source_names_what_is_there(tmp_path):
+    with pytest.raises(DatabaseError, match=r"no such file or folder; the folder .* is empty$"):
+        hdb.read(tmp_path / "hydro.h5")
+    with pytest.raises(DatabaseError, match=r"no such file or folder; nor is there a folder "):
+        hdb.read(tmp_path / "nowhere" / "hydro.h5")
+    (tmp_path / "hydra.h5").write_text("")
+    with pytest.raises(DatabaseError, match=r"did you mean 'hydra\.h5'\? \(known: hydra\.h5\)$"):
+        hdb.read(tmp_path / "hydro.h5")
 
 
 def cylinder(reference, name):

@@ -13,6 +13,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 from hydrodae.memory import data as prepare
 from hydrodae.memory.direct import fit_direct
+from hydrodae.memory.goal import Goal, measure
 
 # Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
 RESONANCES = (
@@ -164,7 +165,7 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     omega = np.arange(0.02, 0.83, 0.02)
     short = table(exact_transfer(omega), omega)
     data = prepare.gather(short, LABELS, LABELS)
-    goal = prepare.Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None, 1e-3)
+    goal = Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None, 1e-3)
     pick = np.arange(len(LABELS))
     matrices = prepare.scaled(data.square, data.scale, pick)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
@@ -177,6 +178,24 @@ def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
     few, _, passive = fit_direct(problem, goal, 6, said.append)
     assert passive
     assert few.n_states <= 6
+
+
+def test_errors_that_alternate_rank_before_smaller_ones_that_stay(exact: Table) -> None:
+    """A motion averages errors over the width of its resonance: noise that is followed is worse."""
+    data = prepare.gather(exact, LABELS, LABELS)
+    goal = Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None)
+    matrices = prepare.scaled(data.square, data.scale, np.arange(len(LABELS)))
+    problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    mass = np.zeros(problem.rows.size)
+    size = np.full((data.omega.size, problem.rows.size), 1e-3 + 0j)
+    turns = (-1.0) ** np.arange(data.omega.size)[:, None]
+    noise = measure(1.5 * size * turns, mass, problem, goal.band)
+    bias = measure(size, mass, problem, goal.band)
+    assert noise.weighted_band == pytest.approx(1.5 * bias.weighted_band)
+    assert noise.steady < 0.5 * bias.steady
+    assert bias.steady == pytest.approx(bias.weighted_band)
+    assert goal.distance(noise) < goal.distance(bias)
+    assert goal.miss(noise) > goal.miss(bias)
 
 
 def test_noise_that_gives_energy_is_not_followed(exact: Table) -> None:

@@ -51,8 +51,10 @@ def unique_names(raw: Sequence[str]) -> list[str]:
 
 
 def nearest(name: str, valid: Iterable[str]) -> str:
-    """Return `; did you mean 'x'? (known: ...)` for an error message."""
+    """Return `; did you mean 'x'? (known: ...)` for an error message, "" where none is valid."""
     known = list(valid)
+    if not known:
+        return ""
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
     hint = f"; did you mean {close[0]!r}?" if close else ""
     shown = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")

@@ -19,7 +19,7 @@ from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.mesh_statics import mesh_statics
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.kinds import kind, resolve
-from hydrodae.hdb.readers.source import SourceData, Water, finish
+from hydrodae.hdb.readers.source import LARGEST, SourceData, Water, finish
 from hydrodae.hdb.readers.wamit import read_wamit
 
 #: Tables of excitation that a source may hold.
@@ -49,12 +49,33 @@ def read_source(
         line.
     """
     path, what = resolve(source)
+    water = Water(rho, depth, gravity)
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are told below
+            data = _reader(path, what, water)(path)
+        _check_tables(path, data)
+    except DatabaseError as error:
+        raise _naming(path, error) from None
+    if what != "wamit":
+        _check_water(path, data, water)
+    return data
+
+
+def _naming(path: Path, error: DatabaseError) -> DatabaseError:
+    """Return the error with the file in front, where it names none."""
+    text = str(error)
+    named = path.name in text or str(path.parent) in text
+    return error if named else DatabaseError(f"{path}: {text}")
+
+
+def _reader(path: Path, what: str, water: Water) -> Callable[[Path], SourceData]:
+    """Return what reads a kind of source."""
     if what == "wamit":
-        return read_wamit(path, Water(rho, depth, gravity))
+        return lambda file: read_wamit(file, water)
     if what == "nemoh":
         from hydrodae.hdb.readers.nemoh import read_nemoh as reader
     elif what == "bemio":
-        reader = read_bemio
+        return read_bemio
     elif what == "capytaine":
         from hydrodae.hdb.readers.capytaine import read_capytaine as reader
     elif what == "aqwa":
@@ -63,9 +84,38 @@ def read_source(
         from hydrodae.hdb.readers.orcawave import read_orcawave as reader
     else:
         raise DatabaseError(f"{path}: a finished hydro.h5, not a source")
-    data = reader(path)
-    _check_water(path, data, Water(rho, depth, gravity))
-    return data
+    return reader
+
+
+def _check_tables(path: Path, data: SourceData) -> None:
+    """Refuse what no run can have written: frequencies out of order, water without weight."""
+    w = data.omega
+    wrong = np.flatnonzero(~(np.diff(w, prepend=0.0) > 0.0) | ~np.isfinite(w))
+    if wrong.size or not w.size:
+        where = f", {w[wrong[0]]:g} rad/s at place {wrong[0] + 1}" if wrong.size else ""
+        raise DatabaseError(
+            f"{path}: {w.size} frequencies{where}; expected some > 0, each above the one before: "
+            f"is the column of frequencies another, or the file cut short?"
+        )
+    for name in ("added_mass", "radiation_damping", *FORCES):
+        table = getattr(data, name)
+        if table is not None:
+            table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and told
+    limit = data.added_mass_inf
+    if limit is not None and not np.all(np.abs(limit) < LARGEST):
+        data.added_mass_inf = None
+        text = "it holds values that are not finite: estimated instead"
+        data.findings.append(Finding("warning", "added_mass_inf of the source", text))
+    for what, value, low, high, unit in (
+        ("density", data.rho, 500.0, 2000.0, "kg/m3"),
+        ("gravity", data.gravity, 9.7, 9.9, "m/s2"),
+        ("water depth", data.water_depth, 0.0, np.inf, "m"),
+    ):
+        if not value > 0.0 or (what != "water depth" and not np.isfinite(value)):
+            raise DatabaseError(f"{path}: {what} {value:g} {unit}: expected a number > 0")
+        if not low <= value <= high:
+            text = f"{what} {value:g} {unit}: not of water on earth ({low:g} to {high:g})"
+            data.findings.append(Finding("warning", "water", text, value=float(value)))
 
 
 def _check_water(path: Path, stated: SourceData | HydroDatabase, given: Water) -> None:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from hydrodae.memory import data as prepare
-from hydrodae.memory.data import Goal, ImpedanceData
+from hydrodae.memory.data import ImpedanceData
+from hydrodae.memory.goal import Goal
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
 from hydrodae.memory.search import GroupFit

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from hydrodae.memory import data as prepare
 from hydrodae.memory import symmetry
-from hydrodae.memory.data import Goal, ImpedanceData, Progress, Quality
+from hydrodae.memory.data import ImpedanceData
+from hydrodae.memory.goal import Goal, Progress, Quality, measure, quality
 from hydrodae.memory.modes import AnyArray, IntArray, Modes, Problem, refine
 from hydrodae.memory.search import MANY, GroupFit, fit_problem, made_passive
 from hydrodae.memory.symmetry import Block
@@ -113,7 +114,7 @@ class _Array:
         ]
         off = stored - symmetry.symmetrised(stored, blocks)
         entries = whole.rows, whole.columns
-        lost = prepare.measure(off[:, *entries], mass[entries], whole, goal.band)
+        lost = measure(off[:, *entries], mass[entries], whole, goal.band)
         value = whole.samples.value.copy()
         value[:-1] = stored[:, *entries]
         measured = replace(whole, samples=replace(whole.samples, value=value))
@@ -195,7 +196,7 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
             rest -= copies * block.size
             left = None if left is None else left - copies * fits[-1].modes.n_states
         modes = array.joined([fit.modes for fit in fits])
-        found = prepare.quality(modes, array.measured, goal.band)
+        found = quality(modes, array.measured, goal.band)
         miss = goal.miss(found)
         say(f"all blocks: {modes.n_states} states, {miss:.2f} of the target error")
         if 1.0 < miss < NEAR and array.whole.size <= MANY:
@@ -219,7 +220,7 @@ def _refitted(modes: Modes, array: _Array, goal: Goal) -> GroupFit | None:
     """
     free, _ = refine(modes, array.whole, 20, 1e-3)
     passive, reached = made_passive(free, array.whole, goal)
-    found = prepare.quality(passive, array.measured, goal.band)
+    found = quality(passive, array.measured, goal.band)
     return GroupFit(passive, array.whole, found) if reached and goal.met(found) else None
 
 
@@ -232,7 +233,7 @@ def _fit_block(
         problem.damping_grid, problem.matrix(problem.samples.value[:-1]), goal.band
     )[problem.rows, problem.columns]
     none = Modes(np.zeros(0, complex), np.zeros((0, n), complex), np.zeros(0), mass)
-    found = prepare.quality(none, problem, goal.band)
+    found = quality(none, problem, goal.band)
     if goal.met(found):
         say("too small to matter")
         return GroupFit(none, problem, found)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.memory.data import Goal, Progress, Quality, quality
+from hydrodae.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.memory.modes import (
     Modes,
     Problem,

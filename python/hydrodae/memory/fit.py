@@ -14,7 +14,8 @@ from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
 from hydrodae.memory.blocks import FittedGroup, fit_group, sizes
-from hydrodae.memory.data import Goal, ImpedanceData, Progress, RadiationData
+from hydrodae.memory.data import ImpedanceData, RadiationData
+from hydrodae.memory.goal import Goal, Progress, stored_quality
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
 from hydrodae.memory.search import GroupFit
@@ -146,9 +147,7 @@ def fit_memory(
     fits = [
         replace(
             part.fit,
-            quality=prepare.stored_quality(
-                part.fit.modes, data, group, part.fit.problem, goal.band
-            ),
+            quality=stored_quality(part.fit.modes, data, group, part.fit.problem, goal.band),
         )
         for group, part in zip(groups, made, strict=True)
     ]

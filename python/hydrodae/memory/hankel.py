@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydrodae import irf
-from hydrodae.memory.data import Goal, Progress, Quality, quality
+from hydrodae.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.memory.modes import PARAMETERS, Modes, Problem, impedance, refine
 from hydrodae.memory.penalty import press
 from hydrodae.memory.vector_fitting import Array, limited

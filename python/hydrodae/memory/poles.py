@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.memory import data as prepare
-from hydrodae.memory.data import Goal, Progress
+from hydrodae.memory.goal import Goal, Progress, quality
 from hydrodae.memory.modes import Problem, from_residues
 from hydrodae.memory.vector_fitting import (
     ComplexArray,
@@ -85,4 +84,4 @@ def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
     """Return the error of a full-rank fit with these poles over its target."""
     coefficients, _, _ = solve_residues(poles, problem.samples)
     modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
-    return goal.miss(prepare.quality(modes, problem, goal.band))
+    return goal.miss(quality(modes, problem, goal.band))

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hydrodae.memory import data as prepare
 from hydrodae.memory import passivity
-from hydrodae.memory.data import Goal, Progress, Quality
 from hydrodae.memory.direct import fit_direct
+from hydrodae.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.memory.hankel import fit_hankel
 from hydrodae.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.memory.penalty import press
@@ -83,7 +82,7 @@ def fit_problem(
         kept = [fit] if passive else []
     if not kept:
         modes = _ladder(problem, goal, cap, candidates, say)[-1]
-        return GroupFit(modes, problem, prepare.quality(modes, problem, goal.band))
+        return GroupFit(modes, problem, quality(modes, problem, goal.band))
     # noise: of fits that are nearly as good the one with the fewest states
     limit = (NEARLY if cap is None else EQUAL) * min(goal.distance(fit.quality) for fit in kept)
     near = [fit for fit in kept if goal.distance(fit.quality) <= limit]
@@ -112,7 +111,7 @@ def _fit_many(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> G
 def _polished(fit: GroupFit, goal: Goal) -> GroupFit:
     """Refit passive modes with constraints, which lie nearer to the best fit than a penalty."""
     modes, reached = passivity.enforce(fit.modes, fit.problem)
-    found = prepare.quality(modes, fit.problem, goal.band)
+    found = quality(modes, fit.problem, goal.band)
     if not reached or goal.distance(found) > goal.distance(fit.quality):
         return fit
     return replace(fit, modes=modes, quality=found)
@@ -129,11 +128,11 @@ def _passive_rungs(
         The passive ones; one that meets the goal is the last.
     """
     kept: list[GroupFit] = []
-    reachable = goal.met(prepare.quality(ladder[-1], problem, goal.band), SLACK)
+    reachable = goal.met(quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[::-1] if reachable else ladder[-1:]
     for modes in rungs:
         passive, reached = made_passive(modes, problem, goal)
-        found = GroupFit(passive, problem, prepare.quality(passive, problem, goal.band))
+        found = GroupFit(passive, problem, quality(passive, problem, goal.band))
         say(
             f"{passive.n_states} states, passive: {reached}, "
             f"{goal.miss(found.quality):.2f} of the target error"
@@ -154,7 +153,7 @@ def made_passive(
     """
 
     def good(trial: Modes) -> bool:
-        return goal.met(prepare.quality(trial, problem, goal.band))
+        return goal.met(quality(trial, problem, goal.band))
 
     pressed, reached = press(modes, problem, good)
     if not thorough or (reached and good(pressed)):
@@ -194,21 +193,21 @@ def _tamed(
             for mode in np.nonzero(wild)[0][::-1]:
                 tame = tame.without(int(mode))
             tame, _ = refine(tame, problem, 30, 1e-3)
-            free = goal.distance(prepare.quality(tame, problem, goal.band))
+            free = goal.distance(quality(tame, problem, goal.band))
             if free > NEARLY * best:
                 break  # fewer modes, or passive ones, are no nearer
             passive, reached = made_passive(
                 tame, problem, goal, thorough=not found or problem.size <= FEW
             )
-            quality = prepare.quality(passive, problem, goal.band)
+            made = quality(passive, problem, goal.band)
             say(
                 f"{passive.n_states} states from {count} poles, passive: {reached}, "
-                f"{goal.miss(quality):.2f} of the target error"
+                f"{goal.miss(made):.2f} of the target error"
             )
             if reached:
-                found.append(GroupFit(passive, problem, quality))
-                best = min(best, goal.distance(quality))
-                if goal.distance(quality) > NEARLY * best:
+                found.append(GroupFit(passive, problem, made))
+                best = min(best, goal.distance(made))
+                if goal.distance(made) > NEARLY * best:
                     break
             least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
             if modes.n_states <= least:
@@ -231,11 +230,11 @@ def _ladder(
     """
     modes = _first_modes(problem, goal, candidates)
     ladder = [modes]
-    found = prepare.quality(modes, problem, goal.band)
+    found = quality(modes, problem, goal.band)
     limit = SLACK if goal.met(found, SLACK) else 1.15 * goal.miss(found)
     while modes.poles.size > 1:
         modes = _pruned(modes, problem, 1 if goal.met(found, 0.7) else 3)
-        found = prepare.quality(modes, problem, goal.band)
+        found = quality(modes, problem, goal.band)
         good = goal.met(found, limit)
         if not good and (cap is None or ladder[-1].n_states <= cap):
             break
@@ -278,7 +277,7 @@ def _first_modes(
             coefficients, _, _ = solve_residues(poles, problem.samples)
             start = from_residues(poles, coefficients, problem, most)
             modes, _ = refine(start, problem, 25, 1e-3)
-            found.append((goal.miss(prepare.quality(modes, problem, goal.band)), modes))
+            found.append((goal.miss(quality(modes, problem, goal.band)), modes))
         near = [item[1] for item in found if item[0] <= SLACK]
         if near:
             return min(near, key=lambda modes: modes.n_states)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.case import Case, CaseLike, read_case
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, HydrodaeError
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
 
@@ -44,8 +44,12 @@ def working_band(case: CaseLike, database: HydroDatabase) -> tuple[float, float]
         stand_in = Path(folder) / "hydro.h5"
         replace(database, kernel=None, memory={}).write(stand_in)
         values = {"hydro.radiation": "none", "hydro.database": str(stand_in)}
-        stripped = read_case(case, values)
-        model = LinearModel(stripped).with_database(database)
+        try:
+            stripped = read_case(case, values)
+            model = LinearModel(stripped).with_database(database)
+        except HydrodaeError as error:  # the user knows the tables, not the file that stands in
+            known = f"the database ({database.source})" if database.source else "the database"
+            raise CaseError(str(error).replace(str(stand_in), known)) from None
     found = [2.0 * np.pi / mode.period for mode in model.modes() if not mode.extrapolated]
     found += [
         float(w) for w in np.asarray(_core.wave_components(stripped.scene)).reshape(-1, 4)[:, 0]

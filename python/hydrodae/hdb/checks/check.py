@@ -14,8 +14,10 @@ from hydrodae import irf
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
+from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
+from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
@@ -36,7 +38,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     Returns
     -------
     CheckReport
-        In the order grid, memory, symmetry, energy, causality, fits, long waves.
+        In the order grid, memory, symmetry, energy, causality, spikes, fits, long waves, hulls.
     """
     judged = band or felt_band(database)
     return CheckReport(
@@ -50,8 +52,10 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *_causality(database),
             *unit_findings(database),
             *irregular_findings(database, judged),
+            *spike_findings(database, judged),
             *fit_findings(database),
             *long_wave_findings(database, judged),
+            *hull_findings(database),
         ]
     )
 
@@ -179,14 +183,14 @@ def _symmetry(db: HydroDatabase) -> list[Finding]:
 
 
 def _worst_pair(db: HydroDatabase, at: int) -> str:
-    """The two coordinates that weigh most in the most negative direction of the scaled B."""
+    """The one or two coordinates that weigh most in the most negative direction of the scaled B."""
     sizes = damping_sizes(db)[at]
     used = np.flatnonzero(sizes > 0.0)
     s = np.sqrt(sizes[used])
     scaled = db.radiation_damping[at][np.ix_(used, used)] / np.outer(s, s)
     weight = np.abs(np.linalg.eigh(scaled)[1][:, 0])
-    first, second = (db.coordinates[used[i]] for i in np.argsort(weight)[[-1, -2]])
-    return f"mostly {first} with {second}"
+    names = [db.coordinates[used[i]] for i in np.argsort(weight)[::-1][:2]]
+    return f"mostly {' with '.join(names)}"
 
 
 def _negative(db: HydroDatabase) -> list[Finding]:

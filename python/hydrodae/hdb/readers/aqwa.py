@@ -25,6 +25,7 @@ from hydrodae.hdb.readers.aqwa_common import (
 )
 from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.text import number, read_lines
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -78,7 +79,7 @@ class _Ah1:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        lines = path.read_text(errors="replace").splitlines()
+        lines = read_lines(path)
         self.sections: dict[str, tuple[int, list[float]]] = {}
         word, start, numbers = "", 0, list[float]()
         for count, line in enumerate(lines, start=1):
@@ -94,7 +95,7 @@ class _Ah1:
 
     def _numbers(self, count: int, line: str) -> list[float]:
         try:
-            return [float(word) for word in line.split()]
+            return [number(word) for word in line.split()]
         except ValueError:
             wrong = next(word for word in line.split() if not _is_number(word))
             raise DatabaseError(f"{self.path}:{count}: {wrong!r} is not a number") from None
@@ -102,9 +103,16 @@ class _Ah1:
     def _header(self) -> None:
         """Structures, headings [deg] and frequencies [rad/s]; equal for all structures."""
         values = self.sections[""][1]
-        headings, grids = [], []
+        headings, grids = list[list[float]](), list[list[float]]()
         while values:
-            nh, nw = int(values[1]), int(values[2])
+            count = [int(v) for v in values[1:3] if v == int(v) and v > 0.0]
+            if len(count) != 2 or values[0] != len(grids) + 1:
+                raise DatabaseError(
+                    f"{self.path}: its head, before the first section: expected the number of a "
+                    f"structure ({len(grids) + 1}), of directions and of frequencies, got "
+                    f"{' '.join(f'{v:g}' for v in values[:3])}"
+                )
+            nh, nw = count
             headings.append(values[3 : 3 + nh])
             grids.append(values[3 + nh : 3 + nh + nw])
             if len(grids[-1]) != nw:
@@ -119,39 +127,51 @@ class _Ah1:
         self.count = len(grids)
         self.omega, self.heading_deg = np.array(grids[0]), np.array(headings[0])
 
-    def block(self, word: str, index: int, width: int, entries: int) -> Array:
-        """Numbers of a section, (entries, width); each entry begins with `index` indices."""
+    def block(self, word: str, counts: tuple[int, ...], width: int) -> Array:
+        """Numbers of a section, (entries, width); each entry begins with its indices from 1."""
         if word not in self.sections:
             raise DatabaseError(f"{self.path}: no section {word}")
         line, values = self.sections[word]
-        length = index + width
+        entries, length = int(np.prod(counts)), len(counts) + width
         if len(values) != entries * length:
             raise DatabaseError(
                 f"{self.path}:{line}: section {word} holds {len(values)} numbers, expected "
                 f"{entries * length}"
             )
-        return np.array(values).reshape(entries, length)[:, index:]
+        table = np.array(values).reshape(entries, length)
+        indices = np.indices(counts).reshape(len(counts), -1).T + 1
+        wrong = np.flatnonzero((table[:, : len(counts)] != indices).any(axis=1))
+        if wrong.size:
+            found, expected = (
+                " ".join(f"{v:g}" for v in rows[wrong[0], : len(counts)])
+                for rows in (table, indices)
+            )
+            raise DatabaseError(
+                f"{self.path}:{line}: section {word}: entry {wrong[0] + 1} begins with {found}, "
+                f"expected {expected}: lines are missing, twice or in another order"
+            )
+        return table[:, len(counts) :]
 
     def matrices(self, word: str) -> Array:
         """A or B, (nw, 6 n, 6 n): entries i, j, frequency, 36 numbers."""
         n, nw = self.count, self.omega.size
-        table = self.block(word, 3, 36, n * n * nw).reshape(n, n, nw, 6, 6)
+        table = self.block(word, (n, n, nw), 36).reshape(n, n, nw, 6, 6)
         return np.asarray(table.transpose(2, 0, 3, 1, 4).reshape(nw, 6 * n, 6 * n))
 
     def data(self) -> SourceData:
         """Put the sections together."""
         n, nw, nh = self.count, self.omega.size, self.heading_deg.size
-        depth, rho, gravity = self.block("GENERAL", 1, 5, n)[0, :3]
+        depth, rho, gravity = self.block("GENERAL", (n,), 5)[0, :3]
         unit = unit_of_mass(self.path, rho, gravity)
-        centers = list(self.block("COG", 1, 3, n))
-        force = self.block("FORCERAO", 3, 12, n * nh * nw).reshape(n, nh, nw, 2, 6)
+        centers = list(self.block("COG", (n,), 3))
+        force = self.block("FORCERAO", (n, nh, nw), 12).reshape(n, nh, nw, 2, 6)
         turned = force[:, :, :, 0] * np.exp(-1j * np.radians(force[:, :, :, 1]))
         flat = unit * turned.transpose(2, 1, 0, 3).reshape(nw, nh, 6 * n)
         heading, kept = unique_headings(self.heading_deg)
         k = wavenumber(self.omega, depth, gravity)
         a_inf = None
         if "ADDEDMASS_HF" in self.sections:
-            table = self.block("ADDEDMASS_HF", 2, 36, n * n).reshape(n, n, 6, 6)
+            table = self.block("ADDEDMASS_HF", (n, n), 36).reshape(n, n, 6, 6)
             a_inf = unit * table.transpose(0, 2, 1, 3).reshape(6 * n, 6 * n)
         data = aqwa_data(
             self.path,
@@ -163,9 +183,9 @@ class _Ah1:
             (float(unit * rho), float(gravity), float(depth)),
         )
         data.excitation = to_world(np.asarray(flat[:, kept], dtype=complex), k, heading, centers)
-        buoyancy = self.block("COB", 1, 3, n)
-        volume = self.block("DISPLACEMENT", 1, 1, n)[:, 0]
-        stiffness = unit * self.block("HYDSTIFFNESS", 1, 36, n).reshape(n, 6, 6)
+        buoyancy = self.block("COB", (n,), 3)
+        volume = self.block("DISPLACEMENT", (n,), 1)[:, 0]
+        stiffness = unit * self.block("HYDSTIFFNESS", (n,), 36).reshape(n, 6, 6)
         for i, name in enumerate(data.reference_points):
             statics = Hydrostatics.from_stiffness(
                 stiffness[i], centers[i], float(volume[i]), buoyancy[i], data.rho, data.gravity
@@ -176,7 +196,7 @@ class _Ah1:
 
 def _is_number(word: str) -> bool:
     try:
-        float(word)
+        number(word)
     except ValueError:
         return False
     return True

@@ -26,12 +26,12 @@ from hydrodae.hdb.readers.aqwa_common import (
     unit_of_mass,
 )
 from hydrodae.hdb.readers.aqwa_pages import (
-    NUMBER,
     pages_of_structures,
     read_matrix,
     read_radiation,
 )
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.text import NUMBER, number, read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -67,7 +67,7 @@ def read_listing(path: Path) -> SourceData:
     DatabaseError
         A table is missing or wrong; the message names the line.
     """
-    text = path.read_text(errors="replace")
+    text = read_text(path)
     lines = text.splitlines()
     pages = pages_of_structures(lines)
     if not pages:
@@ -115,7 +115,7 @@ def _stated(path: Path, lines: list[str], pattern: str) -> float:
     for line in lines:
         found = re.search(f"{pattern}({NUMBER})", line)
         if found:
-            return float(found[1])
+            return number(found[1])
     words = re.sub(r"\\s[+*]?|\[ \.\]\*|=", " ", pattern).split()
     raise DatabaseError(f"{path}: no line {' '.join(words)!r} with a number")
 
@@ -124,7 +124,7 @@ def _center(path: Path, lines: list[str]) -> Array:
     for line in lines:
         found = re.search(rf"GX=\s*({NUMBER})\s+GY=\s*({NUMBER})\s+GZ=\s*({NUMBER})", line)
         if found:
-            return np.array([float(v) for v in found.groups()])
+            return np.array([number(v) for v in found.groups()])
     raise DatabaseError(f"{path}: no line 'STRUCTURE C.O.G. GX= GY= GZ='")
 
 
@@ -148,7 +148,7 @@ def _forces(path: Path, lines: list[str], title: str) -> dict[tuple[float, float
             if len(words) not in (14, 15) or not re.fullmatch(NUMBER, words[0]):
                 continue
             try:
-                values = np.array([float(word) for word in words])
+                values = np.array([number(word) for word in words])
             except ValueError:
                 raise DatabaseError(f"{path}:{at + 1}: expected numbers") from None
             if values.size == 15:

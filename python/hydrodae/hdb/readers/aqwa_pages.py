@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import NUMBER, number
 
 Array = NDArray[np.float64]
 
-NUMBER = r"[-+]?\d+\.?\d*(?:E[-+]?\d+)?"
 _STRUCTURE = re.compile(r"S T R U C T U R E\s+(\d+)")
 _TABLE = re.compile(r"(?:H/I )?(ADDED MASS|DAMPING)(?: FOR FORCE ON STR# ?(\d+))?")
 #: Frequency that stands for infinity [rad/s].
@@ -49,7 +49,7 @@ def read_matrix(path: Path, lines: list[str], start: int) -> Array:
         if not re.fullmatch(NUMBER, words[1]):
             continue  # the heading of the columns
         try:
-            rows.append([float(word) for word in words[1:7]])
+            rows.append([number(word) for word in words[1:7]])
         except ValueError:
             raise DatabaseError(f"{path}:{at + 1}: expected six numbers") from None
         if len(rows[-1]) != 6:
@@ -128,7 +128,7 @@ def _of_structure(
             continue
         stated = re.search(rf"WAVE FREQUENCY =\s*({NUMBER})", line)
         if stated and "INCIDENT" not in line:
-            omega = float(stated[1])
+            omega = number(stated[1])
         title = _TABLE.fullmatch(" ".join(line.split()))
         if omega is None or title is None or not lines[at + 1].strip().startswith("---"):
             continue

@@ -8,20 +8,17 @@ and radiating_dof changed between versions.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, bodies_of, unique_names
+from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.dispersion import frequency
 from hydrodae.hdb.extra import kept_tables
 from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers import nemoh_hydrostatics as nh
-from hydrodae.hdb.readers.reference import reference_by_statics
+from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.shallow import shallow_findings
 
@@ -93,7 +90,7 @@ def read_capytaine(path: Path) -> SourceData:
         extra=kept_tables(ds),
     )
     findings += shallow_findings(ds)
-    _attach_bodies(data, ds, raw, path)
+    attach_bodies(data, ds, raw, path)
     return data
 
 
@@ -104,7 +101,7 @@ def open_dataset(path: Path) -> xr.Dataset:
     engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
     try:
         return xr.open_dataset(path, engine=engine)
-    except (OSError, ValueError, TypeError) as error:
+    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         raise DatabaseError(f"{path}: not a readable netCDF file ({error})") from error
 
 
@@ -166,8 +163,8 @@ def _coordinates(
     path: Path, ds: xr.Dataset, findings: list[Finding]
 ) -> tuple[list[str], tuple[str, ...]]:
     """Names of the degrees of freedom in the file, and their labels here, in the same order."""
-    influenced = [_text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
-    radiating = [_text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
+    influenced = [text(d) for d in np.atleast_1d(ds["influenced_dof"].values)]
+    radiating = [text(d) for d in np.atleast_1d(ds["radiating_dof"].values)]
     ds["influenced_dof"], ds["radiating_dof"] = influenced, radiating
     both = [d for d in influenced if d in radiating]
     rigid = [d for d in both if d.rpartition("__")[2].lower() in DOFS]
@@ -192,7 +189,7 @@ def _coordinates(
 def _single_body(path: Path, ds: xr.Dataset) -> str:
     for key in ("body", "body_name"):
         if key in ds.coords and ds[key].size == 1:
-            return _text(ds[key].values.item())
+            return text(ds[key].values.item())
     return path.stem
 
 
@@ -214,7 +211,7 @@ def _force(
         return None
     variable = ds[name].sel(influenced_dof=dofs)
     if "complex" in variable.dims:
-        labels = [_text(c) for c in variable["complex"].values]
+        labels = [text(c) for c in variable["complex"].values]
         if sorted(labels) != ["im", "re"]:
             raise DatabaseError(f"{path}: dimension 'complex' of {name!r} is labelled {labels}")
         variable = variable.assign_coords(complex=labels)
@@ -228,87 +225,6 @@ def _force(
     return np.asarray(np.conj(ordered.values[order]), dtype=complex)
 
 
-def _attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) -> None:
-    """Reference points and hydrostatics, from the file or from Nemoh-like files beside it."""
-    names = bodies_of(data.coordinates)
-    beside: list[nh.FileHydrostatics | None] = [None] * len(names)
-    if "center_of_buoyancy" not in ds:
-        beside = nh.read_all(path.parent, len(names), data.rho, data.gravity)
-    for i, name in enumerate(names):
-        first = next(
-            d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
-        )
-        prefix = first.rpartition("__")[0]
-        point = _vector(ds, "rotation_center", prefix, i)
-        data.reference_points[name] = point
-        hs = _hydrostatics(data, ds, raw, prefix, i, point)
-        near = beside[i]
-        if hs is not None and point is not None:
-            data.hydrostatics[name] = (hs, point)
-        elif near is not None:
-            data.hydrostatics[name] = (near.hydrostatics, near.center_of_gravity)
-            data.files += near.files
-            data.findings.append(
-                Finding(
-                    "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
-                )
-            )
-            if point is None:
-                data.reference_points[name] = reference_by_statics(data, name, near)
-                data.assumed_points.add(name)
-        else:
-            data.findings.append(
-                Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")
-            )
-
-
-def _hydrostatics(
-    data: SourceData, ds: xr.Dataset, raw: list[str], prefix: str, i: int, point: Array | None
-) -> Hydrostatics | None:
-    """Waterplane from hydrostatic_stiffness about the rotation centre.
-
-    Capytaine's rotational terms hold the weight too: - m g (z_G - z_c) in K44 and K55, with
-    m = rho V unless the body was given another mass (then it is inertia_matrix[surge, surge]).
-    """
-    needed = ("hydrostatic_stiffness", "center_of_buoyancy", "disp_mass")
-    buoyancy = _vector(ds, "center_of_buoyancy", prefix, i)
-    if point is None or buoyancy is None or any(name not in ds for name in needed):
-        return None
-    volume = float(_pick(ds["disp_mass"], prefix, i, vector=False)) / data.rho
-    present = [d for d in raw if d.rpartition("__")[0] == prefix]
-    index = [DOFS.index(d.rpartition("__")[2].lower()) for d in present]
-    if not {2, 3, 4} <= set(index):
-        return None
-    k = np.zeros((6, 6))
-    block = ds["hydrostatic_stiffness"].sel(influenced_dof=present, radiating_dof=present)
-    k[np.ix_(index, index)] = block.transpose("influenced_dof", "radiating_dof").values
-    center = _vector(ds, "center_of_mass", prefix, i)
-    if center is not None and not np.allclose(center, point):
-        mass = data.rho * volume
-        if "inertia_matrix" in ds and 0 in index:
-            surge = present[index.index(0)]
-            mass = float(ds["inertia_matrix"].sel(influenced_dof=surge, radiating_dof=surge))
-        k[[3, 4], [3, 4]] += mass * data.gravity * (center[2] - point[2])
-    if not np.all(np.isfinite(k)):
-        return None
-    return Hydrostatics.from_stiffness(k, point, volume, buoyancy, data.rho, data.gravity)
-
-
-def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:
-    """Entry of a body in a variable; all dimensions but the last one of vectors are over bodies."""
-    for dim in variable.dims[:-1] if vector else variable.dims:
-        labels = [_text(v) for v in variable[dim].values] if dim in variable.coords else []
-        variable = variable.isel({dim: labels.index(prefix) if prefix in labels else i})
-    return variable.values
-
-
-def _vector(ds: xr.Dataset, name: str, prefix: str, i: int) -> Array | None:
-    if name not in ds:
-        return None
-    value = np.asarray(_pick(ds[name], prefix, i, vector=True), dtype=float)
-    return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
-
-
 def _number(path: Path, ds: xr.Dataset, name: str) -> float:
     if name not in ds or ds[name].size != 1:
         raise DatabaseError(f"{path}: needs one value of {name!r}")
@@ -320,7 +236,3 @@ def _depth(path: Path, ds: xr.Dataset) -> float:
     if "water_depth" not in ds and "sea_bottom" in ds:
         return -_number(path, ds, "sea_bottom")
     return _number(path, ds, "water_depth")
-
-
-def _text(value: Any) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)

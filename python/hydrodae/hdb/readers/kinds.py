@@ -12,27 +12,10 @@ from hydrodae.hdb import files
 from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.readers.aqwa import aqwa_file
 from hydrodae.hdb.readers.bemio import is_bemio_file
+from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.nemoh_hydrostatics import find
 from hydrodae.hdb.readers.orcawave import orcawave_file
 from hydrodae.hdb.readers.wamit import wamit_stem
-
-#: Files of other codes, by suffix: what they are. No reader here, but a converter exists.
-FOREIGN = {
-    ".hdf": "Diodore or HydroStar",
-    ".hdb": "Diodore or HydroStar",
-    ".hyd": "MOSES",
-    ".qtf": "AQWA's quadratic transfer functions",
-    ".rao": "HydroStar",
-    ".ah2": "AQWA's forces of drift",
-    ".foam": "FOAMM",
-    ".bem": "BEMRosetta",
-    ".mat": "MATLAB",
-}
-#: Exports of OrcaWave that do not say what stands where; it saves others that do.
-ORCAWAVE = {".owr", ".csv", ".xlsx"}
-CONVERTER = (
-    "BEMRosetta (github.com/BEMRosetta/BEMRosetta) reads it and saves WAMIT tables (.1, .3, .hst)"
-)
 
 
 def resolve(source: str | Path) -> tuple[Path, str]:
@@ -98,9 +81,9 @@ def _folder(path: Path) -> tuple[Path, str]:
             f"{path}: {lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
             f"water, the bodies and their reference points"
         )
-    foreign = [p for p in sorted(path.iterdir()) if p.suffix.lower() in {*FOREIGN, *ORCAWAVE}]
-    if foreign:
-        raise DatabaseError(_foreign(foreign[0]))
+    unread = foreign_in(path)
+    if unread is not None:
+        raise DatabaseError(unread)
     raise DatabaseError(
         f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
         f".1 or .out of WAMIT, .AH1 or .LIS of AQWA, or a .yml with OrcaWave's results"
@@ -136,24 +119,17 @@ def _file(path: Path) -> str:
         return "aqwa"
     if orcawave_file(path) is not None:
         return "orcawave"
-    if path.suffix.lower() in {*FOREIGN, *ORCAWAVE}:
-        raise DatabaseError(_foreign(path))
+    unread = foreign(path)
+    if unread is not None:
+        raise DatabaseError(unread)
     raise DatabaseError(
         f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or .out, "
         f"an AQWA .AH1 or .LIS, an OrcaWave .yml or a hydro.h5 of hydrodae"
     )
 
 
-def _foreign(path: Path) -> str:
-    if path.suffix.lower() in ORCAWAVE:
-        return (
-            f"{path}: results of OrcaWave as {path.suffix.lower()} are not read here; save them in "
-            "WAMIT format (.1, .3, .hst), or as an OrcaFlex vessel type (.yml), which are"
-        )
-    return f"{path}: a file of {FOREIGN[path.suffix.lower()]}, not read here; {CONVERTER}"
-
-
 def _similar(path: Path) -> str:
     if not path.parent.is_dir():
-        return ""
-    return nearest(path.name, sorted(p.name for p in path.parent.iterdir()))
+        return f"; nor is there a folder {path.parent}"
+    beside = sorted(p.name for p in path.parent.iterdir())
+    return nearest(path.name, beside) or f"; the folder {path.parent} is empty"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS
-from hydrodae.hdb.readers.tecplot import number
+from hydrodae.hdb.readers.text import number, read_lines
 
 FREQUENCY_TYPES = {1: "rad/s", 2: "Hz", 3: "s"}
 
@@ -68,7 +68,7 @@ class _Lines:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.lines = path.read_text(errors="replace").splitlines()
+        self.lines = read_lines(path)
         self.at = 0
 
     def next(self, meaning: str) -> str:
@@ -89,7 +89,7 @@ class _Lines:
                 values.append(number(token))
             except ValueError:
                 break
-        if len(values) < least:
+        if len(values) < least or not np.all(np.isfinite(values)):
             raise self.fail(f"expected {least} number(s), {meaning}, got {text.strip()!r}")
         return values
 

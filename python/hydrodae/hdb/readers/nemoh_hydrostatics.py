@@ -14,7 +14,7 @@ from hydrodae.hdb.bem.meshes import read_mesh
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.mesh_statics import mesh_statics
-from hydrodae.hdb.readers.tecplot import number
+from hydrodae.hdb.readers.text import finite, read_lines
 
 Array = NDArray[np.float64]
 
@@ -195,13 +195,13 @@ def _read_one(
 def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
     pairs: list[tuple[float, float]] = []
     values: dict[str, float] = {}
-    for i, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for i, line in enumerate(read_lines(path), start=1):
         pair, value = _PAIR.search(line), _VALUE.match(line)
         try:
             if pair:
-                pairs.append((number(pair[1]), number(pair[2])))
+                pairs.append((finite(pair[1]), finite(pair[2])))
             elif value:
-                values[value[1].lower()] = number(value[2])
+                values[value[1].lower()] = finite(value[2])
         except ValueError as error:
             raise DatabaseError(f"{path}:{i}: {error}") from None
     if len(pairs) != 3 or "displacement" not in values:
@@ -211,9 +211,9 @@ def _read_text(path: Path) -> tuple[Array, Array, dict[str, float]]:
 
 
 def _read_matrix(path: Path) -> Array:
-    rows = [line.split() for line in path.read_text(errors="replace").splitlines() if line.strip()]
+    rows = [line.split() for line in read_lines(path) if line.strip()]
     try:
-        matrix = np.array([[number(t) for t in row] for row in rows[:6]])
+        matrix = np.array([[finite(t) for t in row] for row in rows[:6]])
     except ValueError as error:
         line = _line_of(path)
         raise DatabaseError(f"{path}:{line}: not numbers of a 6 x 6 matrix ({error})") from None
@@ -224,9 +224,9 @@ def _read_matrix(path: Path) -> Array:
 
 def _line_of(path: Path) -> int:
     """Number of the first line that holds something else than numbers."""
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         try:
-            [number(token) for token in line.split()]
+            [finite(token) for token in line.split()]
         except ValueError:
             return count
     return 1

@@ -19,9 +19,11 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.text import line_of, read_text
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -53,8 +55,7 @@ def orcawave_file(path: Path) -> Path | None:
 
 
 def _has_tables(path: Path) -> bool:
-    with open(path, encoding="utf-8-sig", errors="replace") as f:
-        return any(_TABLES in line for line in f)
+    return _TABLES in read_text(path)
 
 
 def read_orcawave(path: Path) -> SourceData:
@@ -78,8 +79,7 @@ def read_orcawave(path: Path) -> SourceData:
     model = read_yaml(path)
     if "MultibodyGroups" in model:
         raise DatabaseError(
-            f"{path}: a multibody group, whose coupling is not read; OrcaWave's results exported "
-            f"in WAMIT format (.1, .3, .hst) are"
+            f"{path}: a multibody group, whose coupling is not read here; {CONVERTER}"
         )
     types = model.get("VesselTypes")
     if not isinstance(types, list) or not types:
@@ -170,16 +170,31 @@ class _Vessel:
         return value
 
     def _vector(self, where: dict[str, Any], key: str) -> Array:
-        value = where.get(key)
-        if not isinstance(value, list) or not all(isinstance(v, float) for v in value):
-            raise DatabaseError(f"{self.path}: {self.name}: {key}: expected three numbers")
-        return np.array(value)
+        return self._numbers(where.get(key), key, (3,))
+
+    def _numbers(self, value: Any, key: str, shape: tuple[int, ...]) -> Array:
+        """Return a list, or a list of rows, as an array of that shape."""
+        rows = value if isinstance(value, list) else []
+        flat = [v for row in rows for v in (row if isinstance(row, list) else [row])]
+        size = " x ".join(str(n) for n in shape)
+        for wrong in (v for v in flat if not isinstance(v, float)):
+            raise DatabaseError(
+                f"{line_of(self.path, str(wrong))}: {self.name}: {key}: {wrong!r} is not a number; "
+                f"expected {size}"
+            )
+        even = all(isinstance(row, list) and len(row) == shape[-1] for row in rows)
+        if len(rows) != shape[0] or (len(shape) > 1 and not even):
+            raise DatabaseError(f"{self.path}: {self.name}: {key}: expected {size} numbers")
+        return np.array(rows, dtype=float)
 
     def _omega(self, value: Any) -> float:
-        if isinstance(value, str):
-            value = np.inf if value.lower() == "infinity" else np.nan
+        if isinstance(value, str) and value.lower() == "infinity":
+            value = np.inf
         if not isinstance(value, float) or np.isnan(value):
-            raise DatabaseError(f"{self.path}: {self.name}: {value!r} is no period or frequency")
+            raise DatabaseError(
+                f"{line_of(self.path, str(value))}: {self.name}: {value!r} is no period or "
+                f"frequency"
+            )
         if self.waves.startswith("frequency (rad"):
             return value
         if self.waves.startswith("frequency (Hz"):
@@ -190,9 +205,7 @@ class _Vessel:
 
     def _square(self, entry: dict[str, Any], first: str) -> Array:
         rows = next((v for key, v in entry.items() if key.startswith(first)), None)
-        table = np.array(rows, dtype=float) if isinstance(rows, list) else np.zeros(0)
-        if table.shape != (6, 6):
-            raise DatabaseError(f"{self.path}: {self.name}: {first}: expected 6 x 6 numbers")
+        table = self._numbers(rows, first, (6, 6))
         return self.kilograms * table * np.outer(self.sign, self.sign)
 
     def _forces(
@@ -202,7 +215,7 @@ class _Vessel:
         loads = self.draught.get("LoadRAOs") or {}
         blocks = self._entry(loads, "RAOs")
         origin, phase_origin = loads.get("RAOOrigin"), loads.get("PhaseOrigin")
-        if not np.allclose(np.array(origin, dtype=float), self.point, atol=1e-6):
+        if not np.allclose(self._numbers(origin, "RAOOrigin", (3,)), self.point, atol=1e-6):
             raise DatabaseError(
                 f"{self.path}: {self.name}: RAOOrigin {origin} is not ReferenceOrigin "
                 f"{self.point.tolist()}: export both about one point"
@@ -216,13 +229,17 @@ class _Vessel:
         factor = self.kilograms * (1.0 if relative == "crest" else -1.0)
         if vessel.get("RAOWaveUnit", "amplitude") != "amplitude":
             factor *= 2.0
-        heading = np.array([block["RAODirection"] for block in blocks], dtype=float)
+        stated = [block.get("RAODirection") for block in blocks]
+        heading = self._numbers(stated, "RAODirection", (len(blocks),))
         result = np.empty((self.omega.size, heading.size, 6), dtype=complex)
         for h, block in enumerate(blocks):
             rows: list[Any] = next(
                 (v for key, v in block.items() if key.startswith("RAOPeriod")), []
             )
-            table = np.array([[self._omega(row[0]), *row[1:]] for row in rows], dtype=float)
+            given = [
+                [self._omega(row[0]), *row[1:]] for row in rows if isinstance(row, list) and row
+            ]
+            table = self._numbers(given, "LoadRAOs", (len(rows), 13))
             table = table[np.isfinite(table[:, 0]) & (table[:, 0] > 0.0)]
             table = table[np.argsort(table[:, 0])]
             if table.shape != (self.omega.size, 13) or not np.allclose(table[:, 0], self.omega):
@@ -230,9 +247,10 @@ class _Vessel:
                     f"{self.path}: {self.name}: LoadRAOs at other frequencies than added mass"
                 )
             result[:, h] = factor * table[:, 1::2] * np.exp(1j * sense * table[:, 2::2])
-        place = np.array([0.0 if v is None else v for v in phase_origin or []], dtype=float)
         if phase_origin is None or any(v is None for v in phase_origin):
             place = self.point  # `~` stands for the RAO origin
+        else:
+            place = self._numbers(phase_origin, "PhaseOrigin", (3,))
         k = wavenumber(self.omega, depth, gravity)
         beta = np.radians(heading)
         along = place[0] * np.cos(beta) + place[1] * np.sin(beta)
@@ -246,15 +264,14 @@ class _Vessel:
         rows = next(
             (v for key, v in self.draught.items() if key.startswith("HydrostaticStiffnessz")), None
         )
-        block = np.array(rows, dtype=float) if isinstance(rows, list) else np.zeros(0)
-        if block.shape != (3, 3):
-            raise DatabaseError(f"{self.path}: {self.name}: no 3 x 3 HydrostaticStiffness")
+        block = self._numbers(rows, "HydrostaticStiffness", (3, 3))
         stiffness = np.zeros((6, 6))
         stiffness[2:5, 2:5] = self.kilograms * block * np.outer(self.sign[2:5], self.sign[2:5])
         mass_center = self._vector(self.draught, "CentreOfMass")
         if abs(mass_center[2] - self.point[2]) > 1e-6:
             return None  # the file does not say whether the weight is in the stiffness
-        volume, center = self.draught.get("DisplacedVolume"), self.draught.get("CentreOfBuoyancy")
-        if not isinstance(volume, float) or not isinstance(center, list):
-            raise DatabaseError(f"{self.path}: {self.name}: no DisplacedVolume, CentreOfBuoyancy")
+        volume = self.draught.get("DisplacedVolume")
+        if not isinstance(volume, float):
+            raise DatabaseError(f"{self.path}: {self.name}: DisplacedVolume: expected a number")
+        center = self._vector(self.draught, "CentreOfBuoyancy")
         return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)

@@ -8,6 +8,7 @@ from typing import Any
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.orcayaml import read_yaml
+from hydrodae.hdb.readers.text import read_text
 
 #: kg in the unit of mass, by the units of length, mass and force of OrcaFlex's system "User".
 USER_UNITS = {("m", "te", "kN"): 1000.0, ("m", "kg", "N"): 1.0}
@@ -44,7 +45,7 @@ def water_of(
     for beside in sorted(path.parent.iterdir()):
         if beside == path or beside.suffix.lower() not in (".yml", ".yaml"):
             continue
-        head = beside.read_text("utf-8-sig", "replace")[:400]
+        head = read_text(beside)[:400]
         if "# Type: Diffraction" not in head:
             continue
         settings = read_yaml(beside)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import read_lines
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def _lines(path: Path) -> list[_Line]:
     """Lines that say something; flow lists that go on are joined to one line."""
     found: list[_Line] = []
     open_list = False
-    for count, raw in enumerate(path.read_text("utf-8-sig", "replace").splitlines(), start=1):
+    for count, raw in enumerate(read_lines(path), start=1):
         text = raw.strip()
         if not text or text.startswith(("#", "%")) or text in ("---", "..."):
             continue

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+#: What no coefficient in SI units reaches; larger ones stand for overflows.
+LARGEST = 1e30
 #: Taken where nothing tells: sea water, and the mean over the globe.
 SEA_WATER, USUAL_GRAVITY = 1025.0, 9.81
 
@@ -108,6 +110,10 @@ def sha256(files: Iterable[Path]) -> str:
 def finish(data: SourceData) -> HydroDatabase:
     """Symmetrise, split the excitation, estimate added_mass_inf; findings go to `data.findings`."""
     _drop_rows_with_nan(data)
+    if data.omega.size < 4:
+        raise DatabaseError(
+            f"{data.name}: {data.omega.size} frequencies > 0; 4 are needed at least"
+        )
     asymmetry_finding(data)
     a = 0.5 * (data.added_mass + data.added_mass.transpose(0, 2, 1))
     b = 0.5 * (data.radiation_damping + data.radiation_damping.transpose(0, 2, 1))

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import number, read_lines
 
 Array = NDArray[np.float64]
 
 _NUMERIC = re.compile(r"[+-]?(\d|\.\d|nan\b|inf)|\*{3,}", re.IGNORECASE)
-_LOST_E = re.compile(r"(?<=[0-9.])([+-]\d{3})\b")
 _VARIABLE = re.compile(r'VARIABLES\s*=\s*"?\s*([A-Za-z]+)\s*\(([^)]*)\)', re.IGNORECASE)
 
 
@@ -44,17 +44,6 @@ class Block:
     counts: list[int]
 
 
-def number(token: str) -> float:
-    """Read one number as Fortran prints it: `1.0D+02`, and `0.1-100` for a lost exponent letter.
-
-    Raises
-    ------
-    ValueError
-        Not a number.
-    """
-    return float(_LOST_E.sub(r"E\1", token.replace("D", "E").replace("d", "E")))
-
-
 def read_blocks(path: Path) -> tuple[str, list[Block]]:
     """Read a file into its header (all text before the first number) and its blocks.
 
@@ -74,7 +63,7 @@ def read_blocks(path: Path) -> tuple[str, list[Block]]:
             blocks.append(Block(title, start, flat, [len(row) for row in rows]))
             rows.clear()
 
-    for i, text in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for i, text in enumerate(read_lines(path), start=1):
         tokens = text.split()
         if not tokens:
             continue

@@ -87,6 +87,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     else:
         rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
         option = first_column(stem, control, rows, (length, depth, gravity), findings)
+    every = np.unique(rows[:, 1:3])
     modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
     rows, lines = _of_modes(rows, lines, (1, 2), modes)
     omega_of = tables.to_omega(radiation, rows[:, 0], option, length, depth, gravity)
@@ -114,7 +115,8 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     ):
         file = next((f for s in suffixes if (f := beside(stem, s)) is not None), None)
         forces[key] = None
-        if listing is not None and key == "excitation" and len(listing.force):
+        printed = listing is not None and key == "excitation" and len(listing.force) > 0
+        if printed and listing is not None:
             found = (listing.force, listing.force_lines)
             file = radiation
         elif file is not None:
@@ -125,6 +127,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         if file.suffix == ".2":
             text = f"taken from {file.name}, by Haskind's relation: there is no .3 file"
             findings.append(Finding("info", "excitation", text))
+        tables.check_indices(file, *found, (2,), every)
+        if not printed:
+            tables.check_parts(file, *found, findings)
         read = _forces(file, found, modes, option, (length, depth, gravity), omega)
         forces[key] = rho * gravity * length ** (2.0 + rotation) * read[0]
         if heading.size and not np.array_equal(heading, read[1]):
@@ -155,7 +160,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     limit = at_infinity(at, a, b, findings)
     data.added_mass_inf = None if limit is None else scale * limit
     data.reference_points.update(zip(names, control.points, strict=False))
-    _attach_hydrostatics(data, stem, control, names, length)
+    _attach_hydrostatics(data, stem, control, names, length, every)
     return data
 
 
@@ -211,7 +216,12 @@ def _forces(
 
 
 def _attach_hydrostatics(
-    data: SourceData, stem: Path, control: Control, names: list[str], length: float
+    data: SourceData,
+    stem: Path,
+    control: Control,
+    names: list[str],
+    length: float,
+    every: Array,
 ) -> None:
     """Waterplane from `.hst`, whose K44 and K55 hold the weight too: - m g z_G in body axes."""
     path = beside(stem, ".hst")
@@ -219,7 +229,7 @@ def _attach_hydrostatics(
     if path is None and len(control.stiffness) != len(names):
         missing = names
     else:
-        stiffness = _stiffness(path, control, len(names))
+        stiffness = _stiffness(path, control, len(names), every)
         data.files += [] if path is None else [path]
         for i, name in enumerate(names):
             point = data.reference_points[name]
@@ -249,7 +259,7 @@ def _attach_hydrostatics(
         data.findings.append(Finding("warning", "hydrostatics", text))
 
 
-def _stiffness(path: Path | None, control: Control, bodies: int) -> Array:
+def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:
     """C/(rho g), (6 n, 6 n): from `.hst`, else the blocks of `.out`."""
     size = 6 * bodies
     if path is None:
@@ -259,6 +269,7 @@ def _stiffness(path: Path | None, control: Control, bodies: int) -> Array:
         return result
     rows, lines = tables.read_rows(path, 3, 3, "I, J, C(I,J)")
     modes = np.arange(1.0, size + 1.0)
+    tables.check_indices(path, rows, lines, (0, 1), np.union1d(modes, every))
     rows, lines = _of_modes(rows, lines, (0, 1), modes)
     flat = np.column_stack([np.zeros(len(rows)), rows])
     axes = (np.zeros(1), modes, modes)

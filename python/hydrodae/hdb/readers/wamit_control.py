@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text
 
 Array = NDArray[np.float64]
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
-_NUMBERS = re.compile(_NUMBER)
+_NUMBERS = re.compile(NUMBER)
 #: WAMIT prints the density 1 when it was not told one.
 LEAST_DENSITY = 100.0
 
@@ -96,14 +96,14 @@ def _leading(line: str) -> list[float]:
     """Numbers at the start of a line, up to the first word that is none."""
     found = []
     for word in line.replace(",", " ").split():
-        if not re.fullmatch(_NUMBER, word):
+        if not re.fullmatch(NUMBER, word):
             break
         found.append(float(word.upper().replace("D", "E")))
     return found
 
 
 def _cfg(path: Path, control: Control) -> None:
-    for line in path.read_text(errors="replace").splitlines():
+    for line in read_lines(path):
         found = re.match(r"\s*IPEROUT\s*=\s*(\d+)", line, re.IGNORECASE)
         if found:
             control.first_column = int(found[1])
@@ -113,7 +113,7 @@ def _cfg(path: Path, control: Control) -> None:
 
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_lines(path)
     values = [_leading(line) for line in lines]
 
     def expect(row: int, count: int, what: str) -> list[float]:
@@ -166,20 +166,20 @@ def _listing(path: Path, control: Control) -> None:
     """Read `.mmx` or `.out`; bodies are counted by their lines of volumes."""
     seen = 0
     known = bool(control.points)
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         if line.strip().startswith("Gravity:"):
             found = _numbers(line.split("Gravity:")[1])
             control.gravity = found[0]
             if len(found) > 1:
                 control.length = found[1]
-        density = re.search(rf"Water density:\s*({_NUMBER})", line)
+        density = re.search(rf"Water density:\s*({NUMBER})", line)
         if density and float(density[1]) > LEAST_DENSITY:
             control.rho = float(density[1])
-        depth = re.search(rf"Water depth:\s*(infinite|{_NUMBER})", line, re.IGNORECASE)
+        depth = re.search(rf"Water depth:\s*(infinite|{NUMBER})", line, re.IGNORECASE)
         if depth and control.depth is None:
             infinite = depth[1].lower() == "infinite"
             control.depth = np.inf if infinite else float(depth[1])
-        place = re.search(rf"XBODY =\s*({_NUMBER})\s+YBODY =\s*({_NUMBER})\s+ZBODY =", line)
+        place = re.search(rf"XBODY =\s*({NUMBER})\s+YBODY =\s*({NUMBER})\s+ZBODY =", line)
         if place and not known:
             found = _numbers(line)
             if len(found) != 4 or found[3] != 0.0:
@@ -219,8 +219,8 @@ def _frc(stem: Path, control: Control) -> None:
     path, matrix = beside(stem, ".frc"), beside(stem, ".mmx")
     if path is None or matrix is None:
         return
-    form = re.search(r"IALTFRC\s*=\s*(\d)", matrix.read_text(errors="replace"))
-    lines = path.read_text(errors="replace").splitlines()
+    form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(matrix))
+    lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
         found = _leading(lines[2])
         if found and found[0] > LEAST_DENSITY:
@@ -240,16 +240,16 @@ def _hams_file(stem: Path) -> Path | None:
 
 def _hams(path: Path, control: Control) -> None:
     """Depth (negative: infinite), reference point and length of HAMS; its tables hold periods."""
-    text = path.read_text(errors="replace")
-    depth = re.search(rf"Waterdepth\s+({_NUMBER})", text, re.IGNORECASE)
+    text = read_text(path)
+    depth = re.search(rf"Waterdepth\s+({NUMBER})", text, re.IGNORECASE)
     if depth is None:
         raise DatabaseError(f"{path}: no line Waterdepth with a number")
     (value,) = _numbers(depth[1])
     control.depth = np.inf if value <= 0.0 else value
-    center = re.search(rf"Reference_body_center((?:\s+{_NUMBER}){{3}})", text)
+    center = re.search(rf"Reference_body_center((?:\s+{NUMBER}){{3}})", text)
     if center and not control.points:
         control.points.append(np.array(_numbers(center[1])))
-    length = re.search(rf"Reference_body_length\s+({_NUMBER})", text)
+    length = re.search(rf"Reference_body_length\s+({NUMBER})", text)
     if length and control.length is None:
         control.length = _numbers(length[1])[0]
     # HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period, 5 wavelength
@@ -270,7 +270,7 @@ def _after(path: Path, count: int, line: str) -> Array:
 
 
 def _gdf(path: Path, control: Control) -> None:
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_lines(path)
     found = _leading(lines[1]) if len(lines) > 1 else []
     if len(found) < 2:
         raise DatabaseError(f"{path}:2: expected 2 numbers: ULEN and GRAV")

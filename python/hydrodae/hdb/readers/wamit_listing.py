@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.text import NUMBER, number, read_lines
 
 Array = NDArray[np.float64]
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
-_PERIOD = re.compile(rf"Wave period(?: \(sec\))?\s*=\s*(infinite|zero|{_NUMBER})", re.IGNORECASE)
-_HEADING = re.compile(rf"Wave Heading \(deg\)\s*:\s*({_NUMBER})", re.IGNORECASE)
+_PERIOD = re.compile(rf"Wave period(?: \(sec\))?\s*=\s*(infinite|zero|{NUMBER})", re.IGNORECASE)
+_HEADING = re.compile(rf"Wave Heading \(deg\)\s*:\s*({NUMBER})", re.IGNORECASE)
 #: Titles of tables of forces, best first: by pressure (.3), by Haskind's relation (.2).
 _FORCES = ("DIFFRACTION EXCITING FORCES", "HASKIND EXCITING FORCES")
 
@@ -81,14 +81,18 @@ def read_listing(path: Path) -> Listing:
     """
     radiation, forces = _Rows(), {title: _Rows() for title in _FORCES}
     period, heading, table = np.nan, np.nan, ""
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         found = _PERIOD.search(line)
         if found:
             word = found[1].lower()
             period = {"infinite": -1.0, "zero": 0.0}.get(word) or 0.0
             if word not in ("infinite", "zero"):
-                period = float(word.replace("d", "e"))
+                period = number(word)
             table = ""
+        elif re.search(r"Wave (period|heading)[^=:]*[=:]\s*\S", line, re.IGNORECASE) and not (
+            _HEADING.search(line)
+        ):
+            raise DatabaseError(f"{path}:{count}: not a number: {line.strip()[:60]!r}")
         elif "ADDED-MASS" in line:
             table = "radiation"
         elif any(title in line for title in _FORCES):
@@ -129,7 +133,7 @@ def _once(rows: Array, lines: list[int], key: int) -> tuple[Array, list[int]]:
 
 def _values(path: Path, count: int, line: str) -> list[float]:
     try:
-        return [float(word.replace("D", "E")) for word in line.split()]
+        return [number(word) for word in line.split()]
     except ValueError:
         raise DatabaseError(f"{path}:{count}: not numbers: {line.strip()[:60]!r}") from None
 

@@ -11,7 +11,7 @@ from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.causality import causal_line
 from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.readers.source import SEA_WATER, USUAL_GRAVITY, Water
+from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, Water
 from hydrodae.hdb.readers.wamit_control import Control
 from hydrodae.hdb.readers.wamit_tables import to_omega
 
@@ -104,7 +104,7 @@ def _fit(stem: Path, rows: Array, option: int, constants: tuple[float, float, fl
     """Correlation of A with what B implies if the first column means that; 0 if it is another."""
     omega = to_omega(stem, rows[:, 0], option, *constants)
     usual = np.isfinite(omega) & (omega > 0.0) & (rows[:, 1] == rows[:, 2])
-    usual &= ~np.isnan(rows[:, 4])
+    usual &= (np.abs(rows[:, 3:5]) < LARGEST).all(axis=1)
     grid = np.unique(omega[usual])
     if not grid.size:
         return 0.0
@@ -134,6 +134,8 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     """
     zero, high = a[omega == 0.0], a[np.isinf(omega)]
     usual = np.isfinite(omega) & (omega > 0.0)
+    for table in (a, b):  # rows with NaN or overflows are dropped later, and told
+        usual &= (np.abs(table) < LARGEST).all(axis=(1, 2))
     limit = np.asarray(high[0]) if len(high) else None
     if usual.sum() < 8 or not (len(zero) or len(high)):
         return limit

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import frequency
-from hydrodae.hdb.readers.tecplot import number
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.readers.text import number, read_lines
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -44,7 +45,7 @@ def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, l
         A line other than the first is not of that form, or there is none.
     """
     rows, lines = [], []
-    for count, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for count, line in enumerate(read_lines(path), start=1):
         words = line.split()
         if not words:
             continue
@@ -109,6 +110,47 @@ def to_omega(
         raise DatabaseError(f"{path}: IPEROUT = {option} in the .cfg beside it: expected 1 to 4")
     omega[~usual] = np.where(first[~usual] == 0.0, 0.0, np.inf)
     return omega
+
+
+def check_indices(
+    path: Path, rows: Array, lines: list[int], columns: tuple[int, ...], known: Array
+) -> None:
+    """Refuse modes that the run does not have: another column, or a garbled number."""
+    for column in columns:
+        wrong = np.flatnonzero(~np.isin(rows[:, column], known))
+        if wrong.size:
+            raise DatabaseError(
+                f"{path}:{lines[wrong[0]]}: {rows[wrong[0], column]:g} in column {column + 1} is "
+                f"no mode of the run (1 to {known.max():g})"
+            )
+
+
+def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Finding]) -> None:
+    """Hold modulus and phase of forces (m, 7) against their real and imaginary parts.
+
+    Raises
+    ------
+    DatabaseError
+        A modulus is another; the message names the line.
+    """
+    modulus, phase, parts = rows[:, 3], np.radians(rows[:, 4]), rows[:, 5] + 1j * rows[:, 6]
+    least = 1e-5 * float(np.nanmax(np.abs(parts), initial=0.0))
+    wrong = np.flatnonzero(np.abs(np.abs(parts) - modulus) > 5e-3 * np.abs(parts) + least)
+    if wrong.size:
+        at = wrong[0]
+        raise DatabaseError(
+            f"{path}:{lines[at]}: the modulus {modulus[at]:g} is not that of the real and "
+            f"imaginary part {rows[at, 5]:g} {rows[at, 6]:g}: columns in another order, or a "
+            f"garbled number"
+        )
+    turned = np.abs(modulus * np.exp(1j * phase) - parts) > 0.02 * np.abs(parts) + least
+    if turned.any():
+        at = int(np.flatnonzero(turned)[0])
+        text = (
+            f"{path.name}:{lines[at]}: phase {rows[at, 4]:g} deg is not that of the real and "
+            f"imaginary part, which are used ({turned.sum()} of {turned.size} lines)"
+        )
+        findings.append(Finding("warning", "excitation", text, float(turned.mean())))
 
 
 def scatter(

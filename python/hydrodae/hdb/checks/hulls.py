@@ -1,0 +1,96 @@
+"""Hydrostatics that no hull has, or another hull than the one whose mesh the database holds."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.mesh_statics import mesh_statics
+
+Array = NDArray[np.float64]
+#: Flat panels enclose some per cent less than a curved hull.
+ALIKE = 0.1
+#: What rounding leaves of areas and moments, over the length V^(1/3) to their power.
+ROUNDING = 1e-2
+#: Centres of buoyancy of floating bodies lie within so many V^(1/3): a spar's at 2.
+DEEP = 20.0
+
+
+def hull_findings(database: HydroDatabase) -> list[Finding]:
+    """Judge the hydrostatics of each body by themselves and by its mesh.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    list of Finding
+        An error for a buoyancy centre above the water or in the ground and for a waterplane of
+        negative area; warnings for negative moments of the waterplane and where the mesh has
+        another volume or buoyancy centre (not looked at where a part of it is dry).
+    """
+    found = []
+    for name, body in database.bodies.items():
+        statics, point = body.hydrostatics, body.reference_point
+        if statics is None or point is None:
+            continue
+        found += [
+            Finding(severity, "hydrostatics", f"{name}: {text}: is a number garbled?")
+            for severity, text in _impossible(statics, database.water_depth)
+        ]
+        if body.mesh is not None:
+            found += _of_mesh(name, statics, body.mesh, np.asarray(point))
+    return found
+
+
+def _impossible(statics: Hydrostatics, depth: float) -> list[tuple[str, str]]:
+    """Tell what no hull has, with its severity."""
+    found, size = [], abs(statics.displaced_volume) ** (1.0 / 3.0)
+    height = float(statics.center_of_buoyancy[2])
+    center = f"its centre of buoyancy, z = {height:.4g} m, is"
+    if height >= 0.0:
+        severity = "error" if height > ROUNDING * size else "warning"
+        found.append((severity, f"{center} not below the water"))
+    elif height < -depth:
+        found.append(("error", f"{center} below the ground at {-depth:g} m"))
+    elif height < -DEEP * size and statics.waterplane_area > ROUNDING * size**2:
+        found.append(("warning", f"{center} very deep for {statics.displaced_volume:.4g} m3"))
+    if statics.waterplane_area < -ROUNDING * size**2:
+        text = f"its waterplane area is negative, {statics.waterplane_area:.4g} m2"
+        found.append(("error", text))
+    least = float(statics.waterplane_moments[2:4].min())
+    if least < -ROUNDING * size**4:
+        text = f"a second moment of its waterplane is negative, {least:.4g} m4"
+        found.append(("warning", text))
+    return found
+
+
+def _of_mesh(name: str, statics: Hydrostatics, panels: Array, point: Array) -> list[Finding]:
+    """Compare displaced volume and centre of buoyancy with those of the panels."""
+    try:
+        mesh = mesh_statics(panels, point)
+    except DatabaseError:
+        return []  # a part above the water: not what the run was made with
+    volume = statics.displaced_volume
+    share = mesh.displaced_volume / volume
+    # halves and quarters are completed by symmetry: their buoyancy is at the same height
+    parts = next((n for n in (1.0, 2.0, 4.0) if abs(share * n - 1.0) < ALIKE), 0.0)
+    off = np.abs(mesh.center_of_buoyancy - statics.center_of_buoyancy)
+    away = float(off[2] if parts > 1.0 else off.max())
+    if parts == 0.0:
+        text = f"displaces {volume:.5g} m3, its mesh {mesh.displaced_volume:.5g} m3"
+    elif away > ALIKE * volume ** (1.0 / 3.0):
+        shown = ", ".join(f"{v:.4g}" for v in mesh.center_of_buoyancy)
+        stated = ", ".join(f"{v:.4g}" for v in statics.center_of_buoyancy)
+        text = f"its centre of buoyancy is at {stated} m, that of its mesh at {shown} m"
+    else:
+        return []
+    text = f"{name}: {text}: hydrostatics of another body, or a garbled number"
+    return [
+        Finding("warning", "hydrostatics of the mesh", text, abs(share * max(parts, 1.0) - 1.0))
+    ]

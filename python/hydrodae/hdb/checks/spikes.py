@@ -1,0 +1,73 @@
+"""Single values of the excitation that no neighbour bears out: garbled rows, irregular frequencies.
+
+Ogilvie's relation judges A and B; the excitation has no such partner at one heading. It is smooth
+in frequency, however: a value is held against the line through its two neighbours.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.hdb.checks.band import Band, inside
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import Finding
+
+Array = NDArray[np.float64]
+#: A spike is off its neighbours' line by this share of the force ...
+SHARE = 0.1
+#: ... and by so many times what the values around it are off theirs.
+ALONE = 5.0
+#: Values on either side that it is compared with.
+AROUND = 6
+#: Forces below this share of the largest of their kind vanish by symmetry.
+NONE = 1e-3
+
+
+def spikes(database: HydroDatabase) -> Array:
+    """Distance from the line through both neighbours, over the force, where that is a spike.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    (nw, nh, n) array
+        0 where there is none.
+    """
+    w, force = database.omega, database.excitation
+    off = np.zeros(force.shape)
+    if w.size < 2 * AROUND or not force.size:
+        return off
+    share = ((w[1:-1] - w[:-2]) / (w[2:] - w[:-2]))[:, None, None]
+    off[1:-1] = np.abs(force[1:-1] - (1.0 - share) * force[:-2] - share * force[2:])
+    size = np.quantile(np.abs(force), 0.9, axis=0)
+    turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in database.coordinates])
+    largest = np.where(turning, size[:, turning].max(initial=0), size[:, ~turning].max(initial=0))
+    off = np.where(size > NONE * largest, off / np.maximum(size, 1e-300), 0.0)
+    others = np.zeros(off.shape)
+    for shift in range(2, AROUND + 1):  # neighbours carry half of a spike themselves
+        others[shift:] = np.maximum(others[shift:], off[:-shift])
+        others[:-shift] = np.maximum(others[:-shift], off[shift:])
+    return np.where((off > SHARE) & (off > ALONE * others), off, 0.0)
+
+
+def spike_findings(database: HydroDatabase, band: Band) -> list[Finding]:
+    """Name the largest spike of the excitation; outside the band it is a note."""
+    found = spikes(database)
+    if not found.any():
+        return []
+    judged = found * inside(database.omega, band)[:, None, None]
+    severity = "warning" if judged.any() else "info"
+    if judged.any():
+        found = judged
+    at, h, c = (int(i) for i in np.unravel_index(found.argmax(), found.shape))
+    text = (
+        f"{np.count_nonzero(found)} values of the excitation are off the line through their "
+        f"neighbours; most {database.coordinates[c]} at heading "
+        f"{np.degrees(database.heading[h]):.4g} deg, by {found[at, h, c]:.2g} of the force: a "
+        f"garbled row, or an irregular frequency"
+    )
+    value = float(found[at, h, c])
+    return [Finding(severity, "excitation smooth", text, value, float(database.omega[at]))]

@@ -1,0 +1,107 @@
+"""Bodies in netCDF files of Capytaine: reference points and hydrostatics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from hydrodae.hdb.coordinates import DOFS, bodies_of
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.readers import nemoh_hydrostatics as nh
+from hydrodae.hdb.readers.reference import reference_by_statics
+from hydrodae.hdb.readers.source import SourceData
+
+Array = NDArray[np.float64]
+
+
+def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) -> None:
+    """Reference points and hydrostatics, from the file or from Nemoh-like files beside it."""
+    names = bodies_of(data.coordinates)
+    beside: list[nh.FileHydrostatics | None] = [None] * len(names)
+    if "center_of_buoyancy" not in ds:
+        beside = nh.read_all(path.parent, len(names), data.rho, data.gravity)
+    for i, name in enumerate(names):
+        first = next(
+            d for d, c in zip(raw, data.coordinates, strict=True) if c.startswith(name + ".")
+        )
+        prefix = first.rpartition("__")[0]
+        point = _vector(ds, "rotation_center", prefix, i)
+        data.reference_points[name] = point
+        hs = _hydrostatics(data, ds, raw, prefix, i, point)
+        near = beside[i]
+        if hs is not None and point is not None:
+            data.hydrostatics[name] = (hs, point)
+        elif near is not None:
+            data.hydrostatics[name] = (near.hydrostatics, near.center_of_gravity)
+            data.files += near.files
+            data.findings.append(
+                Finding(
+                    "info", "hydrostatics", f"{name}: taken from {near.files[0].name} beside it"
+                )
+            )
+            if point is None:
+                data.reference_points[name] = reference_by_statics(data, name, near)
+                data.assumed_points.add(name)
+        else:
+            data.findings.append(
+                Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")
+            )
+
+
+def _hydrostatics(
+    data: SourceData, ds: xr.Dataset, raw: list[str], prefix: str, i: int, point: Array | None
+) -> Hydrostatics | None:
+    """Waterplane from hydrostatic_stiffness about the rotation centre.
+
+    Capytaine's rotational terms hold the weight too: - m g (z_G - z_c) in K44 and K55, with
+    m = rho V unless the body was given another mass (then it is inertia_matrix[surge, surge]).
+    """
+    needed = ("hydrostatic_stiffness", "center_of_buoyancy", "disp_mass")
+    buoyancy = _vector(ds, "center_of_buoyancy", prefix, i)
+    if point is None or buoyancy is None or any(name not in ds for name in needed):
+        return None
+    volume = float(_pick(ds["disp_mass"], prefix, i, vector=False)) / data.rho
+    present = [d for d in raw if d.rpartition("__")[0] == prefix]
+    index = [DOFS.index(d.rpartition("__")[2].lower()) for d in present]
+    if not {2, 3, 4} <= set(index):
+        return None
+    k = np.zeros((6, 6))
+    block = ds["hydrostatic_stiffness"].sel(influenced_dof=present, radiating_dof=present)
+    if set(block.dims) != {"influenced_dof", "radiating_dof"}:
+        return None
+    k[np.ix_(index, index)] = block.transpose("influenced_dof", "radiating_dof").values
+    center = _vector(ds, "center_of_mass", prefix, i)
+    if center is not None and not np.allclose(center, point):
+        mass = data.rho * volume
+        if "inertia_matrix" in ds and 0 in index:
+            surge = present[index.index(0)]
+            mass = float(ds["inertia_matrix"].sel(influenced_dof=surge, radiating_dof=surge))
+        k[[3, 4], [3, 4]] += mass * data.gravity * (center[2] - point[2])
+    if not np.all(np.isfinite(k)):
+        return None
+    return Hydrostatics.from_stiffness(k, point, volume, buoyancy, data.rho, data.gravity)
+
+
+def _pick(variable: xr.DataArray, prefix: str, i: int, *, vector: bool) -> Any:
+    """Entry of a body in a variable; all dimensions but the last one of vectors are over bodies."""
+    for dim in variable.dims[:-1] if vector else variable.dims:
+        labels = [text(v) for v in variable[dim].values] if dim in variable.coords else []
+        variable = variable.isel({dim: labels.index(prefix) if prefix in labels else i})
+    return variable.values
+
+
+def _vector(ds: xr.Dataset, name: str, prefix: str, i: int) -> Array | None:
+    if name not in ds:
+        return None
+    value = np.asarray(_pick(ds[name], prefix, i, vector=True), dtype=float)
+    return value if value.shape == (3,) and np.all(np.isfinite(value)) else None
+
+
+def text(value: Any) -> str:
+    """Return a label, which old files hold as bytes."""
+    return value.decode() if isinstance(value, bytes) else str(value)
