@@ -19,8 +19,10 @@ from hydrodae.extras import install_command
 #: Environment variable with the browser to take.
 BROWSER = "HYDRODAE_BROWSER"
 #: Names under which systems have a browser that playwright can drive.
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-NAMES += ("chromium-headless-shell",)
+NAMES = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"),
+    "chromium-headless-shell",  # of Debian
+)
 #: Range and sampling of colours that players expect.
 TELEVISION = "scale=out_range=tv,format=yuv420p"
 #: Flags of ffmpeg by the ending of a video.
