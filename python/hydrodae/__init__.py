@@ -99,8 +99,7 @@ _LATER = {
 }
 
 #: Modules that the documentation calls by `hydrodae.NAME` after `import hydrodae`.
-_MODULES = ("control", "fmu", "hdb", "mooring", "plot", "report", "schema", "starters", "tables")
-_MODULES += ("tcp",)
+_MODULES = frozenset("control fmu hdb mooring plot report schema starters tables tcp".split())
 
 if not TYPE_CHECKING:
 
