@@ -77,11 +77,11 @@ def eigenvalue(period: float, stiffness: float, damping: float, late: bool) -> f
 
 
 def run(given: str) -> hydrodae.Results:
-    """The run of a case; what there is of it where the kernel ended a motion that the load feeds."""
+    """The run of a case; what there is of it where the kernel ended a motion that grows."""
     try:
         return hydrodae.run(hydrodae.Case.from_text(given))
     except hydrodae.SolverError as error:
-        if error.results is None or "feeds the motion" not in str(error):
+        if not isinstance(error.results, hydrodae.Results) or "feeds the motion" not in str(error):
             raise
         return error.results
 

@@ -98,12 +98,15 @@ _LATER = {
     "working_band": "study.band",
 }
 
+#: Modules that the documentation calls by `hydrodae.NAME` after `import hydrodae`.
+_MODULES = frozenset("control fmu hdb mooring plot report schema starters tables tcp".split())
+
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
         if name == "__version__":
             return version()
-        if name in ("hdb", "mooring"):
+        if name in _MODULES:
             return import_module(f"hydrodae.{name}")
         if name in _LATER:
             return getattr(import_module(f"hydrodae.{_LATER[name]}"), name)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
+from hydrodae import outputs
 from hydrodae.drives import Drive, kernel_drives
 from hydrodae.errors import CaseError
 from hydrodae.laws import Force, kernel_forces
@@ -212,15 +213,26 @@ class Case:
 
     def _read(self, overrides: dict[str, str]) -> Scene:
         if self._path is not None and not self._path.is_file():
+            if self._path.is_dir():
+                raise CaseError(f"{self._path}: is a folder; give the case file in it")
             raise CaseError(f"{self._path}: no such case file{_near_file(self._path)}")
         from hydrodae import _core
 
         if self._path is not None:
+            _refuse_other_kind(self._path)
             return _core.load_case(str(self._path), overrides)
         assert self._text is not None
         if self._tell is None:
             return _core.parse_case(self._text, str(self._directory), overrides)
         return _parse_told(self._text, str(self._directory), overrides, self._tell)
+
+
+def _refuse_other_kind(path: Path) -> None:
+    """Raise CaseError for results, databases and other files that are no text."""
+    with path.open("rb") as file:
+        head = file.read(8)
+    if head.startswith((b"\x89HDF", b"CDF", b"\x89PNG", b"%PDF", b"PK")):
+        raise CaseError(f"{path}: is a {outputs.kind_of(path)}; a case is a TOML file")
 
 
 class MakesCase(Protocol):

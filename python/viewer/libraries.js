@@ -25,6 +25,7 @@ export {
   Quaternion,
   Raycaster,
   Scene,
+  ShaderMaterial,
   SphereGeometry,
   Vector2,
   Vector3,

@@ -230,3 +230,11 @@ def test_failure_before_the_start_has_no_results_not_old_ones(
         hydrodae.run(case_file, output)
     assert caught.value.results is None
     assert Results.read(output).status == "completed"  # the older ones stand
+
+
+def test_what_is_no_case_is_told_by_its_kind(tmp_path: Path, repository: Path) -> None:
+    database = repository / "cases" / "sphere" / "hydro.h5"
+    with pytest.raises(CaseError, match="is a hydrodynamic database; a case is a TOML file"):
+        hydrodae.Case.read(database)
+    with pytest.raises(CaseError, match="is a folder; give the case file in it"):
+        hydrodae.Case.read(tmp_path)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
+import shutil
+import subprocess
+import sys
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.python.doc_blocks import all_blocks, blocks, command_lines, pages
+from tests.python.test_tcp import free_port
 
 import hydrodae
 from hydrodae import _core, cli
@@ -16,33 +22,62 @@ from hydrodae.starters import create
 from hydrodae.study.sweep.plan import read_study
 from hydrodae.study.sweep.problem import read_problem
 
-#: Pages whose Python blocks run from the root of the repository, one after the other; those of
-#: python.md run in test_functions.py, that of tcp.md needs a program at the other end.
+#: Pages whose Python blocks run from the root of the repository, one after the other.
 RUN = ("docs/results.md", "docs/forces.md", "docs/sweeps.md", "docs/view.md", "docs/databases.md")
 #: Names that a page takes as given.
 GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}
 #: Pages whose calls of hydrodae run one after the other; `cd` changes the folder.
-RUN_COMMANDS = ("docs/commands.md", "docs/first_steps.md", "docs/control.md")
-
-
-def pages(repository: Path) -> list[Path]:
-    found = [repository / "README.md", *(repository / "docs").glob("*.md")]
-    found += (repository / "cases").glob("*/README.md")
-    return [*found, repository / "python" / "hydrodae" / "starters" / "README.md"]
-
-
-def blocks(page: Path, language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE)
+RUN_COMMANDS = ("docs/commands.md", "docs/first_steps.md", "docs/control.md", "docs/view.md")
+#: Blocks that a test of their own runs, by page and language: how many there are.
+RUN_APART = {
+    ("README.md", "toml"): 1,  # test_readme.py
+    ("README.md", "python"): 1,
+    ("docs/python.md", "python"): 4,  # test_functions.py
+    ("docs/spectral.md", "python"): 1,
+    ("docs/control.md", "python"): 3,
+    ("docs/extending.md", "python"): 1,
+    ("docs/conventions.md", "python"): 1,
+    ("docs/fmu.md", "sh"): 1,
+    ("docs/fmu.md", "python"): 1,
+    ("docs/tcp.md", "python"): 1,
+    ("docs/tcp.md", "json"): 2,
+    ("docs/install.md", "cmake"): 1,
+    ("docs/install.md", "cpp"): 1,
+    ("docs/extending.md", "cpp"): 1,
+    ("cases/plugin/README.md", "sh"): 1,
+    ("python/hydrodae/starters/README.md", "sh"): 1,
+}
 
 
 def commands(page: Path) -> Iterator[list[str]]:
-    """Arguments of every line that calls hydrodae, in a block or indented; without comments."""
-    indented = re.findall(r"^    \S.*$", page.read_text(), re.MULTILINE)
-    text = "\n".join([*blocks(page, "sh"), *indented]).replace("\\\n", " ")
+    """Arguments of every line that calls hydrodae, run or not; without comments."""
+    text = "".join(b.text for b in all_blocks(page) if b.language == "sh").replace("\\\n", " ")
     for line in text.splitlines():
         found = re.fullmatch(r"(?:\S*/)?hydrodae (.*)", line.strip())
         if found:
             yield shlex.split(found[1], comments=True)
+
+
+def test_every_block_is_run_or_says_why_not(repository: Path) -> None:
+    """A block of a new kind or on a new page needs a test, or `<!-- not run: REASON -->`."""
+    found: dict[tuple[str, str], int] = {}
+    for page in pages(repository):
+        name = page.relative_to(repository).as_posix()
+        assert page.read_text().count("```") == 2 * len(all_blocks(page)), name
+        for block in all_blocks(page):
+            where = (name, block.language)
+            by_page = {"python": RUN, "sh": RUN_COMMANDS}.get(block.language, ())
+            # output and equations; tables are read, those of a whole page together
+            told = block.language == "text" or (block.language == "toml" and name != "README.md")
+            if not (block.reason or name in by_page or told):
+                found[where] = found.get(where, 0) + 1
+    assert found == RUN_APART
+
+
+def test_no_code_stands_in_indented_blocks(repository: Path) -> None:
+    for page in pages(repository):
+        text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.DOTALL | re.MULTILINE)
+        assert not re.findall(r"\n\n    \S.*", text), page.name
 
 
 def can_be_parsed(arguments: list[str]) -> bool:
@@ -66,7 +101,7 @@ def test_every_command_of_the_pages_can_be_parsed(repository: Path) -> None:
 def test_every_table_of_the_pages_is_one_that_the_kernel_reads(repository: Path) -> None:
     for page in pages(repository):
         for text in blocks(page, "toml"):
-            if page.name != "sweeps.md":
+            if page.name != "sweeps.md":  # studies: below
                 _core.check_tables(text)
 
 
@@ -94,19 +129,109 @@ def test_code_of_a_page_runs(name, repository, tmp_path, monkeypatch, capsys) ->
     assert capsys.readouterr().out.strip()
 
 
+def run_lines(lines: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run calls of hydrodae; every line has to be one, or to change the folder."""
+    assert lines
+    for line in lines:
+        words = shlex.split(line, comments=True)
+        if words[0] == "cd":
+            monkeypatch.chdir(words[1])
+        else:
+            assert words[0] == "hydrodae", line
+            assert cli.main(words[1:]) == 0, line
+
+
 @pytest.mark.parametrize("name", RUN_COMMANDS)
 def test_commands_of_a_page_run(name, repository, tmp_path, monkeypatch) -> None:
     (tmp_path / "cases").symlink_to(repository / "cases")
     monkeypatch.chdir(tmp_path)
-    done = 0
-    for line in "".join(blocks(repository / name, "sh")).splitlines():
-        words = shlex.split(line, comments=True)
-        if words[0] == "cd":
-            monkeypatch.chdir(words[1])
-        elif words[0] == "hydrodae":
-            assert cli.main(words[1:]) == 0, line
-            done += 1
-    assert done > 0
+    run_lines(command_lines(repository / name), monkeypatch)
+
+
+def test_commands_of_the_page_in_every_starter_run(repository, tmp_path, monkeypatch) -> None:
+    """But for the sweep, which takes minutes; test_starters.py has one of few points."""
+    monkeypatch.chdir(create("point_absorber", tmp_path / "case").parent)
+    lines = command_lines(repository / "python" / "hydrodae" / "starters" / "README.md")
+    assert sum("sweep" in line for line in lines) == 1
+    run_lines([line for line in lines if "sweep" not in line], monkeypatch)
+
+
+def test_commands_of_the_page_for_plugins_run(repository, tmp_path, monkeypatch) -> None:
+    if shutil.which("c++") is None:
+        pytest.skip("needs a C++ compiler")
+    shutil.copytree(repository / "cases" / "plugin", tmp_path / "cases" / "plugin")
+    (tmp_path / "cpp").symlink_to(repository / "cpp")
+    monkeypatch.chdir(tmp_path / "cases" / "plugin")
+    compiler, *lines = command_lines(repository / "cases" / "plugin" / "README.md")
+    subprocess.run(shlex.split(compiler), check=True)
+    run_lines(lines, monkeypatch)
+
+
+def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:
+    pytest.importorskip("fmpy", reason="needs the extra cosim")
+    (tmp_path / "cases").symlink_to(repository / "cases")
+    monkeypatch.chdir(tmp_path)
+    case = create("point_absorber", tmp_path / "case").read_text()
+    shutil.copy(tmp_path / "case" / "hydro.h5", tmp_path)
+    start, end = case.index("[[wave]]"), case.index("[[body]]")
+    swell = '[[wave]]\nname = "swell"\ntype = "regular"\nheight = 1.0\nperiod = 8.0\n'
+    Path("case.toml").write_text(case[:start] + swell + case[end:])
+    page = repository / "docs" / "fmu.md"
+    run_lines(command_lines(page), monkeypatch)
+    known: dict[str, object] = {}
+    exec(compile(blocks(page, "python")[0], "fmu.md", "exec"), known)
+    assert known["result"]["time"][-1] == 100.0  # type: ignore[index]
+
+
+def test_page_for_tcp_runs(repository, tmp_path) -> None:
+    """Its controller beside a run of `cases/control` with its table; its handshakes are JSON."""
+    page, port = repository / "docs" / "tcp.md", free_port()
+    (code,), (table,) = blocks(page, "python"), blocks(page, "toml")
+    hello, answer = map(json.loads, blocks(page, "json"))
+    assert hello["protocol"] == answer["protocol"] == "hydrodae"
+    assert "port = 50000" in table
+    assert "port=50000" in code
+    text = (repository / "cases" / "control" / "case.toml").read_text()
+    start, end = text.index("[[controller]]"), text.index("[solver]")
+    case = tmp_path / "case.toml"
+    case.write_text(text[:start] + table.replace("50000", str(port)) + text[end:])
+    other = [sys.executable, "-c", code.replace("50000", str(port))]
+    with subprocess.Popen(other, stderr=subprocess.PIPE, text=True) as controller:
+        results = hydrodae.run(case)
+        _, said = controller.communicate(timeout=60)
+    assert results.status == "completed"
+    assert controller.returncode == 0, said
+
+
+def test_page_for_conventions_runs(repository, tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = (repository / "README.md").read_text().split("```toml\n")[1].split("```")[0]
+    case = hydrodae.Case.from_text(text, directory=repository)
+    hydrodae.run(case, "run.h5", set={"solver.end_time": 2.0})
+    known: dict[str, object] = {}
+    (code,) = blocks(repository / "docs" / "conventions.md", "python")
+    exec(compile(code, "conventions.md", "exec"), known)
+    assert known["in_world"].shape[1] == 3  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    ("page", "language", "sources"),
+    [
+        ("install", "cmake", ["tests/package/CMakeLists.txt"]),
+        ("install", "cpp", ["tests/package/main.cpp"]),
+        ("extending", "cpp", ["cpp/hydrodae/joint/types.h"]),
+    ],
+)
+def test_code_in_other_languages_stands_in_the_sources(page, language, sources, repository) -> None:
+    """`tests/package/run.sh` and the build compile it there."""
+
+    def bare(text: str) -> str:
+        return re.sub(r"\s+", "", re.sub(r"(//|#(?!include)).*", "", text))
+
+    shown = blocks(repository / "docs" / f"{page}.md", language)
+    source = bare("\n".join((repository / name).read_text() for name in sources))
+    for line in "\n".join(shown).splitlines():
+        assert bare(line) in source, line
 
 
 def test_code_of_the_page_for_spectral_runs(repository, tmp_path, monkeypatch, capsys) -> None:
@@ -131,7 +256,7 @@ def test_code_of_the_pages_for_controllers_and_forces_runs(
     monkeypatch.chdir(tmp_path)
     Path("case.toml").write_text(text[:start] + own + text[end:])
     known: dict[str, object] = {"hydrodae": hydrodae}
-    law, device = blocks(docs / "control.md", "python")[:2]
+    law, device, predictive = blocks(docs / "control.md", "python")
     exec(compile(law, "control.md", "exec"), known)
     assert known["results"].status == "completed"  # type: ignore[attr-defined]
     Path("case.toml").write_text(text[:start] + text[end:])
@@ -143,3 +268,7 @@ def test_code_of_the_pages_for_controllers_and_forces_runs(
     Path("case.toml").write_text(text[:start] + brake + text[end:])
     (call,) = blocks(docs / "extending.md", "python")
     exec(compile(call, "extending.md", "exec"), known)
+    pytest.importorskip("osqp", reason="needs the extra control")
+    Path("case.toml").write_text(text[:start] + own.replace("0.05", "0.1") + text[end:])
+    exec(compile(predictive, "control.md", "exec"), known)
+    assert known["results"].status == "completed"  # type: ignore[attr-defined]

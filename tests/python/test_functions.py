@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -230,3 +231,32 @@ def test_the_examples_of_the_description_run(repository: Path, tmp_path: Path) -
         [sys.executable, "-c", script], cwd=repository, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_modules_that_the_pages_name_are_there(repository: Path) -> None:
+    """`import hydrodae` is enough for every `hydrodae.NAME` of the documentation."""
+    text = "".join(page.read_text() for page in (repository / "docs").glob("*.md"))
+    named = set(re.findall(r"hydrodae\.([a-z]\w+)\.\w+\(", text))
+    assert {"fmu", "control"} <= named
+    code = "import hydrodae\n" + "\n".join(f"hydrodae.{name}" for name in sorted(named))
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_libraries_of_a_wheel_go_along_in_an_fmu(
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside the library, whose run path then says so."""
+    from hydrodae import _core
+
+    (tmp_path / "hydrodae.libs").mkdir()
+    (tmp_path / "hydrodae.libs" / "libx-1.so").write_bytes(b"library")
+    (tmp_path / "hydrodae" / "lib").mkdir(parents=True)
+    (tmp_path / "hydrodae" / "lib" / "hydrodae_fmu.so").write_bytes(
+        b"\0$ORIGIN/../../hydrodae.libs\0end"
+    )
+    monkeypatch.setattr(_core, "__file__", str(tmp_path / "hydrodae" / "_core.so"))
+    made = hydrodae.fmu.export(repository / "cases" / "sphere" / "wave.toml", tmp_path / "a.fmu")
+    with zipfile.ZipFile(made) as archive:
+        (binary,) = [name for name in archive.namelist() if name.endswith("/a.so")]
+        assert archive.read(binary) == b"\0$ORIGIN".ljust(29, b"\0") + b"end"
+        assert archive.read(binary.replace("a.so", "libx-1.so")) == b"library"

@@ -143,11 +143,49 @@ def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
             '[grid]\n"body.float.mass" = [1.0]\n[result.x]\nchannel = "joints/guide/angle"\n',
             "displ",
         ),
+        ("[grid]\na = { from = 1, to = 2, count = 1000000000 }\n", "whole 'count' from 1"),
+        ('[grid]\na = { from = "1", to = 2, count = 2 }\n', "numbers 'from' and 'to'"),
+        ("[grid]\na = { from = 1, to = 2, count = 2.5 }\n", "whole 'count' from 1"),
+        (
+            "".join(["[grid]\n", *(f"{k} = {{from=1, to=2, count=2000}}\n" for k in "ab")]),
+            "4000000 points",
+        ),
+        ("[grid]\na = [2020-01-01]\n", "date"),
+        ("[latin_hypercube]\nsamples = true\n", "whole number"),
+        ("[latin_hypercube]\nsamples = 2\nseed = -1\nrange = {a = [1, 2]}\n", "'seed'"),
+        ("[latin_hypercube]\nsamples = 2\nrange = {a = [2, 1]}\n", "least, most"),
+        ("[latin_hypercube]\nsamples = 2\nrange = {a = [1]}\n", "least, most"),
+        ('[table]\nfile = "twice.csv"\n', "column 'a' stands there twice"),
+        ('over = [["a"]]\n[grid]\na = [1]\n', "keys of the study"),
+        ('[grid]\na = [1]\n[result.status]\nchannel = "c"\n', "take another name"),
+        ('[grid]\na = [1]\n[result.a]\nchannel = "c"\n', "another column 'a'"),
+        ('[grid]\na = [1]\n[result."x/y"]\nchannel = "c"\n', "letters"),
+        ("[grid]\na = [1]\n[result.x]\nchannel = 3\n", "expected a text"),
+        ('[grid]\na = [1]\n[result.x]\nchannel = "c"\nfrom = "x"\n', "time in s"),
+        (
+            '[grid]\n"body.float.mass" = [1.0]\n[result.x]\n'
+            'channel = "bodies/float/position"\ncomponent = "q"\n',
+            "components x, y, z; got 'q'",
+        ),
+        (
+            '[grid]\nh = [1.0]\nt = [5.0]\n[scatter]\nfile = "seas.csv"\n'
+            'height = "h"\nperiod = "t"\n',
+            "lacks: 9 m, 5 s",
+        ),
     ],
 )
 def test_wrong_studies_are_refused(folder: Path, text: str, told: str) -> None:
+    (folder / "twice.csv").write_text("a,a\n1,2\n")
+    (folder / "seas.csv").write_text("height,period,hours\n9.0,5.0,10\n")
     with pytest.raises(hydrodae.CaseError, match=told):
         hydrodae.sweep(write_study(folder, text), folder / "study.nc", jobs=1)
+
+
+def test_no_job_at_a_time_is_refused(folder: Path) -> None:
+    study = write_study(folder, '[grid]\n"body.float.mass" = [2.0]\n')
+    for jobs in (0, -3):
+        with pytest.raises(hydrodae.CaseError, match="at least 1"):
+            hydrodae.sweep(study, folder / "study.nc", jobs=jobs)
 
 
 def test_a_record_of_something_else_is_kept(folder: Path) -> None:

@@ -263,6 +263,8 @@ def test_samples_are_chosen_and_thinned_out(results):
     ("arguments", "message"),
     [
         ({"camera": "sidd"}, "no such view.*side"),
+        ({"step": 0.0}, "step: expected a time > 0 s"),
+        ({"freeboard": -1.0}, "freeboard: expected a height >= 0 m"),
         ({"camera": "10,95"}, "elevation within"),
         ({"shapes": {"flot": "sphere:radius=1"}}, "float"),
         ({"shapes": {"float": "spere:radius=1"}}, "sphere"),

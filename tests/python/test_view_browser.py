@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -73,6 +74,20 @@ def test_it_plays_and_pauses(page):
     assert page.evaluate("hydrodae.player.time") == stopped
     page.keyboard.press("ArrowLeft")
     assert page.evaluate("hydrodae.player.time") < stopped
+
+
+def test_what_is_left_out_while_it_plays_hardly_shows(page):
+    """Light at corners alone, then coarser water and no edges: nothing may vanish."""
+    pictures = []
+    for level in range(3):
+        page.evaluate("level => hydrodae.show(1, level)", level)
+        pictures.append(imread(BytesIO(page.screenshot()))[..., :3])
+    page.evaluate("hydrodae.show(1)")
+    full, *fewer = pictures
+    for picture in fewer:
+        difference = abs(picture - full).mean(axis=2)
+        assert 0.0 < difference.mean() < 0.03
+        assert (difference > 0.2).mean() < 0.02
 
 
 @pytest.mark.parametrize("name", ["side", "top"])

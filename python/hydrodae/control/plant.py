@@ -63,7 +63,9 @@ class Plant:
     def _find_rest(self) -> float:
         from hydrodae.simulation import Simulation
 
-        run = Simulation(self.model.case, set={"solver.start": "equilibrium"})
+        case = self.model.case
+        silent = dict.fromkeys(case.scene.python_controllers, lambda *_: 0.0)  # no step is made
+        run = Simulation(case, set={"solver.start": "equilibrium"}, controllers=silent)
         for kind in ("displacement", "angle"):
             name = f"joints/{self.joint}/{kind}"
             if name in run.channels:

@@ -17,6 +17,9 @@ from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description
 from hydrodae.fmu.variables import Variable, choose, number_at
 
+#: Where the library looks for those of a wheel, and where they are in an FMU: beside it. Importers
+#: need not unpack other folders. The string of the file keeps its length.
+_RUN_PATHS = (b"$ORIGIN/../../hydrodae.libs\0", b"$ORIGIN\0".ljust(28, b"\0"))
 _PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
 
 
@@ -75,7 +78,10 @@ def export(
     told = Description(identifier, read.title, token, read.end_time, _step(read), chosen)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("modelDescription.xml", model_description(told, fmi))
-        archive.write(_library(), f"binaries/{_PLATFORMS[fmi]}/{identifier}.so")
+        folder = f"binaries/{_PLATFORMS[fmi]}"
+        archive.writestr(f"{folder}/{identifier}.so", _library().read_bytes().replace(*_RUN_PATHS))
+        for file in _libraries_of_a_wheel():
+            archive.write(file, f"{folder}/{file.name}")
         archive.writestr("resources/case.toml", text)
         archive.writestr("resources/variables.txt", f"hydrodae-fmu\t1\ntoken\t{token}\n{content}")
         for name, file in files.items():
@@ -107,6 +113,14 @@ def _library() -> Path:
     if not path.is_file():
         raise CaseError(f"{path}: not there; install the package again")
     return path
+
+
+def _libraries_of_a_wheel() -> list[Path]:
+    """What auditwheel put beside the package; other installations take the system's libraries."""
+    from hydrodae import _core
+
+    folder = Path(_core.__file__).parent.parent / "hydrodae.libs"
+    return sorted(folder.iterdir()) if folder.is_dir() else []
 
 
 def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:

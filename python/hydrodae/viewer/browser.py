@@ -19,7 +19,10 @@ from hydrodae.extras import install_command
 #: Environment variable with the browser to take.
 BROWSER = "HYDRODAE_BROWSER"
 #: Names under which systems have a browser that playwright can drive.
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+NAMES = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"),
+    "chromium-headless-shell",  # of Debian
+)
 #: Range and sampling of colours that players expect.
 TELEVISION = "scale=out_range=tv,format=yuv420p"
 #: Flags of ffmpeg by the ending of a video.
@@ -71,7 +74,9 @@ def opened(text: str, size: tuple[int, int], sharp: float = 1.0) -> Iterator[Any
                 program = executable(playwright.chromium.executable_path)
                 browser = playwright.chromium.launch(executable_path=program, args=_flags())
                 page = browser.new_page(
-                    viewport={"width": size[0], "height": size[1]}, device_scale_factor=sharp
+                    viewport={"width": size[0], "height": size[1]},
+                    device_scale_factor=sharp,
+                    locale="en-US",  # that of the POSIX environment is no language to JavaScript
                 )
                 _load(page, file)
                 yield page

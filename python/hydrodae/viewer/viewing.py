@@ -187,6 +187,10 @@ def view(
     >>> seen = hydrodae.view("cases/f3of/waves.toml")  # doctest: +SKIP
     >>> seen.write("f3of.html")  # doctest: +SKIP
     """
+    if step is not None and not step > 0.0:
+        raise CaseError(f"step: expected a time > 0 s between samples, got {step:g}")
+    if freeboard is not None and not 0.0 <= freeboard < np.inf:
+        raise CaseError(f"freeboard: expected a height >= 0 m, got {freeboard:g}")
     source = open_source(results, case, first=first, last=last)
     stage = make_stage(source, shapes=shapes, height=freeboard, channels=channels, step=step)
     frame = frame_of(stage)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from hydrodae import outputs
+from hydrodae.errors import CaseError
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, point_key, read_study
@@ -63,6 +64,8 @@ def sweep(
         The study or its case cannot be used, another sweep is writing the same file, or `output` is
         a file of another kind.
     """
+    if jobs is not None and jobs < 1:
+        raise CaseError(f"jobs: runs at a time: expected at least 1, got {jobs}")
     plan = read_study(study)
     case = open_case(plan.case, set or {}, plan.rungs)
     target = outputs.claim(output, outputs.NETCDF)

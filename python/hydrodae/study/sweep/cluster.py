@@ -11,7 +11,8 @@ from hydrodae.errors import CaseError
 from hydrodae.extras import install_command
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure
-from hydrodae.study.sweep.plan import Point, point_key
+from hydrodae.study.sweep.plan import point_key
+from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.pool import run_case
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.version import version

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,7 +32,17 @@ STATISTICS: dict[str, Callable[[Array], float]] = {
 #: What every run tells, with its unit.
 ALWAYS = {"mean_power_absorbed": "W", "estimated_error": "-", "steps": "-"}
 #: Names that a measure cannot take.
-TAKEN = (*ALWAYS, "capture_width", "wall_time")
+TAKEN = (
+    *ALWAYS,
+    "capture_width",
+    "wall_time",
+    "status",
+    "reason",
+    "annual_energy",
+    "hours",
+    "point",
+)
+TAKEN += ("rung", "mean_power_absorbed_mean", "mean_power_absorbed_interval")
 
 
 #: Statistic by cycles of the load, in `hydrodae.study.sweep.fatigue`.
@@ -66,6 +78,12 @@ class Measure:
             raise MeasureError(f"result.{self.name}: the runs have no channel {told}")
         series = results[self.channel]
         if self.component is not None:
+            known = [*map(str, series["component"].values)] if series.ndim > 1 else []
+            if self.component not in known:
+                told = f"the components {', '.join(known)}" if known else "no components"
+                raise MeasureError(
+                    f"result.{self.name}: {self.channel} has {told}; got {self.component!r}"
+                )
             series = series.sel(component=self.component)
         elif series.ndim > 1:
             raise MeasureError(
@@ -104,6 +122,12 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
                 f"{where}: unknown key {key!r}"
                 + (f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(keys)}")
             )
+    for key in ("channel", "statistic", "component"):
+        if not isinstance(table.get(key, ""), str):
+            raise CaseError(f"{where}: key {key!r}: expected a text, got {table[key]!r}")
+    start = table.get("from", 0.0)
+    if isinstance(start, bool) or not isinstance(start, int | float) or not math.isfinite(start):
+        raise CaseError(f"{where}: key 'from': expected a time in s, got {start!r}")
     statistic = table.get("statistic", "mean")
     known = [*STATISTICS, FATIGUE]
     if statistic not in known:
@@ -112,6 +136,8 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
             f"{where}: key 'statistic': {statistic!r} is none of {', '.join(known)}"
             + (f"; did you mean {near[0]!r}?" if near else "")
         )
+    if not re.fullmatch(r"[^\W\d][\w-]*", name):
+        raise CaseError(f"{where}: a name has letters, digits, - and _, and begins with a letter")
     if name in TAKEN:
         raise CaseError(f"{where}: every run tells {name!r}; take another name")
     return Measure(
@@ -119,7 +145,7 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         table["channel"],
         statistic,
         table.get("component"),
-        float(table.get("from", 0.0)),
+        float(start),
         **_fatigue(where, statistic, table),
     )
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
 import hashlib
-import itertools
 import json
+import math
 import os
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,13 +17,13 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import Measure, make_measure
+from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_points
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.version import version
 
 #: Key of a point that says by which model of the motion it is run.
 RUNG = "rung"
 TABLES = ("case", "rungs", "grid", "list", "latin_hypercube", "table", "over", "result", "scatter")
-Point = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -51,6 +49,12 @@ class Study:
     measures: tuple[Measure, ...] = ()
     scatter: Scatter | None = None
     rungs: tuple[str, ...] = DEFAULT  #: models of the motion
+
+    def column(self, key: str) -> str:
+        """The last word of a key where that is enough, else the whole key with underscores."""
+        last = key.rpartition(".")[2]
+        same = [k for k in self.points[0] if k.rpartition(".")[2] == last]
+        return last if len(same) == 1 else key.replace(".", "_")
 
     def identity(self, case: Case) -> str:
         """A hash of all that the numbers of a point depend on, but for the point itself."""
@@ -82,17 +86,17 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     known(file, "", given, TABLES)
     if not isinstance(given.get("case"), str):
         raise CaseError(f"{file}: key 'case': the path of a case file is needed")
-    points, dimensions = _points(file, given)
+    points, dimensions = read_points(file, given)
     rungs = check_rungs(given.get("rungs", [*DEFAULT]), file)
     if rungs != DEFAULT:
         points = [point | {RUNG: rung} for point in points for rung in rungs]
         dimensions = dimensions and {**dimensions, RUNG: list(rungs)}
     over = given.get("over", [])
-    if not isinstance(over, list) or any(key not in points[0] for key in over):
+    if not isinstance(over, list) or any(key not in list(points[0]) for key in over):
         raise CaseError(f"{file}: key 'over': expected keys of the study: {_listed(points[0])}")
     if over and not dimensions:
         raise CaseError(f"{file}: key 'over': means over repetitions need a [grid] alone")
-    return Study(
+    study = Study(
         file,
         file.parent / given["case"],
         points,
@@ -102,6 +106,54 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         _scatter(file, given.get("scatter"), points[0]),
         rungs,
     )
+    _check_names(study)
+    _check_scatter(study)
+    return study
+
+
+def _check_names(study: Study) -> None:
+    """No two columns of the table have one name."""
+    columns = [study.column(key) for key in study.points[0]]
+    for measure in study.measures:
+        names = [measure.name]
+        names += [f"{measure.name}_{what}" for what in ("mean", "interval") if study.over]
+        for name in names:
+            if name in columns or (name != measure.name and name in map(_name, study.measures)):
+                raise CaseError(
+                    f"{study.path}: [result.{measure.name}]: the table has another column "
+                    f"{name!r}; take another name"
+                )
+
+
+def _name(measure: Measure) -> str:
+    return measure.name
+
+
+def _check_scatter(study: Study) -> None:
+    """The sea states of the scatter table are on the grid, which has no other keys."""
+    s = study.scatter
+    if s is None:
+        return
+    if set(study.dimensions) - {*study.over, RUNG} != {s.height_key, s.period_key}:
+        raise CaseError(
+            f"{study.path}: [scatter] needs a [grid] of height and period, and else only keys "
+            "that are named by 'over'"
+        )
+    missing = [
+        f"{height:g} m, {period:g} s"
+        for height, period in zip(s.height, s.period, strict=True)
+        if not (_on(study, s.height_key, height) and _on(study, s.period_key, period))
+    ]
+    if missing:
+        raise CaseError(
+            f"{study.path}: [scatter]: sea states that the grid lacks: {'; '.join(missing[:5])}"
+            + f" and {len(missing) - 5} more" * (len(missing) > 5)
+        )
+
+
+def _on(study: Study, key: str, value: float) -> bool:
+    values = [x for x in study.dimensions[key] if is_number(x)]
+    return bool(np.isclose(np.array(values, dtype=float), value).any())
 
 
 def _results(file: Path, given: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -111,114 +163,16 @@ def _results(file: Path, given: Mapping[str, Any]) -> Mapping[str, Any]:
     return results
 
 
-def _points(file: Path, given: Mapping[str, Any]) -> tuple[list[Point], dict[str, list[Any]]]:
-    """Every combination of the points of all four kinds, and the dimensions of a grid alone."""
-    grid = _lists(file, "grid", given.get("grid", {}))
-    kinds = [
-        [dict(zip(grid, values, strict=True)) for values in itertools.product(*grid.values())],
-        _together(file, given.get("list", {})),
-        _latin_hypercube(file, given.get("latin_hypercube")),
-        _from_table(file, given.get("table")),
-    ]
-    if all(kind == [{}] for kind in kinds):
-        raise CaseError(
-            f"{file}: nothing varies: give [grid], [list], [latin_hypercube] or [table]"
-        )
-    points = []
-    for parts in itertools.product(*kinds):
-        keys = [key for part in parts for key in part]
-        if len(keys) != len(set(keys)):
-            raise CaseError(f"{file}: key {max(keys, key=keys.count)!r} varies in two tables")
-        points.append({key: value for part in parts for key, value in part.items()})
-    alone = all(kind == [{}] for kind in kinds[1:])
-    return points, grid if alone else {}
-
-
-def _lists(file: Path, name: str, table: Any) -> dict[str, list[Any]]:
-    """Keys with their values; {from, to, count} is a list of equal steps."""
-    if not isinstance(table, dict):
-        raise CaseError(f"{file}: [{name}]: expected a table of keys and lists")
-    out = {}
-    for key, values in table.items():
-        if isinstance(values, dict) and set(values) == {"from", "to", "count"}:
-            values = np.linspace(values["from"], values["to"], int(values["count"])).tolist()
-        if not isinstance(values, list) or not values:
-            raise CaseError(
-                f"{file}: [{name}] {key!r}: expected a list of values, or "
-                "{ from = ..., to = ..., count = ... }; keys with dots stand in quotes"
-            )
-        out[key] = values
-    return out
-
-
-def _together(file: Path, table: Any) -> list[Point]:
-    lists = _lists(file, "list", table)
-    if len({len(values) for values in lists.values()}) > 1:
-        told = ", ".join(f"{key!r} {len(values)}" for key, values in lists.items())
-        raise CaseError(f"{file}: [list]: values go together, so all need as many: {told}")
-    return [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)] or [{}]
-
-
-def _latin_hypercube(file: Path, table: Any) -> list[Point]:
-    """Samples of which each key has one in each of `samples` equal parts of its range."""
-    if table is None:
-        return [{}]
-    known(file, "latin_hypercube", table, ("samples", "seed", "range"))
-    samples, ranges = table.get("samples"), table.get("range")
-    if not isinstance(samples, int) or samples < 1 or not isinstance(ranges, dict) or not ranges:
-        raise CaseError(
-            f"{file}: [latin_hypercube]: expected 'samples' and "
-            "[latin_hypercube.range] with KEY = [least, most]"
-        )
-    draw = np.random.default_rng(table.get("seed", 1))
-    columns = {}
-    for key, (low, high) in ranges.items():
-        columns[key] = low + (high - low) * (draw.permutation(samples) + draw.random(samples)) / (
-            samples
-        )
-    return [{key: float(x[k]) for key, x in columns.items()} for k in range(samples)]
-
-
-def _from_table(file: Path, table: Any) -> list[Point]:
-    """The rows of a CSV file whose first line names the keys."""
-    if table is None:
-        return [{}]
-    known(file, "table", table, ("file",))
-    rows = _read_csv(file, "table", table.get("file"))
-    return [{key: _value(text) for key, text in row.items()} for row in rows]
-
-
-def _read_csv(file: Path, where: str, name: Any) -> list[dict[str, str]]:
-    if not isinstance(name, str):
-        raise CaseError(f"{file}: [{where}]: key 'file': the path of a CSV file is needed")
-    path = file.parent / name
-    try:
-        with path.open(newline="") as stream:
-            rows = list(csv.DictReader(stream, skipinitialspace=True, strict=True))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise CaseError(f"{path}: {error}") from None
-    if not rows or any(None in row or None in row.values() for row in rows):
-        raise CaseError(f"{path}: expected a line of names and lines of as many values")
-    return rows
-
-
-def _value(text: str) -> Any:
-    try:
-        return tomllib.loads(f"x = {text}")["x"]
-    except tomllib.TOMLDecodeError:
-        return text
-
-
 def _scatter(file: Path, table: Any, point: Point) -> Scatter | None:
     if table is None:
         return None
     known(file, "scatter", table, ("file", "height", "period"))
     keys = [table.get(name) for name in ("height", "period")]
-    if any(key not in point for key in keys):
+    if any(key not in list(point) for key in keys):
         raise CaseError(
             f"{file}: [scatter]: 'height' and 'period' name keys of the study: {_listed(point)}"
         )
-    rows = _read_csv(file, "scatter", table.get("file"))
+    rows = read_csv(file, "scatter", table.get("file"))
     try:
         columns = [tuple(float(r[c]) for r in rows) for c in ("height", "period", "hours")]
     except (KeyError, ValueError) as error:
@@ -226,18 +180,12 @@ def _scatter(file: Path, table: Any, point: Point) -> Scatter | None:
             f"{file.parent / table['file']}: expected numbers in columns height, period, hours; "
             f"{error}"
         ) from None
+    if not all(math.isfinite(x) and x >= 0.0 for column in columns for x in column):
+        raise CaseError(
+            f"{file.parent / table['file']}: a height, period or number of hours is negative or "
+            "not finite"
+        )
     return Scatter(keys[0], keys[1], *columns)
-
-
-def known(file: Path, where: str, table: Any, names: Sequence[str]) -> None:
-    """Raise CaseError for a key of a table that is none of these."""
-    if not isinstance(table, dict):
-        raise CaseError(f"{file}: [{where}]: expected a table")
-    for name in table:
-        if name not in names:
-            near = difflib.get_close_matches(name, names, 1)
-            said = f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(names)}"
-            raise CaseError(f"{file}: {f'[{where}] ' * bool(where)}unknown key {name!r}{said}")
 
 
 def _listed(point: Point) -> str:

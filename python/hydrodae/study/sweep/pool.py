@@ -15,7 +15,8 @@ from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure, MeasureError
-from hydrodae.study.sweep.plan import RUNG, Point, point_key
+from hydrodae.study.sweep.plan import RUNG, point_key
+from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.rungs import DEFAULT, open_case, run_rung
 
 _KILLED_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)

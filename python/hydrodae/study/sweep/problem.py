@@ -14,7 +14,8 @@ from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.gradient.quantity import POWER, Quantity
 from hydrodae.study.sweep.measures import make_measure
-from hydrodae.study.sweep.plan import digest_of_files, known
+from hydrodae.study.sweep.plan import digest_of_files
+from hydrodae.study.sweep.points import known
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.version import version
 

@@ -45,7 +45,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     if not study.dimensions:
         for key in study.points[0]:
             values = [point[key] for point in study.points]
-            variables[_short(study, key)] = ("point", _column(values), {"key": key})
+            variables[study.column(key)] = ("point", _column(values), {"key": key})
     out = xr.Dataset(variables, coordinates, dict(attributes))
     _add_means(out, study)
     _add_energy(out, study)
@@ -55,7 +55,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
 def _axes(study: Study) -> tuple[tuple[int, ...], dict[str, Any]]:
     if not study.dimensions:
         return (len(study.points),), {}
-    names = {key: _short(study, key) for key in study.dimensions}
+    names = {key: study.column(key) for key in study.dimensions}
     return tuple(map(len, study.dimensions.values())), {
         names[key]: (names[key], _column(values), {"key": key})
         for key, values in study.dimensions.items()
@@ -67,15 +67,8 @@ def _column(values: list[Any]) -> Any:
     return array if array.dtype.kind in "biufU" and array.ndim == 1 else [str(v) for v in values]
 
 
-def _short(study: Study, key: str) -> str:
-    """The last word of a key where that is enough, else the whole key with underscores."""
-    last = key.rpartition(".")[2]
-    same = [k for k in study.points[0] if k.rpartition(".")[2] == last]
-    return last if len(same) == 1 else key.replace(".", "_")
-
-
 def _add_means(out: xr.Dataset, study: Study) -> None:
-    along = [_short(study, key) for key in study.over]
+    along = [study.column(key) for key in study.over]
     if not along:
         return
     numbers = [str(n) for n, v in out.data_vars.items() if v.dtype.kind == "f"]
@@ -95,28 +88,15 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     if study.scatter is None:
         return
     s = study.scatter
-    if set(study.dimensions) - {*study.over, RUNG} != {s.height_key, s.period_key}:
-        raise CaseError(
-            f"{study.path}: [scatter] needs a [grid] of height and period, and else only keys "
-            "that are named by 'over'"
-        )
     name = "mean_power_absorbed" + "_mean" * bool(study.over)
     if name not in out:
         raise CaseError(f"{study.path}: [scatter]: no run completed with a power take-off")
-    energy, missing = xr.DataArray(0.0), []
-    axes = [_short(study, key) for key in (s.height_key, s.period_key)]
+    energy = xr.DataArray(0.0)
+    axes = [study.column(key) for key in (s.height_key, s.period_key)]
     for height, period, hours in zip(s.height, s.period, s.hours, strict=True):
         place = [np.isclose(out[a], x) for a, x in zip(axes, (height, period), strict=True)]
-        if not (place[0].any() and place[1].any()):
-            missing.append(f"{height:g} m, {period:g} s")
-            continue
         power = out[name].isel({a: int(np.argmax(p)) for a, p in zip(axes, place, strict=True)})
         energy = energy + power * hours * 3600.0
-    if missing:
-        raise CaseError(
-            f"{study.path}: [scatter]: sea states that the grid lacks: {'; '.join(missing[:5])}"
-            + f" and {len(missing) - 5} more" * (len(missing) > 5)
-        )
     out["annual_energy"] = energy.drop_vars([a for a in axes if a in energy.coords])
     out["annual_energy"].attrs = {"units": "J"}
     out["hours"] = ((), sum(s.hours), {"units": "h", "long_name": "hours a year in the table"})

@@ -53,6 +53,36 @@ function creasedNormals(p) {
   return out;
 }
 
+/// Pieces of edges that follow each other in one direction as one piece: a line costs as much as
+/// many panels where the processor draws.
+function straightened(edges) {
+  const p = edges.attributes.position.array, ends = new Map(), used = new Set(), kept = [];
+  const key = (i) => [0, 1, 2].map((c) => Math.round((p[i + c] / RADIUS) * 1e5)).join();
+  for (let i = 0; i < p.length; i += 3) {
+    if (!ends.has(key(i))) ends.set(key(i), []);
+    ends.get(key(i)).push(i);
+  }
+  const other = (i) => (i % 6 ? i - 3 : i + 3); // the other end of a piece
+  const from = new L.Vector3(), to = new L.Vector3(), way = new L.Vector3();
+  const farthest = (i) => { // where the line ends that leaves through the end i
+    for (;;) {
+      way.subVectors(to.fromArray(p, i), from.fromArray(p, other(i))).normalize();
+      const next = ends.get(key(i)).find((j) => !used.has(Math.floor(j / 6))
+        && to.fromArray(p, other(j)).sub(from.fromArray(p, j)).normalize().dot(way) > 0.99999);
+      if (next === undefined) return i;
+      used.add(Math.floor(next / 6));
+      i = other(next);
+    }
+  };
+  for (let i = 0; i < p.length; i += 6) {
+    if (used.has(i / 6)) continue;
+    used.add(i / 6);
+    for (const end of [farthest(i), farthest(i + 3)]) kept.push(p[end], p[end + 1], p[end + 2]);
+  }
+  edges.setAttribute("position", new L.BufferAttribute(new Float32Array(kept), 3));
+  return edges;
+}
+
 function makeBody(body) {
   const group = new L.Group();
   const colour = new L.Color(body.colour);
@@ -69,12 +99,12 @@ function makeBody(body) {
     const mesh = new L.Mesh(geometry, paint);
     mesh.userData.name = body.name;
     const line = new L.LineBasicMaterial({ color: 0x16222b, transparent: true, opacity: 0.55 });
-    group.add(mesh, new L.LineSegments(new L.EdgesGeometry(geometry, 28), line));
+    group.add(mesh, new L.LineSegments(straightened(new L.EdgesGeometry(geometry, 28)), line));
   }
   const position = numbers(body.position), orientation = numbers(body.orientation);
   const next = new L.Quaternion();
   const place = (sample) => {
-    group.position.set(...[0, 1, 2].map((c) => between(position, 3, sample, c)));
+    for (let c = 0; c < 3; ++c) group.position.setComponent(c, between(position, 3, sample, c));
     const i = 4 * sample.at, j = Math.min(i + 4, orientation.length - 4);
     const q = orientation;
     group.quaternion.set(q[i + 1], q[i + 2], q[i + 3], q[i]);

@@ -24,7 +24,7 @@ class Waves {
     this.same = across.every((k) => Math.abs(k * ys[ys.length - 1]) < 1e-4); // crests along y
     this.nx = xs.length, this.ny = ys.length;
     this.x = this.factors(xs, along), this.y = this.factors(ys, across);
-    this.re = new Float32Array(this.count), this.im = new Float32Array(this.count);
+    for (const name of ["re", "im", "pr", "pi"]) this[name] = new Float64Array(this.count);
     this.z = new Float32Array(this.nx * this.ny);
     this.highest = this.amplitude.reduce((sum, a) => sum + a * a, 0);
     this.highest = 2 * Math.sqrt(Math.max(this.highest, 1e-30)); // of most crests
@@ -40,11 +40,10 @@ class Waves {
   }
 
   at(t) {
-    const { count, nx, ny, re, im, x, y, z } = this, ramp = growth(t);
-    const pr = [], pi = [];
+    const { count, nx, ny, re, im, pr, pi, x, y, z } = this, ramp = growth(t);
     for (let c = 0; c < count; ++c) {
       const angle = this.omega[c] * t + this.phase[c], a = ramp * this.amplitude[c];
-      pr.push(a * Math.cos(angle)), pi.push(a * Math.sin(angle));
+      pr[c] = a * Math.cos(angle), pi[c] = a * Math.sin(angle);
     }
     for (let j = 0; j < ny; ++j) {
       if (j > 0 && this.same) {
@@ -69,8 +68,14 @@ class Waves {
 function fadingPlane(middle, half, cells, colour, opacity) {
   const n = cells + 1, count = n * n;
   const position = new Float32Array(3 * count), normal = new Float32Array(3 * count);
-  const colours = new Float32Array(4 * count), index = [];
+  const colours = new Float32Array(4 * count), fine = [], coarse = [];
   const paint = new L.Color(colour);
+  const panel = (index, i, j, size) => { // within the circle
+    if (i + size > cells || j + size > cells) return;
+    const middle = (k) => (2 * k + size) / cells - 1, v = j * n + i, up = size * n;
+    if (Math.hypot(middle(i), middle(j)) < 1 + (2 * size) / cells)
+      index.push(v, v + size, v + up + size, v, v + up + size, v + up);
+  };
   for (let j = 0, v = 0; j < n; ++j)
     for (let i = 0; i < n; ++i, ++v) {
       const u = (2 * i) / cells - 1, w = (2 * j) / cells - 1;
@@ -78,20 +83,24 @@ function fadingPlane(middle, half, cells, colour, opacity) {
       normal.set([0, 0, 1], 3 * v);
       const fade = Math.min(Math.max((1 - Math.hypot(u, w)) / 0.25, 0), 1);
       colours.set([paint.r, paint.g, paint.b, opacity * fade * fade * (3 - 2 * fade)], 4 * v);
-      if (i < cells && j < cells && Math.hypot(u + 1 / cells, w + 1 / cells) < 1 + 2 / cells)
-        index.push(v, v + 1, v + n + 1, v, v + n + 1, v + n);
+      panel(fine, i, j, 1);
+      if (i % 2 === 0 && j % 2 === 0) panel(coarse, i, j, 2);
     }
   const geometry = new L.BufferGeometry();
   geometry.setAttribute("position", new L.BufferAttribute(position, 3));
   geometry.setAttribute("normal", new L.BufferAttribute(normal, 3));
   geometry.setAttribute("color", new L.BufferAttribute(colours, 4));
-  geometry.setIndex(index);
+  geometry.setIndex([...fine, ...coarse]);
+  const show = (few) => few ? geometry.setDrawRange(fine.length, coarse.length)
+    : geometry.setDrawRange(0, fine.length);
+  show(false);
   const material = new L.MeshPhongMaterial({
     vertexColors: true, transparent: true, depthWrite: false, side: L.DoubleSide,
     forceSinglePass: true, specular: 0x446677, shininess: 70,
   });
   const mesh = new L.Mesh(geometry, material);
   mesh.frustumCulled = false;
+  mesh.userData.showFewer = show; // every second point
   return mesh;
 }
 
@@ -140,18 +149,14 @@ function makeWater() {
         normal.array[3 * v] = -dx / size;
         normal.array[3 * v + 1] = -dy / size;
         normal.array[3 * v + 2] = (2 * step) / size;
-        paint.copy(deep).lerp(light, Math.min(Math.max(0.4 + (0.5 * z[v]) / waves.highest, 0), 1));
+        paint.lerpColors(deep, light, Math.min(Math.max(0.4 + (0.5 * z[v]) / waves.highest, 0), 1));
         color.array[4 * v] = paint.r, color.array[4 * v + 1] = paint.g;
         color.array[4 * v + 2] = paint.b;
       }
     position.needsUpdate = normal.needsUpdate = color.needsUpdate = true;
   };
   const elevation = (t, x, y) => new Waves([x], [y]).at(t)[0];
-  const matt = new L.MeshLambertMaterial({
-    vertexColors: true, transparent: true, depthWrite: false, side: L.DoubleSide,
-    forceSinglePass: true,
-  });
-  return { mesh, place, elevation, glossy: mesh.material, matt };
+  return { mesh, net, place, elevation };
 }
 
 function makeBed() {

@@ -28,9 +28,7 @@ const { renderer, software } = makeRenderer();
 const scene = new L.Scene();
 const camera = new L.PerspectiveCamera(32, 1, RADIUS / 100, RADIUS * 200);
 camera.up.set(0, 0, 1);
-scene.add(new L.HemisphereLight(0xffffff, 0x8fa3b0, 1.7));
-const sun = new L.DirectionalLight(0xfff4e0, 2.1);
-scene.add(sun, sun.target);
+const lights = makeLights(scene);
 
 const bodies = DATA.bodies.map(makeBody);
 bodies.forEach((body) => scene.add(body.group));
@@ -40,6 +38,8 @@ const water = DATA.sea ? makeWater() : null;
 if (water) scene.add(water.mesh);
 const bed = DATA.bed !== null ? makeBed() : null;
 if (bed) scene.add(bed);
+const surfaces = new Surfaces(scene, lights.uniforms);
+const edges = bodies.flatMap((body) => body.group.children.filter((part) => part.isLineSegments));
 const labels = makeLabels(bodies);
 drawLegend(lines.range);
 describe();
@@ -74,7 +74,8 @@ function look(azimuth, elevation, zoom = 1) {
   redraw();
 }
 
-let dirty = true, still = 2 * Math.min(devicePixelRatio, 1), ratio = 0, last = 0, slow = 0, bare = 0;
+let dirty = true, still = 2 * Math.min(devicePixelRatio, 1), ratio = 0, last = 0, slow = 0;
+let bare = software ? 1 : 0;
 if (!software) still = devicePixelRatio;
 const least = 0.35;
 let moving = Math.min(still, software ? 0.8 : still);
@@ -93,17 +94,16 @@ function resize() {
   redraw();
 }
 
-function draw() {
+function draw(level = player.playing ? bare : 0) {
   const wanted = player.playing ? moving : still;
   if (wanted !== ratio) renderer.setPixelRatio((ratio = wanted));
-  showDetails(player.playing ? bare : 0);
+  showDetails(level);
   const sample = sampleAt(player.time);
   bodies.forEach((body) => body.place(sample));
   const pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / window.innerHeight;
   lines.place(sample, camera, pixel);
   water?.place(player.time);
-  sun.position.copy(camera.position).add(new L.Vector3(0, 0, 2 * RADIUS));
-  sun.target.position.copy(controls.target);
+  lights.aim(camera, controls.target);
   renderer.render(scene, camera);
   labels.place(camera, window.innerWidth, window.innerHeight);
   drawAxes(camera);
@@ -112,7 +112,8 @@ function draw() {
 }
 
 /// While it moves, what costs most for its worth is left out first if 30 frames a second are not
-/// reached: pixels, the net and the gloss of the water, edges, more pixels; and comes back if there is time.
+/// reached: pixels, light at each pixel and the net of the water, edges and points of the water, more
+/// pixels; and comes back if there is time.
 function adapt(milliseconds) {
   slow = 0.9 * slow + 0.1 * milliseconds;
   if (slow > 29) {
@@ -129,12 +130,9 @@ function adapt(milliseconds) {
 }
 
 function showDetails(level) {
-  if (water) {
-    water.mesh.children.forEach((net) => (net.visible = level < 1));
-    water.mesh.material = level < 1 ? water.glossy : water.matt;
-  }
-  const drawn = bodies.flatMap((body) => body.group.children.filter((c) => c.isLineSegments));
-  drawn.forEach((edges) => (edges.visible = level < 2));
+  if (water) water.net.visible = level < 1, water.mesh.userData.showFewer(level > 1);
+  surfaces.show(level > 0);
+  for (const lines of edges) lines.visible = level < 2;
 }
 
 function frame(now) {
@@ -238,7 +236,7 @@ requestAnimationFrame(frame);
 /// What programs use: picture and video, tests.
 window.hydrodae = {
   times: TIME, player, look, redraw,
-  show(time) { player.toggle(false), player.seek(time), draw(), (dirty = false); },
+  show(time, level) { player.toggle(false), player.seek(time), draw(level), (dirty = false); },
   pick: (name) => pick(thing(name)),
   elevation: (t, x, y) => water.elevation(t, x, y),
   place: (name) => bodies.find((body) => body.name === name).group.position.toArray(),
