@@ -77,7 +77,7 @@ def eigenvalue(period: float, stiffness: float, damping: float, late: bool) -> f
 
 
 def run(given: str) -> hydrodae.Results:
-    """The run of a case; what there is of it where the kernel ended a motion that the load feeds."""
+    """The run of a case; what there is of it where the kernel ended a motion that grows."""
     try:
         return hydrodae.run(hydrodae.Case.from_text(given))
     except hydrodae.SolverError as error:
