@@ -30,6 +30,7 @@ DEFAULT = ("127.0.0.1", 50000)
 _HEAD = struct.Struct("<IIQd")  # length of what follows it, kind, sequence, time
 _BEHIND_LENGTH = _HEAD.size - 4
 _LONGEST = 1 << 24
+_ROOM = 4096
 _VALUES, _RESET, _CLOSE, _ERROR = 1, 2, 3, 4
 
 
@@ -71,6 +72,7 @@ class _Connection:
     def __init__(self, connection: socket.socket) -> None:
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._socket = connection
+        self._kept = b""  # come with what was asked for before
         self.reset = False
 
     def close(self) -> None:
@@ -78,16 +80,14 @@ class _Connection:
         self._socket.close()
 
     def _receive(self, count: int) -> bytes:
-        got = self._socket.recv(count)
-        if len(got) == count:
-            return got
-        parts = bytearray(got)
-        while len(parts) < count:
+        """So many bytes; mostly one call of the operating system brings them all."""
+        while (missing := count - len(self._kept)) > 0:
+            got = self._socket.recv(max(_ROOM, missing))
             if not got:
                 raise TcpError("the run has closed the connection")
-            got = self._socket.recv(count - len(parts))
-            parts += got
-        return bytes(parts)
+            self._kept = self._kept + got if self._kept else got
+        got, self._kept = self._kept[:count], self._kept[count:]
+        return got
 
 
 class Numbered(_Connection):

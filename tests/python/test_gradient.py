@@ -354,3 +354,95 @@ def test_linear_studies_need_no_memory_fit(buoy: Path, tmp_path: Path) -> None:
     grid.write_text('case = "case.toml"\nrungs = ["frequency"]\n[grid]\n"body.buoy.mass" = [4e5]\n')
     found = hydrodae.sweep(grid, tmp_path / "grid.nc", jobs=1)
     assert (found["status"] == "completed").all()
+
+
+CONTROLLED = """
+title = "Cart on a spring"
+environment.gravity = 0.0
+[[body]]
+name = "cart"
+motion = "surge"
+mass = 2.0
+center_of_gravity = [0.0, 0.0, 0.0]
+initial = { displacement = [0.5, 0.0, 0.0] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "cart"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+stiffness = 8.0
+[[force]]
+name = "latch"
+type = "dry_friction"
+joint = "slide"
+static = 1e-3
+kinetic = 0.0
+[[controller]]
+name = "law"
+type = "TYPE"
+inputs = ["joints/slide/displacement_rate"]
+outputs = ["forces/pto/load"]
+period = 0.1
+KEYS
+[solver]
+method = "radau"
+step = 0.02
+end_time = 1.0
+[output]
+step = 0.1
+"""
+PLACE = "joints/slide/displacement"
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys", "told"),
+    [
+        ("latching", "hold_time = 0.1\nhold_load = 10.0", "through a latching controller"),
+        ("declutching", "engaged = 1.0\nfree_time = 0.1", "through a declutching controller"),
+        ("bang_bang", "lower = -1.0\nupper = 1.0", "through a bang_bang controller"),
+        ("python", "", "through a python controller"),
+        ("tcp", "", "through a tcp controller"),
+        ("fmu", f'file = "{__file__}"\nfmu_inputs = ["a"]\nfmu_outputs = ["b"]', "through a fmu"),
+    ],
+)
+def test_controllers_that_jump_are_refused_by_name(kind: str, keys: str, told: str) -> None:
+    text = CONTROLLED.replace("TYPE", kind).replace("KEYS", keys)
+    if kind == "latching":
+        text = text.replace("forces/pto/load", "forces/latch/static")
+    if kind == "declutching":
+        text = text.replace("forces/pto/load", "forces/pto/damping")
+    with pytest.raises(hydrodae.CaseError, match=f"(?s)controller.law.*{told}"):
+        hydrodae.gradient(
+            Case.from_text(text), PLACE, ["body.cart.mass"], rung="time", statistic="last"
+        )
+
+
+def test_a_gradient_through_a_sampled_damper_is_that_of_its_differences() -> None:
+    """u = -c s' held over 0.1 s; the frequency domain has no controllers."""
+    text = CONTROLLED.replace("TYPE", "resistive").replace("KEYS", "damping = 0.7")
+    text = text.replace(text[text.index('[[force]]\nname = "latch"') : text.index("[[cont")], "")
+    case = Case.from_text(text)
+    key = "controller.law.damping"
+    found = hydrodae.gradient(case, PLACE, [key], rung="time", statistic="last")
+
+    def last(damping: float) -> float:
+        """Exact zero-order hold of x'' = -4 x + u/2."""
+        x, v = 0.5, 0.0
+        c, s = np.cos(0.2), np.sin(0.2)
+        for _ in range(10):
+            rest = -damping * v / 8.0
+            x, v = rest + (x - rest) * c + v * s / 2.0, v * c - 2.0 * (x - rest) * s
+        return float(x)
+
+    assert found.value == pytest.approx(last(0.7), abs=1e-8)
+    assert found.gradient[0] == pytest.approx(fourth_order(last, 0.7, 1e-3), rel=1e-6)
+    with pytest.raises(hydrodae.CaseError, match=r"controller\.law: the frequency domain has no"):
+        hydrodae.gradient(case, PLACE, [key])
+    with pytest.raises(hydrodae.CaseError, match=r"controller\.law\.period: no gradient"):
+        hydrodae.gradient(case, PLACE, ["controller.law.period"], rung="time", statistic="last")

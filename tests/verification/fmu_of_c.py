@@ -6,7 +6,16 @@ import subprocess
 import zipfile
 from pathlib import Path
 
-NAMES = {1: "rate", 2: "load", 3: "kp", 4: "ki", 5: "discard_at", 6: "fail_at", 7: "end_at"}
+NAMES = {
+    1: "rate",
+    2: "load",
+    3: "kp",
+    4: "ki",
+    5: "discard_at",
+    6: "fail_at",
+    7: "end_at",
+    8: "trick",
+}
 PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
 
 
@@ -32,14 +41,14 @@ def description(fmi: int, *, states: bool = True, how: str = "CoSimulation") -> 
             if fmi == 3
             else f"<ScalarVariable {head}><Real{start}/></ScalarVariable>"
         )
-    count = 'name="count" valueReference="9" causality="output" variability="discrete"'
+    count = 'name="count" valueReference="99" causality="output" variability="discrete"'
     if fmi == 3:
         lines += [f"<Int32 {count}/>", "</ModelVariables>", "<ModelStructure>"]
-        lines += ['<Output valueReference="2"/>', '<Output valueReference="9"/>']
-        lines += ['<InitialUnknown valueReference="2"/>', '<InitialUnknown valueReference="9"/>']
+        lines += ['<Output valueReference="2"/>', '<Output valueReference="99"/>']
+        lines += ['<InitialUnknown valueReference="2"/>', '<InitialUnknown valueReference="99"/>']
     else:
         lines += [f"<ScalarVariable {count}><Integer/></ScalarVariable>", "</ModelVariables>"]
-        unknowns = '<Unknown index="2"/><Unknown index="8"/>'
+        unknowns = '<Unknown index="2"/><Unknown index="9"/>'
         lines += [f"<ModelStructure><Outputs>{unknowns}</Outputs>"]
         lines += [f"<InitialUnknowns>{unknowns}</InitialUnknowns>"]
     return "\n".join([*lines, "</ModelStructure>", "</fmiModelDescription>"])
@@ -53,6 +62,24 @@ def library(folder: Path, fmi: int) -> Path:
         options = ["-shared", "-fPIC", "-O1", "-fvisibility=hidden", f"-DFMI={fmi}"]
         subprocess.run(["cc", *options, str(source), "-o", str(path), "-lm"], check=True)
     return path
+
+
+def with_units(xml: str, fmi: int, rate: str, load: str) -> str:
+    """The description with units: "m/s" and "N" are known, "kN" is a thousand of it."""
+    powers = {"m/s": 'm="1" s="-1"', "N": 'kg="1" m="1" s="-2"', "K": 'K="1"'}
+    powers["kN"] = powers["N"] + ' factor="1000"'
+    told = "".join(
+        f'<Unit name="{name}"><BaseUnit {base}/></Unit>' for name, base in powers.items()
+    )
+    xml = xml.replace(
+        "<ModelVariables>", f"<UnitDefinitions>{told}</UnitDefinitions><ModelVariables>"
+    )
+    for name, unit in (("rate", rate), ("load", load)):
+        at = xml.index(f'name="{name}"')
+        tag = "<Real" if fmi == 2 else f'name="{name}"'
+        at = xml.index(tag, at) + len(tag)
+        xml = f'{xml[:at]} unit="{unit}"{xml[at:]}'
+    return xml
 
 
 def write_fmu(path: Path, fmi: int, xml: str | None = None, binary: str | None = None) -> Path:

@@ -3,8 +3,10 @@
  *   load = kp (-rate) + integral,   integral += h ki (-rate) at each step
  *
  * Variables by reference: 1 rate (input), 2 load (output), 3 kp, 4 ki, 5 discard_at, 6 fail_at,
- * 7 end_at (parameters; the times at which a step is not made [s]). Names and types are those of
- * the standard (fmi-standard.org). */
+ * 7 end_at (parameters; the times at which a step is not made [s]), 8 trick (parameter; what it
+ * does wrong from 1 s on: 1 answers NaN, 2 ends in a status that there is not, 3 ends in Fatal,
+ * 4 logs bytes that are no text, 5 claims a state without end). Names and types are those of the
+ * standard (fmi-standard.org). */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -13,10 +15,11 @@
 #include <string.h>
 
 #define API __attribute__((visibility("default")))
-enum { OK, WARNING, DISCARD, ERROR };
+enum { OK, WARNING, DISCARD, ERROR, FATAL };
+enum { NO_NUMBER = 1, NO_STATUS, DIES, NO_TEXT, NO_END };
 
 typedef struct {
-  double values[8], integral, time;
+  double values[9], integral, time;
 } State;
 
 typedef struct {
@@ -40,15 +43,21 @@ static int tell(Pi* p, int status, const char* text) {
 }
 
 static void start(Pi* p) {
-  const State zero = {{0.0, 0.0, 0.0, 0.0, 0.0, INFINITY, INFINITY, INFINITY}, 0.0, 0.0};
+  const State zero = {{0.0, 0.0, 0.0, 0.0, 0.0, INFINITY, INFINITY, INFINITY, 0.0}, 0.0, 0.0};
   p->s = zero;
   p->ended = false;
+}
+
+static bool tricks(const Pi* p, int trick) { return p->s.time >= 1.0 && p->s.values[8] == trick; }
+
+static size_t size_of(const Pi* p) {
+  return p->s.values[8] == NO_END ? SIZE_MAX / 2 : sizeof(State);
 }
 
 static int get(Pi* p, const unsigned* r, size_t n, double* out) {
   p->s.values[2] = p->s.values[3] * -p->s.values[1] + p->s.integral;
   for (size_t k = 0; k < n; ++k)
-    out[k] = p->s.values[r[k]];
+    out[k] = tricks(p, NO_NUMBER) ? NAN : p->s.values[r[k]];
   return OK;
 }
 
@@ -64,6 +73,12 @@ static int set(Pi* p, const unsigned* r, size_t n, const double* in) {
 static int step(Pi* p, double t, double h) {
   if (fabs(t - p->s.time) > 1e-9)
     return tell(p, ERROR, "a step from another time than that of the last");
+  if (tricks(p, NO_STATUS))
+    return 42;
+  if (tricks(p, DIES))
+    return tell(p, FATAL, "it is no more");
+  if (tricks(p, NO_TEXT))
+    return tell(p, ERROR, "bad \xff\xfe\xc3 bytes\x01");
   if (t + h > p->s.values[6])
     return tell(p, ERROR, "it fails");
   if (t + h > p->s.values[7]) {
@@ -127,7 +142,7 @@ API int fmi2GetFMUstate(void* p, void** state) { return save(p, state); }
 API int fmi2SetFMUstate(void* p, void* state) { return ((Pi*)p)->s = *(State*)state, OK; }
 API int fmi2FreeFMUstate(void* p, void** state) { return (void)p, free(*state), *state = NULL, OK; }
 API int fmi2SerializedFMUstateSize(void* p, void* state, size_t* size) {
-  return (void)p, (void)state, *size = sizeof(State), OK;
+  return (void)state, *size = size_of(p), OK;
 }
 API int fmi2SerializeFMUstate(void* p, void* state, char* out, size_t size) {
   return (void)p, memcpy(out, state, size), OK;
@@ -179,7 +194,7 @@ API int fmi3GetFMUState(void* p, void** state) { return save(p, state); }
 API int fmi3SetFMUState(void* p, void* state) { return ((Pi*)p)->s = *(State*)state, OK; }
 API int fmi3FreeFMUState(void* p, void** state) { return (void)p, free(*state), *state = NULL, OK; }
 API int fmi3SerializedFMUStateSize(void* p, void* state, size_t* size) {
-  return (void)p, (void)state, *size = sizeof(State), OK;
+  return (void)state, *size = size_of(p), OK;
 }
 API int fmi3SerializeFMUState(void* p, void* state, uint8_t* out, size_t size) {
   return (void)p, memcpy(out, state, size), OK;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import subprocess
 import sys
 import threading
@@ -166,6 +167,28 @@ def test_the_run_goes_on_to_a_later_stop_time(fmu: Path, tmp_path: Path) -> None
         assert device.get(X)[0] == pytest.approx(0.5 * np.cos(30.0), abs=1e-6)
 
 
+def begin_only(device: Device) -> None:
+    device.fmu.enterInitializationMode()
+
+
+def free_twice(device: Device) -> None:
+    device.begin()
+    state = device.fmu.getFMUState()
+    again = ctypes.c_void_p(state.value)
+    device.fmu.freeFMUState(state)
+    device.fmu.freeFMUState(again)
+
+
+def into_ten_bytes(device: Device) -> None:
+    device.begin()
+    state, room = device.fmu.getFMUState(), ctypes.create_string_buffer(10)
+    if device.fmi == 2:
+        device.fmu.fmi2SerializeFMUstate(device.fmu.component, state, room, 10)
+    else:
+        place = ctypes.cast(room, ctypes.POINTER(ctypes.c_ubyte))
+        device.fmu.fmi3SerializeFMUState(device.fmu.component, state, place, 10)
+
+
 MISTAKES = {
     "a run begins at t = 0 s": lambda d: d.begin(start=1.0),
     "the run has not begun": lambda d: d.step(0.0, 0.1),
@@ -179,6 +202,22 @@ MISTAKES = {
     "forces/pto/load": lambda d: (d.begin(), d.set(LOAD, float("nan"))),
     "these bytes are no state": lambda d: d.load(b"nothing of the kind"),
     "mass": lambda d: (d.set("body.cart.mass", -1.0), d.begin()),
+    "from t = nan s, but the run is at 0 s": lambda d: (d.begin(), d.step(float("nan"), 0.1)),
+    "step of nan s: expected > 0": lambda d: (d.begin(), d.step(0.0, float("nan"))),
+    "step of inf s: expected > 0": lambda d: (d.begin(), d.step(0.0, float("inf"))),
+    "from t = 0 s, but the run is at 0.1 s": lambda d: (
+        d.begin(),
+        d.step(0.0, 0.1),
+        d.step(0.0, 0.1),
+    ),
+    "stop time of inf s": lambda d: d.begin(stop=float("inf")),
+    "DoStep is for an instance behind it": lambda d: (begin_only(d), d.step(0.0, 0.1)),
+    "EnterInitializationMode is for": lambda d: (d.begin(), begin_only(d)),
+    "ExitInitializationMode is for": lambda d: d.fmu.exitInitializationMode(),
+    "this one is terminated": lambda d: (d.begin(), d.fmu.terminate(), d.step(0.0, 0.1)),
+    "as the run is terminated": lambda d: (d.begin(), d.fmu.terminate(), d.set(LOAD, 1.0)),
+    "there is no such state": lambda d: free_twice(d),
+    "bytes of room, not 10": lambda d: into_ten_bytes(d),
 }
 
 
@@ -190,6 +229,38 @@ def test_mistakes_are_told(
         with pytest.raises(Exception, match="failed with status"):
             MISTAKES[message](device)
         assert message in capfd.readouterr().out
+
+
+def test_two_instances_at_once_do_not_hear_each_other(fmu: Path, tmp_path: Path) -> None:
+    with Device(fmu, tmp_path / "a") as one, Device(fmu, tmp_path / "b") as two:
+        one.begin()
+        two.set("body.cart.mass", 8.0)
+        two.begin()
+        for k in range(10):
+            one.step(0.01 * k, 0.01)
+            two.step(0.01 * k, 0.01)
+        assert one.get(X)[0] == pytest.approx(0.5 * np.cos(1.0), abs=1e-7)
+        assert two.get(X)[0] == pytest.approx(0.5 * np.cos(0.5), abs=1e-7)
+        two.load(one.save())  # the mass comes with it
+        one.step(0.1, 0.1)
+        two.step(0.1, 0.1)
+        assert two.get(X, "body.cart.mass") == one.get(X, "body.cart.mass")
+
+
+def test_a_damaged_state_is_refused(fmu: Path, tmp_path: Path) -> None:
+    with Device(fmu, tmp_path) as device:
+        device.begin()
+        device.step(0.0, 0.1)
+        saved = device.save()
+        for k in range(0, len(saved), len(saved) // 20):
+            wrong = bytearray(saved)
+            wrong[k] ^= 0x10
+            for data in (bytes(wrong), saved[:k]):
+                with pytest.raises(Exception, match="failed with status"):
+                    device.load(data)
+        device.load(saved)
+        device.step(0.1, 0.1)
+        assert device.get(X)[0] == pytest.approx(0.5 * np.cos(2.0), abs=1e-7)
 
 
 def test_resources_of_another_fmu_are_refused(

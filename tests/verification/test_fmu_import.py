@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from tests.verification.fmu_of_c import description, write_fmu
+from tests.verification.fmu_of_c import description, library, with_units, write_fmu
 
 import hydrodae
 from hydrodae import Case, CaseError, RunInterrupted, Simulation, SolverError
@@ -258,6 +258,24 @@ def broken(folder: Path, how: str) -> None:
         write_fmu(path, 2)
         with zipfile.ZipFile(path, "a") as archive:
             archive.writestr("resources/../../../tmp/evil", "x")
+    elif how == "clash":
+        write_fmu(path, 2)
+        with zipfile.ZipFile(path, "a") as archive:
+            archive.writestr("resources/notes.txt/more.txt", "x")
+    elif how == "cut off":
+        write_fmu(path, 2)
+        path.write_bytes(path.read_bytes()[:-30])
+    elif how == "no reference":
+        write_fmu(path, 2, xml.replace('name="rate" valueReference="1"', 'name="rate"'))
+    elif how == "wild reference":
+        write_fmu(path, 2, xml.replace('valueReference="2"', 'valueReference="-2"'))
+    elif how == "wild identifier":
+        write_fmu(path, 2, xml.replace('Identifier="pi"', 'Identifier="../../../pi"'))
+    elif how == "no text":
+        with zipfile.ZipFile(path, "w") as archive:
+            name = b'name="\xff\xfe'
+            archive.writestr("modelDescription.xml", xml.encode().replace(b'name="rate', name))
+            archive.write(library(folder, 2), "binaries/linux64/pi.so")
     elif how == "damaged":
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("modelDescription.xml", xml)
@@ -278,6 +296,12 @@ FAULTS = {
     "functions": "its library has no function 'fmi2Instantiate'",
     "library": "its library cannot be loaded: .*pi.so: ",
     "outside": "would be unpacked elsewhere",
+    "clash": "pi.fmu: cannot be unpacked",
+    "cut off": "pi.fmu: is no zip archive",
+    "no reference": "'rate' of the FMU has no valueReference that is a number",
+    "wild reference": "'load' of the FMU has no valueReference that is a number",
+    "wild identifier": "no library binaries/linux64/../../../pi.so for this machine",
+    "no text": "the FMU has no input 'rate'",
     "damaged": "pi.fmu: .*damaged",
 }
 
@@ -337,3 +361,50 @@ def test_nothing_stays_behind(tmp_path: Path, repository: Path) -> None:
         check=True,
     )
     assert list(scratch.iterdir()) == []
+
+
+TRICKS = {
+    1: "stopped at t = 1 s: controller 'pi': input 'forces/pto/load' .N.: expected a finite number",
+    2: "DoStep has ended in status 42",
+    3: "DoStep has ended in status Fatal: it is no more",
+    4: r"DoStep has ended in status Error: bad \?\?\? bytes\?",
+}
+
+
+@pytest.mark.parametrize("trick", TRICKS)
+def test_what_an_fmu_does_wrong_in_a_run_is_told(trick: int, fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    keys = FMU.replace('"ki"]', '"ki", "trick"]').replace("0.7]", f"0.7, {trick}.0]")
+    with pytest.raises(SolverError, match=TRICKS[trick]) as caught:
+        hydrodae.run(cart(tmp_path, keys), tmp_path / "r.h5")
+    assert "controller 'pi'" in str(caught.value)
+    kept = hydrodae.Results.read(tmp_path / "r.h5")
+    assert kept.status == "failed"
+    assert 0.9 <= kept.end_time <= 1.1
+
+
+def test_a_state_without_end_is_refused(fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi)
+    keys = FMU.replace('"ki"]', '"ki", "trick"]').replace("0.7]", "0.7, 5.0]")
+    run = Simulation(cart(tmp_path, keys))
+    run.advance(0.1)
+    with pytest.raises(CaseError, match=r"tells a size of its state of .* bytes; at most"):
+        run.state()
+
+
+@pytest.mark.parametrize(
+    ("rate", "load", "message"),
+    [
+        ("m/s", "N", ""),
+        ("m/s", "kN", r"'load' of the FMU is in 'kN' \(kg m s-2 times 1000\), expected 'N'"),
+        ("K", "N", r"'rate' of the FMU is in 'K' \(K\), expected 'm/s', the unit of 'joints/sl"),
+        ("furlong", "N", ""),  # of which the FMU does not say what it is
+    ],
+)
+def test_units_are_compared(rate: str, load: str, message: str, fmi: int, tmp_path: Path) -> None:
+    write_fmu(tmp_path / "pi.fmu", fmi, with_units(description(fmi), fmi, rate, load))
+    if message:
+        with pytest.raises(CaseError, match=message):
+            hydrodae.run(cart(tmp_path))
+    else:
+        assert hydrodae.run(cart(tmp_path)).end_time == 5.0

@@ -30,8 +30,21 @@ Component::Component(const std::string& resources) : contents_(read_contents(res
   reset();
 }
 
+void Component::require(const char* function, Phase phase) const {
+  static constexpr const char* names[] = {"before it is initialised", "in initialization mode",
+                                          "behind it", "that is terminated"};
+  if (phase_ != phase)
+    throw CaseError(std::string(function) + " is for an instance " +
+                    names[static_cast<int>(phase)] + ", and this one is " +
+                    (phase_ == Phase::instantiated   ? "not initialised: the run has not begun"
+                     : phase_ == Phase::initialising ? "in initialization mode"
+                     : phase_ == Phase::stepping     ? "behind it; a reset begins anew"
+                                                     : "terminated; a reset begins anew"));
+}
+
 void Component::reset() {
   run_.reset();
+  phase_ = Phase::instantiated;
   end_time_ = 0.0;
   held_.clear();
   for (const auto& [reference, v] : contents_.variables)
@@ -40,9 +53,18 @@ void Component::reset() {
 }
 
 void Component::begin(double start, std::optional<double> stop) {
+  require("EnterInitializationMode", Phase::instantiated);
   if (start != 0.0)
     throw CaseError("a run begins at t = 0 s, not at the start time " + number_text(start) + " s");
+  if (stop && !std::isfinite(*stop))
+    throw CaseError("a stop time of " + number_text(*stop) + " s: expected a finite number");
   begin(stop.value_or(0.0));
+  phase_ = Phase::initialising;
+}
+
+void Component::enter() {
+  require("ExitInitializationMode", Phase::initialising);
+  phase_ = Phase::stepping;
 }
 
 void Component::begin(double end_time) {
@@ -79,6 +101,8 @@ const Variable& Component::variable(Reference reference) const {
 
 void Component::set(Reference reference, double value) {
   const Variable& v = variable(reference);
+  if (phase_ == Phase::terminated)
+    throw CaseError(in_quotes(v.name) + " cannot be set, as the run is terminated");
   const bool can = v.kind == Sort::input || (v.kind == Sort::parameter && !run_);
   if (!can)
     throw CaseError(in_quotes(v.name) + (v.kind == Sort::parameter
@@ -102,11 +126,10 @@ double Component::get(Reference reference) {
 }
 
 void Component::step(double t, double h) {
-  if (!run_)
-    throw CaseError("the run has not begun");
-  if (!(h > 0.0))
-    throw CaseError("a communication step of " + number_text(h) + " s: expected > 0");
-  if (std::abs(t - run_->time()) > nearness * h)
+  require("DoStep", Phase::stepping);
+  if (!(h > 0.0 && std::isfinite(h)))
+    throw CaseError("a communication step of " + number_text(h) + " s: expected > 0 and finite");
+  if (!(std::abs(t - run_->time()) <= nearness * h))
     throw CaseError("a communication step from t = " + number_text(t) + " s, but the run is at " +
                     number_text(run_->time()) + " s");
   const double end = t + h, last = run_->scene().solver.end_time;
@@ -120,14 +143,16 @@ void Component::step(double t, double h) {
 }
 
 void Component::finish() {
-  if (run_)
-    run_->close();
+  if (!run_)
+    return;
+  run_->close();
+  phase_ = Phase::terminated;
 }
 
 run::State Component::save() {
   run::State out = run_ ? run_->state() : run::State{};
   std::vector<double>& own = out.memory[part];
-  own = {run_ ? 1.0 : 0.0, end_time_};
+  own = {static_cast<double>(phase_), end_time_};
   for (const auto& [reference, value] : held_)
     own.push_back(value);
   return out;
@@ -138,7 +163,8 @@ void Component::load(const run::State& state) {
   if (found == state.memory.end() || found->second.size() != 2 + held_.size())
     throw CaseError("the state is that of another FMU");
   const double* own = found->second.data();
-  const bool begun = *own++ != 0.0;
+  const auto phase = static_cast<Phase>(static_cast<int>(*own++));
+  const bool begun = phase != Phase::instantiated;
   const double end_time = *own++;
   bool same = run_ && end_time == end_time_;
   for (auto& [reference, value] : held_) {
@@ -148,11 +174,13 @@ void Component::load(const run::State& state) {
   if (!begun) {
     run_.reset();
     end_time_ = end_time;
+    phase_ = phase;
     return;
   }
   if (!same)
     begin(end_time);
   run_->restore(state);
+  phase_ = phase;
 }
 
 } // namespace hydrodae::fmi

@@ -11,6 +11,9 @@
 
 namespace hydrodae::fmi {
 
+/// Where an importer is in the life of an instance, in both versions of the standard.
+enum class Phase { instantiated, initialising, stepping, terminated };
+
 /// A run of the case of the FMU between communication points. Inputs hold from one communication
 /// point to the next; parameters are numbers of the case, fixed when the run begins. All throw
 /// Error, with a message for the importer.
@@ -21,10 +24,16 @@ public:
 
   const std::string& token() const { return contents_.token; }
 
+  /// Refuses `function` in any other phase.
+  void require(const char* function, Phase phase) const;
+
   /// Reads the case and makes its run, at t = 0 s.
   /// @param start  time at which the importer begins [s]: cases begin at 0
   /// @param stop  where the importer ends [s]; later than the end time of the case, it replaces it
   void begin(double start, std::optional<double> stop);
+
+  /// Behind `begin`: the run may go on.
+  void enter();
 
   /// Before the run, parameters and inputs; then inputs.
   void set(Reference reference, double value);
@@ -54,6 +63,7 @@ private:
   void begin(double end_time);
 
   Contents contents_;
+  Phase phase_ = Phase::instantiated;
   std::map<Reference, double> held_; ///< parameters, and what inputs begin with
   double end_time_ = 0.0;            ///< in place of that of the case [s]; 0: that of the case
   std::unique_ptr<run::Simulation> run_;

@@ -36,16 +36,20 @@ HYDRODAE_FMI void fmi2FreeInstance(fmi2Component c) { delete static_cast<Instanc
 
 HYDRODAE_FMI fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start,
                                             fmi2Boolean stops, fmi2Real stop) {
-  instance_of(c).start = start;
-  instance_of(c).stop = stops ? std::optional(stop) : std::nullopt;
-  return fmi2OK;
+  return call<fmi2Status>(c, [&](Instance& i) {
+    i.component.require("fmi2SetupExperiment", Phase::instantiated);
+    i.start = start;
+    i.stop = stops ? std::optional(stop) : std::nullopt;
+  });
 }
 
 HYDRODAE_FMI fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
   return call<fmi2Status>(c, [&](Instance& i) { i.component.begin(i.start, i.stop); });
 }
 
-HYDRODAE_FMI fmi2Status fmi2ExitInitializationMode(fmi2Component) { return fmi2OK; }
+HYDRODAE_FMI fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
+  return call<fmi2Status>(c, [](Instance& i) { i.component.enter(); });
+}
 
 HYDRODAE_FMI fmi2Status fmi2Terminate(fmi2Component c) {
   return call<fmi2Status>(c, [&](Instance& i) { i.component.finish(); });
@@ -96,8 +100,8 @@ HYDRODAE_FMI fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
 HYDRODAE_FMI fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   return set_state<fmi2Status>(c, state);
 }
-HYDRODAE_FMI fmi2Status fmi2FreeFMUstate(fmi2Component, fmi2FMUstate* state) {
-  return free_state<fmi2Status>(state);
+HYDRODAE_FMI fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
+  return free_state<fmi2Status>(c, state);
 }
 HYDRODAE_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state,
                                                    std::size_t* size) {
@@ -144,8 +148,7 @@ HYDRODAE_FMI fmi2Status fmi2GetStatus(fmi2Component c, fmi2StatusKind, fmi2Statu
 HYDRODAE_FMI fmi2Status fmi2GetRealStatus(fmi2Component c, fmi2StatusKind kind, fmi2Real* value) {
   if (kind != fmi2LastSuccessfulTime)
     return nothing_of<fmi2Status>(c, 1, "such status");
-  *value = instance_of(c).component.time();
-  return fmi2OK;
+  return call<fmi2Status>(c, [&](Instance& i) { *value = i.component.time(); });
 }
 
 HYDRODAE_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component c, fmi2StatusKind, fmi2Integer*) {

@@ -47,7 +47,9 @@ HYDRODAE_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance i, fmi3Boolean,
   });
 }
 
-HYDRODAE_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance) { return fmi3OK; }
+HYDRODAE_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance i) {
+  return call<fmi3Status>(i, [](Instance& instance) { instance.component.enter(); });
+}
 
 HYDRODAE_FMI fmi3Status fmi3Terminate(fmi3Instance i) {
   return call<fmi3Status>(i, [&](Instance& instance) { instance.component.finish(); });
@@ -60,10 +62,15 @@ HYDRODAE_FMI fmi3Status fmi3Reset(fmi3Instance i) {
 HYDRODAE_FMI fmi3Status fmi3DoStep(fmi3Instance i, fmi3Float64 t, fmi3Float64 h, fmi3Boolean,
                                    fmi3Boolean* event, fmi3Boolean* terminate, fmi3Boolean* early,
                                    fmi3Float64* last_time) {
-  *event = *terminate = *early = false;
+  const auto tell = [](fmi3Boolean* flag) {
+    if (flag)
+      *flag = false;
+  };
+  tell(event), tell(terminate), tell(early);
   const fmi3Status status =
       call<fmi3Status>(i, [&](Instance& instance) { instance.component.step(t, h); });
-  *last_time = instance_of(i).component.time();
+  if (i && last_time)
+    *last_time = instance_of(i).component.time();
   return status;
 }
 
@@ -84,8 +91,8 @@ HYDRODAE_FMI fmi3Status fmi3GetFMUState(fmi3Instance i, fmi3FMUState* state) {
 HYDRODAE_FMI fmi3Status fmi3SetFMUState(fmi3Instance i, fmi3FMUState state) {
   return set_state<fmi3Status>(i, state);
 }
-HYDRODAE_FMI fmi3Status fmi3FreeFMUState(fmi3Instance, fmi3FMUState* state) {
-  return free_state<fmi3Status>(state);
+HYDRODAE_FMI fmi3Status fmi3FreeFMUState(fmi3Instance i, fmi3FMUState* state) {
+  return free_state<fmi3Status>(i, state);
 }
 HYDRODAE_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance i, fmi3FMUState state,
                                                    std::size_t* size) {

@@ -5,6 +5,9 @@
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
@@ -30,13 +33,53 @@ struct Instance {
   double start = 0.0;
 };
 
+/// The states that importers hold. One that is not there (any more) is refused, whatever its
+/// address: states are freed twice, or passed on to the wrong function.
+class HeldStates {
+public:
+  static HeldStates& all() {
+    static HeldStates held;
+    return held;
+  }
+  void* add(run::State&& state) {
+    auto own = std::make_unique<run::State>(std::move(state));
+    void* const address = own.get();
+    const std::lock_guard lock(mutex_);
+    states_[address] = std::move(own);
+    return address;
+  }
+  run::State& find(void* address) {
+    const std::lock_guard lock(mutex_);
+    const auto found = states_.find(address);
+    if (found == states_.end())
+      throw CaseError("there is no such state; it has been freed, or was never saved");
+    return *found->second;
+  }
+  void free(void* address) {
+    find(address);
+    const std::lock_guard lock(mutex_);
+    states_.erase(address);
+  }
+
+private:
+  std::mutex mutex_;
+  std::map<void*, std::unique_ptr<run::State>> states_;
+};
+
 inline Instance& instance_of(void* instance) { return *static_cast<Instance*>(instance); }
-inline run::State& state_of(void* state) { return *static_cast<run::State*>(state); }
+inline run::State& state_of(void* state) { return HeldStates::all().find(state); }
+
+inline void require_place(const void* place) {
+  if (!place)
+    throw CaseError("no place to read from or write to is given");
+}
 
 /// Does `work` on the instance; an exception becomes a message and a status. Nothing of C++ leaves
 /// the library.
 /// @tparam S  status of either version
 template <class S, class Work> S call(void* instance, Work&& work) {
+  if (!instance)
+    return static_cast<S>(Status::error);
   const auto tell = [&](const char* message) {
     instance_of(instance).log(Status::error, "logStatusError", message);
     return static_cast<S>(Status::error);
@@ -78,6 +121,8 @@ Instance* make_instance(const Instance::Log& log, const char* token, Place&& pla
 template <class S>
 S set_values(void* instance, const Reference* references, std::size_t count, const double* values) {
   return call<S>(instance, [&](Instance& i) {
+    if (count > 0)
+      require_place(references), require_place(values);
     for (std::size_t k = 0; k < count; ++k)
       i.component.set(references[k], values[k]);
   });
@@ -86,6 +131,8 @@ S set_values(void* instance, const Reference* references, std::size_t count, con
 template <class S>
 S get_values(void* instance, const Reference* references, std::size_t count, double* values) {
   return call<S>(instance, [&](Instance& i) {
+    if (count > 0)
+      require_place(references), require_place(values);
     for (std::size_t k = 0; k < count; ++k)
       values[k] = i.component.get(references[k]);
   });
@@ -94,9 +141,11 @@ S get_values(void* instance, const Reference* references, std::size_t count, dou
 /// Saves into a state that is there, or a new one.
 template <class S> S get_state(void* instance, void** state) {
   return call<S>(instance, [&](Instance& i) {
-    if (!*state)
-      *state = new run::State;
-    state_of(*state) = i.component.save();
+    require_place(state);
+    if (*state)
+      state_of(*state) = i.component.save();
+    else
+      *state = HeldStates::all().add(i.component.save());
   });
 }
 
@@ -104,31 +153,39 @@ template <class S> S set_state(void* instance, void* state) {
   return call<S>(instance, [&](Instance& i) { i.component.load(state_of(state)); });
 }
 
-template <class S> S free_state(void** state) {
-  if (state) {
-    delete static_cast<run::State*>(*state);
+template <class S> S free_state(void* instance, void** state) {
+  return call<S>(instance, [&](Instance&) {
+    if (!state || !*state)
+      return;
+    HeldStates::all().free(*state);
     *state = nullptr;
-  }
-  return static_cast<S>(Status::ok);
+  });
 }
 
 template <class S> S size_of_state(void* instance, void* state, std::size_t* size) {
-  return call<S>(instance, [&](Instance&) { *size = state_of(state).bytes().size(); });
+  return call<S>(instance, [&](Instance&) {
+    require_place(size);
+    *size = state_of(state).bytes().size();
+  });
 }
 
 template <class S> S write_state(void* instance, void* state, void* out, std::size_t size) {
   return call<S>(instance, [&](Instance&) {
     const std::string bytes = state_of(state).bytes();
+    require_place(out);
     if (size < bytes.size())
-      throw CaseError("the state needs more room than there is");
+      throw CaseError("the state needs " + std::to_string(bytes.size()) + " bytes of room, not " +
+                      std::to_string(size));
     std::memcpy(out, bytes.data(), bytes.size());
   });
 }
 
 template <class S> S read_state(void* instance, const void* bytes, std::size_t size, void** state) {
   return call<S>(instance, [&](Instance&) {
+    require_place(bytes);
+    require_place(state);
     const std::string text(static_cast<const char*>(bytes), size);
-    *state = new run::State(run::State::from_bytes(text));
+    *state = HeldStates::all().add(run::State::from_bytes(text));
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "hydrodae/control/law.h"
 
@@ -10,19 +11,22 @@ namespace hydrodae::control {
 /// go. What it writes is the largest load that the dry friction of the joint holds: the kernel
 /// locates the standstill, and the joint sticks there exactly.
 ///
-///   ready:    friction holds up to `load`; at a standstill (an event, or the start at rest): held
+///   ready:    friction holds up to `load`; where the joint sticks: held
 ///   held:     for `time`, then the friction holds nothing
 ///   released: for `rest`, then ready
+///
+/// Whether it sticks is asked of the kernel, not judged by the rate: a joint that creeps may be
+/// caught by the very act of getting ready, without an event of its own.
 class Latching final : public Law {
 public:
-  /// @param time  for which it holds [s]
-  /// @param rest  from the release until it may hold again [s]
-  Latching(double load, double time, double rest) : load_(load), time_(time), rest_(rest) {}
+  /// @param time    for which it holds [s]
+  /// @param rest    from the release until it may hold again [s]
+  /// @param sticks  does the joint stick now?
+  Latching(double load, double time, double rest, std::function<bool()> sticks)
+      : load_(load), time_(time), rest_(rest), sticks_(std::move(sticks)) {}
 
-  /// @param in  s'
-  void sample(double t, std::span<const double> in, std::span<double> out) override {
-    fastest_ = std::max(fastest_, std::abs(in[0]));
-    if (phase_ == Phase::ready && std::abs(in[0]) <= standstill * fastest_)
+  void sample(double t, std::span<const double>, std::span<double> out) override {
+    if (is_due())
       go(Phase::held, t + time_);
     else if (phase_ == Phase::held && t >= until_)
       go(Phase::released, t + rest_);
@@ -31,13 +35,12 @@ public:
     out[0] = phase_ == Phase::released ? 0.0 : load_;
   }
 
-  bool hears_events() const override { return true; }
+  bool is_due() const override { return phase_ == Phase::ready && sticks_(); }
   double next_time(double) const override { return until_; }
-  void remember(Archive& a) override { a(phase_, until_, fastest_); }
+  void remember(Archive& a) override { a(phase_, until_); }
 
 private:
   enum class Phase { ready, held, released };
-  static constexpr double standstill = 1e-6; ///< of the largest rate so far
 
   void go(Phase phase, double until) {
     phase_ = phase;
@@ -45,9 +48,9 @@ private:
   }
 
   double load_, time_, rest_;
+  std::function<bool()> sticks_;
   Phase phase_ = Phase::ready;
   double until_ = INFINITY; ///< of this phase [s]
-  double fastest_ = 0.0;
 };
 
 } // namespace hydrodae::control

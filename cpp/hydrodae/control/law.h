@@ -41,6 +41,9 @@ public:
   /// Is it sampled at the events of stops and dry friction, too?
   virtual bool hears_events() const { return false; }
 
+  /// Is it due at once, whatever the time, for what the run has come to since it was sampled last?
+  virtual bool is_due() const { return false; }
+
   /// Is its first input the rate of a joint, whose changes of sign are events that it hears?
   virtual bool hears_crossings() const { return false; }
 

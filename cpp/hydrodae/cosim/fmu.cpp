@@ -25,18 +25,25 @@ struct Mapping {
   FmuDescription fmu;
   References inputs, outputs, parameters;
 
-  explicit Mapping(const model::Controller& c) {
+  /// @param terminals  what its inputs and outputs are joined to; null: not known yet
+  explicit Mapping(const model::Controller& c, const control::Terminals* terminals = nullptr) {
     const char* key = "file";
     const auto find = [&](const char* of, const std::vector<std::string>& names,
-                          const char* causality, References& out) {
+                          const char* causality, References& out,
+                          const std::vector<control::Terminal>* joined = nullptr) {
       key = of;
-      for (const std::string& name : names)
-        out.push_back(fmu.find(name, causality).reference);
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const FmuVariable& v = fmu.find(names[k], causality);
+        if (joined && k < joined->size())
+          v.require_unit((*joined)[k].unit, (*joined)[k].name);
+        out.push_back(*v.reference);
+      }
     };
     try {
       fmu = describe_fmu(c.path);
-      find("fmu_inputs", c.fmu_inputs, "input", inputs);
-      find("fmu_outputs", c.fmu_outputs, "output", outputs);
+      find("fmu_inputs", c.fmu_inputs, "input", inputs, terminals ? &terminals->inputs : nullptr);
+      find("fmu_outputs", c.fmu_outputs, "output", outputs,
+           terminals ? &terminals->outputs : nullptr);
       find("parameters", c.parameters, "parameter", parameters);
     } catch (const CaseError& error) {
       refuse_key(c, key, error.what());
@@ -54,8 +61,9 @@ std::string no_states(const std::string& name) {
 /// the FMU answers to these.
 class FmuLaw final : public control::Law {
 public:
-  FmuLaw(const model::Controller& c, double end_time)
-      : name_(c.name), values_(c.parameter_values), end_time_(end_time), map_(c) {
+  FmuLaw(const model::Controller& c, const control::Terminals& terminals)
+      : name_(c.name), values_(c.parameter_values), end_time_(terminals.end_time),
+        map_(c, &terminals) {
     try {
       files_.emplace(c.path, map_.fmu.binaries());
       library_.emplace((files_->folder() / map_.fmu.library()).string());
@@ -163,7 +171,7 @@ void join_fmus(model::Scene& scene) {
   for (model::Controller& c : scene.controllers)
     if (c.type == "fmu")
       c.make = [c](const control::Terminals& terminals) {
-        return std::make_unique<FmuLaw>(c, terminals.end_time);
+        return std::make_unique<FmuLaw>(c, terminals);
       };
 }
 

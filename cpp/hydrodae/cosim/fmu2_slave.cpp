@@ -7,6 +7,7 @@
 
 #include "hydrodae/cosim/fmi2.h"
 #include "hydrodae/cosim/fmu_slave.h"
+#include "hydrodae/cosim/foreign_text.h"
 
 namespace hydrodae::cosim {
 
@@ -77,7 +78,7 @@ public:
                         0, 0);
     if (!c_)
       throw CaseError("fmi2Instantiate has given no instance" +
-                      (log_.text.empty() ? "" : ": " + log_.text));
+                      (log_.text.empty() ? "" : ": " + foreign_text(log_.text)));
   }
   Slave2(const Slave2&) = delete;
   Slave2& operator=(const Slave2&) = delete;
@@ -116,7 +117,7 @@ public:
     std::size_t size = 0;
     log_.require(f_.get_state(c_, &state), "fmi2GetFMUstate");
     log_.require(f_.size(c_, state, &size), "fmi2SerializedFMUstateSize");
-    std::vector<char> out(size);
+    std::vector<char> out(room_of_state(size));
     log_.require(f_.write(c_, state, out.data(), size), "fmi2SerializeFMUstate");
     log_.require(f_.free_state(c_, &state), "fmi2FreeFMUstate");
     return out;

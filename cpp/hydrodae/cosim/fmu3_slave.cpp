@@ -3,6 +3,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmi3.h"
 #include "hydrodae/cosim/fmu_slave.h"
+#include "hydrodae/cosim/foreign_text.h"
 
 namespace hydrodae::cosim {
 
@@ -64,7 +65,7 @@ public:
                           false, false, nullptr, 0, &log_, log_of_fmi3, nullptr)) {
     if (!i_)
       throw CaseError("fmi3InstantiateCoSimulation has given no instance" +
-                      (log_.text.empty() ? "" : ": " + log_.text));
+                      (log_.text.empty() ? "" : ": " + foreign_text(log_.text)));
   }
   Slave3(const Slave3&) = delete;
   Slave3& operator=(const Slave3&) = delete;
@@ -105,7 +106,7 @@ public:
     std::size_t size = 0;
     log_.require(f_.get_state(i_, &state), "fmi3GetFMUState");
     log_.require(f_.size(i_, state, &size), "fmi3SerializedFMUStateSize");
-    std::vector<char> out(size);
+    std::vector<char> out(room_of_state(size));
     log_.require(f_.write(i_, state, reinterpret_cast<fmi3Byte*>(out.data()), size),
                  "fmi3SerializeFMUState");
     log_.require(f_.free_state(i_, &state), "fmi3FreeFMUState");

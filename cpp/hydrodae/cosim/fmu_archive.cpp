@@ -8,12 +8,18 @@
 #include <unzip.h>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/cosim/foreign_text.h"
 
 namespace hydrodae::cosim {
 
 namespace {
 
 constexpr const char* description_file = "modelDescription.xml";
+
+/// Bytes of one file that are taken: a damaged or hostile archive may unpack to more than there is
+/// room for.
+constexpr std::streamsize longest_description = std::streamsize{1} << 28;
+constexpr std::streamsize longest_file = std::streamsize{1} << 32;
 
 /// A zip archive that is read from its first file to its last.
 class ZipReader {
@@ -43,18 +49,24 @@ public:
   bool find(const char* name) { return unzLocateFile(zip_, name, 1) == UNZ_OK; }
 
   /// Gives the bytes of the file that it stands at to `take`, piece by piece.
-  void read(const std::string& name,
+  void read(const std::string& name, std::streamsize longest,
             const std::function<void(const char* bytes, std::streamsize size)>& take) {
+    std::streamsize all = 0;
     std::array<char, 65536> piece;
     int size = unzOpenCurrentFile(zip_);
     if (size == UNZ_OK)
-      while ((size = unzReadCurrentFile(zip_, piece.data(), piece.size())) > 0)
+      while ((size = unzReadCurrentFile(zip_, piece.data(), piece.size())) > 0) {
+        if ((all += size) > longest)
+          refuse("its file " + name + " has more than " + std::to_string(longest) + " bytes");
         take(piece.data(), size);
+      }
     if (size < 0 || unzCloseCurrentFile(zip_) != UNZ_OK) // the latter compares checksums
       refuse("its file " + name + " is damaged");
   }
 
-  [[noreturn]] void refuse(const std::string& why) const { throw CaseError(path_ + ": " + why); }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw CaseError(path_ + ": " + foreign_text(why));
+  }
 
 private:
   std::string path_;
@@ -77,7 +89,7 @@ std::string read_model_description(const std::string& path) {
   if (!archive.find(description_file))
     archive.refuse(std::string("has no ") + description_file + ": it is no FMU");
   std::string text;
-  archive.read(description_file, [&](const char* bytes, std::streamsize size) {
+  archive.read(description_file, longest_description, [&](const char* bytes, std::streamsize size) {
     text.append(bytes, static_cast<std::size_t>(size));
   });
   return text;
@@ -105,20 +117,25 @@ UnpackedFmu::UnpackedFmu(const std::string& path, const std::string& binaries) {
       const std::filesystem::path place = folder_ / name;
       std::filesystem::create_directories(place.parent_path());
       std::ofstream out(place, std::ios::binary);
-      archive.read(name, [&](const char* bytes, std::streamsize size) { out.write(bytes, size); });
+      archive.read(name, longest_file,
+                   [&](const char* bytes, std::streamsize size) { out.write(bytes, size); });
       out.close();
       if (!out)
         archive.refuse("cannot be unpacked into " + folder_.string());
     });
     std::filesystem::create_directories(folder_ / "resources");
+  } catch (const std::filesystem::filesystem_error& error) { // a file where a folder is to be, ...
+    discard();
+    archive.refuse("cannot be unpacked: " + std::string(error.what()));
   } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    discard();
     throw;
   }
 }
 
-UnpackedFmu::~UnpackedFmu() {
+UnpackedFmu::~UnpackedFmu() { discard(); }
+
+void UnpackedFmu::discard() const {
   std::error_code ignored; // nobody could do anything about it
   std::filesystem::remove_all(folder_, ignored);
 }

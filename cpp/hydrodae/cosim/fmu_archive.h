@@ -27,6 +27,7 @@ public:
   const std::filesystem::path& folder() const { return folder_; }
 
 private:
+  void discard() const;
   std::filesystem::path folder_;
 };
 

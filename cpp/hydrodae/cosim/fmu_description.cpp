@@ -1,6 +1,8 @@
 #include "hydrodae/cosim/fmu_description.h"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <set>
 
 #include <pugixml.hpp>
@@ -8,6 +10,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmu_archive.h"
+#include "hydrodae/cosim/foreign_text.h"
 
 namespace hydrodae::cosim {
 
@@ -23,17 +26,60 @@ constexpr const char* platforms[] = {"linux64", "x86_64-linux"}; ///< of FMI 2 a
   throw CaseError(path + ": " + why);
 }
 
-FmuVariable variable_of(int version, const pugi::xml_node& node) {
+/// What an FMU says of units: their meanings, and those of its types by their names.
+struct Units {
+  std::map<std::string, FmuUnit> meanings;
+  std::map<std::string, std::string> of_types;
+
+  Units(const pugi::xml_node& root, bool two) {
+    for (const pugi::xml_node node : root.child("UnitDefinitions").children("Unit"))
+      if (const pugi::xml_node base = node.child("BaseUnit")) {
+        FmuUnit unit;
+        for (std::size_t k = 0; k < unit.powers.size(); ++k)
+          unit.powers[k] = base.attribute(FmuUnit::bases[k]).as_int();
+        unit.factor = base.attribute("factor").as_double(1.0);
+        unit.offset = base.attribute("offset").as_double(0.0);
+        meanings[node.attribute("name").value()] = unit;
+      }
+    for (const pugi::xml_node node : root.child("TypeDefinitions").children()) {
+      const pugi::xml_node type = two ? node.child("Real") : node;
+      of_types[node.attribute("name").value()] = type.attribute("unit").value();
+    }
+  }
+
+  void tell(const pugi::xml_node& type, FmuVariable& v) const {
+    v.unit_name = type.attribute("unit").value();
+    const auto own = of_types.find(type.attribute("declaredType").value());
+    if (v.unit_name.empty() && own != of_types.end())
+      v.unit_name = own->second;
+    if (const auto meaning = meanings.find(v.unit_name); meaning != meanings.end())
+      v.unit = meaning->second;
+  }
+};
+
+std::optional<unsigned> reference_of(const pugi::xml_node& node) {
+  const std::string text = node.attribute("valueReference").value();
+  unsigned out = 0;
+  const char* end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, out);
+  return error == std::errc() && at == end ? std::optional(out) : std::nullopt;
+}
+
+FmuVariable variable_of(int version, const pugi::xml_node& node, const Units& units) {
   FmuVariable out;
   out.name = node.attribute("name").value();
-  out.reference = node.attribute("valueReference").as_uint();
+  out.reference = reference_of(node);
   out.causality = node.attribute("causality").as_string("local");
-  if (version == 3)
+  if (version == 3) {
     out.type = node.name();
-  else
+    units.tell(node, out);
+  } else {
     for (const pugi::xml_node child : node.children())
-      if (std::string(child.name()) != "Annotations")
+      if (std::string(child.name()) != "Annotations") {
         out.type = child.name();
+        units.tell(child, out);
+      }
+  }
   out.is_array = version == 3 && node.child("Dimension");
   return out;
 }
@@ -55,6 +101,14 @@ std::string FmuDescription::binaries() const {
   return std::string("binaries/") + platforms[version - 2] + "/";
 }
 
+void FmuVariable::require_unit(const std::string& wanted, const std::string& of) const {
+  const std::optional<FmuUnit> own = unit_of(wanted);
+  if (unit && own && !same_unit(*unit, *own))
+    throw CaseError("variable " + in_quotes(name) + " of the FMU is in " + in_quotes(unit_name) +
+                    " (" + unit->text() + "), expected " + in_quotes(wanted) + ", the unit of " +
+                    in_quotes(of));
+}
+
 const FmuVariable& FmuDescription::find(const std::string& name,
                                         const std::string& causality) const {
   std::vector<std::string> names;
@@ -71,13 +125,16 @@ const FmuVariable& FmuDescription::find(const std::string& name,
       throw CaseError("variable " + in_quotes(name) + " of the FMU is of type " + v.type +
                       (v.is_array ? " (an array)" : "") + ", expected one number of type " +
                       wanted);
+    if (!v.reference)
+      throw CaseError("variable " + in_quotes(name) +
+                      " of the FMU has no valueReference that is a number");
     return v;
   }
   throw CaseError("the FMU has no " + causality + " " + in_quotes(name) + suggestion(name, names));
 }
 
 FmuDescription describe_fmu(const std::string& path) {
-  const std::string text = read_model_description(path);
+  const std::string text = valid_utf8(read_model_description(path));
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   if (!parsed)
@@ -102,8 +159,9 @@ FmuDescription describe_fmu(const std::string& path) {
   out.saves_states =
       how.attribute(two ? "canGetAndSetFMUstate" : "canGetAndSetFMUState").as_bool() &&
       how.attribute(two ? "canSerializeFMUstate" : "canSerializeFMUState").as_bool();
+  const Units units(root, two);
   for (const pugi::xml_node node : root.child("ModelVariables").children())
-    out.variables.push_back(variable_of(out.version, node));
+    out.variables.push_back(variable_of(out.version, node, units));
   const std::vector<std::string> files = list_files(path);
   if (std::find(files.begin(), files.end(), out.library()) == files.end())
     refuse_fmu(path,

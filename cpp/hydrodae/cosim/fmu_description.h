@@ -1,15 +1,23 @@
 #pragma once
 /// What an FMU says of itself.
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "hydrodae/cosim/fmu_units.h"
 
 namespace hydrodae::cosim {
 
 struct FmuVariable {
   std::string name, type, causality; ///< "Real" or "Float64"; "input", "output", "parameter", ...
-  unsigned reference = 0;
+  std::optional<unsigned> reference;
   bool is_array = false;
+  std::string unit_name;       ///< "bar"; empty: it tells none
+  std::optional<FmuUnit> unit; ///< where the FMU says what that is
+
+  /// Throws CaseError where numbers in `unit` of the scene are others in that of the FMU.
+  void require_unit(const std::string& unit, const std::string& of) const;
 };
 
 struct FmuDescription {

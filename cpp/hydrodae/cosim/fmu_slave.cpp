@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/foreign_text.h"
 
 namespace hydrodae::cosim {
 
@@ -20,6 +21,14 @@ void* FmuLibrary::symbol(const char* name) const {
   throw CaseError("its library has no function " + in_quotes(name));
 }
 
+std::size_t room_of_state(std::size_t size) {
+  constexpr std::size_t most = std::size_t{1} << 30;
+  if (size > most)
+    throw CaseError("the FMU tells a size of its state of " + std::to_string(size) +
+                    " bytes; at most " + std::to_string(most) + " are taken");
+  return size;
+}
+
 void FmuLog::require(int status, const char* function) {
   static constexpr const char* names[] = {"OK", "Warning", "Discard", "Error", "Fatal"};
   if (status == 0 || status == 1)
@@ -27,7 +36,7 @@ void FmuLog::require(int status, const char* function) {
   fatal = status == 4;
   throw CaseError(std::string(function) + " has ended in status " +
                   (status > 0 && status < 5 ? names[status] : std::to_string(status)) +
-                  (text.empty() ? "" : ": " + text));
+                  (text.empty() ? "" : ": " + foreign_text(text)));
 }
 
 } // namespace hydrodae::cosim

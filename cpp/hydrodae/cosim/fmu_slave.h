@@ -65,6 +65,9 @@ struct FmuLog {
   void require(int status, const char* function);
 };
 
+/// The size of a serialised state that an FMU tells. Throws CaseError where it cannot be meant.
+std::size_t room_of_state(std::size_t size);
+
 /// Throw CaseError where the FMU cannot be instantiated.
 /// @param resources  folder of its resources
 std::unique_ptr<FmuSlave> make_fmu2_slave(const FmuDescription& fmu, const FmuLibrary& library,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/foreign_text.h"
 #include "hydrodae/cosim/json.h"
 
 namespace hydrodae::cosim {
@@ -127,10 +128,10 @@ private:
     socket.receive(text.data(), length, timeout);
     auto said = read_flat(text);
     if (said["protocol"] != "hydrodae")
-      throw Error("the other program speaks the protocol " + in_quotes(said["protocol"]) +
-                  "; expected 'hydrodae'");
+      throw Error("the other program speaks the protocol " +
+                  in_quotes(foreign_text(said["protocol"])) + "; expected 'hydrodae'");
     if (said["version"] != "1")
-      throw Error("the other program speaks version " + in_quotes(said["version"]) +
+      throw Error("the other program speaks version " + in_quotes(foreign_text(said["version"])) +
                   " of the protocol; expected 1");
   }
 
@@ -140,7 +141,7 @@ private:
     std::string text(head.length - behind_length, '\0');
     socket.receive(text.data(), text.size(), timeout);
     if (head.kind == error_text)
-      throw Error("the other program has stopped: " + text);
+      throw Error("the other program has stopped: " + foreign_text(text));
     throw control::Stopped("the other program has ended the run");
   }
 
@@ -155,10 +156,13 @@ public:
 
   void exchange(Socket& socket, double t, bool reset, std::span<const double> in,
                 std::span<double> out, double timeout) override {
-    send(socket, t, in, reset ? Flag::reset : Flag::neutral, timeout);
     answer_.resize(out.size() + 1);
-    socket.receive(answer_.data(), 8 * answer_.size(), timeout);
-    if (socket.has_more())
+    // Nothing numbers an answer: one too many would be taken for that of the next question.
+    if (!socket.has_unasked()) {
+      send(socket, t, in, reset ? Flag::reset : Flag::neutral, timeout);
+      socket.receive(answer_.data(), 8 * answer_.size(), timeout);
+    }
+    if (socket.has_unasked())
       throw Error("the other program has sent more than " + std::to_string(answer_.size()) +
                   " numbers (" + std::to_string(out.size()) + " outputs and a flag)");
     const double flag = answer_.back();

@@ -6,6 +6,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -63,29 +64,47 @@ std::string place(const std::string& host, int port) { return host + ":" + std::
 void prepare(int descriptor) {
   const int yes = 1;
   setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
   fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+}
+
+/// Does it wait by itself? To connect and to accept it must not.
+void set_waiting(int descriptor, bool waits) {
+  const int flags = fcntl(descriptor, F_GETFL);
+  fcntl(descriptor, F_SETFL, waits ? flags & ~O_NONBLOCK : flags | O_NONBLOCK);
 }
 
 } // namespace
 
-Socket::Socket(int descriptor) : descriptor_(descriptor) { prepare(descriptor); }
+Socket::Socket(int descriptor) : descriptor_(descriptor) {
+  prepare(descriptor);
+  set_waiting(descriptor, true);
+}
 
-Socket::Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+Socket::Socket(Socket&& other) noexcept { *this = std::move(other); }
 
 Socket& Socket::operator=(Socket&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(begin_, other.begin_);
+  std::swap(end_, other.end_);
+  std::swap(limit_, other.limit_);
   return *this;
 }
 
 void Socket::close() {
   if (descriptor_ >= 0)
     ::close(std::exchange(descriptor_, -1));
+  begin_ = end_ = 0;
+  limit_ = 0.0;
 }
 
 void Socket::fail(const std::string& message) {
   close();
   throw Error(message);
+}
+
+void Socket::fail_silent(const char* what, double timeout) {
+  fail("the other program " + std::string(what) + " for " + number_text(timeout) + " s (timeout)");
 }
 
 Socket Socket::connect(const std::string& host, int port, double timeout) {
@@ -97,15 +116,18 @@ Socket Socket::connect(const std::string& host, int port, double timeout) {
       if (descriptor < 0)
         continue;
       Socket out(descriptor);
-      if (::connect(descriptor, a->ai_addr, a->ai_addrlen) == 0)
-        return out;
-      if (errno != EINPROGRESS || !wait_for(descriptor, POLLOUT, deadline))
-        continue;
-      int error = 0;
-      socklen_t size = sizeof error;
-      getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size);
-      if (error == 0)
-        return out;
+      set_waiting(descriptor, false);
+      if (::connect(descriptor, a->ai_addr, a->ai_addrlen) != 0) {
+        if (errno != EINPROGRESS || !wait_for(descriptor, POLLOUT, deadline))
+          continue;
+        int error = 0;
+        socklen_t size = sizeof error;
+        getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size);
+        if (error != 0)
+          continue;
+      }
+      set_waiting(descriptor, true);
+      return out;
     }
     if (now() >= deadline)
       throw Error("nobody listens at " + place(host, port) + " (tried for " + number_text(timeout) +
@@ -124,14 +146,13 @@ void Socket::wait(short events, double deadline, double timeout, const char* wha
     throw;
   }
   if (!ready)
-    fail("the other program " + std::string(what) + " for " + number_text(timeout) +
-         " s (timeout)");
+    fail_silent(what, timeout);
 }
 
 void Socket::send(const void* bytes, std::size_t count, double timeout) {
   const double deadline = now() + timeout;
   for (const char* next = static_cast<const char*>(bytes); count > 0;) {
-    const ssize_t sent = ::send(descriptor_, next, count, MSG_NOSIGNAL);
+    const ssize_t sent = ::send(descriptor_, next, count, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent >= 0) {
       next += sent;
       count -= static_cast<std::size_t>(sent);
@@ -143,27 +164,67 @@ void Socket::send(const void* bytes, std::size_t count, double timeout) {
   }
 }
 
+/// A call that waits by itself costs half of one that is told there is nothing, and another that
+/// waits.
+void Socket::limit_receive(double timeout) {
+  if (timeout == limit_)
+    return;
+  constexpr double shortest = 1e-6, longest = 1e6; // s; 0 would be for ever
+  const double kept = std::clamp(timeout, shortest, longest), whole = std::floor(kept);
+  timeval told{};
+  told.tv_sec = static_cast<decltype(told.tv_sec)>(whole);
+  told.tv_usec = static_cast<decltype(told.tv_usec)>(1e6 * (kept - whole));
+  if (told.tv_sec == 0 && told.tv_usec == 0)
+    told.tv_usec = 1;
+  if (setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &told, sizeof told) != 0)
+    fail(std::strerror(errno));
+  limit_ = timeout;
+}
+
+/// One call brings all that is there; frames are taken from that.
 void Socket::receive(void* bytes, std::size_t count, double timeout) {
-  const double deadline = now() + timeout;
+  constexpr std::size_t room = 65536;
+  buffer_.resize(room);
+  char* next = static_cast<char*>(bytes);
   const std::size_t all = count;
-  for (char* next = static_cast<char*>(bytes); count > 0;) {
-    const ssize_t got = ::recv(descriptor_, next, count, 0);
-    if (got > 0) {
-      next += got;
-      count -= static_cast<std::size_t>(got);
-    } else if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-      wait(POLLIN, deadline, timeout,
-           count < all ? "has sent part of a frame only" : "has sent nothing");
-    } else if (got == 0 || errno != EINTR) {
-      fail(count < all ? "the other program has closed the connection inside a frame"
-                       : "the other program has closed the connection");
+  double deadline = 0.0; // of what comes in parts
+  for (;;) {
+    const std::size_t taken = std::min(count, end_ - begin_);
+    std::memcpy(next, buffer_.data() + begin_, taken);
+    begin_ += taken;
+    next += taken;
+    count -= taken;
+    if (count == 0)
+      return;
+    const char* what = count < all ? "has sent part of a frame only" : "has sent nothing";
+    if (deadline == 0.0) {
+      deadline = now() + timeout;
+      limit_receive(timeout);
+    } else {
+      const double left = deadline - now();
+      if (left <= 0.0)
+        fail_silent(what, timeout);
+      limit_receive(left);
     }
+    const ssize_t got = ::recv(descriptor_, buffer_.data(), room, 0);
+    begin_ = 0;
+    end_ = got > 0 ? static_cast<std::size_t>(got) : 0;
+    if (got > 0)
+      continue;
+    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
+      fail_silent(what, timeout);
+    if (got < 0 && errno == EINTR) {
+      close();
+      throw Interrupted("interrupted while waiting for another program");
+    }
+    fail(count < all ? "the other program has closed the connection inside a frame"
+                     : "the other program has closed the connection");
   }
 }
 
-bool Socket::has_more() const {
+bool Socket::has_unasked() const {
   char byte = 0;
-  return ::recv(descriptor_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
+  return has_more() || ::recv(descriptor_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
 }
 
 Listener::Listener(const std::string& host, int port) : place_(place(host, port)) {
@@ -172,6 +233,7 @@ Listener::Listener(const std::string& host, int port) : place_(place(host, port)
   if (descriptor_ < 0)
     throw Error("no socket: " + std::string(std::strerror(errno)));
   prepare(descriptor_);
+  set_waiting(descriptor_, false);
   const int yes = 1;
   setsockopt(descriptor_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   if (bind(descriptor_, found->ai_addr, found->ai_addrlen) != 0 || listen(descriptor_, 1) != 0) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "hydrodae/core/error.h"
 
@@ -32,14 +33,23 @@ public:
   void send(const void* bytes, std::size_t count, double timeout);
   void receive(void* bytes, std::size_t count, double timeout);
 
-  /// Have bytes come that nobody has asked for yet?
-  bool has_more() const;
+  /// Have bytes come with those received last that nobody has asked for? Asks nothing of the
+  /// operating system.
+  bool has_more() const { return begin_ < end_; }
+
+  /// Have bytes come at all that nobody has asked for?
+  bool has_unasked() const;
 
 private:
   void wait(short events, double deadline, double timeout, const char* what);
+  void limit_receive(double timeout);
   [[noreturn]] void fail(const std::string& message);
+  [[noreturn]] void fail_silent(const char* what, double timeout);
 
   int descriptor_ = -1;
+  std::vector<char> buffer_;        ///< what one call has brought
+  std::size_t begin_ = 0, end_ = 0; ///< of what is left of it
+  double limit_ = 0.0;              ///< that a call waits at most [s]; 0: none is set
 };
 
 /// A port that is listened at, for one connection at a time.

@@ -31,8 +31,31 @@ std::unique_ptr<control::Law> make_pid(const model::Controller& c) {
   return std::make_unique<control::Pid>(g);
 }
 
+/// The friction whose largest load it writes must be on the joint whose rate it reads.
+std::unique_ptr<control::Law> make_latching(const model::Controller& c,
+                                            const system::Regime& regime) {
+  const auto refuse = [&](const char* key, const std::string& wrong, const std::string& expected) {
+    throw ModelError("controller." + c.name + "." + key, "controller " + in_quotes(c.name) + ": " +
+                                                             in_quotes(wrong) + " is not " +
+                                                             expected);
+  };
+  const system::SwitchData* friction = find_friction(regime, c.outputs.front());
+  if (!friction)
+    refuse("outputs", c.outputs.front(),
+           "the 'static' of a dry_friction, by which a latch holds: \"forces/NAME/static\"");
+  const system::MotionData& motion = regime.motions[static_cast<std::size_t>(friction->motion)];
+  const std::string rate = "joints/" + regime.joints[static_cast<std::size_t>(motion.joint)].name +
+                           "/" + motion.name + "_rate";
+  if (c.inputs.front() != rate)
+    refuse("inputs", c.inputs.front(), "the rate of the joint that it holds, " + in_quotes(rate));
+  return std::make_unique<control::Latching>(
+      *c.hold_load, *c.hold_time, c.period,
+      [&regime, friction] { return regime.mode(*friction) == system::SwitchData::State::stick; });
+}
+
 std::unique_ptr<control::Law> make_law(const model::Controller& c,
-                                       const control::Terminals& terminals) {
+                                       const control::Terminals& terminals,
+                                       const system::Regime& regime) {
   if (c.make)
     return c.make(terminals);
   if (model::is_outside(c))
@@ -51,7 +74,7 @@ std::unique_ptr<control::Law> make_law(const model::Controller& c,
   if (c.type == "bang_bang")
     return std::make_unique<control::BangBang>(c.target, c.band, *c.lower, *c.upper);
   if (c.type == "latching")
-    return std::make_unique<control::Latching>(*c.hold_load, *c.hold_time, c.period);
+    return make_latching(c, regime);
   if (c.type == "declutching")
     return std::make_unique<control::Declutching>(*c.engaged, c.free, *c.free_time, c.period);
   return std::make_unique<control::Table>(c.at, c.value);
@@ -133,7 +156,7 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     }
     one.in.resize(one.columns.size());
     one.swings.resize(one.out.size());
-    one.law = make_law(c, terminals);
+    one.law = make_law(c, terminals, regime);
     if (one.law->hears_crossings())
       one.watch = std::make_unique<RateWatch>(regime, c.inputs.front());
     if (c.lag > 0.0)
@@ -151,7 +174,7 @@ double Controllers::next_time() const {
 }
 
 bool Controllers::One::is_due(double t, bool event) const {
-  return next <= t || (event && law->hears_events());
+  return next <= t || (event && law->hears_events()) || law->is_due();
 }
 
 bool Controllers::is_due(double t, bool event) const {

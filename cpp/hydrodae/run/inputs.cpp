@@ -29,16 +29,19 @@ void add_forces(system::Regime& s, std::vector<Input>& out) {
   }
 }
 
+std::string static_name(const system::Regime& s, const system::SwitchData& friction) {
+  const system::ElementList& list = s.elements[static_cast<std::size_t>(friction.list)];
+  return "forces/" + list.laws->names[static_cast<std::size_t>(friction.law)] + "/static";
+}
+
 /// What dry friction holds: with it a controller locks a joint where it stands still, and lets go.
 void add_frictions(system::Regime& s, std::vector<Input>& out) {
   for (const system::SwitchData& friction : s.switches) {
     if (friction.kind != system::SwitchData::Kind::friction)
       continue;
-    const auto list = static_cast<std::size_t>(friction.list),
-               law = static_cast<std::size_t>(friction.law);
     const bool angle = s.motions[static_cast<std::size_t>(friction.motion)].motion.is_angle();
-    out.push_back({"forces/" + s.elements[list].laws->names[law] + "/static", angle ? "N m" : "N",
-                   &s.static_loads[friction.number], 0.0, nullptr, 0});
+    out.push_back({static_name(s, friction), angle ? "N m" : "N", &s.static_loads[friction.number],
+                   0.0, nullptr, 0});
   }
 }
 
@@ -81,6 +84,13 @@ std::vector<Input> find_inputs(system::Regime& regime) {
   add_frictions(regime, out);
   add_rates(regime, out);
   return out;
+}
+
+const system::SwitchData* find_friction(const system::Regime& s, const std::string& input) {
+  for (const system::SwitchData& friction : s.switches)
+    if (friction.kind == system::SwitchData::Kind::friction && static_name(s, friction) == input)
+      return &friction;
+  return nullptr;
 }
 
 Input& input_named(std::vector<Input>& inputs, const std::string& name) {

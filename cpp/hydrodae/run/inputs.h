@@ -36,6 +36,9 @@ std::vector<Input> find_inputs(system::Regime& regime);
 /// Throws CaseError, with the nearest name, where there is no such input.
 Input& input_named(std::vector<Input>& inputs, const std::string& name);
 
+/// The dry friction whose largest load is the input of this name; null: none is.
+const system::SwitchData* find_friction(const system::Regime& regime, const std::string& input);
+
 /// Throws CaseError where the value is not finite or too small for the input.
 void check_value(const Input& input, double value);
 

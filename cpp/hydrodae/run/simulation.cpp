@@ -122,6 +122,10 @@ void Simulation::advance(double limit, const Inside& inside) {
   require_going();
   take_control();
   take_inputs();
+  if (controllers_ && controllers_->is_due(t_, event_here_)) { // what was written has made it so
+    take_control();
+    take_inputs();
+  }
   now_.clear();
   failed_ = true; // until the step is accepted by all
   const double end =

@@ -5,6 +5,20 @@
 
 namespace hydrodae::system {
 
+namespace {
+
+/// Load by which dry friction that sticks holds its joint; its law has none then [N or N m].
+double holding_load(const Regime& s, const ElementList& list, std::size_t law, const double* y) {
+  for (const SwitchData& friction : s.switches)
+    if (s.mode(friction) == SwitchData::State::stick &&
+        static_cast<std::size_t>(friction.law) == law &&
+        static_cast<std::size_t>(friction.list) == index_of(s, list))
+      return y[s.lambda(s.couplers[static_cast<std::size_t>(friction.coupler)])];
+  return 0.0;
+}
+
+} // namespace
+
 /// The loads of a list on its bodies, in the order in which the constructor planned them.
 void Observer::observe_ports(const ElementList& list, const ElementScratch<double>& scratch) {
   const element::Shape& shape = list.laws->shape;
@@ -73,12 +87,13 @@ void Observer::observe(const ElementList& list, const double* y) {
   laws.energy(in, held, energy);
   laws.observe(ws_.time, in, held, load, declared);
   const joint::Vec12<double>* rows = scratch.rows.data();
-  for (const PortData& port : list.ports) {
+  for (std::size_t law = 0; law < list.ports.size(); ++law) {
+    const PortData& port = list.ports[law];
     if (port.delay < 0) // a delayed spring gives back another energy than it took
       out_.potential += *energy;
     ++energy;
     if (element::is_along(laws.shape.port)) {
-      *own_++ = *load;
+      *own_++ = *load + holding_load(s_, list, law, y);
     } else if (laws.shape.port == element::Port::between) {
       own_ = std::copy(load, load + 6, own_);
       own_ = std::copy(in, in + 6, own_);

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from hydrodae.case import Case, CaseLike, read_case
 from hydrodae.errors import CaseError
 from hydrodae.frequency import without_memory
+from hydrodae.study.gradient.controllers import require_smooth
 from hydrodae.study.gradient.linear import linear_gradient
 from hydrodae.study.gradient.parameters import Parameter, read_parameter, values_of
 from hydrodae.study.gradient.quantity import Found, Quantity, quantity
@@ -117,7 +118,8 @@ def gradient(
     Raises
     ------
     CaseError
-        A key is not in the case, there is no such quantity, or runs without fixed steps.
+        A key is not in the case, there is no such quantity, runs without fixed steps, or the case
+        has a controller that cannot be differentiated.
     SolverError
         A run failed.
 
@@ -138,6 +140,7 @@ def _read(case: CaseLike, set: Mapping[str, Any] | None, rung: str) -> Case:
 
 
 def _gradient(case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str) -> Gradient:
+    require_smooth(case, parameters, rung)
     found = RUNGS[rung](case, what, parameters)
     names = tuple(parameter.name for parameter in parameters)
     at = np.array([parameter.value for parameter in parameters])

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+namespace hydrodae::cosim {
+
+/// Text of another program, to be told in a message: what is no UTF-8, and control characters,
+/// become '?'; no longer than so many bytes.
+std::string foreign_text(const std::string& text, std::size_t longest = 4096);
+
+/// What is no UTF-8 becomes '?', the rest stays as it is.
+std::string valid_utf8(std::string text);
+
+} // namespace hydrodae::cosim
