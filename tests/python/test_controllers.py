@@ -316,7 +316,7 @@ def test_a_latch_on_a_joint_that_rests_lets_go_ever_again(start: str, method: st
     for k in range(1, 101):
         while run.time < 0.03 * k:
             run.advance(0.03 * k)
-        seen.append(run.read("controllers/pi/output"))
+        seen.append(float(run.read("controllers/pi/output")))
     # held 0.4 s, released 0.05 s: 6 times in 3 s
     assert np.count_nonzero(np.diff(seen) < 0.0) == 6
     run.write("forces/pto/load", 4.0)

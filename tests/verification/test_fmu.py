@@ -167,8 +167,9 @@ def test_the_run_goes_on_to_a_later_stop_time(fmu: Path, tmp_path: Path) -> None
         assert device.get(X)[0] == pytest.approx(0.5 * np.cos(30.0), abs=1e-6)
 
 
-def begin_only(device: Device) -> None:
+def begin_only(device: Device) -> bool:
     device.fmu.enterInitializationMode()
+    return True
 
 
 def free_twice(device: Device) -> None:

@@ -232,8 +232,8 @@ Trust::Estimate Trust::estimate() const {
       if (s_.error_group[static_cast<std::size_t>(i)] == g && s_.is_motion(i) &&
           !growth_->is_guided(g))
         now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
-    // Tolerances are made for the motion that was expected; the estimate is told of what was reached.
-    // An error as large as the motion: beyond, growth says no more.
+    // Tolerances are made for the motion that was expected; the estimate is told of what was
+    // reached. An error as large as the motion: beyond, growth says no more.
     const double hoped = expected(g), whole = std::max({reached_[g], at_rest * hoped, 1e-300}),
                  left = least_ * std::max(hoped / whole, 1.0),
                  error = std::min(std::max({largest_[g] / whole, now / whole, left}), 1.0);
