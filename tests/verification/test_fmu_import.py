@@ -198,19 +198,21 @@ rtol = 1e-9
 
 
 def test_a_second_device_answers(fmi: int, tmp_path: Path) -> None:
-    """A case as the FMU of another: each takes what the other one is at the instants."""
-    x, load = "joints/slide/displacement", "forces/pto/load"
+    """A case as the FMU of another: each is pushed by the force of the other at the instants."""
+    x, load, force = "joints/slide/displacement", "forces/pto/load", "forces/pto/force"
     export(
-        Case.from_text(SECOND), tmp_path / "b.fmu", fmi=fmi, inputs=[load], outputs=[x],
+        Case.from_text(SECOND), tmp_path / "b.fmu", fmi=fmi, inputs=[load], outputs=[force],
         parameters=["body.float.mass"],
     )  # fmt: skip
     keys = f"""type = "fmu"
 file = "b.fmu"
 fmu_inputs = ["{load}"]
-fmu_outputs = ["{x}"]
+fmu_outputs = ["{force}"]
 parameters = ["body.float.mass"]
 parameter_values = [2.5]"""
-    found = hydrodae.run(cart(tmp_path, keys))
+    given = CART.replace("joints/slide/displacement_rate", force).replace("KEYS", keys)
+    (tmp_path / "case.toml").write_text(given)
+    found = hydrodae.run(Case.read(tmp_path / "case.toml"))
 
     def stepper(mass: float, stiffness: float, damping: float) -> np.ndarray:
         A = np.zeros((3, 3))
@@ -218,12 +220,14 @@ parameter_values = [2.5]"""
         return np.asarray(expm(0.1 * A))
 
     own, other = stepper(2.0, 8.0, 0.0), stepper(2.5, 27.0, 0.6)
+    of_own, of_other = np.array([-8.0, 0.0, 1.0]), np.array([-27.0, -0.6, 1.0])
     a, b, expected = np.array([0.5, 0.0, 0.0]), np.zeros(3), [0.5]
     for _ in range(50):
-        a[2], b[2] = b[0], a[1]
+        b[2] = of_own @ a
+        a[2] = of_other @ b  # which feels its load at once
         a, b = own @ a, other @ b
         expected.append(a[0])
-    np.testing.assert_allclose(found[x][::2], expected, atol=1e-7)
+    np.testing.assert_allclose(found[x][::2], expected, rtol=1e-6, atol=1e-7)
     assert float(abs(found["controllers/pi/output"]).max()) > 0.01
 
 
