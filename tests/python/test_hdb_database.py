@@ -389,3 +389,12 @@ def test_surge_leads_and_heave_follows_the_elevation_in_long_waves(reference):
         assert np.angle(f[0]) == pytest.approx(np.pi / 2, abs=0.01)
         assert np.angle(f[2]) == pytest.approx(0.0, abs=0.01)
         assert abs(f[2]) == pytest.approx(db.hydrostatic_stiffness("sphere")[2, 2], rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("mesh", "text"),
+    [(np.zeros((0, 4, 3)), "has no panels"), (np.zeros((2, 3, 3)), "must be panels")],
+)
+def test_a_mesh_has_panels(mesh, text):
+    with pytest.raises(DatabaseError, match=f"mesh of 'a' {text}"):
+        hdb.Body("a", mesh=mesh)

@@ -35,9 +35,11 @@ def mesh_statics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     Raises
     ------
     DatabaseError
-        No panel below z = 0, one that crosses it, or no volume.
+        No panel, none below z = 0, one that crosses it, or no volume.
     """
     corners = np.asarray(panels, dtype=float)
+    if not len(corners):
+        raise DatabaseError("a mesh without panels")
     size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
     heights = corners[..., 2]
     if np.any((heights.min(axis=1) < -1e-4 * size) & (heights.max(axis=1) > 1e-4 * size)):

@@ -58,6 +58,8 @@ class Body:
             mesh = np.array(self.mesh, dtype=float)
             if mesh.ndim != 3 or mesh.shape[1:] != (4, 3) or not np.all(np.isfinite(mesh)):
                 raise DatabaseError(f"mesh of {self.name!r} must be panels (n, 4, 3) [m]")
+            if not len(mesh):
+                raise DatabaseError(f"mesh of {self.name!r} has no panels")
             object.__setattr__(self, "mesh", mesh)
 
 

@@ -77,6 +77,8 @@ def _of_mesh(name: str, statics: Hydrostatics, panels: Array, point: Array) -> l
     except DatabaseError:
         return []  # a part above the water: not what the run was made with
     volume = statics.displaced_volume
+    if volume <= 0.0:
+        return []  # nothing to compare with
     share = mesh.displaced_volume / volume
     # halves and quarters are completed by symmetry: their buoyancy is at the same height
     parts = next((n for n in (1.0, 2.0, 4.0) if abs(share * n - 1.0) < ALIKE), 0.0)
