@@ -57,6 +57,9 @@ def collect(databases: Path) -> Corpus:
             if not (folder / "hydro.h5").exists():  # made from data of others
                 continue
             tables["hydro"]["database"] = str(folder / "hydro.h5")
+        for controller in tables.get("controller", []):
+            if controller["type"] == "tcp":  # nobody is there
+                controller |= {"connect_timeout": 0.2, "timeout": 0.2}
         found.append(tables)
     for scene in all_scenes().values():
         tables = copy.deepcopy(dict(scene.tables))
