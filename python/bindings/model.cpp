@@ -30,6 +30,8 @@ void bind_model(py::module_& module) {
       .def_property_readonly(
           "end_time", [](const Scene& s) { return s.solver.end_time; }, "End of the run, s.")
       .def_property_readonly(
+          "output_step", [](const Scene& s) { return s.output.step; }, "Between samples, s.")
+      .def_property_readonly(
           "python_drives",
           [](const Scene& s) {
             std::vector<std::string> out;

@@ -26,6 +26,9 @@ class Scene:
     def end_time(self) -> float:
         """End of the run, s."""
     @property
+    def output_step(self) -> float:
+        """Between samples, s."""
+    @property
     def python_drives(self) -> list[str]:
         """Constraints whose drive is a Python function."""
     @property

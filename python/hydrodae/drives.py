@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 Drive = Callable[[float], Any]
 Kernel = Callable[[float], tuple[float, float, float]]
 
-_FEWEST, _MOST = 65, 65 * 2**10  # samples of a function that gives its value only
+# Samples of a function that gives its value only: what it does between the first ones nobody sees.
+_FEWEST, _MOST, _MOST_BY_OUTPUT = 2049, 2**17 + 1, 2**15 + 1
 _AGREES = 1e-9  # spline against function between the samples, of the function's range
 
 
@@ -47,13 +48,14 @@ def kernel_drives(scene: Scene, drives: Mapping[str, Drive] | None) -> dict[str,
         owner="drive of constraint",
         signature="function of time",
     )
-    return {name: _kernel(name, drive, scene.end_time) for name, drive in given.items()}
+    return {name: _kernel(name, drive, scene) for name, drive in given.items()}
 
 
-def _kernel(name: str, drive: Drive, end_time: float) -> Kernel:
+def _kernel(name: str, drive: Drive, scene: Scene) -> Kernel:
     width = np.size(drive(0.0))
     if width == 1:
-        return _splined(name, drive, end_time)
+        by_output = min(2.0 * scene.end_time / scene.output_step + 1.0, _MOST_BY_OUTPUT)
+        return _splined(name, drive, scene.end_time, max(_FEWEST, int(by_output)))
     if width != 3:
         raise CaseError(
             f"drives: the function of {name!r} must return its value, or value, rate and rate of "
@@ -75,7 +77,7 @@ def _finite(
     return values
 
 
-def _splined(name: str, drive: Drive, end_time: float) -> Kernel:
+def _splined(name: str, drive: Drive, end_time: float, fewest: int) -> Kernel:
     """Quintic spline through samples of the function, doubled until they tell it all."""
     from scipy.interpolate import make_interp_spline
 
@@ -86,7 +88,7 @@ def _splined(name: str, drive: Drive, end_time: float) -> Kernel:
             raise CaseError(f"drives: the function of {name!r} is not finite at t = {time:g} s")
         return values
 
-    time = np.linspace(0.0, end_time, _FEWEST)
+    time = np.linspace(0.0, end_time, fewest)
     values = sample(time)
     while True:
         spline = make_interp_spline(time, values, k=5)

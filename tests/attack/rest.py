@@ -131,6 +131,8 @@ def _draw_pulse(g: np.random.Generator) -> dict[str, Any]:
      "kind": "barge"},
     {"amplitude": 1.0, "rest": 100.0, "width": 3.0, "mass": 1.0, "rate": 2.5, "after": 17.0,
      "hanging": True},
+    {"amplitude": 0.01, "rest": 253.0, "width": 1.4, "mass": 10.0, "rate": 1.0, "after": 13.0,
+     "hanging": True, "value_only": True},
 )  # fmt: skip
 def python_pulse(
     amplitude: float, rest: float, width: float, mass: float, rate: float, after: float,

@@ -58,6 +58,22 @@ def test_joint_follows_the_function(function: object) -> None:
     np.testing.assert_allclose(results["constraints/motor/reaction"], torque, atol=1e-3)
 
 
+def test_a_late_pulse_of_values_is_seen() -> None:
+    """253 s of nothing, then a degree and back within 1.4 s: only what is sampled is there."""
+    values = {"solver.end_time": 267.36, "output.step": 0.13}
+
+    def pulse(t: float) -> float:
+        s = min(max((t - 253.0) / 1.4, 0.0), 1.0)
+        return 0.02 * (4.0 * s * (1.0 - s)) ** 6
+
+    results = hydrodae.run(
+        hydrodae.Case(text=CASE, values=values), drives={"motor": lambda t: pulse(t)}
+    )
+    exact = [pulse(t) for t in results.time]
+    assert max(exact) > 0.019
+    np.testing.assert_allclose(results["joints/hinge/angle"], exact, atol=1e-6)
+
+
 def test_rate_level_follows_the_function() -> None:
     text = CASE.replace('joint = "hinge"\n', 'joint = "hinge"\nlevel = "velocity"\n')
     results = hydrodae.run(hydrodae.Case.from_text(text), drives={"motor": lambda t: 0.5 * t})

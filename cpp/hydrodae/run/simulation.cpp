@@ -247,11 +247,14 @@ void Simulation::restart() {
   const Clock::time_point before = Clock::now();
   std::optional<double> struck;
   follow_turns();
+  const VectorX y = y_, yp = yp_;
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
     struck = consistency().restore(t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
+  if (struck && switching_ && switching_->hit())
+    trust_->carry_over({regime_, *switching_, *switching_->hit(), t_, y, yp, y_, yp_});
   for (std::size_t k = 0; struck && k < regime_.switches.size(); ++k)
     if (!switching_->struck()[k].impacts.empty())
       trust_->strike(

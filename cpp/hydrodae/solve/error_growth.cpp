@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/solve/impact_error.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
 
 namespace {
+constexpr int most_bins = 32;
 constexpr double rough = 0.5; ///< change of the equations from which on growth is not believed
 // Growth per radian of the motion that may come of looks far apart; chaotic motions have 0.2 to 1.
 constexpr double doubtful = 0.15;
@@ -29,20 +31,34 @@ std::vector<bool> guided_groups(const system::Regime& s) {
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
-                         const VectorX& y, const VectorX& yp, Error error, bool coherent, int every)
-    : s_(s), e_(s, pattern, 1.0), error_(std::move(error)), guided_(guided_groups(s)), y_(y),
-      yp_(yp), growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
-      change_(VectorX::Zero(s.n_error_groups())), row_size_(s.n), since_(t), window_(t),
-      coherent_(coherent), fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
-  linearise(t);
-  first_by_y_ = by_y_;
-  first_u_ = y_.segment(s.u0, s.n_u);
-  if (error_.vector.size() > 0)
-    return;
-  error_.vector = error_.fresh = error_.gathered = VectorX::Zero(s.lambda0);
-  error_.change = error_.added = error_.piled = error_.plain = error_.level = error_.rough_level =
-      VectorX::Zero(s.n_error_groups());
-  error_.since_rough = VectorX::Constant(s.n_error_groups(), INFINITY);
+                         const VectorX& y, const VectorX& yp, Error error, Way way, int every)
+    : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), y_(y), yp_(yp),
+      growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
+      change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
+      fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {
+  begin(std::move(error));
+}
+
+void ErrorGrowth::begin(Error error) {
+  const bool with_signs = way_ == Way::with_signs;
+  error_ = std::move(error);
+  if (with_signs)
+    bins_.setZero(s_.lambda0, most_bins);
+  if (error_.vector.size() == 0) {
+    error_.vector = error_.middle = error_.old = error_.fresh = error_.gathered =
+        VectorX::Zero(s_.lambda0);
+    error_.old_piled = error_.window = error_.change = error_.added = error_.piled = error_.plain =
+        error_.level = error_.rough_level = VectorX::Zero(s_.n_error_groups());
+    error_.since_rough = VectorX::Constant(s_.n_error_groups(), INFINITY);
+  } else if (with_signs && !error_.with_signs) { // another method has come
+    error_.old.swap(error_.vector);
+    error_.old_piled = error_.piled;
+  } else if (!with_signs && error_.with_signs) {
+    error_.vector += error_.middle + error_.old;
+    error_.middle.setZero();
+    error_.old.setZero();
+  }
+  error_.with_signs = with_signs;
 }
 
 /// Root of the sum of squares over the positions and velocities of each group.
@@ -68,19 +84,14 @@ VectorX ErrorGrowth::place_sizes(VectorX vector, const VectorX& unit) const {
   return sizes(vector, unit);
 }
 
-/// The derivatives at a look, for the next.
-void ErrorGrowth::linearise(double t) {
-  e_.accept(t, y_, yp_);
-  e_.jacobian(t, y_, yp_);
-  by_y_ = e_.parts.by_y;
-  by_rate_ = e_.parts.by_yp;
-}
-
 bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
                       bool last, const Interpolant& at) {
+  if (way_ == Way::with_signs)
+    return add_with_signs(t, step_error, unit, rate, last, at);
   error_.fresh += step_error;
   const double phase = rate.size() > 0 ? rate.maxCoeff() * (t - window_) : 0.0;
-  if (coherent_ && phase > 1.0) { // rad; what a step adds and the next takes away is none
+  if (way_ == Way::coherently &&
+      phase > 1.0) { // rad; what a step adds and the next takes away is none
     error_.added += sizes(error_.fresh - error_.gathered, unit);
     error_.gathered = error_.fresh;
     window_ = t;
@@ -106,12 +117,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
         follow(g, rate[g] * (t - since_));
     }
   }
-  // It tells growth only, and is kept from growing without end.
-  constexpr double large = 1.0;
-  const VectorX size = sizes(error_.vector, unit);
-  for (Index i = 0; i < s_.lambda0; ++i)
-    if (const double own = size[s_.error_group[static_cast<std::size_t>(i)]]; !(own <= large))
-      error_.vector[i] = std::isfinite(own) ? 1e-3 * error_.vector[i] / own : 0.0;
+  limit(error_.vector, unit, 1e-3); // it tells growth only
   error_.added += sizes(error_.fresh - error_.gathered, unit);
   error_.added.array() *= shown.array();
   error_.gathered.setZero();
@@ -167,102 +173,57 @@ void ErrorGrowth::fade(Index g, double factor) {
     error_.piled[g] *= factor;
 }
 
-/// In the units of the unknowns, relative to the largest of each row and to its inertia (the
-/// directions of reactions turn in linear motions, too). Between looks, of stiffness and damping:
-/// where they are too far apart errors would seem to grow that do not. Against the first look, of
-/// what frequencies come of: stiffness and the gyroscopic moments, not valves and friction.
-void ErrorGrowth::find_change(const VectorX& rate) {
-  constexpr double much = 0.25, little = 0.05;
-  const system::Pattern& p = e_.pattern;
-  change_.setZero();
-  row_size_.setZero();
-  const auto entries = [&](auto&& visit) {
-    for (Index c = 0; c < s_.lambda0; ++c)
-      for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-        if (p.row[k] >= s_.u0 && s_.is_motion(c) && p.row[k] < s_.lambda0 && s_.is_motion(p.row[k]))
-          visit(k, p.row[k], c, s_.scale[c]);
-  };
-  entries([&](Index k, Index row, Index, double scale) {
-    const double inertia =
-        std::abs(e_.parts.by_yp[k]) * rate[s_.error_group[static_cast<std::size_t>(row)]];
-    row_size_[row] =
-        std::max({row_size_[row], scale * std::abs(e_.parts.by_y[k]), scale * std::abs(by_y_[k]),
-                  scale * std::abs(first_by_y_[k]), scale * inertia});
-  });
-  const auto take = [&](Index row, double difference, double& change) {
-    if (difference > change * row_size_[row])
-      change = difference / row_size_[row];
-  };
-  entries([&](Index k, Index row, Index column, double scale) {
-    const int group = s_.error_group[static_cast<std::size_t>(row)];
-    take(row, scale * std::abs(e_.parts.by_y[k] - by_y_[k]), change_[group]);
-    if (column < s_.u0 || column >= s_.z0)
-      take(row, scale * std::abs(e_.parts.by_y[k] - first_by_y_[k]), error_.change[group]);
-  });
-  for (const system::BodyData& b : s_.bodies) {
-    if (b.rotation != system::BodyData::Rotation::free || b.group < 0)
-      continue;
-    const Index w = b.u0 + b.n_translations;
-    const Matrix3 change = (system::gyroscopic_matrix(b.inertia, y_.segment<3>(w)) -
-                            system::gyroscopic_matrix(b.inertia, first_u_.segment<3>(w - s_.u0)))
-                               .cwiseAbs();
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        take(w + i, s_.scale[w + k] * change(i, k), error_.change[b.group]);
-  }
-  const double most = change_.size() > 0 ? change_.maxCoeff() : 0.0;
-  if (most > much)
+/// Where a group's part of the vector is larger than its motion, it is brought to that size.
+void ErrorGrowth::limit(VectorX& vector, const VectorX& unit, double to) const {
+  const VectorX size = sizes(vector, unit);
+  for (Index i = 0; i < s_.lambda0; ++i)
+    if (const double own = size[s_.error_group[static_cast<std::size_t>(i)]]; !(own <= 1.0))
+      vector[i] = std::isfinite(own) ? to * vector[i] / own : 0.0;
+}
+
+/// Looks are as close as the equations change between them.
+void ErrorGrowth::look_again(double change, double much, double little) {
+  if (change > much)
     every_ = std::max(fewest_, every_ / 2);
-  else if (most < little)
+  else if (change < little)
     every_ = std::min(most_, every_ + 1 + every_ / 4);
 }
 
-/// The implicit midpoint rule on F_y d + F_y' d' = 0, with the mean of the derivatives at both
-/// ends, lest what turns or swings between them feeds the error; memory states by backward Euler,
-/// since some fade within the step; the constraints hold at its end, and so do the loads of states
-/// of forces, which may fade within a thousandth of it. For the vector of the run and for `fresh`.
-bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& fresh) {
-  const double h = t - since_;
-  if (h <= 0.0 || !error_.vector.allFinite() || !fresh.allFinite())
-    return false;
-  const system::Pattern& p = e_.pattern;
-  if (!lu_)
-    lu_ = std::make_unique<SparseLu<double>>(p.column_start, p.row);
-  e_.accept(t, y_, yp_);
-  e_.jacobian(t, y_, yp_);
-  rhs_.setZero(s_.n);
-  VectorX fresh_rhs = VectorX::Zero(s_.n);
-  std::vector<double>& values = lu_->values();
-  for (Index c = 0; c < s_.n; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
-      const Index row = p.row[k];
-      const bool of_force = c >= s_.z0 && c < s_.memory0 && !s_.is_absolute(c);
-      const bool moves = s_.is_motion(row), half = moves && c < s_.lambda0 && !of_force;
-      const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
-                   by_rate =
-                       (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
-      values[k] = (half ? 0.5 * by_y : by_y) + by_rate;
-      if (row < s_.lambda0 && c < s_.lambda0) {
-        const double from = by_rate - (half ? 0.5 * by_y : 0.0);
-        rhs_[row] += from * error_.vector[c];
-        fresh_rhs[row] += from * fresh[c];
-      }
-    }
-  find_change(rate);
-  by_y_ = e_.parts.by_y;
-  by_rate_ = e_.parts.by_yp;
-  if (!lu_->factorise())
-    return false; // a singular pose: the error stays what it was until the next look
-  const auto solved = [&](VectorX& rhs, VectorX& vector) {
-    constexpr double most = 1e3; // beyond, the constraints are about to become dependent
-    lu_->solve(rhs.data());
-    if (!rhs.allFinite() || rhs.head(s_.n_q).norm() > most * vector.norm())
-      return false;
-    vector = rhs.head(s_.lambda0);
-    return true;
+/// What has piled up grows as far as the vector does, and that is more than an impact may seem to
+/// do to its size alone, since displacements turn into velocities.
+void ErrorGrowth::carry_over(const ImpactError& impact, const VectorX& unit) {
+  constexpr double doubtful_factor = 2.0;
+  const auto growth = [&](VectorX& vector) {
+    const VectorX before = sizes(vector, unit);
+    impact(vector, unit);
+    VectorX out = VectorX::Ones(before.size());
+    const VectorX after = sizes(vector, unit);
+    for (Index g = 0; g < before.size(); ++g)
+      if (before[g] > 0.0 && std::isfinite(after[g]))
+        out[g] = after[g] / before[g];
+    return out;
   };
-  const bool carried = solved(rhs_, error_.vector);
-  return solved(fresh_rhs, fresh) && carried;
+  const VectorX grown = growth(error_.vector);
+  if (error_.with_signs) {
+    growth(error_.middle);
+    error_.old_piled.array() *= growth(error_.old).array();
+    error_.piled = error_.old_piled + sizes(error_.middle, unit) + sizes(error_.vector, unit);
+  } else {
+    error_.piled.array() *= (grown / doubtful_factor).cwiseMax(1.0).array();
+  }
+}
+
+/// The vector of the run and `fresh`.
+bool ErrorGrowth::carry(double t, const VectorX& rate, VectorX& fresh) {
+  if (t <= since_ || !error_.vector.allFinite() || !fresh.allFinite())
+    return false;
+  const bool regular = flow_.look(t, y_, yp_, 1);
+  flow_.compare(rate, change_, error_.change);
+  look_again(change_.size() > 0 ? change_.maxCoeff() : 0.0, 0.25, 0.05);
+  if (!regular)
+    return false; // the error stays what it was until the next look
+  const bool carried = flow_.step(error_.vector);
+  return flow_.step(fresh) && carried;
 }
 
 } // namespace hydrodae::solve

@@ -1,26 +1,42 @@
 #pragma once
-/// The error that a run has piled up. The estimated errors of its steps add up in size, group by
-/// group of bodies and line by line, and grow or fade as the equations linearised about the motion
-/// carry an error along: E <- g E + |d|, where g comes of the size of a vector carried from look to
-/// look. Between looks swings are followed roughly: growth counts as far as it exceeds the doubtful
-/// (Page's cumulative sums, Biometrika 41 (1954) 100), and what was not believed of it is taken off
-/// from the next fading, lest a size that goes up and down seems to fade. (Skeel, Math. Comput. 46
-/// (1986) 577, carries the errors themselves; over thousands of periods they would have to keep
-/// their phase.)
+/// The error that a run has piled up: the estimated errors of its steps, carried along by the
+/// equations linearised about the motion, and added. In two ways:
+///
+/// With their signs (Skeel, Math. Comput. 46 (1986) 577), for methods that know them and make many
+/// steps in a radian: a vector e <- Phi e + d, third of a radian by third of a radian. Over
+/// thousands of periods it would have to keep its phase, so errors of more than two windows of some
+/// swings ago count by their size, which grows and fades as their sum does.
+///
+/// By size, group by group of bodies and line by line: E <- g E + |d|, where g comes of the size of
+/// a vector carried from look to look. Between looks swings are followed roughly: growth counts as
+/// far as it exceeds the doubtful (Page's cumulative sums, Biometrika 41 (1954) 100), and what was
+/// not believed of it is taken off from the next fading, lest a size that goes up and down seems to
+/// fade.
 
 #include <functional>
-#include <memory>
 
-#include "hydrodae/solve/equations.h"
-#include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/linear_flow.h"
 
 namespace hydrodae::solve {
 
+class ImpactError;
+
 class ErrorGrowth {
 public:
+  enum class Way {
+    with_signs,
+    sizes,     ///< look by look
+    coherently ///< in size radian by radian of the motion: errors of one kind, as of fixed steps
+  };
+
   /// What there is to carry on from one layout of the rows to the next.
   struct Error {
-    VectorX vector;       ///< carried along, in q, u, z (lambda0,)
+    VectorX vector;    ///< carried along, in q, u, z (lambda0,); of this window, with signs
+    VectorX middle;    ///< of the window before, with signs (lambda0,)
+    VectorX old;       ///< of all before (lambda0,)
+    VectorX old_piled; ///< the sum of their sizes, grown and faded as theirs (n_error_groups,)
+    VectorX window;    ///< length of this one, by group [rad] (n_error_groups,)
+    bool with_signs = false;
     VectorX fresh;        ///< errors since the last look (lambda0,)
     VectorX gathered;     ///< those of them whose size was added (lambda0,)
     VectorX added;        ///< sizes of these (n_error_groups,)
@@ -30,19 +46,19 @@ public:
     VectorX rough_level;  ///< `level` where the equations changed much last (n_error_groups,)
     VectorX since_rough;  ///< looks since then (n_error_groups,)
     void remember(Archive& a) {
-      a(vector, fresh, gathered, added, piled, plain, level, change, rough_level, since_rough);
+      a(vector, middle, old, old_piled, window, with_signs, fresh, gathered, added, piled, plain,
+        level, change, rough_level, since_rough);
     }
   };
 
   /// @param y, yp state at t, from which on these rows hold
   /// @param error that the run has so far; empty: none
-  /// @param coherent the errors of steps are of one kind, as those of fixed steps:
-  ///   they add up in size radian by radian of the motion; otherwise look by look
+  /// @param way to add errors
   /// @param every so many steps the error is carried along at first; where the equations change
   ///   much between two such looks, down to a quarter of that, where little, up to four times as
   ///   many
   ErrorGrowth(const system::Regime& system, const system::Pattern& pattern, double t,
-              const VectorX& y, const VectorX& yp, Error error, bool coherent, int every);
+              const VectorX& y, const VectorX& yp, Error error, Way way, int every);
 
   /// y and y' at a time inside the last step.
   using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
@@ -53,6 +69,9 @@ public:
   /// @param rate of the motion of each group [1/s] (n_error_groups,)
   bool add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate, bool last,
            const Interpolant& at);
+
+  /// Over an impact at the time of the last look.
+  void carry_over(const ImpactError& impact, const VectorX& unit);
 
   const Error& error() const { return error_; }
 
@@ -71,32 +90,38 @@ public:
   bool is_guided(Index group) const { return guided_[static_cast<std::size_t>(group)]; }
 
   void remember(Archive& a) {
-    a(error_, by_y_, by_rate_, first_by_y_, first_u_, growth_, fade_, change_, since_, window_,
-      every_, steps_);
+    a(error_, flow_, growth_, fade_, change_, since_, window_, every_, steps_, bins_, bin_,
+      bin_start_, substep_);
   }
 
 private:
+  void begin(Error error);
+  bool add_with_signs(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
+                      bool last, const Interpolant& at);
+  void carry_with_signs(double t, const VectorX& unit);
+  double carry_window(int substeps, const VectorX& unit);
   bool carry(double t, const VectorX& rate, VectorX& fresh);
-  void linearise(double t);
-  void find_change(const VectorX& rate);
+  void look_again(double change, double much, double little);
+  void take_old(const VectorX& unit, const VectorX& turned);
+  void limit(VectorX& vector, const VectorX& unit, double to) const;
   void follow(Index group, double phase);
   double between_rough(Index group, double level);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
   VectorX place_sizes(VectorX vector, const VectorX& unit) const;
 
   const system::Regime& s_;
-  Equations e_;
-  std::unique_ptr<SparseLu<double>> lu_;
+  LinearFlow flow_;
   Error error_;
-  std::vector<bool> guided_;           ///< (n_error_groups,)
-  std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
-  std::vector<double> first_by_y_;     ///< at the first
-  VectorX first_u_;                    ///< velocities there (n_u,)
-  VectorX rhs_, y_, yp_, growth_, fade_, change_, row_size_;
+  std::vector<bool> guided_; ///< (n_error_groups,)
+  VectorX y_, yp_, growth_, fade_, change_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]
-  bool coherent_;
+  Way way_;
   int fewest_, most_, every_, steps_ = 0;
+  MatrixX bins_;           ///< errors of the steps since the last look, in order (lambda0, bins)
+  int bin_ = 0;            ///< the last of them in use
+  double bin_start_ = 0.0; ///< [s]
+  double substep_ = 0.0;   ///< length of a bin [s]; 0: not known yet
 };
 
 } // namespace hydrodae::solve

@@ -61,6 +61,19 @@ public:
 
   long events() const { return events_; }
 
+  struct Motion { ///< s, s', s'' of the coordinate
+    double value = 0.0, rate = 0.0, acceleration = 0.0;
+  };
+
+  /// Of switch k, at any state in the present layout.
+  Motion motion_of(std::size_t k, double t, const VectorX& y, const VectorX& yp) {
+    unpack(t, y, yp);
+    return motion(s_.switches[k]);
+  }
+
+  /// The stop that the last `settle` found struck first, if any.
+  std::optional<std::size_t> hit() const { return hit_; }
+
   /// What it knows of the past, apart from the modes of the switches, which are the regime's.
   void remember(Archive& a);
 
@@ -69,9 +82,6 @@ public:
 
 private:
   using Data = system::SwitchData;
-  struct Motion { ///< s, s', s'' of the coordinate
-    double value = 0.0, rate = 0.0, acceleration = 0.0;
-  };
   using State = system::Regime::Mode;
   using Kind = Data::Kind;
 
@@ -133,7 +143,8 @@ private:
   double time_scale_ = 0.0; ///< shortest of the bodies [s]
   VectorX y_, yp_;
   std::unique_ptr<Present> present_; ///< the rows that hold now
-  bool holding_ = false;             ///< does any switch hold?
+  std::optional<std::size_t> hit_;
+  bool holding_ = false; ///< does any switch hold?
   long events_ = 0, recent_ = 0;
   double checked_ = 0.0;
 };

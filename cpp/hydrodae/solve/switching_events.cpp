@@ -57,7 +57,10 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
   std::vector<bool> acts(count, false);
   unpack(t, y, yp);
   bool any = false;
+  hit_.reset();
   const auto hit = [&](std::size_t k) {
+    if (!hit_)
+      hit_ = k;
     const Motion m = motion(s_.switches[k]);
     const bool upper = approach(k) == m.rate;
     const double rebound = -s_.switches[k].restitution * m.rate;

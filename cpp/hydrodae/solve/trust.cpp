@@ -15,7 +15,7 @@ namespace {
 /// Steps between two looks: the work of a look, a Jacobian and its factors, against that of a step.
 int steps_between_looks(const std::string& method) {
   if (method == "ida")
-    return 100;
+    return 16;
   if (method == "explicit_rk")
     return 16;
   return method == "generalized_alpha" ? 40 : 10;
@@ -31,17 +31,19 @@ double least_error(const model::SolverOptions& options) {
   return (options.method == "radau" ? least_of_radau : usual_least) * options.rtol;
 }
 
-/// Do the errors of steps add up radian by radian? Those of fixed steps are of one kind, and BDF
-/// makes so many steps between two looks that their sum would cancel.
-bool adds_by_radian(const model::SolverOptions& options) {
-  return options.step > 0.0 || options.method == "ida";
+/// Those of fixed steps are of one kind; BDF knows their signs, and makes so many of them between
+/// two looks that their sum would cancel.
+ErrorGrowth::Way way_of(const model::SolverOptions& options) {
+  if (options.step > 0.0)
+    return ErrorGrowth::Way::coherently;
+  return options.method == "ida" ? ErrorGrowth::Way::with_signs : ErrorGrowth::Way::sizes;
 }
 
 } // namespace
 
 Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
              const model::SolverOptions& options, const VectorX& y, const VectorX& yp)
-    : s_(s), every_(steps_between_looks(options.method)), coherent_(adds_by_radian(options)),
+    : s_(s), every_(steps_between_looks(options.method)), way_(way_of(options)),
       exact_(options.step > 0.0), doubt_(options.step > 0.0 ? 3.0 : 2.0),
       allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.lambda0)),
       reached_(VectorX::Zero(s.n_error_groups())), fastest_(reached_), largest_(reached_),
@@ -51,8 +53,8 @@ Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
   find_guided();
-  growth_ = std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(), coherent_,
-                                          every_);
+  growth_ =
+      std::make_unique<ErrorGrowth>(s, pattern, 0.0, y, yp, ErrorGrowth::Error(), way_, every_);
 }
 
 /// Motion that the tolerance of a group is made for [levers or rad].
@@ -206,15 +208,14 @@ void Trust::strike(int mechanism) { energies_[static_cast<std::size_t>(mechanism
 /// What the methods before have left inside their steps stays.
 void Trust::use(const model::SolverOptions& options) {
   every_ = steps_between_looks(options.method);
-  coherent_ = adds_by_radian(options);
+  way_ = way_of(options);
   least_ = std::max(least_, least_error(options));
 }
 
 void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp) {
   find_guided();
   ErrorGrowth::Error error = growth_->error();
-  growth_ =
-      std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), coherent_, every_);
+  growth_ = std::make_unique<ErrorGrowth>(s_, pattern, t, y, yp, std::move(error), way_, every_);
 }
 
 void Trust::remember(Archive& a) {

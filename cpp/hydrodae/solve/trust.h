@@ -11,6 +11,7 @@
 
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/solve/error_growth.h"
+#include "hydrodae/solve/impact_error.h"
 #include "hydrodae/solve/integrator.h"
 #include "hydrodae/system/motion_scale.h"
 #include "hydrodae/system/recorder.h"
@@ -37,6 +38,9 @@ public:
   /// A stop of a mechanism was struck.
   void strike(int mechanism);
 
+  /// What the impact that has just been makes of the error; `restart` follows.
+  void carry_over(const ImpactError& impact) { growth_->carry_over(impact, unit_); }
+
   /// From t on other rows hold: the error is carried on by them, from the state (y, yp).
   void restart(const system::Pattern& pattern, double t, const VectorX& y, const VectorX& yp);
 
@@ -61,6 +65,7 @@ private:
   void look(double t, const system::Recorder& recorder);
   void take_energy(double t, const system::Recorder& recorder);
   struct Energy;
+  bool tells_less(const system::Recorder::Balance& balance) const;
   double remembered(Energy& energy, double phase, const system::Recorder::Balance& now);
   void find_guided();
   void take_inner(double t, const VectorX& errors);
@@ -70,9 +75,9 @@ private:
   const system::Regime& s_;
   std::unique_ptr<ErrorGrowth> growth_;
   int every_;
-  bool coherent_; ///< errors of steps add up radian by radian
-  bool exact_;    ///< steps are fixed, and nothing was located so far
-  double doubt_;  ///< factor within which the estimate is meant; of fixed steps it is rougher
+  ErrorGrowth::Way way_;
+  bool exact_;   ///< steps are fixed, and nothing was located so far
+  double doubt_; ///< factor within which the estimate is meant; of fixed steps it is rougher
   double allowed_;
   double least_;           ///< what the tolerance leaves [-]
   VectorX unit_;           ///< of each position and velocity, those of points too (lambda0,)

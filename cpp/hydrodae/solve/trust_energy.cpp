@@ -15,6 +15,13 @@ double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change 
 
 } // namespace
 
+/// Where dampers and the like work the balance has the errors of their sums of work in it, and
+/// errors that keep their signs tell more. What is conservative keeps its energy longer than these
+/// keep their phase.
+bool Trust::tells_less(const system::Recorder::Balance& b) const {
+  return way_ == ErrorGrowth::Way::with_signs && b.spends;
+}
+
 /// How much of what is missing a mechanism remembers until the next look. Conservative ones forget
 /// nothing; dampers take errors with the energy 4 K w of a swing that they take, as an error that
 /// is carried along tells, too, if only where it turns little from look to look. What drives guide
@@ -25,7 +32,7 @@ double Trust::remembered(Energy& e, double phase, const system::Recorder::Balanc
   e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
   const double taken = now.given - e.given;
   e.given = now.given;
-  if (e.guided)
+  if (e.guided || tells_less(now))
     return 0.0;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
   damped_[e.group] = std::max(damped_[e.group], damped);
@@ -58,7 +65,7 @@ void Trust::take_energy(double t, const system::Recorder& recorder) {
                  kept = remembered(e, phase, b);
     e.missing = kept * e.missing + b.error - e.seen;
     e.seen = b.error;
-    if (e.guided || !(kinetic > 0.0))
+    if (e.guided || tells_less(b) || !(kinetic > 0.0))
       continue;
     const double part = std::abs(e.missing) / (2.0 * kinetic);
     const double change = growth_->change()[e.group];

@@ -119,8 +119,11 @@ void Recorder::balance_mechanisms() {
     if (of == element::Work::spent)
       given[static_cast<std::size_t>(m)] -= end_work_[loads + k];
   }
-  for (std::size_t m = 0; m < mechanisms_.size(); ++m)
-    mechanisms_[m].given = std::max(mechanisms_[m].given, given[m]);
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+    Balance& b = mechanisms_[m];
+    b.given = std::max(b.given, given[m]);
+    b.spends = b.spends || given[m] != 0.0;
+  }
 }
 
 /// Work until t = t_ + x h, where the observer is: the integral of the polynomial through the
@@ -165,6 +168,7 @@ double Recorder::balance(const std::vector<double>& work) {
       given -= work[k];
   }
   whole_.given = std::max(whole_.given, given);
+  whole_.spends = whole_.spends || given != 0.0;
   whole_.kinetic = moving;
   const double error = moving - energy0_ - total_work;
   whole_.largest_kinetic = std::max(whole_.largest_kinetic, moving);

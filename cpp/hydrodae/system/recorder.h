@@ -73,8 +73,9 @@ public:
     double error = 0.0, exchanged = 0.0; ///< [J]
     double start = 0.0;                  ///< kinetic energy of its bodies at the start [J]
     double kinetic = 0.0, now = 0.0;     ///< the largest of it so far, and that of now [J]
-    double given = 0.0; ///< the most that dampers, springs and radiation have taken in all [J]
-    void remember(Archive& a) { a(error, exchanged, start, kinetic, now, given); }
+    double given = 0.0;  ///< the most that dampers, springs and radiation have taken in all [J]
+    bool spends = false; ///< did any of them work?
+    void remember(Archive& a) { a(error, exchanged, start, kinetic, now, given, spends); }
   };
   Balance whole() const { return balance_of(whole_); }
 
@@ -103,9 +104,10 @@ private:
   /// Balance of the scene, and its largest values so far [J].
   struct Whole {
     double largest_kinetic = 0.0, kinetic = 0.0, given = 0.0; ///< as in Balance
+    bool spends = false;
     double largest_energy = 0.0, largest_error = 0.0, balance_error = 0.0;
     void remember(Archive& a) {
-      a(largest_kinetic, kinetic, given, largest_energy, largest_error, balance_error);
+      a(largest_kinetic, kinetic, given, spends, largest_energy, largest_error, balance_error);
     }
   };
   struct Before { ///< what `begin` changes, as it was
@@ -115,7 +117,8 @@ private:
     std::vector<double> mean_work, kinetic;
   };
   Balance balance_of(const Whole& w) const {
-    return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic, w.kinetic, w.given};
+    return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic,
+            w.kinetic,       w.given,          w.spends};
   }
   void fill(std::span<double> row, const std::vector<double>& work);
   void make_channels();
