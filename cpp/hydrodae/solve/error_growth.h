@@ -122,6 +122,7 @@ private:
   int bin_ = 0;            ///< the last of them in use
   double bin_start_ = 0.0; ///< [s]
   double substep_ = 0.0;   ///< length of a bin [s]; 0: not known yet
+  double altered_ = 0.0;   ///< part of the vector that the change of the equations has altered
 };
 
 } // namespace hydrodae::solve

@@ -13,6 +13,7 @@ constexpr double first_substep = 1.0 / 3.0;              // rad of the motion at
 constexpr double much_turned = 0.6, little_turned = 0.3; // of the vector in a substep
 // Part of the vector by which the change of the equations between two looks may alter it.
 constexpr double much_altered = 0.6, little_altered = 0.2;
+constexpr double doubtful = 0.15; // growth between looks, of the square of that
 } // namespace
 
 bool ErrorGrowth::add_with_signs(double t, const VectorX& step_error, const VectorX& unit,
@@ -89,17 +90,26 @@ double ErrorGrowth::carry_window(int substeps, const VectorX& unit) {
         out = std::max(out, changed[g] / size[g]);
     return out;
   };
-  look_again(substeps * part(flow_.effect(e)), much_altered, little_altered);
+  altered_ = substeps * part(flow_.effect(e));
+  look_again(altered_, much_altered, little_altered);
   return part(e - before);
 }
 
-/// The oldest grow and fade with their sum, whose size was `before`; windows that are full are
-/// closed, group by group, as the parts of a linear sum may be.
+/// The oldest grow and fade with their sum, whose size was `before`, but for the growth that may
+/// come of looks too far apart, of second order in what the change of the equations alters; windows
+/// that are full are closed, group by group, as the parts of a linear sum may be.
 void ErrorGrowth::take_old(const VectorX& unit, const VectorX& before) {
+  constexpr double deepest = -4.0; // levels below are not come back from
+  const double doubt = doubtful * altered_ * altered_;
   const VectorX after = sizes(error_.old, unit), middle = sizes(error_.middle, unit);
   for (Index g = 0; g < before.size(); ++g) {
-    if (before[g] > 0.0)
-      error_.old_piled[g] *= after[g] / before[g];
+    if (before[g] > 0.0) {
+      double& level = error_.level[g];
+      const double seen = level + std::log(std::clamp(after[g] / before[g], 1e-12, 1e6)),
+                   now = seen > 0.0 ? std::max(0.0, seen - doubt) : seen;
+      error_.old_piled[g] *= std::exp(now - level);
+      level = std::max(now, deepest);
+    }
     if (error_.window[g] < window_length)
       continue;
     error_.window[g] = 0.0;
