@@ -91,6 +91,28 @@ def test_rollback_with_another_program(protocol: str) -> None:
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_a_state_goes_on_with_a_new_connection(protocol: str) -> None:
+    """Where the first one is lost: the run ends, and nothing but a state goes on."""
+    port = free_port()
+    run = Simulation(case(port, f'protocol = "{protocol}"'))
+    with damper(port, protocol):
+        go(run, 1.23)
+        saved = run.state()
+        went_on = go(run, 4.0)
+        run.close()
+    run = Simulation(case(port, f'protocol = "{protocol}"'))
+    with damper(port, protocol, until=2.0), pytest.raises(hydrodae.RunInterrupted):
+        go(run, 4.0)
+    with pytest.raises(hydrodae.SolverError, match="goes on from a state that is restored only"):
+        run.advance(4.0)
+    with damper(port, protocol) as seen:
+        run.restore(saved)
+        assert go(run, 4.0) == went_on
+        run.close()
+    assert seen[0][0] == 1.3
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
 def test_a_run_with_another_program_is_resumed(protocol: str, tmp_path: Path) -> None:
     def given(port: int) -> Case:
         return case(port, f'protocol = "{protocol}"')
