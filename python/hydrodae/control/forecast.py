@@ -59,7 +59,7 @@ class KnownSea:
         """As `Forecast.ahead`."""
         times = t + self._period * np.arange(count)
         if len(self._turns) < count:  # exp(i w k T)
-            self._turns = np.exp(1j * np.outer(times - t, self._omega))
+            self._turns = np.exp(1j * np.outer(self._period * np.arange(count), self._omega))
         now = self._phasor * np.exp(1j * self._omega * t)
         # a sum in place of a product of matrices, for which BLAS would wake all its threads
         loads = (self._turns[:count] * now).sum(axis=1).real
