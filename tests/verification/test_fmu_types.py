@@ -213,3 +213,9 @@ def test_what_is_no_parameter_of_an_fmu(tmp_path: Path) -> None:
             export(
                 Case.from_text(scenes.cart("stiffness = 8")), tmp_path / "x.fmu", parameters=[key]
             )
+    with pytest.raises(CaseError, match=r"solver\.rtol: a parameter that is given twice"):
+        export(
+            Case.from_text(scenes.cart("stiffness = 8")),
+            tmp_path / "x.fmu",
+            parameters=["solver.rtol", "solver.rtol"],
+        )

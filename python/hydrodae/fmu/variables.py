@@ -6,6 +6,7 @@ import difflib
 import fnmatch
 import math
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -51,6 +52,9 @@ def choose(
     CaseError
         A name fits nothing, a key is none that can be a parameter, or the case cannot start.
     """
+    twice = [key for key, times in Counter(parameters).items() if times > 1]
+    if twice:
+        raise CaseError(f"{twice[0]}: a parameter that is given twice")
     run = Simulation(case)
     units = components(run)
     held = run.inputs
