@@ -142,10 +142,12 @@ def draw(rows: list[tuple[str, bool, float, float, float]], picture: Path) -> No
             panel.loglog(sizes, curve, color=color, label=f"{name}, eigenvalues")
             mine = [(row[2], OMEGA * row[4]) for row in rows if row[:2] == (kind, late)]
             panel.loglog(*np.transpose(mine), "o", color=color, label=f"{name}, runs")
-        panel.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        panel.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_locator(matplotlib.ticker.NullLocator())
         panel.set_xlabel(label)
-        panel.set_ylabel("longest period, w0 T")
+        panel.set_ylabel("longest period, w0 T (above: it grows)")
     axes[0].legend()
     figure.savefig(picture, dpi=150)
     pyplot.close(figure)

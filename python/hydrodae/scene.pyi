@@ -2816,8 +2816,11 @@ class ControllerTypes(TypedList):
         delay: float = ...,
         lag: float = ...,
         fmu_inputs: str | Sequence[str] = ...,
+        fmu_factors: _Numbers = ...,
         parameters: str | Sequence[str] = ...,
         parameter_values: _Numbers = ...,
+        text_parameters: str | Sequence[str] = ...,
+        text_values: str | Sequence[str] = ...,
     ) -> str:
         """Add `[[controller]]` with the type "fmu".
 
@@ -2846,9 +2849,15 @@ class ControllerTypes(TypedList):
             Its input for each of `inputs`.
         fmu_outputs : text or list of texts
             Its output for each of `outputs`.
+        fmu_factors : list of numbers, unit of the output per that of the FMU, optional
+            What each of these is multiplied by; default 1.
         parameters : text or list of texts, optional
-            Parameters of it that are set before the start.
+            Numbers, booleans (0 or 1) and enumerations of it that are set before the start.
         parameter_values : list of numbers, as the FMU says, optional
+            Their values.
+        text_parameters : text or list of texts, optional
+            Strings of it that are set before the start.
+        text_values : text or list of texts, optional
             Their values.
 
         Returns

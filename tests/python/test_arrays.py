@@ -108,6 +108,7 @@ def test_every_name_and_place_of_the_tables_is_known() -> None:
     words = {
         "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file",
         "protocol", "role", "host", "law", "fmu_inputs", "fmu_outputs", "parameters",
+        "text_parameters", "text_values",
     }  # fmt: skip
     for table in (t for t in tables() if t.name in arrays.OF_UNITS):
         for kind in (table, *table.types):

@@ -20,8 +20,10 @@ PROTOCOLS = ("hydrodae", "hotint")
 
 
 @contextmanager
-def damper(port: int, protocol: str, until: float = np.inf) -> Iterator[list[tuple[float, bool]]]:
-    """A program that answers -2 s', and ends the run after a time; yields what it has seen."""
+def damper(
+    port: int, protocol: str, until: float = np.inf, *, leaves: bool = False
+) -> Iterator[list[tuple[float, bool]]]:
+    """A program that answers -2 s' until it ends the run, or leaves; yields what it has seen."""
     seen: list[tuple[float, bool]] = []
 
     def work() -> None:
@@ -30,7 +32,8 @@ def damper(port: int, protocol: str, until: float = np.inf) -> Iterator[list[tup
             for t, (rate,) in run:
                 seen.append((round(t, 9), run.reset))
                 if t > until:
-                    run.stop()
+                    if not leaves:
+                        run.stop()
                     return
                 run.answer(-2.0 * rate)
 
@@ -88,6 +91,32 @@ def test_rollback_with_another_program(protocol: str) -> None:
         again(run)
         run.close()
     assert [t for t, reset in seen if reset] == [1.3, 1.3, 1.3]
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_a_state_goes_on_with_a_new_connection(protocol: str) -> None:
+    """Where the first one is lost: the run ends, and nothing but a state goes on."""
+    port = free_port()
+    run = Simulation(case(port, f'protocol = "{protocol}"'))
+    with damper(port, protocol):
+        go(run, 1.23)
+        saved = run.state()
+        went_on = go(run, 4.0)
+        run.close()
+    del run  # which listens at the port
+    run = Simulation(case(port, f'protocol = "{protocol}"'))
+    with (
+        damper(port, protocol, until=2.0, leaves=True),
+        pytest.raises(hydrodae.SolverError, match="has closed the connection"),
+    ):
+        go(run, 4.0)
+    with pytest.raises(hydrodae.SolverError, match="goes on from a state that is restored only"):
+        run.advance(4.0)
+    with damper(port, protocol) as seen:
+        run.restore(saved)
+        assert go(run, 4.0) == went_on
+        run.close()
+    assert seen[0][0] == 1.3
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.optimize import minimize
+from tests.verification.carts import cart
 
 import hydrodae
 import hydrodae.case_tables
@@ -52,35 +53,16 @@ end_time = 1.0
 [output]
 step = 0.1
 """
-MASS = """
-title = "Mass that a take-off brakes"
-[environment]
-gravity = 0.0
-[[body]]
-name = "float"
-motion = "heave"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.velocity = [0.0, 0.0, 1.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "float"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 0.0, 1.0]
-[[force]]
-type = "pto_linear"
-name = "pto"
-joint = "guide"
-damping = 1.0
-[solver]
-method = "gauss"
-step = 0.02
-end_time = 4.0
-[output]
-step = 0.02
-"""
+MASS = cart(
+    "damping = 1.0",
+    title="Mass that a take-off brakes",
+    body="float",
+    motion="heave",
+    initial="velocity = [0.0, 0.0, 1.0]",
+    joint="guide",
+    solver='method = "gauss"\nstep = 0.02\nend_time = 4.0',
+    step=0.02,
+)
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""FMUs that are compiled from pi_fmu.c when a test asks for one."""
+"""FMUs that are compiled from C when a test asks for one."""
 
 from __future__ import annotations
 
@@ -54,14 +54,19 @@ def description(fmi: int, *, states: bool = True, how: str = "CoSimulation") -> 
     return "\n".join([*lines, "</ModelStructure>", "</fmiModelDescription>"])
 
 
-def library(folder: Path, fmi: int) -> Path:
-    """The compiled controller."""
-    path = folder / f"pi{fmi}.so"
+def compiled(folder: Path, name: str, fmi: int) -> Path:
+    """The shared library of NAME_fmu.c beside this file, for a version of FMI."""
+    path = folder / f"{name}{fmi}.so"
     if not path.exists():
-        source = Path(__file__).parent / "pi_fmu.c"
+        source = Path(__file__).parent / f"{name}_fmu.c"
         options = ["-shared", "-fPIC", "-O1", "-fvisibility=hidden", f"-DFMI={fmi}"]
         subprocess.run(["cc", *options, str(source), "-o", str(path), "-lm"], check=True)
     return path
+
+
+def library(folder: Path, fmi: int) -> Path:
+    """The compiled controller."""
+    return compiled(folder, "pi", fmi)
 
 
 def with_units(xml: str, fmi: int, rate: str, load: str) -> str:

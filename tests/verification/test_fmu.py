@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.python.test_tcp import free_port
+from tests.verification import carts as scenes
 from tests.verification.fmu_device import Device, problems, simulate
 
 import hydrodae
@@ -19,33 +20,7 @@ from hydrodae import CaseError, Simulation, tcp
 from hydrodae.cli import main
 from hydrodae.fmu import export
 
-CART = """
-title = "Cart on a spring"
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-[solver]
-end_time = 2.0
-rtol = 1e-9
-[output]
-step = 0.05
-"""
+CART = scenes.cart("stiffness = 200.0", solver="end_time = 2.0\nrtol = 1e-9")
 X, V, LOAD = "joints/slide/displacement", "joints/slide/displacement_rate", "forces/pto/load"
 VERSIONS = [2, 3]
 

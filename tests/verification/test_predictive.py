@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import minimize
 
 import hydrodae
-from hydrodae import CaseError
+from hydrodae import CaseError, SolverError
 from hydrodae.cli import main
 from hydrodae.control import KnownSea, ModelPredictive, Plant, match
 
@@ -118,6 +118,13 @@ def test_prediction_finds_the_most_power(repository: Path, sphere: Plant) -> Non
     results = hydrodae.run(predictive_case(repository), controllers={"pi": make_law(sphere)})
     most = match(sphere, 2.0 * np.pi / OMEGA).power * AMPLITUDE**2
     assert mean_power(results) == pytest.approx(most, rel=0.02)
+
+
+def test_prediction_at_another_period_than_its_own_is_refused(sphere: Plant) -> None:
+    law = make_law(sphere)
+    law(0.0, sphere.rest, 0.0)
+    with pytest.raises(SolverError, match=r"called 0\.2\d* s after .* its period is"):
+        law(0.2 + PERIOD / 100.0, sphere.rest, 0.0)
 
 
 def driven(plant: Plant, **values: object) -> tuple[np.ndarray, np.ndarray]:

@@ -24,6 +24,34 @@ std::string toml_number(double value) {
   return text;
 }
 
+/// A basic string of TOML.
+std::string toml_text(const std::string& value) {
+  std::string out = "\"";
+  for (const char c : value) {
+    char code[8];
+    std::snprintf(code, sizeof code, "\\u%04X", static_cast<unsigned char>(c));
+    const bool plain = static_cast<unsigned char>(c) >= ' ' && c != '"' && c != '\\' && c != 127;
+    out += plain ? std::string(1, c) : code;
+  }
+  return out + "\"";
+}
+
+/// A text among the numbers of a state: its length, then its characters.
+void add_text(const std::string& text, std::vector<double>& out) {
+  out.push_back(static_cast<double>(text.size()));
+  for (const char c : text)
+    out.push_back(static_cast<unsigned char>(c));
+}
+
+/// @param at  moves behind it, at most to the end
+std::string take_text(const std::vector<double>& numbers, std::size_t& at) {
+  std::string out;
+  const double size = at < numbers.size() ? numbers[at++] : 0.0;
+  for (double k = 0.0; k < size && at < numbers.size(); ++k)
+    out += static_cast<char>(static_cast<unsigned char>(numbers[at++]));
+  return out;
+}
+
 } // namespace
 
 Component::Component(const std::string& resources) : contents_(read_contents(resources)) {
@@ -47,9 +75,21 @@ void Component::reset() {
   phase_ = Phase::instantiated;
   end_time_ = 0.0;
   held_.clear();
+  texts_.clear();
   for (const auto& [reference, v] : contents_.variables)
-    if (v.kind == Sort::parameter || v.kind == Sort::input)
+    if (v.type == Type::text)
+      texts_[reference] = v.text;
+    else if (v.kind == Sort::parameter || v.kind == Sort::input)
       held_[reference] = v.start;
+}
+
+std::string Component::toml_value(Reference reference, const Variable& v) const {
+  if (v.type == Type::text)
+    return toml_text(texts_.at(reference));
+  const double value = held_.at(reference);
+  if (v.type == Type::boolean)
+    return value != 0.0 ? "true" : "false";
+  return toml_number(value);
 }
 
 void Component::begin(double start, std::optional<double> stop) {
@@ -70,8 +110,9 @@ void Component::enter() {
 void Component::begin(double end_time) {
   io::Overrides values = contents_.overrides;
   for (const auto& [reference, v] : contents_.variables)
-    if (v.kind == Sort::parameter && held_[reference] != v.start)
-      values[v.name] = toml_number(held_[reference]);
+    if (v.kind == Sort::parameter &&
+        (v.type == Type::text ? texts_[reference] != v.text : held_[reference] != v.start))
+      values[v.name] = toml_value(reference, v);
   model::Scene scene = io::read_case(contents_.case_path, values);
   if (end_time > scene.solver.end_time) {
     values["solver.end_time"] = toml_number(end_time);
@@ -99,8 +140,17 @@ const Variable& Component::variable(Reference reference) const {
   return found->second;
 }
 
-void Component::set(Reference reference, double value) {
+const Variable& Component::variable(Reference reference, Type type) const {
+  static constexpr const char* names[] = {"number", "integer", "boolean", "string"};
   const Variable& v = variable(reference);
+  if (v.type != type)
+    throw CaseError("variable " + in_quotes(v.name) + " is a " + names[static_cast<int>(v.type)] +
+                    ", asked for as a " + names[static_cast<int>(type)]);
+  return v;
+}
+
+const Variable& Component::settable(Reference reference, Type type) const {
+  const Variable& v = variable(reference, type);
   if (phase_ == Phase::terminated)
     throw CaseError(in_quotes(v.name) + " cannot be set, as the run is terminated");
   const bool can = v.kind == Sort::input || (v.kind == Sort::parameter && !run_);
@@ -108,13 +158,28 @@ void Component::set(Reference reference, double value) {
     throw CaseError(in_quotes(v.name) + (v.kind == Sort::parameter
                                              ? " is fixed since the run has begun"
                                              : " is an output, which nobody sets"));
+  return v;
+}
+
+void Component::set(Reference reference, Type type, double value) {
+  const Variable& v = settable(reference, type);
   if (run_)
     run_->write(v.name, value);
   held_[reference] = value;
 }
 
-double Component::get(Reference reference) {
-  const Variable& v = variable(reference);
+void Component::set_text(Reference reference, const std::string& value) {
+  settable(reference, Type::text);
+  texts_[reference] = value;
+}
+
+const std::string& Component::get_text(Reference reference) const {
+  variable(reference, Type::text);
+  return texts_.at(reference);
+}
+
+double Component::get(Reference reference, Type type) {
+  const Variable& v = variable(reference, type);
   if (v.kind == Sort::time)
     return time();
   if (v.kind == Sort::parameter || (v.kind == Sort::input && !run_))
@@ -155,12 +220,14 @@ run::State Component::save() {
   own = {static_cast<double>(phase_), end_time_};
   for (const auto& [reference, value] : held_)
     own.push_back(value);
+  for (const auto& [reference, text] : texts_)
+    add_text(text, own);
   return out;
 }
 
 void Component::load(const run::State& state) {
   const auto found = state.memory.find(part);
-  if (found == state.memory.end() || found->second.size() != 2 + held_.size())
+  if (found == state.memory.end() || found->second.size() < 2 + held_.size() + texts_.size())
     throw CaseError("the state is that of another FMU");
   const double* own = found->second.data();
   const auto phase = static_cast<Phase>(static_cast<int>(*own++));
@@ -170,6 +237,12 @@ void Component::load(const run::State& state) {
   for (auto& [reference, value] : held_) {
     same = same && (variable(reference).kind == Sort::input || value == *own);
     value = *own++;
+  }
+  std::size_t at = 2 + held_.size();
+  for (auto& [reference, text] : texts_) {
+    const std::string saved = take_text(found->second, at);
+    same = same && saved == text;
+    text = saved;
   }
   if (!begun) {
     run_.reset();

@@ -35,11 +35,17 @@ public:
   /// Behind `begin`: the run may go on.
   void enter();
 
+  using Type = Variable::Type;
+
   /// Before the run, parameters and inputs; then inputs.
-  void set(Reference reference, double value);
+  void set(Reference reference, Type type, double value);
+  void set_text(Reference reference, const std::string& value);
 
   /// Before the run, parameters and inputs; then all.
-  double get(Reference reference);
+  double get(Reference reference, Type type);
+
+  /// Stays where it is until it is set, or the instance reset.
+  const std::string& get_text(Reference reference) const;
 
   /// From t to t + h [s].
   void step(double t, double h);
@@ -59,13 +65,17 @@ public:
 
 private:
   const Variable& variable(Reference reference) const;
+  const Variable& variable(Reference reference, Type type) const;
+  const Variable& settable(Reference reference, Type type) const;
+  std::string toml_value(Reference reference, const Variable& v) const;
   run::Input& input(const std::string& name);
   void begin(double end_time);
 
   Contents contents_;
   Phase phase_ = Phase::instantiated;
   std::map<Reference, double> held_; ///< parameters, and what inputs begin with
-  double end_time_ = 0.0;            ///< in place of that of the case [s]; 0: that of the case
+  std::map<Reference, std::string> texts_;
+  double end_time_ = 0.0; ///< in place of that of the case [s]; 0: that of the case
   std::unique_ptr<run::Simulation> run_;
   std::map<std::string, std::size_t> inputs_; ///< of the run, by name
 };

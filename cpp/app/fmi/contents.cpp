@@ -34,6 +34,7 @@ template <class Number> Number number_of(const std::string& text) {
 
 void take_line(const std::vector<std::string>& field, Contents& out) {
   using Kind = Variable::Kind;
+  using Type = Variable::Type;
   const auto is = [&](std::string_view kind, std::size_t count) {
     return field[0] == kind && field.size() == count;
   };
@@ -46,13 +47,19 @@ void take_line(const std::vector<std::string>& field, Contents& out) {
   else if (is("set", 3))
     out.overrides[field[1]] = field[2];
   else if (is("time", 2))
-    add({Kind::time, "time"});
+    add({Kind::time, "time", Type::number, 0.0, ""});
   else if (is("parameter", 4))
-    add({Kind::parameter, field[3], number_of<double>(field[2])});
+    add({Kind::parameter, field[3], Type::number, number_of<double>(field[2]), ""});
+  else if (is("integer", 4))
+    add({Kind::parameter, field[3], Type::integer, double(number_of<int>(field[2])), ""});
+  else if (is("boolean", 4))
+    add({Kind::parameter, field[3], Type::boolean, field[2] == "true" ? 1.0 : 0.0, ""});
+  else if (is("text", 4))
+    add({Kind::parameter, field[3], Type::text, 0.0, field[2]});
   else if (is("input", 4))
-    add({Kind::input, field[3], number_of<double>(field[2])});
+    add({Kind::input, field[3], Type::number, number_of<double>(field[2]), ""});
   else if (is("output", 3))
-    add({Kind::output, field[2]});
+    add({Kind::output, field[2], Type::number, 0.0, ""});
   else
     throw CaseError("a line of kind " + in_quotes(field[0]) + " with " +
                     std::to_string(field.size()) + " fields means nothing");

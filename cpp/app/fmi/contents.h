@@ -12,13 +12,18 @@ namespace hydrodae::fmi {
 struct Variable {
   enum class Kind {
     time,
-    parameter, ///< a number of the case, by its dotted key; fixed when the run begins
+    parameter, ///< a value of the case, by its dotted key; fixed when the run begins
     input,     ///< of run::Simulation, by its name
     output     ///< a channel of one number, or one component of it
   };
+  /// All but parameters are numbers.
+  enum class Type { number, integer, boolean, text };
+
   Kind kind = Kind::time;
   std::string name;
-  double start = 0.0; ///< of parameters and inputs
+  Type type = Type::number;
+  double start = 0.0; ///< of parameters and inputs; of a boolean 0 or 1
+  std::string text;   ///< the start of a text
 };
 
 using Reference = unsigned;
@@ -36,7 +41,10 @@ struct Contents {
 ///   token         TOKEN
 ///   set           KEY        VALUE (TOML)
 ///   time          REFERENCE
-///   parameter     REFERENCE  START  KEY
+///   parameter     REFERENCE  START  KEY        a number
+///   integer       REFERENCE  START  KEY        these are parameters, too
+///   boolean       REFERENCE  START  KEY        true or false
+///   text          REFERENCE  START  KEY
 ///   input         REFERENCE  START  NAME
 ///   output        REFERENCE  NAME
 ///

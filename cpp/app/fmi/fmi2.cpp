@@ -59,39 +59,27 @@ HYDRODAE_FMI fmi2Status fmi2Reset(fmi2Component c) {
   return call<fmi2Status>(c, [&](Instance& i) { i.component.reset(); });
 }
 
-HYDRODAE_FMI fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference* references,
-                                    std::size_t count, fmi2Real* values) {
-  return get_values<fmi2Status>(c, references, count, values);
-}
+#define HYDRODAE_VALUES(NAME, TYPE)                                                                \
+  HYDRODAE_FMI fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference* references,     \
+                                        std::size_t n, fmi2##NAME* values) {                       \
+    return get_values<fmi2Status>(c, TYPE, references, n, values);                                 \
+  }                                                                                                \
+  HYDRODAE_FMI fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference* references,     \
+                                        std::size_t n, const fmi2##NAME* values) {                 \
+    return set_values<fmi2Status>(c, TYPE, references, n, values);                                 \
+  }
 
-HYDRODAE_FMI fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference* references,
-                                    std::size_t count, const fmi2Real* values) {
-  return set_values<fmi2Status>(c, references, count, values);
-}
+HYDRODAE_VALUES(Real, Type::number)
+HYDRODAE_VALUES(Integer, Type::integer)
+HYDRODAE_VALUES(Boolean, Type::boolean)
 
-HYDRODAE_FMI fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                       fmi2Integer*) {
-  return nothing_of<fmi2Status>(c, n, "integers");
+HYDRODAE_FMI fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference* references,
+                                      std::size_t n, fmi2String* values) {
+  return get_texts<fmi2Status>(c, references, n, values);
 }
-HYDRODAE_FMI fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                       const fmi2Integer*) {
-  return nothing_of<fmi2Status>(c, n, "integers");
-}
-HYDRODAE_FMI fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                       fmi2Boolean*) {
-  return nothing_of<fmi2Status>(c, n, "booleans");
-}
-HYDRODAE_FMI fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                       const fmi2Boolean*) {
-  return nothing_of<fmi2Status>(c, n, "booleans");
-}
-HYDRODAE_FMI fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                      fmi2String*) {
-  return nothing_of<fmi2Status>(c, n, "strings");
-}
-HYDRODAE_FMI fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference*, std::size_t n,
-                                      const fmi2String*) {
-  return nothing_of<fmi2Status>(c, n, "strings");
+HYDRODAE_FMI fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference* references,
+                                      std::size_t n, const fmi2String* values) {
+  return set_texts<fmi2Status>(c, references, n, values);
 }
 
 HYDRODAE_FMI fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {

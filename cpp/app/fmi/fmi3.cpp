@@ -74,15 +74,30 @@ HYDRODAE_FMI fmi3Status fmi3DoStep(fmi3Instance i, fmi3Float64 t, fmi3Float64 h,
   return status;
 }
 
-HYDRODAE_FMI fmi3Status fmi3GetFloat64(fmi3Instance i, const fmi3ValueReference* references,
-                                       std::size_t count, fmi3Float64* values, std::size_t n) {
-  return count == n ? get_values<fmi3Status>(i, references, count, values) : refuse_arrays(i);
-}
+#define HYDRODAE_VALUES(NAME, TYPE)                                                                \
+  HYDRODAE_FMI fmi3Status fmi3Get##NAME(fmi3Instance i, const fmi3ValueReference* references,      \
+                                        std::size_t count, fmi3##NAME* values, std::size_t n) {    \
+    return count == n ? get_values<fmi3Status>(i, TYPE, references, count, values)                 \
+                      : refuse_arrays(i);                                                          \
+  }                                                                                                \
+  HYDRODAE_FMI fmi3Status fmi3Set##NAME(fmi3Instance i, const fmi3ValueReference* references,      \
+                                        std::size_t count, const fmi3##NAME* values,               \
+                                        std::size_t n) {                                           \
+    return count == n ? set_values<fmi3Status>(i, TYPE, references, count, values)                 \
+                      : refuse_arrays(i);                                                          \
+  }
 
-HYDRODAE_FMI fmi3Status fmi3SetFloat64(fmi3Instance i, const fmi3ValueReference* references,
-                                       std::size_t count, const fmi3Float64* values,
-                                       std::size_t n) {
-  return count == n ? set_values<fmi3Status>(i, references, count, values) : refuse_arrays(i);
+HYDRODAE_VALUES(Float64, Type::number)
+HYDRODAE_VALUES(Int32, Type::integer)
+HYDRODAE_VALUES(Boolean, Type::boolean)
+
+HYDRODAE_FMI fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference* references,
+                                      std::size_t count, fmi3String* values, std::size_t n) {
+  return count == n ? get_texts<fmi3Status>(i, references, count, values) : refuse_arrays(i);
+}
+HYDRODAE_FMI fmi3Status fmi3SetString(fmi3Instance i, const fmi3ValueReference* references,
+                                      std::size_t count, const fmi3String* values, std::size_t n) {
+  return count == n ? set_texts<fmi3Status>(i, references, count, values) : refuse_arrays(i);
 }
 
 HYDRODAE_FMI fmi3Status fmi3GetFMUState(fmi3Instance i, fmi3FMUState* state) {

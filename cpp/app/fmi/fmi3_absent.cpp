@@ -17,16 +17,13 @@ using namespace hydrodae::fmi;
   }
 
 HYDRODAE_NO_TYPE(Float32, "variables of type Float32")
-HYDRODAE_NO_TYPE(Int8, "integers")
-HYDRODAE_NO_TYPE(UInt8, "integers")
-HYDRODAE_NO_TYPE(Int16, "integers")
-HYDRODAE_NO_TYPE(UInt16, "integers")
-HYDRODAE_NO_TYPE(Int32, "integers")
-HYDRODAE_NO_TYPE(UInt32, "integers")
-HYDRODAE_NO_TYPE(Int64, "integers")
-HYDRODAE_NO_TYPE(UInt64, "integers")
-HYDRODAE_NO_TYPE(Boolean, "booleans")
-HYDRODAE_NO_TYPE(String, "strings")
+HYDRODAE_NO_TYPE(Int8, "variables of type Int8")
+HYDRODAE_NO_TYPE(UInt8, "variables of type UInt8")
+HYDRODAE_NO_TYPE(Int16, "variables of type Int16")
+HYDRODAE_NO_TYPE(UInt16, "variables of type UInt16")
+HYDRODAE_NO_TYPE(UInt32, "variables of type UInt32")
+HYDRODAE_NO_TYPE(Int64, "variables of type Int64")
+HYDRODAE_NO_TYPE(UInt64, "variables of type UInt64")
 
 HYDRODAE_FMI fmi3Status fmi3GetBinary(fmi3Instance i, const fmi3ValueReference*, std::size_t n,
                                       std::size_t*, fmi3Binary*, std::size_t) {

@@ -94,8 +94,8 @@ template <class S, class Work> S call(void* instance, Work&& work) {
   }
 }
 
-/// There are variables of 64 bit floating point only, and no clocks, events or derivatives: who
-/// asks for `count` > 0 of something else is told so.
+/// There are no clocks, events, derivatives or variables of other types: who asks for `count` > 0
+/// of them is told so.
 template <class S> S nothing_of(void* instance, std::size_t count, const char* what) {
   return call<S>(instance, [&](Instance&) {
     if (count > 0)
@@ -118,23 +118,52 @@ Instance* make_instance(const Instance::Log& log, const char* token, Place&& pla
   }
 }
 
-template <class S>
-S set_values(void* instance, const Reference* references, std::size_t count, const double* values) {
+using Type = Variable::Type;
+
+/// @tparam T  double or int, of a boolean bool in FMI 3.0 and int in 2.0
+template <class S, class T>
+S set_values(void* instance, Type type, const Reference* references, std::size_t count,
+             const T* values) {
   return call<S>(instance, [&](Instance& i) {
     if (count > 0)
       require_place(references), require_place(values);
     for (std::size_t k = 0; k < count; ++k)
-      i.component.set(references[k], values[k]);
+      i.component.set(references[k], type,
+                      type == Type::boolean ? (values[k] ? 1.0 : 0.0)
+                                            : static_cast<double>(values[k]));
+  });
+}
+
+template <class S, class T>
+S get_values(void* instance, Type type, const Reference* references, std::size_t count, T* values) {
+  return call<S>(instance, [&](Instance& i) {
+    if (count > 0)
+      require_place(references), require_place(values);
+    for (std::size_t k = 0; k < count; ++k)
+      values[k] = static_cast<T>(i.component.get(references[k], type));
   });
 }
 
 template <class S>
-S get_values(void* instance, const Reference* references, std::size_t count, double* values) {
+S set_texts(void* instance, const Reference* references, std::size_t count,
+            const char* const* values) {
+  return call<S>(instance, [&](Instance& i) {
+    if (count > 0)
+      require_place(references), require_place(values);
+    for (std::size_t k = 0; k < count; ++k) {
+      require_place(values[k]);
+      i.component.set_text(references[k], values[k]);
+    }
+  });
+}
+
+template <class S>
+S get_texts(void* instance, const Reference* references, std::size_t count, const char** values) {
   return call<S>(instance, [&](Instance& i) {
     if (count > 0)
       require_place(references), require_place(values);
     for (std::size_t k = 0; k < count; ++k)
-      values[k] = i.component.get(references[k]);
+      values[k] = i.component.get_text(references[k]).c_str();
   });
 }
 

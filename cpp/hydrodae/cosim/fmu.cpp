@@ -1,5 +1,6 @@
 #include "hydrodae/cosim/fmu.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -13,8 +14,6 @@ namespace hydrodae::cosim {
 
 namespace {
 
-using References = FmuSlave::References;
-
 [[noreturn]] void refuse_key(const model::Controller& c, const char* key, const std::string& why) {
   throw ModelError("controller." + c.name + "." + key,
                    "controller " + in_quotes(c.name) + ": " + why);
@@ -23,20 +22,21 @@ using References = FmuSlave::References;
 /// What a case names of an FMU.
 struct Mapping {
   FmuDescription fmu;
-  References inputs, outputs, parameters;
+  FmuGroups inputs, outputs, parameters;
+  std::vector<unsigned> text_parameters;
 
   /// @param terminals  what its inputs and outputs are joined to; null: not known yet
   explicit Mapping(const model::Controller& c, const control::Terminals* terminals = nullptr) {
     const char* key = "file";
     const auto find = [&](const char* of, const std::vector<std::string>& names,
-                          const char* causality, References& out,
+                          const char* causality, FmuGroups& out,
                           const std::vector<control::Terminal>* joined = nullptr) {
       key = of;
       for (std::size_t k = 0; k < names.size(); ++k) {
         const FmuVariable& v = fmu.find(names[k], causality);
         if (joined && k < joined->size())
           v.require_unit((*joined)[k].unit, (*joined)[k].name);
-        out.push_back(*v.reference);
+        add(v, k, out);
       }
     };
     try {
@@ -45,9 +45,26 @@ struct Mapping {
       find("fmu_outputs", c.fmu_outputs, "output", outputs,
            terminals ? &terminals->outputs : nullptr);
       find("parameters", c.parameters, "parameter", parameters);
+      key = "parameter_values";
+      for (const FmuGroup& group : parameters)
+        for (std::size_t k = 0; k < group.places.size(); ++k)
+          group.given(k, c.parameter_values);
+      key = "text_parameters";
+      for (const std::string& name : c.text_parameters)
+        text_parameters.push_back(*fmu.find(name, "parameter", true).reference);
     } catch (const CaseError& error) {
       refuse_key(c, key, error.what());
     }
+  }
+
+  /// To the group of its type, as number k of the row.
+  static void add(const FmuVariable& v, std::size_t k, FmuGroups& out) {
+    const auto own =
+        std::find_if(out.begin(), out.end(), [&](const auto& g) { return g.type == v.kind; });
+    FmuGroup& group = own == out.end() ? out.emplace_back(FmuGroup{v.kind, {}, {}, {}}) : *own;
+    group.references.push_back(*v.reference);
+    group.places.push_back(k);
+    group.names.push_back(v.name);
   }
 };
 
@@ -62,8 +79,8 @@ std::string no_states(const std::string& name) {
 class FmuLaw final : public control::Law {
 public:
   FmuLaw(const model::Controller& c, const control::Terminals& terminals)
-      : name_(c.name), values_(c.parameter_values), end_time_(terminals.end_time),
-        map_(c, &terminals) {
+      : name_(c.name), values_(c.parameter_values), factors_(c.fmu_factors), texts_(c.text_values),
+        end_time_(terminals.end_time), map_(c, &terminals) {
     try {
       files_.emplace(c.path, map_.fmu.binaries());
       library_.emplace((files_->folder() / map_.fmu.library()).string());
@@ -85,12 +102,13 @@ public:
       else if (t > t_ && slave_->step(t_, t - t_))
         throw control::Stopped("controller " + in_quotes(name_) + ": its FMU ends the run");
       t_ = t;
-      if (!map_.inputs.empty())
-        slave_->set(map_.inputs, in);
+      slave_->set(map_.inputs, in);
       if (!begun_)
         slave_->enter();
       begun_ = true;
       slave_->get(map_.outputs, out);
+      for (std::size_t k = 0; k < factors_.size(); ++k)
+        out[k] *= factors_[k];
     } catch (const CaseError& error) {
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
                                in_quotes(name_) + ": " + map_.fmu.path + ": " + error.what());
@@ -131,8 +149,9 @@ private:
   static constexpr std::size_t part = 6; ///< bytes that a double holds exactly
 
   void set_parameters() {
-    if (!map_.parameters.empty())
-      slave_->set(map_.parameters, values_);
+    slave_->set(map_.parameters, values_);
+    for (std::size_t k = 0; k < texts_.size(); ++k)
+      slave_->set_text(map_.text_parameters[k], texts_[k]);
   }
 
   static std::vector<double> packed(const std::vector<char>& bytes) {
@@ -155,8 +174,9 @@ private:
   }
 
   std::string name_;
-  std::vector<double> values_; ///< of the parameters
-  double end_time_;            ///< [s]
+  std::vector<double> values_, factors_; ///< of the parameters; of the outputs, or none
+  std::vector<std::string> texts_;
+  double end_time_; ///< [s]
   Mapping map_;
   std::optional<UnpackedFmu> files_;
   std::optional<FmuLibrary> library_;

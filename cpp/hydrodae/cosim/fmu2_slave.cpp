@@ -15,14 +15,15 @@ namespace {
 
 struct Fmi2 {
   using References = const fmi2ValueReference*;
+  /// Gets or sets values of a type.
+  template <class Values> using Access = fmi2Status(fmi2Component, References, std::size_t, Values);
+
   fmi2Component (*instantiate)(fmi2String, fmi2Type, fmi2String, fmi2String,
                                const fmi2CallbackFunctions*, fmi2Boolean, fmi2Boolean);
   void (*free_instance)(fmi2Component);
   fmi2Status (*setup)(fmi2Component, fmi2Boolean, fmi2Real, fmi2Real, fmi2Boolean, fmi2Real);
   fmi2Status (*enter)(fmi2Component), (*leave)(fmi2Component), (*terminate)(fmi2Component),
       (*reset)(fmi2Component);
-  fmi2Status (*get)(fmi2Component, References, std::size_t, fmi2Real*);
-  fmi2Status (*set)(fmi2Component, References, std::size_t, const fmi2Real*);
   fmi2Status (*step)(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
   fmi2Status (*boolean_status)(fmi2Component, fmi2StatusKind, fmi2Boolean*);
   // Where states can be saved:
@@ -40,8 +41,6 @@ struct Fmi2 {
     library.find("fmi2ExitInitializationMode", leave);
     library.find("fmi2Terminate", terminate);
     library.find("fmi2Reset", reset);
-    library.find("fmi2GetReal", get);
-    library.find("fmi2SetReal", set);
     library.find("fmi2DoStep", step);
     library.find("fmi2GetBooleanStatus", boolean_status);
     if (!states)
@@ -71,9 +70,9 @@ class Slave2 final : public FmuSlave {
 public:
   Slave2(const FmuDescription& fmu, const FmuLibrary& library, const std::string& resources,
          const std::string& name)
-      : f_(library, fmu.saves_states),
+      : library_(library), f_(library, fmu.saves_states),
         functions_{log_of_fmi2, std::calloc, std::free, nullptr, &log_} {
-    const std::string uri = "file://" + resources;
+    const std::string uri = "file://" + uri_text(resources);
     c_ = f_.instantiate(name.c_str(), fmi2CoSimulation, fmu.token.c_str(), uri.c_str(), &functions_,
                         0, 0);
     if (!c_)
@@ -87,11 +86,10 @@ public:
       f_.free_instance(c_);
   }
 
-  void set(const References& variables, std::span<const double> values) override {
-    log_.require(f_.set(c_, variables.data(), variables.size(), values.data()), "fmi2SetReal");
-  }
-  void get(const References& variables, std::span<double> values) override {
-    log_.require(f_.get(c_, variables.data(), variables.size(), values.data()), "fmi2GetReal");
+  void set_text(unsigned reference, const std::string& value) override {
+    const fmi2String text = value.c_str();
+    log_.require(function<const fmi2String*>("fmi2SetString")(c_, &reference, 1, &text),
+                 "fmi2SetString");
   }
 
   void begin(double t, double end) override {
@@ -130,7 +128,45 @@ public:
     log_.require(f_.free_state(c_, &state), "fmi2FreeFMUstate");
   }
 
+protected:
+  void set_group(const FmuGroup& group, std::span<const double> values) override {
+    if (group.type == FmuType::float64)
+      set_as<fmi2Real>("fmi2SetReal", group, values);
+    else if (group.type == FmuType::boolean)
+      set_as<fmi2Boolean>("fmi2SetBoolean", group, values);
+    else
+      set_as<fmi2Integer>("fmi2SetInteger", group, values);
+  }
+  void get_group(const FmuGroup& group, std::span<double> values) override {
+    if (group.type == FmuType::float64)
+      get_as<fmi2Real>("fmi2GetReal", group, values);
+    else if (group.type == FmuType::boolean)
+      get_as<fmi2Boolean>("fmi2GetBoolean", group, values);
+    else
+      get_as<fmi2Integer>("fmi2GetInteger", group, values);
+  }
+
 private:
+  /// Looked up where there is a variable of its type only.
+  template <class Values> Fmi2::Access<Values>* function(const char* name) const {
+    Fmi2::Access<Values>* out = nullptr;
+    library_.find(name, out);
+    return out;
+  }
+  template <class T>
+  void set_as(const char* name, const FmuGroup& group, std::span<const double> values) {
+    give_as<T>(group, values, [&](const unsigned* references, const T* numbers, std::size_t n) {
+      log_.require(function<const T*>(name)(c_, references, n, numbers), name);
+    });
+  }
+  template <class T>
+  void get_as(const char* name, const FmuGroup& group, std::span<double> values) {
+    take_as<T>(group, values, [&](const unsigned* references, T* numbers, std::size_t n) {
+      log_.require(function<T*>(name)(c_, references, n, numbers), name);
+    });
+  }
+
+  const FmuLibrary& library_;
   Fmi2 f_;
   FmuLog log_;
   fmi2CallbackFunctions functions_; ///< the FMU keeps its address

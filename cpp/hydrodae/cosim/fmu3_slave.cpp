@@ -11,6 +11,10 @@ namespace {
 
 struct Fmi3 {
   using References = const fmi3ValueReference*;
+  /// Gets or sets values of a type.
+  template <class Values>
+  using Access = fmi3Status(fmi3Instance, References, std::size_t, Values, std::size_t);
+
   fmi3Instance (*instantiate)(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
                               fmi3Boolean, fmi3Boolean, References, std::size_t,
                               fmi3InstanceEnvironment, fmi3LogMessageCallback,
@@ -19,8 +23,6 @@ struct Fmi3 {
   fmi3Status (*enter)(fmi3Instance, fmi3Boolean, fmi3Float64, fmi3Float64, fmi3Boolean,
                       fmi3Float64);
   fmi3Status (*leave)(fmi3Instance), (*terminate)(fmi3Instance), (*reset)(fmi3Instance);
-  fmi3Status (*get)(fmi3Instance, References, std::size_t, fmi3Float64*, std::size_t);
-  fmi3Status (*set)(fmi3Instance, References, std::size_t, const fmi3Float64*, std::size_t);
   fmi3Status (*step)(fmi3Instance, fmi3Float64, fmi3Float64, fmi3Boolean, fmi3Boolean*,
                      fmi3Boolean*, fmi3Boolean*, fmi3Float64*);
   // Where states can be saved:
@@ -37,8 +39,6 @@ struct Fmi3 {
     library.find("fmi3ExitInitializationMode", leave);
     library.find("fmi3Terminate", terminate);
     library.find("fmi3Reset", reset);
-    library.find("fmi3GetFloat64", get);
-    library.find("fmi3SetFloat64", set);
     library.find("fmi3DoStep", step);
     if (!states)
       return;
@@ -60,7 +60,7 @@ class Slave3 final : public FmuSlave {
 public:
   Slave3(const FmuDescription& fmu, const FmuLibrary& library, const std::string& resources,
          const std::string& name)
-      : f_(library, fmu.saves_states),
+      : library_(library), f_(library, fmu.saves_states),
         i_(f_.instantiate(name.c_str(), fmu.token.c_str(), (resources + "/").c_str(), false, false,
                           false, false, nullptr, 0, &log_, log_of_fmi3, nullptr)) {
     if (!i_)
@@ -74,13 +74,10 @@ public:
       f_.free_instance(i_);
   }
 
-  void set(const References& variables, std::span<const double> values) override {
-    log_.require(f_.set(i_, variables.data(), variables.size(), values.data(), variables.size()),
-                 "fmi3SetFloat64");
-  }
-  void get(const References& variables, std::span<double> values) override {
-    log_.require(f_.get(i_, variables.data(), variables.size(), values.data(), variables.size()),
-                 "fmi3GetFloat64");
+  void set_text(unsigned reference, const std::string& value) override {
+    const fmi3String text = value.c_str();
+    log_.require(function<const fmi3String*>("fmi3SetString")(i_, &reference, 1, &text, 1),
+                 "fmi3SetString");
   }
 
   void begin(double t, double end) override {
@@ -121,7 +118,61 @@ public:
     log_.require(f_.free_state(i_, &state), "fmi3FreeFMUState");
   }
 
+protected:
+  void set_group(const FmuGroup& group, std::span<const double> values) override {
+    of_type(group.type, [&]<class T>(const std::string& name, T) {
+      give_as<T>(group, values, [&](const unsigned* references, const T* numbers, std::size_t n) {
+        const std::string full = "fmi3Set" + name;
+        log_.require(function<const T*>(full.c_str())(i_, references, n, numbers, n), full.c_str());
+      });
+    });
+  }
+  void get_group(const FmuGroup& group, std::span<double> values) override {
+    of_type(group.type, [&]<class T>(const std::string& name, T) {
+      take_as<T>(group, values, [&](const unsigned* references, T* numbers, std::size_t n) {
+        const std::string full = "fmi3Get" + name;
+        log_.require(function<T*>(full.c_str())(i_, references, n, numbers, n), full.c_str());
+      });
+    });
+  }
+
 private:
+  /// Looked up where there is a variable of its type only.
+  template <class Values> Fmi3::Access<Values>* function(const char* name) const {
+    Fmi3::Access<Values>* out = nullptr;
+    library_.find(name, out);
+    return out;
+  }
+
+  /// Does `work` with the name of a type in functions and a number of it.
+  template <class Work> static void of_type(FmuType type, Work&& work) {
+    switch (type) {
+    case FmuType::float32:
+      return work("Float32", fmi3Float32());
+    case FmuType::int8:
+      return work("Int8", fmi3Int8());
+    case FmuType::uint8:
+      return work("UInt8", fmi3UInt8());
+    case FmuType::int16:
+      return work("Int16", fmi3Int16());
+    case FmuType::uint16:
+      return work("UInt16", fmi3UInt16());
+    case FmuType::int32:
+      return work("Int32", fmi3Int32());
+    case FmuType::uint32:
+      return work("UInt32", fmi3UInt32());
+    case FmuType::int64:
+      return work("Int64", fmi3Int64());
+    case FmuType::uint64:
+      return work("UInt64", fmi3UInt64());
+    case FmuType::boolean:
+      return work("Boolean", fmi3Boolean());
+    default:
+      return work("Float64", fmi3Float64());
+    }
+  }
+
+  const FmuLibrary& library_;
   Fmi3 f_;
   FmuLog log_;
   fmi3Instance i_ = nullptr;

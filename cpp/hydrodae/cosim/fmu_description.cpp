@@ -80,6 +80,7 @@ FmuVariable variable_of(int version, const pugi::xml_node& node, const Units& un
         units.tell(child, out);
       }
   }
+  out.kind = fmu_type(version, out.type);
   out.is_array = version == 3 && node.child("Dimension");
   return out;
 }
@@ -109,8 +110,8 @@ void FmuVariable::require_unit(const std::string& wanted, const std::string& of)
                     in_quotes(of));
 }
 
-const FmuVariable& FmuDescription::find(const std::string& name,
-                                        const std::string& causality) const {
+const FmuVariable& FmuDescription::find(const std::string& name, const std::string& causality,
+                                        bool text) const {
   std::vector<std::string> names;
   for (const FmuVariable& v : variables) {
     if (v.causality == causality)
@@ -120,11 +121,11 @@ const FmuVariable& FmuDescription::find(const std::string& name,
     if (v.causality != causality)
       throw CaseError("variable " + in_quotes(name) + " of the FMU is of causality " +
                       in_quotes(v.causality) + ", expected " + in_quotes(causality));
-    const std::string wanted = version == 2 ? "Real" : "Float64";
-    if (v.type != wanted || v.is_array)
-      throw CaseError("variable " + in_quotes(name) + " of the FMU is of type " + v.type +
-                      (v.is_array ? " (an array)" : "") + ", expected one number of type " +
-                      wanted);
+    const bool fits = v.kind != FmuType::other && (v.kind == FmuType::text) == text;
+    if (!fits || v.is_array)
+      throw CaseError("variable " + in_quotes(name) + " of the FMU is of type " +
+                      (v.type.empty() ? "unknown" : v.type) + (v.is_array ? " (an array)" : "") +
+                      ", expected one " + (text ? "string" : "number, boolean or enumeration"));
     if (!v.reference)
       throw CaseError("variable " + in_quotes(name) +
                       " of the FMU has no valueReference that is a number");

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "hydrodae/cosim/fmu_units.h"
+#include "hydrodae/cosim/fmu_values.h"
 
 namespace hydrodae::cosim {
 
 struct FmuVariable {
   std::string name, type, causality; ///< "Real" or "Float64"; "input", "output", "parameter", ...
+  FmuType kind = FmuType::other;
   std::optional<unsigned> reference;
   bool is_array = false;
   std::string unit_name;       ///< "bar"; empty: it tells none
@@ -31,9 +33,10 @@ struct FmuDescription {
   std::string binaries() const;
   std::string library() const { return binaries() + identifier + ".so"; }
 
-  /// The 64 bit number of this name and causality. Throws CaseError with the nearest name where
-  /// there is none.
-  const FmuVariable& find(const std::string& name, const std::string& causality) const;
+  /// The number, boolean or enumeration, or the string, of this name and causality. Throws
+  /// CaseError with the nearest name where there is none.
+  const FmuVariable& find(const std::string& name, const std::string& causality,
+                          bool text = false) const;
 };
 
 /// Throws CaseError where the file is no FMU for co-simulation of FMI 2.0 or 3.0 with a library for

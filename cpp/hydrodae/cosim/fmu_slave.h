@@ -16,11 +16,18 @@ namespace hydrodae::cosim {
 /// logged, where that is worse than a warning.
 class FmuSlave {
 public:
-  using References = std::vector<unsigned>;
-
   virtual ~FmuSlave() = default;
-  virtual void set(const References& variables, std::span<const double> values) = 0;
-  virtual void get(const References& variables, std::span<double> values) = 0;
+
+  /// @param values  a row in which each variable has its place
+  void set(const FmuGroups& variables, std::span<const double> values) {
+    for (const FmuGroup& group : variables)
+      set_group(group, values);
+  }
+  void get(const FmuGroups& variables, std::span<double> values) {
+    for (const FmuGroup& group : variables)
+      get_group(group, values);
+  }
+  virtual void set_text(unsigned reference, const std::string& value) = 0;
 
   /// Initialisation mode from here on, and its end.
   /// @param t, end  of the run [s]
@@ -35,6 +42,10 @@ public:
   virtual void reset() = 0;
   virtual std::vector<char> save() = 0;
   virtual void load(const std::vector<char>& bytes) = 0;
+
+protected:
+  virtual void set_group(const FmuGroup& group, std::span<const double> values) = 0;
+  virtual void get_group(const FmuGroup& group, std::span<double> values) = 0;
 };
 
 /// The functions of a shared library, which stays loaded as long as this object is there.

@@ -1,5 +1,8 @@
 #include "hydrodae/cosim/foreign_text.h"
 
+#include <cctype>
+#include <string_view>
+
 namespace hydrodae::cosim {
 
 namespace {
@@ -43,6 +46,19 @@ std::string foreign_text(const std::string& text, std::size_t longest) {
     if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
       c = '?';
   return valid_utf8(std::move(out));
+}
+
+std::string uri_text(const std::string& path) {
+  constexpr std::string_view plain = "-._~/", digits = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : path) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 128 && std::isalnum(code)) || plain.find(c) != plain.npos)
+      out += c;
+    else
+      out += {'%', digits[code / 16], digits[code % 16]};
+  }
+  return out;
 }
 
 } // namespace hydrodae::cosim

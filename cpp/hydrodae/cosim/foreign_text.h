@@ -7,6 +7,9 @@ namespace hydrodae::cosim {
 /// become '?'; no longer than so many bytes.
 std::string foreign_text(const std::string& text, std::size_t longest = 4096);
 
+/// A path as a part of a URI (RFC 3986): all but letters, digits and -._~/ by their codes.
+std::string uri_text(const std::string& path);
+
 /// What is no UTF-8 becomes '?', the rest stays as it is.
 std::string valid_utf8(std::string text);
 

@@ -68,6 +68,9 @@ void check_fmu(const Entry& entry, const Controller& c) {
   match("fmu_inputs", c.fmu_inputs.size(), "inputs", c.inputs.size());
   match("fmu_outputs", c.fmu_outputs.size(), "outputs", c.outputs.size());
   match("parameter_values", c.parameter_values.size(), "parameters", c.parameters.size());
+  match("text_values", c.text_values.size(), "text_parameters", c.text_parameters.size());
+  if (!c.fmu_factors.empty())
+    match("fmu_factors", c.fmu_factors.size(), "outputs", c.outputs.size());
 }
 
 void check_limits(const Entry& entry, const Controller& c) {
@@ -145,8 +148,13 @@ Fields<Controller> Controller::fields() {
       {"file", &C::file, "-", "FMU for co-simulation, version 2.0 or 3.0 of FMI."},
       {"fmu_inputs", &C::fmu_inputs, "-", "Its input for each of `inputs`."},
       {"fmu_outputs", &C::fmu_outputs, "-", "Its output for each of `outputs`."},
-      {"parameters", &C::parameters, "-", "Parameters of it that are set before the start."},
+      {"fmu_factors", &C::fmu_factors, "unit of the output per that of the FMU",
+       "What each of these is multiplied by; default 1."},
+      {"parameters", &C::parameters, "-",
+       "Numbers, booleans (0 or 1) and enumerations of it that are set before the start."},
       {"parameter_values", &C::parameter_values, "as the FMU says", "Their values."},
+      {"text_parameters", &C::text_parameters, "-", "Strings of it that are set before the start."},
+      {"text_values", &C::text_values, "-", "Their values."},
       {"protocol",
        &C::protocol,
        "-",
@@ -199,7 +207,8 @@ Keys controller_keys(const std::string& type) {
   if (type == "python")
     return keys;
   if (type == "fmu")
-    return with({"file", "fmu_inputs", "fmu_outputs", "parameters", "parameter_values"});
+    return with({"file", "fmu_inputs", "fmu_outputs", "fmu_factors", "parameters",
+                 "parameter_values", "text_parameters", "text_values"});
   if (type == "tcp")
     return with({"protocol", "role", "host", "port", "timeout", "connect_timeout"});
   return {};

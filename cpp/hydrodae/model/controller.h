@@ -44,7 +44,8 @@ struct Controller {
   // fmu
   std::string file;
   std::vector<std::string> fmu_inputs, fmu_outputs, parameters;
-  std::vector<double> parameter_values;
+  std::vector<double> parameter_values, fmu_factors;
+  std::vector<std::string> text_parameters, text_values;
   std::string path, sha256; ///< of that file, found from the folder of the case
   // tcp
   std::string protocol = "hydrodae", role = "server", host = "127.0.0.1";

@@ -30,7 +30,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         metavar="KEY",
         nargs="+",
         default=[],
-        help="numbers of the case that an importer may set before the run, such as solver.rtol",
+        help="numbers, truth values and words of the case that an importer may set before the run, "
+        "such as solver.rtol",
     )
     parser.add_argument(
         "--set",

@@ -50,6 +50,7 @@ class KnownSea:
             mine = waves[:, 1] == heading
             force[mine] = plant.excitation(waves[mine, 0], float(heading))
         self._phasor = waves[:, 2] * np.exp(1j * waves[:, 3]) * force
+        self._turns = np.empty((0, len(waves)), dtype=complex)
 
     def observe(self, load: float) -> None:
         """Nothing: it knows."""
@@ -57,7 +58,11 @@ class KnownSea:
     def ahead(self, t: float, count: int) -> Array:
         """As `Forecast.ahead`."""
         times = t + self._period * np.arange(count)
-        loads = (np.exp(1j * np.outer(times, self._omega)) @ self._phasor).real
+        if len(self._turns) < count:  # exp(i w k T)
+            self._turns = np.exp(1j * np.outer(self._period * np.arange(count), self._omega))
+        now = self._phasor * np.exp(1j * self._omega * t)
+        # a sum in place of a product of matrices, for which BLAS would wake all its threads
+        loads = (self._turns[:count] * now).sum(axis=1).real
         if self._ramp > 0.0:
             x = np.clip(times / self._ramp, 0.0, 1.0)
             loads *= x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3)

@@ -171,7 +171,7 @@ class ModelPredictive:
     def reset(self) -> None:
         """Begin anew: the device is at rest."""
         self._y = np.zeros(len(self._model[0]))
-        self._last = 0.0
+        self._last = self._time = 0.0
         self._begun = False
 
     def __call__(self, t: float, coordinate: float, rate: float) -> float:
@@ -187,8 +187,14 @@ class ModelPredictive:
         Raises
         ------
         SolverError
-            The program has no solution.
+            The program has no solution, or the controller is called at another period than its own.
         """
+        if self._begun and not abs(t - self._time - self._period) <= 1e-6 * self._period:
+            raise SolverError(
+                f"model-predictive control: called {t - self._time:g} s after the last call, but "
+                f"its period is {self._period:g} s: give the controller of the case the same"
+            )
+        self._time = t
         self._follow(coordinate - self._rest, rate)
         wave = self._forecast.ahead(t, self._horizon + 1)
         free = self._free @ self._y + self._by_wave @ wave
@@ -239,14 +245,15 @@ class ModelPredictive:
 
     def state(self) -> list[float]:
         """What it remembers, for checkpoints."""
-        return [float(self._begun), self._last, *self._y, *self._forecast.state()]
+        own = [float(self._begun), self._time, self._last]
+        return [*own, *self._y, *self._forecast.state()]
 
     def restore(self, values: list[float]) -> None:
         """Go back to a state."""
         n = len(self._y)
-        self._begun, self._last = bool(values[0]), values[1]
-        self._y = np.array(values[2 : 2 + n])
-        self._forecast.restore(values[2 + n :])
+        self._begun, self._time, self._last = bool(values[0]), values[1], values[2]
+        self._y = np.array(values[3 : 3 + n])
+        self._forecast.restore(values[3 + n :])
 
 
 def _toeplitz(column: Array, count: int) -> Array:

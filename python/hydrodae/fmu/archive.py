@@ -14,7 +14,7 @@ from typing import Any
 
 from hydrodae.case import Case, CaseLike, read_case, to_toml
 from hydrodae.errors import CaseError
-from hydrodae.fmu.description import Description, model_description
+from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import Variable, choose, number_at
 
 #: Where the library looks for those of a wheel, and where they are in an FMU: beside it. Importers
@@ -47,7 +47,8 @@ def export(
         Names or patterns such as ``"joints/*"`` of what `hydrodae.Simulation` writes and reads,
         vectors by component; by default all. Inputs that a controller of the case writes are none.
     parameters : sequence of str
-        Dotted keys of numbers of the case that an importer may set before the run begins.
+        Dotted keys of numbers, truth values and words of the case that an importer may set before
+        the run begins.
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
 
@@ -151,8 +152,9 @@ def _variables_text(values: Mapping[str, str], variables: Sequence[Variable]) ->
     lines = [["set", key, value] for key, value in values.items()]
     lines.append(["time", "0"])
     for v in variables:
-        start = [] if v.start is None else [repr(v.start)]
-        lines.append([v.kind, str(v.reference), *start, v.name])
+        start = [] if v.start is None else [start_text(v.start)]
+        kind = type_of(v).line if v.kind == "parameter" else v.kind
+        lines.append([kind, str(v.reference), *start, v.name])
     for line in lines:
         if any(set(field) & set("\t\n\r") for field in line):
             raise CaseError(f"{line[-1]!r}: names with tabs or line ends cannot be in an FMU")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as Xml
 
 from hydrodae.fmu.units import base_units
-from hydrodae.fmu.variables import Variable
+from hydrodae.fmu.variables import Value, Variable
 from hydrodae.version import version
 
 _CAN = {
@@ -15,6 +15,34 @@ _CAN = {
     "canSerializeFMUState": "true",
     "canGetAndSetFMUState": "true",
 }
+
+
+@dataclass(frozen=True)
+class Type:
+    """How a type of values is called."""
+
+    line: str  #: in variables.txt, of a parameter
+    fmi2: str  #: in modelDescription.xml
+    fmi3: str
+
+
+def type_of(variable: Variable) -> Type:
+    """Type of a variable, that of its start value."""
+    match variable.start:
+        case bool():
+            return Type("boolean", "Boolean", "Boolean")
+        case int():
+            return Type("integer", "Integer", "Int32")
+        case str():
+            return Type("text", "String", "String")
+    return Type("parameter", "Real", "Float64")
+
+
+def start_text(start: Value) -> str:
+    """A start value in the files of an FMU."""
+    if isinstance(start, bool):
+        return "true" if start else "false"
+    return start if isinstance(start, str) else repr(start)
 
 
 @dataclass(frozen=True)
@@ -49,7 +77,11 @@ def _root_3(told: Description) -> Xml.Element:
     for variable in told.variables:
         attributes = _attributes(variable)
         number = attributes["valueReference"]
-        _add(variables, "Float64", **attributes, **_value(variable))
+        text = variable.start if isinstance(variable.start, str) else None
+        start = {} if text is not None else _value(variable)
+        added = _add(variables, type_of(variable).fmi3, **attributes, **start)
+        if text is not None:
+            _add(added, "Start", value=text)
         if variable.kind == "output":
             _add(structure, "Output", valueReference=number)
     for variable in told.variables:
@@ -76,7 +108,7 @@ def _root_2(told: Description) -> Xml.Element:
         attributes = _attributes(variable)
         unit = {"unit": attributes.pop("unit")} if "unit" in attributes else {}
         scalar = _add(variables, "ScalarVariable", **attributes)
-        _add(scalar, "Real", **unit, **_value(variable))
+        _add(scalar, type_of(variable).fmi2, **unit, **_value(variable))
         if variable.kind == "output":
             outputs.append(str(place))
     structure = _add(root, "ModelStructure")
@@ -114,7 +146,7 @@ def _attributes(variable: Variable) -> dict[str, str]:
 
 
 def _value(variable: Variable) -> dict[str, str]:
-    return {} if variable.start is None else {"start": repr(variable.start)}
+    return {} if variable.start is None else {"start": start_text(variable.start)}
 
 
 def _add_units(root: Xml.Element, told: Description) -> None:

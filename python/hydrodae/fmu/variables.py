@@ -6,6 +6,7 @@ import difflib
 import fnmatch
 import math
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,17 +14,20 @@ from typing import Any
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.simulation import Simulation
+from hydrodae.tables import Key, tables
+
+Value = float | int | bool | str
 
 
 @dataclass(frozen=True)
 class Variable:
-    """One number that an importer reads or sets."""
+    """One number that an importer reads or sets; parameters may be of other types."""
 
     kind: str  #: "parameter", "input" or "output"
     reference: int
     name: str
     unit: str
-    start: float | None = None  #: of parameters and inputs
+    start: Value | None = None  #: of parameters and inputs; its type is that of the variable
 
 
 def choose(
@@ -41,18 +45,21 @@ def choose(
     inputs, outputs : sequence of str, or None
         Names or patterns such as "joints/*"; None for all.
     parameters : sequence of str
-        Dotted keys of numbers that stand in the case.
+        Dotted keys of numbers, truth values and words that stand in the case.
 
     Raises
     ------
     CaseError
-        A name fits nothing, a key is not that of a number, or the case cannot start.
+        A name fits nothing, a key is none that can be a parameter, or the case cannot start.
     """
+    twice = [key for key, times in Counter(parameters).items() if times > 1]
+    if twice:
+        raise CaseError(f"{twice[0]}: a parameter that is given twice")
     run = Simulation(case)
     units = components(run)
     held = run.inputs
-    taken: list[tuple[str, str, str, float | None]] = []
-    taken += [("parameter", key, "", number_at(case, key)) for key in parameters]
+    taken: list[tuple[str, str, str, Value | None]] = []
+    taken += [("parameter", key, "", parameter_at(case, key)) for key in parameters]
     taken += [
         ("input", name, run.input_units[name], held[name])
         for name in _filtered("input", held, inputs)
@@ -85,18 +92,54 @@ def number_at(case: Case, key: str) -> float:
     CaseError
         The case has no such key, or it holds something else.
     """
-    if key in case.overrides:
-        value: Any = tomllib.loads(f"value = {case.overrides[key]}")["value"]
-    else:
-        value = tomllib.loads(case.text)
-        for part in key.split("."):
-            value = _entry(value, part)
+    value = _value_at(case, key)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise CaseError(
-            f"{key}: a parameter must be a number that stands in the case, such as solver.rtol; "
-            f"found {'nothing' if value is None else repr(value)}"
-        )
+        raise CaseError(f"{key}: expected a number, found {_told(value)}")
     return float(value)
+
+
+def parameter_at(case: Case, key: str) -> Value:
+    """What a dotted key has in a case, of the type that the key takes.
+
+    Raises
+    ------
+    CaseError
+        The case has no such key, or it holds none of: a number, a truth value, one word of
+        several.
+    """
+    value = _value_at(case, key)
+    kinds = {(known.kind, bool(known.choices)) for known in _keys(key)}
+    if isinstance(value, bool) and ("truth", False) in kinds:
+        return value
+    if isinstance(value, str) and ("word", True) in kinds and not key.endswith(".type"):
+        return value
+    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        return int(value) if ("integer", False) in kinds else float(value)
+    raise CaseError(
+        f"{key}: a parameter must be a number that stands in the case, such as solver.rtol, a "
+        f"truth value, or one of the words that its key takes; found {_told(value)}"
+    )
+
+
+def _value_at(case: Case, key: str) -> Any:
+    if key in case.overrides:
+        return tomllib.loads(f"value = {case.overrides[key]}")["value"]
+    value: Any = tomllib.loads(case.text)
+    for part in key.split("."):
+        value = _entry(value, part)
+    return value
+
+
+def _told(value: Any) -> str:
+    return "nothing" if value is None else repr(value)
+
+
+def _keys(path: str) -> list[Key]:
+    """What the kernel declares of a dotted key."""
+    parts = path.split(".")
+    found = (table for table in tables() if table.name == parts[0])
+    kinds = (kind for table in found for kind in (table, *table.nested, *table.types))
+    return [key for kind in kinds for key in kind.keys if key.name == parts[-1]]
 
 
 def _entry(value: Any, part: str) -> Any:
