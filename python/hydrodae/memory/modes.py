@@ -143,7 +143,8 @@ def _matrices(modes: Modes, value: AnyArray) -> AnyArray:
     m, n = modes.vectors.shape
     product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(m, n * n)
     full = value[0].T @ product.real + value[1].T @ product.imag
-    return full.reshape(-1, n, n)
+    matrices: AnyArray = full.reshape(-1, n, n)
+    return matrices
 
 
 def error(modes: Modes, problem: Problem) -> float:

@@ -68,6 +68,6 @@ def _parts(
 ) -> tuple[ComplexArray, ComplexArray, Array]:
     """Return s + a and 1/D, (m, nw), and the factor (m, 1) of F_0."""
     a, b = -poles.real[:, None], poles.imag[:, None]
-    shifted = a + 1j * omega
-    inverse = 1.0 / (a * a + b * b - omega**2 + (2j * a) * omega)
+    shifted = np.asarray(a + 1j * omega, dtype=complex)
+    inverse = np.asarray(1.0 / (a * a + b * b - omega**2 + (2j * a) * omega), dtype=complex)
     return shifted, inverse, np.where(is_real(poles), sign, 2.0)[:, None]
