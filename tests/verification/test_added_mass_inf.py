@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
-from hydrodae.hdb.readers.source import finish
+from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.reading import read_source
 
 KNOWN = (

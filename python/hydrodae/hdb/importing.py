@@ -17,9 +17,11 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.readers.finishing import finish
+from hydrodae.hdb.readers.headings import FORCES
 from hydrodae.hdb.readers.kinds import kind
-from hydrodae.hdb.readers.source import SourceData, finish
-from hydrodae.hdb.reading import FORCES, read, read_source
+from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.reading import read, read_source
 
 
 def import_database(

@@ -11,12 +11,11 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.bemio import read_bemio
+from hydrodae.hdb.readers.finishing import finish
+from hydrodae.hdb.readers.headings import FORCES, settle_headings
 from hydrodae.hdb.readers.kinds import resolve
-from hydrodae.hdb.readers.source import LARGEST, SourceData, Water, finish
+from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
 from hydrodae.hdb.readers.wamit import read_wamit
-
-#: Tables of excitation that a source may hold.
-FORCES = ("froude_krylov", "diffraction", "excitation")
 
 
 def read_source(
@@ -94,6 +93,7 @@ def _check_tables(path: Path, data: SourceData) -> None:
         table = getattr(data, name)
         if table is not None:
             table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and told
+    settle_headings(data)
     limit = data.added_mass_inf
     if limit is not None and not np.all(np.abs(limit) < LARGEST):
         data.added_mass_inf = None
