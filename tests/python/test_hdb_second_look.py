@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import shutil
 
@@ -10,8 +11,10 @@ import pytest
 import xarray as xr
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb import prepare
 from hydrodae.hdb.importing import import_database
 from hydrodae.hdb.reading import read, read_source
+from hydrodae.hdb.summary import fit_summary
 
 
 @pytest.fixture
@@ -106,3 +109,17 @@ def test_numbers_of_nemoh_cal_that_are_none(reference, tmp_path, old, new, messa
     path.write_text(text)
     with pytest.raises(DatabaseError, match=message):
         read_source(folder)
+
+
+def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(reference):
+    whole = read(reference / "hdb" / "own" / "sphere.nc").select(["sphere.heave"])
+    b = whole.radiation_damping.copy()
+    b[(whole.omega > 4.9) & (whole.omega < 5.4)] -= 0.4 * b.max()  # as an irregular frequency
+    noisy = dataclasses.replace(whole, radiation_damping=b)
+    options = {"band": (0.3, 2.5), "target": 1e-3}
+    fit = prepare.fit(noisy, "sphere.heave", **options).memory["default"]
+    assert "outside the band, break causality or energy: left out" in fit_summary(fit)
+    assert fit.report["passive"]
+    assert fit.report["h_error_band"] < 2e-4
+    with pytest.raises(DatabaseError, match="misses its target"):
+        prepare.fit(noisy, "sphere.heave", band=(0.3, 7.0), target=1e-3)
