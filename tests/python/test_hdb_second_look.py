@@ -116,8 +116,8 @@ def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(reference):
     b = whole.radiation_damping.copy()
     b[(whole.omega > 4.9) & (whole.omega < 5.4)] -= 0.4 * b.max()  # as an irregular frequency
     noisy = dataclasses.replace(whole, radiation_damping=b)
-    options = {"band": (0.3, 2.5), "target": 1e-3}
-    fit = prepare.fit(noisy, "sphere.heave", **options).memory["default"]
+    made = prepare.fit(noisy, "sphere.heave", band=(0.3, 2.5), target=1e-3)
+    fit = made.memory["default"]
     assert "outside the band, break causality or energy: left out" in fit_summary(fit)
     assert fit.report["passive"]
     assert fit.report["h_error_band"] < 2e-4
