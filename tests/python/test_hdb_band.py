@@ -9,6 +9,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.hdb.checks.band import LONGEST, felt_band
+from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.longwave import long_wave_findings
 
 
@@ -67,3 +68,21 @@ def test_phases_are_those_of_where_the_water_pushes(reference):
     database = hdb.read(reference / "hdb" / "multibody_orcawave")
     (phase,) = [f for f in long_wave_findings(database) if f.check == "phase convention"]
     assert phase.value < 2e-3
+
+
+def test_errors_of_a_body_on_the_ground_alone_are_warnings(reference):
+    # the base of the flap stands on the ground; heave of both, as if sealed, is not reciprocal
+    whole = hdb.read(reference / "hdb" / "oswec_wamit", rho=1000.0)
+    report = hdb.check(whole)
+    assert report.ok
+    assert "base stands on the ground at -10.9 m" in report.find("assumption")[0].message
+    assert report.find("B positive semidefinite")[0].value < -0.5
+    lifted = replace(whole, water_depth=12.0)
+    assert standing(whole) == ["base"]
+    assert standing(lifted) == []
+    assert hdb.check(lifted).find("B positive semidefinite")[0].severity == "error"
+    b = whole.radiation_damping.copy()
+    heave = whole.index("flap.heave")[0]
+    b[10:20, heave, heave] *= -2.0
+    report = hdb.check(replace(whole, radiation_damping=b))
+    assert report.find("B positive semidefinite")[0].severity == "error"

@@ -15,7 +15,7 @@ from hydrodae import hdb
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.importing import read_source
+from hydrodae.hdb.reading import read_source
 
 
 @pytest.fixture(scope="module")

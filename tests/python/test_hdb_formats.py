@@ -7,9 +7,9 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.importing import read_source
 from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.orcayaml import read_yaml
+from hydrodae.hdb.reading import read_source
 
 FOLDERS = {
     "boxes_aqwa": "aqwa",

@@ -12,7 +12,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.importing import read_source
+from hydrodae.hdb.reading import read_source
 
 _spec = importlib.util.spec_from_file_location(
     "nemoh_writer", Path(__file__).with_name("nemoh_writer.py")

@@ -11,8 +11,8 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.importing import read_source
 from hydrodae.hdb.readers.kinds import kind
+from hydrodae.hdb.reading import read_source
 
 POT = """two floats
 {depth}  HBOT

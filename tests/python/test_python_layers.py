@@ -33,6 +33,7 @@ LAYERS = [
     {"hdb.radiation_kernel"},
     {"hdb.database"},
     {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.writers"},
+    {"hdb.reading"},
     {"hdb.importing", "hdb.prepare"},
     {"hdb.computing", "hdb.cylinder_array"},
     {"hdb"},

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
-from hydrodae.hdb.importing import read_source
-from hydrodae.hdb.readers.source import finish
+from hydrodae.hdb.readers.finishing import finish
+from hydrodae.hdb.reading import read_source
 
 KNOWN = (
     "sphere_wamit",

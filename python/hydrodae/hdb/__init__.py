@@ -26,8 +26,9 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.files import write
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.importing import import_database, read
+from hydrodae.hdb.importing import import_database
 from hydrodae.hdb.prepare import fit, kernel
+from hydrodae.hdb.reading import read
 from hydrodae.hdb.tables import Body
 
 if TYPE_CHECKING:

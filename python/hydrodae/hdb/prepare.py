@@ -7,10 +7,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb.checks.band import felt_band
+from hydrodae.hdb.checks.band import felt_band, inside
+from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
+
+#: Weighted error of H outside the band, where frequencies there had to be left out: those beside
+#: them, which share what is wrong, remain.
+OUTSIDE = 0.3
 
 
 def fit(
@@ -28,6 +36,9 @@ def fit(
     progress: Callable[[str], None] | None = None,
 ) -> HydroDatabase:
     """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
+
+    A fit that would be refused is tried again without the frequencies outside the band that break
+    causality or energy (irregular frequencies); its report tells how many (`left_out`).
 
     Parameters
     ----------
@@ -75,7 +86,8 @@ def fit(
     hydrodae.memory.MemoryFitWarning
         What the fit missed and was accepted; coordinates that do not radiate.
     """
-    from hydrodae.memory import MemoryFitWarning, fit_memory
+    from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+    from hydrodae.memory.fit import DEFAULT_BAND
     from hydrodae.memory.verdict import CHECKS, missed
 
     if not is_fit_name(name):
@@ -96,21 +108,54 @@ def fit(
         "progress": progress,
     }
     options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    moving = _labels(inputs, database)
+    options["outputs"] = None if loads is None else _labels(loads, database)
+
+    def refusals(trial: ExponentialMemory) -> dict[str, str]:
+        return {key: text for key, text in missed(trial.report).items() if key not in allowed}
+
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", MemoryFitWarning)
-        made = fit_memory(
-            database,
-            inputs=_labels(inputs, database),
-            outputs=None if loads is None else _labels(loads, database),
-            name=name,
-            **options,
+        made = fit_memory(database, inputs=moving, name=name, **options)
+    refused = refusals(made)
+    bad = doubtful(database.select(moving), band or DEFAULT_BAND) if refused else np.zeros(0, bool)
+    if bad.any():
+        text = (
+            f"{bad.sum()} of {bad.size} frequencies, outside the band, break causality or energy: "
+            f"left out"
         )
-    refused = {check: text for check, text in missed(made.report).items() if check not in allowed}
+        if progress is not None:
+            progress(text)
+        options["target_outside"] = OUTSIDE
+        with warnings.catch_warnings(record=True) as then:
+            warnings.simplefilter("always", MemoryFitWarning)
+            again = fit_memory(at(database, ~bad), inputs=moving, name=name, **options)
+        left = refusals(again)
+        if len(left) < len(refused):
+            report = {**again.report, "left_out": text}
+            made, refused, told = replace(again, report=report), left, then
     if refused:
         raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
     for warning in told:
         warnings.warn(warning.message, stacklevel=2)
     return replace(database, memory={**database.memory, name: made})
+
+
+def doubtful(database: HydroDatabase, band: tuple[float, float]) -> NDArray[np.bool_]:
+    """Return the frequencies (nw,) outside the band that break causality or energy."""
+    return np.asarray(suspect_rows(database) & ~inside(database.omega, band))
+
+
+def at(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
+    """Return the tables at some of the frequencies (nw,)."""
+    return replace(
+        database,
+        omega=database.omega[keep],
+        added_mass=database.added_mass[keep],
+        radiation_damping=database.radiation_damping[keep],
+        froude_krylov=database.froude_krylov[keep],
+        diffraction=database.diffraction[keep],
+    )
 
 
 def _refusal(refused: dict[str, str]) -> str:

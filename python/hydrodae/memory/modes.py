@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import cho_factor, cho_solve
 
+from hydrodae.memory.partial_fractions import partial_fractions, pole_slopes, real_fractions
 from hydrodae.memory.vector_fitting import (
     Array,
     ComplexArray,
@@ -106,38 +107,44 @@ class Modes:
         return Modes(self.poles[keep], self.vectors[keep], self.sign[keep], self.added_mass)
 
 
-def fractions(modes: Modes, omega: Array) -> tuple[ComplexArray, ComplexArray]:
-    """Return the two partial fractions of each mode, and their derivatives by the pole, (2, m, nw).
+def residual(modes: Modes, problem: Problem) -> ComplexArray:
+    """Return the unweighted error of Z at the samples, (nf, ne)."""
+    omega = problem.samples.omega
+    return _off(modes, problem, partial_fractions(modes.poles, modes.sign, omega))
 
-    H = sum_m Re(r_m) F_0m + Im(r_m) F_1m with r = b b^T; the second array holds dF/dp of the
-    analytic parts.
-    """
-    s, poles = 1j * omega, modes.poles[:, None]
-    single = modes.real[:, None]
-    direct = np.where(single, modes.sign[:, None], 1.0) / (s - poles)
-    other = np.where(single, 0.0, 1.0 / (s - poles.conj()))
-    slope, other_slope = direct / (s - poles), other / (s - poles.conj())
-    pair = ~single
-    return (
-        np.stack([direct + other, 1j * pair * (direct - other)]),
-        np.stack([slope + other_slope, 1j * pair * (slope - other_slope)]),
-    )
+
+def _off(modes: Modes, problem: Problem, value: ComplexArray) -> ComplexArray:
+    """Return the error of Z at the samples from the partial fractions there."""
+    product = modes.vectors[:, problem.rows] * modes.vectors[:, problem.columns]
+    entries = value[0].T @ product.real + value[1].T @ product.imag
+    slope = 1j * problem.samples.omega[:, None]
+    return np.asarray(entries + slope * modes.added_mass - problem.samples.value)
 
 
 def impedance(modes: Modes, omega: Array) -> ComplexArray:
     """Return H(i omega) = Z - i omega A_inf of the modes, (nw, n, n)."""
-    value, _ = fractions(modes, omega)
+    return _matrices(modes, partial_fractions(modes.poles, modes.sign, omega))
+
+
+def resistance(modes: Modes, omega: Array) -> Array:
+    """Return Re H(i omega), (nw, n, n)."""
+    return _matrices(modes, real_fractions(modes.poles, modes.sign, omega))
+
+
+def real_parts(modes: Modes, omega: Array) -> tuple[Array, Array]:
+    """Return the real parts of the partial fractions and of their slopes, (2, nw, m)."""
+    value = partial_fractions(modes.poles, modes.sign, omega)
+    slope = pole_slopes(modes.poles, modes.sign, omega, value)
+    return value.real.transpose(0, 2, 1), slope.real.transpose(0, 2, 1)
+
+
+def _matrices(modes: Modes, value: AnyArray) -> AnyArray:
+    """Return sum_m Re(r_m) F_0m + Im(r_m) F_1m, (nw, n, n), with r = b b^T."""
     m, n = modes.vectors.shape
     product = (modes.vectors[:, :, None] * modes.vectors[:, None, :]).reshape(m, n * n)
     full = value[0].T @ product.real + value[1].T @ product.imag
-    return np.asarray(full).reshape(omega.size, n, n)
-
-
-def residual(modes: Modes, problem: Problem) -> ComplexArray:
-    """Return the unweighted error of Z at the samples, (nf, ne)."""
-    omega = problem.samples.omega
-    entries = impedance(modes, omega)[:, problem.rows, problem.columns]
-    return entries + 1j * omega[:, None] * modes.added_mass - problem.samples.value
+    matrices: AnyArray = full.reshape(-1, n, n)
+    return matrices
 
 
 def error(modes: Modes, problem: Problem) -> float:
@@ -156,12 +163,13 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
     """
     m, n, entries = modes.poles.size, problem.size, problem.rows.size
     samples = problem.samples
-    value, slope = fractions(modes, samples.omega)
+    value = partial_fractions(modes.poles, modes.sign, samples.omega)
+    slope = pole_slopes(modes.poles, modes.sign, samples.omega, value)
     functions = np.concatenate([value, slope]).reshape(4 * m, samples.omega.size)
     functions = np.concatenate([functions, 1j * samples.omega[None]])
     base = np.concatenate([functions.real, functions.imag], axis=1)
     weight = np.concatenate([samples.weight, samples.weight]).T
-    error_of_z = residual(modes, problem).T
+    error_of_z = _off(modes, problem, value).T
     off = np.concatenate([error_of_z.real, error_of_z.imag], axis=1)
     local = _local_derivatives(modes, problem)
     total = 2 * m * n + 2 * m + entries

@@ -25,10 +25,10 @@ from hydrodae.memory.modes import (
     Problem,
     damped,
     error,
-    fractions,
-    impedance,
     moved,
     normal_equations,
+    real_parts,
+    resistance,
 )
 from hydrodae.memory.vector_fitting import Array, ComplexArray
 
@@ -58,25 +58,31 @@ class Minima(NamedTuple):
     largest: float
 
 
+_UNIFORM, _AROUND, _FAR = (
+    np.linspace(0.0, 1.0, 1200),
+    np.tan(np.linspace(-1.45, 1.45, 25)),
+    np.geomspace(1.0, 20.0, 30),
+)
+
+
 def frequency_grid(poles: ComplexArray, highest: float, points: int = 1200) -> Array:
     """Return a grid [rad/s] from 0 to far beyond poles and data, dense around each pole."""
     span = 1.5 * max(highest, float(np.abs(poles).max()))
-    around = np.tan(np.linspace(-1.45, 1.45, 25))
-    near = poles.imag[:, None] + np.abs(poles.real)[:, None] * around
-    far = span * np.geomspace(1.0, 20.0, 30)
-    return np.unique(np.abs(np.concatenate([np.linspace(0.0, span, points), near.ravel(), far])))
+    near = poles.imag[:, None] + np.abs(poles.real)[:, None] * _AROUND
+    uniform = _UNIFORM if points == _UNIFORM.size else np.linspace(0.0, 1.0, points)
+    return np.unique(np.abs(np.concatenate([span * uniform, near.ravel(), span * _FAR])))
 
 
 def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -> Minima:
     """Find the local minima of all eigenvalues of Re H under `below` times the largest."""
     omega = frequency_grid(modes.poles, highest)
-    values, vectors = np.linalg.eigh(impedance(modes, omega).real)
+    values, vectors = eigenpairs(resistance(modes, omega))
     largest = float(values.max())
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=np.inf)
     lowest = (values <= padded[:-2]) & (values <= padded[2:]) & (values < below * largest)
     at, branch = np.nonzero(lowest)
     between = _between(omega, values[:, 0])
-    inner_values, inner_vectors = np.linalg.eigh(impedance(modes, between).real)
+    inner_values, inner_vectors = eigenpairs(resistance(modes, between))
     best = inner_values[:, 0].reshape(-1, BETWEEN).argmin(axis=1)
     best += BETWEEN * np.arange(best.size)
     best = best[inner_values[best, 0] < below * largest]
@@ -88,6 +94,14 @@ def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -
     )
 
 
+def eigenpairs(matrices: Array) -> tuple[Array, Array]:
+    """Return eigenvalues (k, n) and vectors (k, n, n) of symmetric matrices."""
+    if matrices.shape[-1] == 1:
+        return matrices[:, :, 0], np.ones_like(matrices)
+    values, vectors = np.linalg.eigh(matrices)
+    return values, vectors
+
+
 def _between(omega: Array, values: Array) -> Array:
     """Return frequencies around the lowest local minima of values (nw,), some for each."""
     inner = np.flatnonzero((values[1:-1] <= values[:-2]) & (values[1:-1] <= values[2:])) + 1
@@ -97,7 +111,7 @@ def _between(omega: Array, values: Array) -> Array:
 
 def constraint_rows(modes: Modes, minima: Minima, problem: Problem) -> tuple[Array, Array]:
     """Return d(v^T Re H v)/d(parameters), (k, n_parameters), and v^T Re H v, (k,)."""
-    value, slope = (part.real.transpose(0, 2, 1) for part in fractions(modes, minima.omega))
+    value, slope = real_parts(modes, minima.omega)
     beta = minima.vectors @ modes.vectors.T
     square = beta**2
     pair = ~modes.real
@@ -171,7 +185,7 @@ def enforce(
     best: tuple[float, Modes] | None = None
     for _ in range(iterations):
         level = level * ratio if level * ratio < floor - 0.25 * tolerance else floor
-        step = _constrained_step(modes, problem, minima, level, tolerance, damping)
+        step = _constrained_step(modes, problem, minima, level, tolerance, (now, damping))
         if step is None:
             if ratio > 0.97:
                 break
@@ -190,10 +204,18 @@ def enforce(
 
 
 def _constrained_step(
-    modes: Modes, problem: Problem, minima: Minima, level: float, tolerance: float, damping: float
+    modes: Modes,
+    problem: Problem,
+    minima: Minima,
+    level: float,
+    tolerance: float,
+    state: tuple[float, float],
 ) -> tuple[Modes, Minima, float, float] | None:
-    """Take one damped Gauss-Newton step with all minima held above `level` times the largest."""
-    now, highest = error(modes, problem), float(problem.samples.omega.max())
+    """Take one damped Gauss-Newton step with all minima held above `level` times the largest.
+
+    `state`: the error of the modes, and the damping.
+    """
+    (now, damping), highest = state, float(problem.samples.omega.max())
     matrix, gradient = normal_equations(modes, problem)
     rows, quadratic = constraint_rows(modes, minima, problem)
     lack = max(0.0, level - minima.lowest / minima.largest)

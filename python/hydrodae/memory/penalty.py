@@ -25,12 +25,12 @@ from hydrodae.memory.modes import (
     Problem,
     damped,
     error,
-    fractions,
-    impedance,
     moved,
     normal_equations,
+    real_parts,
+    resistance,
 )
-from hydrodae.memory.passivity import local_minima
+from hydrodae.memory.passivity import eigenpairs, local_minima
 from hydrodae.memory.vector_fitting import Array
 
 FLOOR = -4e-5
@@ -118,7 +118,7 @@ def _grid(modes: Modes, highest: float) -> Array:
 
 def _lack(modes: Modes, grid: Array, margin: float, top: float) -> _Low:
     """Return the eigenpairs of Re H / top below the margin, and by how much."""
-    values, vectors = np.linalg.eigh(impedance(modes, grid).real)
+    values, vectors = eigenpairs(resistance(modes, grid))
     at, branch = np.nonzero(values < margin * top)
     return _Low(grid[at], vectors[at, :, branch], values[at, branch] / top - margin)
 
@@ -175,7 +175,7 @@ def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
 
 def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:
     """Return d(u^T Re H v)/d(parameters), (k, n_parameters), of u, v (k, n) at omega (k,)."""
-    value, slope = (part.real.transpose(0, 2, 1) for part in fractions(modes, omega))
+    value, slope = real_parts(modes, omega)
     pair = ~modes.real
     on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
 

@@ -56,15 +56,19 @@ def order(poles: ComplexArray) -> int:
 
 def basis(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
     """Return the partial fractions phi_k(s), (ns, order), in the order of `poles`."""
-    columns = []
+    columns = np.empty((s.size, order(poles)), dtype=complex)
+    at = 0
     for pole, single in zip(poles, is_real(poles), strict=True):
         direct = 1.0 / (s - pole)
         if single:
-            columns.append(direct)
+            columns[:, at] = direct
+            at += 1
         else:
             other = 1.0 / (s - np.conj(pole))
-            columns += [direct + other, 1j * (direct - other)]
-    return np.stack(columns, axis=1)
+            columns[:, at] = direct + other
+            columns[:, at + 1] = 1j * (direct - other)
+            at += 2
+    return columns
 
 
 def residues(coefficients: npt.NDArray[np.floating], poles: ComplexArray) -> ComplexArray:

@@ -11,8 +11,9 @@ from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.importing import import_database, read
+from hydrodae.hdb.importing import import_database
 from hydrodae.hdb.readers.kinds import kind
+from hydrodae.hdb.reading import read
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -232,6 +232,6 @@ def _floats(path: Path, line: int, words: list[str], count: int, meaning: str) -
         values = [float(w.upper().replace("D", "E")) for w in words]
     except ValueError:
         values = []
-    if len(values) != count:
+    if len(values) != count or not np.all(np.isfinite(values)):
         raise DatabaseError(f"{path}:{line}: expected {meaning}, got {' '.join(words)[:60]!r}")
     return values

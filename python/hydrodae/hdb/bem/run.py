@@ -22,6 +22,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.extras import install_command
 from hydrodae.hdb.bem.green import solve
 from hydrodae.hdb.bem.lids import lid
+from hydrodae.hdb.bem.overlap import overlapping
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.shallow import SHALLOW
 
@@ -120,6 +121,12 @@ def compute(
         panels, a frequency at which Capytaine has no Green function, or NaN at w = inf.
     """
     _check_depth(bodies, settings.water_depth)
+    pair = overlapping({body.name: body.panels for body in bodies})
+    if pair is not None:
+        raise DatabaseError(
+            f"body {pair[1]!r} stands in body {pair[0]!r}: their hulls overlap; move one (:x=..), "
+            f"or join both into one mesh"
+        )
     cpt = _capytaine()
     cpt.set_logging("ERROR")
     logging.getLogger("capytaine").setLevel(logging.ERROR)

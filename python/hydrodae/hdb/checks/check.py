@@ -14,6 +14,7 @@ from hydrodae import irf
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
+from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
@@ -38,7 +39,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     Returns
     -------
     CheckReport
-        In the order grid, memory, symmetry, energy, causality, spikes, fits, long waves, hulls.
+        In the order grid, memory, symmetry, energy, irregular frequencies, causality, spikes, fits,
+        long waves, hulls.
     """
     judged = band or felt_band(database)
     return CheckReport(
@@ -47,11 +49,12 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *_grid(database),
             *_memory(database),
             *_symmetry(database),
-            *_energy(database, judged),
+            *of_what_moves(
+                database, lambda db: [*_energy(db, judged), *irregular_findings(db, judged)]
+            ),
             *energy_findings(database, judged),
             *_causality(database),
             *unit_findings(database),
-            *irregular_findings(database, judged),
             *spike_findings(database, judged),
             *fit_findings(database),
             *long_wave_findings(database, judged),

@@ -128,6 +128,12 @@ def _one_case(path: Path, ds: xr.Dataset) -> xr.Dataset:
                 f"(dataset.isel({name}=0))"
             )
         ds = ds.isel({name: 0})
+    speed = float(np.max(np.abs(ds["forward_speed"].values))) if "forward_speed" in ds else 0.0
+    if speed > 0.0:
+        raise DatabaseError(
+            f"{path}: forward_speed {speed:g} m/s: only tables of bodies without forward speed "
+            f"are supported"
+        )
     return ds
 
 

@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS
-from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.readers.text import number, read_lines, words
 
+#: No run has more frequencies, headings or bodies than this.
+LARGEST_COUNT = 1_000_000
 FREQUENCY_TYPES = {1: "rad/s", 2: "Hz", 3: "s"}
 
 
@@ -82,9 +84,13 @@ class _Lines:
 
     def numbers(self, meaning: str, least: int) -> list[float]:
         """Leading numbers of the next line, before any `!`."""
-        text = self.next(meaning).split("!")[0].replace(",", " ")
+        text = self.next(meaning).split("!")[0]
         values: list[float] = []
-        for token in text.split():
+        try:
+            tokens = words(text)
+        except ValueError as error:
+            raise self.fail(f"{meaning}: {error}") from None
+        for token in tokens:
             try:
                 values.append(number(token))
             except ValueError:
@@ -94,8 +100,11 @@ class _Lines:
         return values
 
     def count(self, meaning: str) -> int:
-        value = self.numbers(meaning, 1)[0]
-        if value != int(value) or value < 0:
+        return self.whole(self.numbers(meaning, 1)[0], meaning)
+
+    def whole(self, value: float, meaning: str) -> int:
+        """Return a count that is one."""
+        if value != int(value) or not 0 <= value <= LARGEST_COUNT:
             raise self.fail(f"expected a whole number, {meaning}, got {value:g}")
         return int(value)
 
@@ -129,6 +138,7 @@ def read_cal(path: Path) -> NemohCal:
     lines.next("the title of the load cases")
     omega = _read_frequencies(lines)
     n, low, high = lines.numbers("number of headings, min, max", 3)[:3]
+    headings = lines.whole(n, "the number of headings")
     return NemohCal(
         rho=rho,
         gravity=gravity,
@@ -136,7 +146,7 @@ def read_cal(path: Path) -> NemohCal:
         origin=(x, y),
         bodies=bodies,
         omega=omega,
-        heading_deg=np.linspace(low, high, int(n)),
+        heading_deg=np.linspace(low, high, headings),
     )
 
 
@@ -176,7 +186,8 @@ def _read_frequencies(lines: _Lines) -> NDArray[np.float64]:
         values = values[1:]
     if kind not in FREQUENCY_TYPES:
         raise lines.fail(f"frequency type {kind}; known are 1 = rad/s, 2 = Hz, 3 = s")
-    grid = np.linspace(values[1], values[2], int(values[0]))
+    many = lines.whole(values[0], "the number of frequencies")
+    grid = np.linspace(values[1], values[2], many)
     if grid.size == 0 or np.any(grid <= 0.0):
         raise lines.fail("frequencies must be > 0")
     if kind == 1:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 #: One number within a line; not the beginning or the end of a garbled one (`1.0x3`, `-1.#IND`).
 NUMBER = r"(?:[-+]|(?<![\w.]))(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?(?![\w.#])"
+_AMBIGUOUS = re.compile(r"[-+]?\d+,\d+(?:[EeDd][-+]?\d+)?")
 _LOST_E = re.compile(r"(?<=[0-9.])([+-]\d{3})\b")
 
 
@@ -22,6 +23,24 @@ def read_text(path: Path) -> str:
 def read_lines(path: Path) -> list[str]:
     """Return the lines of a file without their ends."""
     return read_text(path).splitlines()
+
+
+def words(text: str) -> list[str]:
+    """Split a line of numbers at blanks, and at commas that separate.
+
+    Raises
+    ------
+    ValueError
+        A comma between digits and without a blank: a decimal point, or a separator. Not looked at
+        behind the first word that is no number.
+    """
+    for word in text.split():
+        if _AMBIGUOUS.fullmatch(word):
+            point, both = word.replace(",", "."), word.replace(",", " ")
+            raise ValueError(f"{word!r}: write {point} or {both!r}")
+        if not re.match(r"[-+]?\.?\d", word):
+            break
+    return text.replace(",", " ").split()
 
 
 def number(token: str) -> float:

@@ -102,6 +102,16 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     a = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, rows[:, 3]))
     damping = np.nan_to_num(rows[:, 4])
     b = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, damping))
+    alone = tables.without_mate(rows[:, 1:3], modes)
+    if alone.any():
+        i, j = (modes[k] for k in np.argwhere(alone)[0])
+        text = (
+            f"{radiation.name} holds one half of A and B ({i:g} {j:g}, not {j:g} {i:g}): the other "
+            f"is taken from it, by reciprocity"
+        )
+        findings.append(Finding("info", "assumption", text))
+        for table in (a, b):
+            table.transpose(0, 2, 1)[:, alone] = table[:, alone]
     omega = at[finite]
     rotation = (modes.astype(int) - 1) % 6 >= 3
     scale = rho * length ** (3.0 + rotation[:, None] + rotation)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text
+from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
 
 Array = NDArray[np.float64]
 
@@ -92,10 +92,14 @@ def _numbers(text: str) -> list[float]:
     return [float(n.upper().replace("D", "E")) for n in _NUMBERS.findall(text)]
 
 
-def _leading(line: str) -> list[float]:
-    """Numbers at the start of a line, up to the first word that is none."""
+def _leading(line: str, where: str) -> list[float]:
+    """Numbers at the start of a line, up to the first word that is none; `where` is file:line."""
     found = []
-    for word in line.replace(",", " ").split():
+    try:
+        separate = words(line)
+    except ValueError as error:
+        raise DatabaseError(f"{where}: {error}") from None
+    for word in separate:
         if not re.fullmatch(NUMBER, word):
             break
         found.append(float(word.upper().replace("D", "E")))
@@ -114,7 +118,8 @@ def _cfg(path: Path, control: Control) -> None:
 def _pot(path: Path, control: Control) -> None:
     """Read a potential control file: form 2 (with NBODY), or form 1 (one body)."""
     lines = read_lines(path)
-    values = [_leading(line) for line in lines]
+    values = [_leading(line, f"{path}:{n}") for n, line in enumerate(lines[1:], start=2)]
+    values.insert(0, [])  # a title
 
     def expect(row: int, count: int, what: str) -> list[float]:
         if row >= len(lines) or len(values[row]) < count:
@@ -222,7 +227,7 @@ def _frc(stem: Path, control: Control) -> None:
     form = re.search(r"IALTFRC\s*=\s*(\d)", read_text(matrix))
     lines = read_lines(path)
     if form and form[1] != "1" and len(lines) > 2:
-        found = _leading(lines[2])
+        found = _leading(lines[2], f"{path}:3")
         if found and found[0] > LEAST_DENSITY:
             control.rho = found[0]
             control.files.append(path)
@@ -241,7 +246,7 @@ def _hams_file(stem: Path) -> Path | None:
 def _hams(path: Path, control: Control) -> None:
     """Depth (negative: infinite), reference point and length of HAMS; its tables hold periods."""
     text = read_text(path)
-    depth = re.search(rf"Waterdepth\s+({NUMBER})", text, re.IGNORECASE)
+    depth = re.search(rf"Waterdepth\s+({NUMBER})(?!,)", text, re.IGNORECASE)
     if depth is None:
         raise DatabaseError(f"{path}: no line Waterdepth with a number")
     (value,) = _numbers(depth[1])
@@ -271,7 +276,7 @@ def _after(path: Path, count: int, line: str) -> Array:
 
 def _gdf(path: Path, control: Control) -> None:
     lines = read_lines(path)
-    found = _leading(lines[1]) if len(lines) > 1 else []
+    found = _leading(lines[1], f"{path}:2") if len(lines) > 1 else []
     if len(found) < 2:
         raise DatabaseError(f"{path}:2: expected 2 numbers: ULEN and GRAV")
     control.length, control.gravity = found[0], found[1]

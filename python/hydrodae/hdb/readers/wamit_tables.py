@@ -153,6 +153,25 @@ def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Findin
         findings.append(Finding("warning", "excitation", text, float(turned.mean())))
 
 
+def without_mate(pairs: Array, modes: Array) -> NDArray[np.bool_]:
+    """Tell which pairs I, J of modes stand in a file that holds no J, I.
+
+    Parameters
+    ----------
+    pairs : (m, 2) array
+        I and J of the rows.
+    modes : (n,) array
+        All modes, ascending.
+
+    Returns
+    -------
+    (n, n) array of bool
+    """
+    there = np.zeros((modes.size, modes.size), dtype=bool)
+    there[np.searchsorted(modes, pairs[:, 0]), np.searchsorted(modes, pairs[:, 1])] = True
+    return np.asarray(there & ~there.T)
+
+
 def scatter(
     path: Path,
     rows: Array,

@@ -15,7 +15,7 @@ from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.frequency.sea import wave_components
 from hydrodae.hdb.checks.energy import group_velocity
-from hydrodae.hdb.importing import read
+from hydrodae.hdb.reading import read
 from hydrodae.simulate import run
 from hydrodae.study.spectral import spectral
 from hydrodae.study.sweep.measures import Measure, measure

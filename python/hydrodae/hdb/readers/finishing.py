@@ -1,0 +1,263 @@
+"""The common way from what a reader hands over to a `HydroDatabase`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydrodae import infinity
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.coordinates import bodies_of
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.readers.source import Array, Complex, SourceData, sha256
+from hydrodae.hdb.tables import Body
+from hydrodae.version import version
+
+#: No water couples two motions by so many times what their own added masses allow.
+EXCHANGED = 2.0
+#: Couplings below this share of the largest added mass are noise.
+LEAST_COUPLING = 0.02
+
+
+def finish(data: SourceData) -> HydroDatabase:
+    """Symmetrise, split the excitation, estimate added_mass_inf; findings go to `data.findings`."""
+    _drop_rows_with_nan(data)
+    if data.omega.size < 4:
+        raise DatabaseError(
+            f"{data.name}: {data.omega.size} frequencies > 0; 4 are needed at least"
+        )
+    asymmetry_finding(data)
+    exchange_finding(data)
+    a = 0.5 * (data.added_mass + data.added_mass.transpose(0, 2, 1))
+    b = 0.5 * (data.radiation_damping + data.radiation_damping.transpose(0, 2, 1))
+    fk, diffraction, split = _split_excitation(data)
+    a_inf, std, origin = _added_mass_inf(data, a, b)
+    return HydroDatabase(
+        coordinates=data.coordinates,
+        omega=data.omega,
+        added_mass=a,
+        radiation_damping=b,
+        added_mass_inf=a_inf,
+        added_mass_inf_std=std,
+        added_mass_inf_origin=origin,
+        heading=data.heading,
+        froude_krylov=fk,
+        diffraction=diffraction,
+        excitation_split=split,
+        bodies={name: _body(data, name) for name in bodies_of(data.coordinates)},
+        rho=data.rho,
+        gravity=data.gravity,
+        water_depth=data.water_depth,
+        source=data.name,
+        source_sha256=sha256(data.files),
+        generator=f"hydrodae {version()}",
+        title=data.title,
+        extra=data.extra,
+    )
+
+
+def _body(data: SourceData, name: str) -> Body:
+    point, found = data.reference_points.get(name), data.hydrostatics.get(name)
+    if point is None:
+        data.findings.append(
+            Finding(
+                "warning",
+                "reference point",
+                f"{name}: the source does not say about which point its moments are; state it "
+                f"(source_points, --origin {name}=x,y,z)",
+            )
+        )
+    mesh = data.meshes.get(name)
+    if found is None or point is None:
+        return Body(name, point, mesh=mesh)
+    return Body(name, point, found[0].moved(found[1], point), mesh)
+
+
+def _drop_rows_with_nan(data: SourceData) -> None:
+    tables = ("added_mass", "radiation_damping", "froude_krylov", "diffraction", "excitation")
+    bad = np.zeros(data.omega.size, dtype=bool)
+    for name in tables:
+        value = getattr(data, name)
+        if value is not None:
+            bad |= ~np.isfinite(value).reshape(data.omega.size, -1).all(axis=1)
+    if not bad.any():
+        return
+    where = ", ".join(f"{w:.4g}" for w in data.omega[bad][:6]) + (" ..." if bad.sum() > 6 else "")
+    share = bad.mean()
+    if share > 0.2 or (~bad).sum() < 4:
+        raise DatabaseError(
+            f"{data.name}: {bad.sum()} of {bad.size} frequencies hold NaN (w = {where} rad/s): the "
+            f"computation behind it failed; repeat it"
+        )
+    data.findings.append(
+        Finding(
+            "warning",
+            "NaN",
+            f"{bad.sum()} of {bad.size} frequencies hold NaN and were dropped (w = {where} rad/s)",
+            value=float(share),
+            omega=float(data.omega[bad][0]),
+        )
+    )
+    data.omega = data.omega[~bad]
+    for name in tables:
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, value[~bad])
+
+
+def asymmetry_finding(data: SourceData) -> None:
+    """Report max |A - A^T| and |B - B^T| over the largest entry, with lengths scaled out."""
+    n = len(data.coordinates)
+    for name in ("added_mass", "radiation_damping"):
+        table = getattr(data, name)
+        size = np.sqrt(np.abs(np.einsum("wii->wi", table)).max(axis=0))
+        scale = np.outer(size, size)
+        scale[scale <= 1e-6 * scale.max()] = np.inf
+        relative = np.abs(table - table.transpose(0, 2, 1)) / scale
+        w, i, j = np.unravel_index(relative.argmax(), (data.omega.size, n, n))
+        value = float(relative[w, i, j])
+        level = "warning" if value > 0.02 else "info"
+        pair = f"{data.coordinates[i]} and {data.coordinates[j]}" if value > 0.02 else ""
+        data.findings.append(
+            Finding(
+                level,
+                f"symmetry of {name}",
+                f"largest asymmetry {value:.2g} of the diagonal"
+                + (f", between {pair}" if pair else "")
+                + "; the mean of both halves is used",
+                value=value,
+                omega=float(data.omega[w]),
+            )
+        )
+
+
+def exchange_finding(data: SourceData) -> None:
+    """Report an added mass that couples two motions more than each has of its own.
+
+    A_inf is positive definite, |A_ij|^2 <= A_ii A_jj; medians over the frequencies keep about to
+    it, unless the rows or columns of two motions are exchanged.
+    """
+    size = np.median(np.abs(data.added_mass), axis=0)
+    turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in data.coordinates])
+    kinds = [turning == kind for kind in (False, True)]
+    largest = [float(size[np.ix_(k, k)].max(initial=0.0)) for k in kinds]
+    unit = np.sqrt(np.where(turning, largest[1], largest[0]))
+    unit[unit <= 0.0] = np.inf
+    scaled = size / np.outer(unit, unit)
+    own = np.sqrt(np.diag(scaled))
+    ratio = scaled / np.maximum(np.outer(own, own), 1e-12)
+    np.fill_diagonal(ratio, 0.0)
+    ratio[scaled < LEAST_COUPLING] = 0.0
+    i, j = np.unravel_index(ratio.argmax(), ratio.shape)
+    if ratio[i, j] > EXCHANGED:
+        text = (
+            f"that of {data.coordinates[i]} by {data.coordinates[j]} is {ratio[i, j]:.2g} times "
+            f"what their own added masses allow: are rows or columns exchanged?"
+        )
+        data.findings.append(Finding("error", "coupling of added_mass", text, float(ratio[i, j])))
+
+
+def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:
+    fk, d, total = data.froude_krylov, data.diffraction, data.excitation
+    if fk is not None and d is not None:
+        if total is not None:
+            data.findings.append(_sum_finding(data, fk, d, total))
+        return fk, d, True
+    if total is not None and d is not None:
+        data.findings.append(
+            Finding("info", "excitation", "Froude-Krylov taken as excitation - diffraction")
+        )
+        return total - d, d, True
+    if total is not None and fk is not None:
+        data.findings.append(
+            Finding("info", "excitation", "diffraction taken as excitation - Froude-Krylov")
+        )
+        return fk, total - fk, True
+    shape = (data.omega.size, data.heading.size, len(data.coordinates))
+    if total is not None:
+        data.findings.append(
+            Finding(
+                "info",
+                "excitation",
+                "the source holds the total only; Froude-Krylov and diffraction are not separated",
+            )
+        )
+        return np.zeros(shape, dtype=complex), total, False
+    if d is not None or fk is not None:
+        half = "diffraction" if d is not None else "Froude-Krylov"
+        raise DatabaseError(
+            f"{data.name}: only the {half} force is there; the excitation needs the other half too"
+        )
+    data.findings.append(
+        Finding("warning", "excitation", "the source holds no excitation: no waves can be used")
+    )
+    data.heading = np.zeros(0)
+    empty = np.zeros((data.omega.size, 0, len(data.coordinates)), dtype=complex)
+    return empty, empty.copy(), True
+
+
+def _sum_finding(data: SourceData, fk: Complex, d: Complex, total: Complex) -> Finding:
+    scale = np.abs(total).max(axis=(0, 1))
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    error = np.abs(fk + d - total) / scale
+    w, h, i = np.unravel_index(error.argmax(), error.shape)
+    value = float(error[w, h, i])
+    return Finding(
+        "error" if value > 0.01 else "info",
+        "excitation = FK + diffraction",
+        f"largest difference {value:.2g} of the largest force, at {data.coordinates[i]}",
+        value=value,
+        omega=float(data.omega[w]),
+    )
+
+
+def _coupling_doubt(value: Array, std: Array) -> Array:
+    """Uncertainty (n, n) whose couplings share the doubt of their diagonals.
+
+    What is wrong with the motion of one coordinate is wrong with its coupling too:
+    u_ij >= |r_ij| sqrt(u_ii u_jj) with the correlation r_ij = A_ij / sqrt(A_ii A_jj), at most 1.
+    """
+    size = np.sqrt(np.abs(np.diag(value)))
+    scale = np.outer(size, size)
+    scale[scale <= 0.0] = np.inf
+    correlation = np.minimum(np.abs(value) / scale, 1.0)
+    own = np.sqrt(np.diag(std))
+    return np.asarray(np.maximum(std, correlation * np.outer(own, own)))
+
+
+def _mesh_doubt(a: Array) -> Array:
+    """Uncertainty (n, n) of A that its asymmetry shows: half of it, at all frequencies alike.
+
+    A coordinate is as uncertain as its worst coupling, scaled by the roots of the diagonals:
+    errors of a mesh too coarse for a gap or a plate do not break Ogilvie's relation.
+    """
+    size = np.sqrt(np.abs(np.einsum("wii->wi", a)).max(axis=0))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    half = 0.5 * np.median(np.abs(a - a.transpose(0, 2, 1)), axis=0) / scale
+    worst = np.sqrt(half.max(axis=1)) * size
+    return np.asarray(np.outer(worst, worst))
+
+
+def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array, str]:
+    value, std = infinity.added_mass_inf(data.omega, a, b)
+    value, std = 0.5 * (value + value.T), 0.5 * (std + std.T)
+    std = _coupling_doubt(value, std) + _mesh_doubt(data.added_mass)
+    if data.added_mass_inf is None:
+        return value, std, "Ogilvie's relation at low frequencies"
+    given = 0.5 * (data.added_mass_inf + data.added_mass_inf.T)
+    size = np.sqrt(np.abs(np.diag(given)))
+    scale = np.outer(size, size)
+    scale[scale <= 1e-6 * scale.max()] = np.inf
+    error = np.abs(given - value) / scale
+    i, j = np.unravel_index(error.argmax(), error.shape)
+    data.findings.append(
+        Finding(
+            "warning" if error.max() > 0.05 else "info",
+            "added_mass_inf of the source",
+            f"differs from Ogilvie's relation by up to {error.max():.2g} "
+            f"({data.coordinates[i]}, {data.coordinates[j]}); the source's value is used",
+            value=float(error.max()),
+        )
+    )
+    return given, np.abs(given - value), "source"
