@@ -1992,6 +1992,8 @@ class ForceTypes(TypedList):
         winch_length: _Numbers = ...,
         radii: _Numbers = ...,
         axes: _Rows = ...,
+        breaking_load: float = ...,
+        breaks: bool = ...,
     ) -> str:
         """Add `[[force]]` with the type "rope".
 
@@ -2026,6 +2028,10 @@ class ForceTypes(TypedList):
         axes : list of points, optional
             Axes of the sheaves, one for each point (any where there is none), world axes: from
             the first point to the last the rope runs round them by the rule of the right hand.
+        breaking_load : number, N, optional
+            Tension that it bears; the summary tells where it is exceeded. Allowed: > 0.
+        breaks : true or false, default false
+            Whether it parts for good where its tension reaches `breaking_load`.
 
         Returns
         -------
@@ -2052,6 +2058,8 @@ class ForceTypes(TypedList):
         pretension: float = ...,
         seabed: bool = ...,
         friction: float = ...,
+        breaking_load: _Numbers = ...,
+        breaks: bool = ...,
     ) -> str:
         """Add `[[force]]` with the type "catenary".
 
@@ -2084,6 +2092,11 @@ class ForceTypes(TypedList):
             Whether a flat seabed at the height of A carries the line.
         friction : number, default 0
             Friction coefficient of the seabed. Allowed: >= 0.
+        breaking_load : list of numbers, N, optional
+            Tensions that the parts bear, one number or one each; the summary tells where they
+            are exceeded. Allowed: > 0.
+        breaks : true or false, default false
+            Whether it parts for good where its tension reaches `breaking_load`.
 
         Returns
         -------
@@ -2187,6 +2200,7 @@ class ForceTypes(TypedList):
         added_mass: _Numbers = ...,
         added_mass_axial: _Numbers = ...,
         breaking_load: _Numbers = ...,
+        breaks: bool = ...,
         contact_diameter: _Numbers = ...,
         pretension: float = ...,
         attachment_at: _Numbers = ...,
@@ -2247,7 +2261,10 @@ class ForceTypes(TypedList):
         added_mass_axial : list of numbers, optional
             C_at: added mass along the line. Allowed: >= 0.
         breaking_load : list of numbers, N, optional
-            Breaking loads of the parts; reported, nothing breaks. Allowed: > 0.
+            Breaking loads of the parts; the summary tells where they are exceeded. Allowed: >
+            0.
+        breaks : true or false, default false
+            Whether the segment parts for good whose tension reaches `breaking_load`.
         contact_diameter : list of numbers, m, optional
             Width of the parts where they lie on the seabed, their axes half of it above: links
             are wider than D; default: D, the axis on the seabed. Allowed: > 0.

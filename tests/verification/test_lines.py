@@ -367,24 +367,29 @@ def test_a_jumper_with_bending_hangs_as_that_of_lowe_and_langley() -> None:
 
 @pytest.mark.parametrize(
     ("number", "heading", "phase", "bar"),
-    [(4, 0.0, 230.0, 0.85), (5, 45.0, 165.0, 1.03), (6, 90.0, 0.0, 1.2)],
+    [(4, 0.0, 230.0, 0.57), (5, 45.0, 165.0, 0.99), (6, 90.0, 0.0, 0.5)],
 )
 def test_a_jumper_in_waves_of_lowe_and_langley(
     reference: Path, number: int, heading: float, phase: float, bar: float
 ) -> None:
     """Tension at the top in regular waves of 5 m [kN], of 12 kN from least to most.
 
+    Theirs is under water throughout, though its top is where the troughs are: here all is 4 m
+    deeper, in waves that move the water as much there. Theirs at 45 degrees is 0.08 s early.
     Without the pressure of the waves along the line the range would be half of that.
     """
+    deeper, k = 4.0, (2.0 * math.pi / 10.0) ** 2 / 9.807
+    height = 10.0 * math.cosh(k * (100.0 + deeper)) / math.cosh(k * 100.0)
     text = (
-        "[environment]\nwater_density = 1000.0\nwater_depth = 100.0\ngravity = 9.807\n"
-        f'[sea]\nramp = 20.0\n[[wave]]\nname = "w"\ntype = "regular"\nheight = 10.0\n'
-        f"period = 10.0\nheading_deg = {heading}\nphase_deg = {-phase}\n"
+        f"[environment]\nwater_density = 1000.0\nwater_depth = {100.0 + deeper}\n"
+        f'gravity = 9.807\n[sea]\nramp = 20.0\n[[wave]]\nname = "w"\ntype = "regular"\n'
+        f"height = {height!r}\nperiod = 10.0\nheading_deg = {heading}\nphase_deg = {-phase}\n"
     )
     keys = (
-        "point_a = [-100.0, 0.0, -55.0]\npoint_b = [0.0, 0.0, -5.0]\nlength = [170.0]\n"
-        "segments = [68]\nmass = [165.0]\ndiameter = [0.396]\nstiffness = [5e8]\n"
-        "bending_stiffness = [1.208e5]\ndrag = [1.0]\nadded_mass = [1.0]\ndamping_ratio = [0.5]"
+        f"point_a = [-100.0, 0.0, {-55.0 - deeper}]\npoint_b = [0.0, 0.0, {-5.0 - deeper}]\n"
+        "length = [170.0]\nsegments = [68]\nmass = [165.0]\ndiameter = [0.396]\n"
+        "stiffness = [5e8]\nbending_stiffness = [1.208e5]\ndrag = [1.0]\nadded_mass = [1.0]\n"
+        "damping_ratio = [0.5]"
     )
     run = hydrodae.run(case(text + IDLE + line(keys), "end_time = 50.0\nrtol = 1e-4"))
     theirs = np.loadtxt(

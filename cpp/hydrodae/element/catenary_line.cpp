@@ -1,8 +1,11 @@
 #include "hydrodae/element/catenary_line.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/breaking.h"
+#include "hydrodae/element/laws.h"
 
 namespace hydrodae::element {
 
@@ -132,6 +135,42 @@ CatenaryLine::Law CatenaryLine::law() const {
   return out;
 }
 
+namespace {
+
+/// The part that bears most: along each the tension is largest at one of its ends.
+Overload heaviest(const Catenary& line, const std::vector<double>& breaking_load, const double* x) {
+  const CatenaryHold hold = find(line, x).hold;
+  Overload out;
+  double V = hold.vertical; // at the upper end of the part
+  for (std::size_t i = line.parts.size(); i-- > 0;) {
+    const double below = V - line.parts[i].weight * line.parts[i].length;
+    const double lower = line.bed ? std::max(below, 0.0) : below; // the bed carries the rest
+    const double T = std::hypot(hold.horizontal, std::max(std::abs(V), std::abs(lower)));
+    const double ratio = T / breaking_load[breaking_load.size() == 1 ? 0 : i];
+    if (ratio > out.ratio)
+      out = {ratio, static_cast<int>(i) + 1};
+    if (i > 0)
+      V = lower - line.loads[i - 1];
+  }
+  return out;
+}
+
+} // namespace
+
+std::shared_ptr<const Elements> CatenaryLine::list(const std::vector<CatenaryLine>& lines) {
+  if (lines.front().breaking_load.empty())
+    return std::make_shared<const Laws<CatenaryLine>>(lines);
+  std::vector<std::shared_ptr<const Elements>> whole;
+  std::vector<Breaking::Bears> bears;
+  for (const CatenaryLine& line : lines) {
+    whole.push_back(std::make_shared<const Laws<CatenaryLine>>(std::vector<CatenaryLine>{line}));
+    bears.emplace_back([hung = line.law().line, line](const double* in, const double*) {
+      return heaviest(hung, line.breaking_load, in);
+    });
+  }
+  return std::make_shared<const Breaking>(whole, bears, lines.front().breaks);
+}
+
 std::optional<Fault> CatenaryLine::fault() const {
   const auto numbers = [](const std::string& key) {
     return Fault{key, "a line needs as many numbers in '" + key + "' as parts in 'length'"};
@@ -144,6 +183,11 @@ std::optional<Fault> CatenaryLine::fault() const {
     return numbers("stiffness");
   if (!loads.empty() && loads.size() + 1 != length.size())
     return Fault{"loads", "'loads' hang between the parts: one number less than 'length'"};
+  if (breaking_load.size() > 1 && breaking_load.size() != length.size())
+    return Fault{"breaking_load",
+                 "'breaking_load' takes one number, or as many as parts in 'length'"};
+  if (breaks && breaking_load.empty())
+    return Fault{"breaks", "a line that breaks needs its 'breaking_load'"};
   for (const double w : weight)
     if (w == 0.0)
       return Fault{"weight", "a line without weight is a rope: use type 'rope'"};

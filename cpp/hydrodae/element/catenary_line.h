@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ struct CatenaryLine {
   std::optional<double> pretension;
   bool seabed = true;
   double friction = 0.0;
+  std::vector<double> breaking_load;
+  bool breaks = false;
 
   /// What the port joins, by the names of the bodies.
   std::array<std::pair<std::string, Vector3>, 2> ends() const {
@@ -56,6 +59,10 @@ struct CatenaryLine {
   };
 
   Law law() const;
+
+  /// Lists are of lines that all have breaking loads, or all break, or none.
+  std::size_t shape() const { return breaks ? 2 : breaking_load.empty() ? 0 : 1; }
+  static std::shared_ptr<const Elements> list(const std::vector<CatenaryLine>& lines);
 
   static std::vector<Quantity> channels() {
     return {{"tension", "N", "Tension at end B."},
@@ -85,6 +92,12 @@ struct CatenaryLine {
          more_than(0)},
         {"seabed", &C::seabed, "-", "Whether a flat seabed at the height of A carries the line."},
         {"friction", &C::friction, "-", "Friction coefficient of the seabed.", false, at_least(0)},
+        {"breaking_load", &C::breaking_load, "N",
+         "Tensions that the parts bear, one number or one each; the summary tells where they are "
+         "exceeded.",
+         false, more_than(0)},
+        {"breaks", &C::breaks, "-",
+         "Whether it parts for good where its tension reaches `breaking_load`."},
     };
   }
 };

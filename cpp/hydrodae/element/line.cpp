@@ -22,7 +22,8 @@ int Line::n_segments() const {
 std::size_t Line::shape() const {
   const bool bends = std::any_of(bending_stiffness.begin(), bending_stiffness.end(),
                                  [](double EI) { return EI > 0.0; });
-  return 4 * static_cast<std::size_t>(n_segments()) + (bends ? 2 : 0) + (free_end ? 1 : 0);
+  return 8 * static_cast<std::size_t>(n_segments()) + (breaks ? 4 : 0) + (bends ? 2 : 0) +
+         (free_end ? 1 : 0);
 }
 
 namespace {
@@ -99,6 +100,8 @@ std::optional<Fault> Line::fault() const {
     return wrong;
   if (std::optional<Fault> wrong = fault_of_attachments(*this))
     return wrong;
+  if (breaks && breaking_load.empty())
+    return Fault{"breaks", "a line that breaks needs its 'breaking_load'"};
   if (free_end && pretension)
     return Fault{"pretension", "a line with a free end has no pretension"};
   const double all = std::accumulate(length.begin(), length.end(), 0.0);
@@ -163,9 +166,10 @@ Fields<Line> Line::fields() {
       {"added_mass_axial", &L::added_mass_axial, "-", "C_at: added mass along the line.", false,
        at_least(0)},
       {"breaking_load", &L::breaking_load, "N",
-       "Breaking loads of the parts; reported, nothing "
-       "breaks.",
-       false, more_than(0)},
+       "Breaking loads of the parts; the summary tells where they are exceeded.", false,
+       more_than(0)},
+      {"breaks", &L::breaks, "-",
+       "Whether the segment parts for good whose tension reaches `breaking_load`."},
       {"contact_diameter", &L::contact_diameter, "m",
        "Width of the parts where they lie on the seabed, their axes half of it above: links are "
        "wider than D; default: D, the axis on the seabed.",

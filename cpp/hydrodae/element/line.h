@@ -32,6 +32,7 @@ struct Line {
   std::optional<double> pretension;
   std::vector<double> attachment_at, attachment_mass, attachment_volume, attachment_drag_area,
       attachment_added_mass;
+  bool breaks = false;
   bool seabed = true;
   std::optional<double> seabed_depth, seabed_stiffness;
   double seabed_damping = 0.0, seabed_friction = 0.0;
@@ -49,7 +50,8 @@ struct Line {
   /// Of part `i`, or the value that all have: an entry of a list of one or of as many as parts.
   static double of_part(const std::vector<double>& values, std::size_t part, double otherwise = 0);
 
-  /// Lists are of lines with as many segments and the same kinds of entries.
+  /// Lists are of lines with as many segments and the same kinds of entries, that all break or
+  /// none.
   std::size_t shape() const;
 
   static std::shared_ptr<const Elements> list(const std::vector<Line>& lines,

@@ -170,7 +170,7 @@ std::shared_ptr<const Elements> Line::list(const std::vector<Line>& lines,
 }
 
 LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
-    : water_(around.water), still_(around.water) {
+    : breaks_(lines.front().breaks), water_(around.water), still_(around.water) {
   still_.terms.clear();
   for (const Line& line : lines) {
     if (const std::optional<Fault> wrong = line.fault(around))
@@ -184,7 +184,9 @@ LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
   }
   const LineModel& m = models_.front();
   type = Line::type;
-  shape = {Port::points, 3 * m.n_points(), 6 * m.n_unknown(), 0};
+  shape = {Port::points, 3 * m.n_points(), 6 * m.n_unknown(), breaks_ ? Parting::n_signals : 0};
+  inputs.resize(static_cast<std::size_t>(shape.n_signals));
+  signals.assign(lines.size() * inputs.size(), 0.0);
   sparsity = line_sparsity(m);
   tells_unknowns = false;
   lost =
@@ -202,6 +204,10 @@ LineList::LineList(const std::vector<Line>& lines, const Surroundings& around)
       {"power_seabed", "W", "Power that damping and friction of the seabed take."},
       {"position", "m", "Places of the nodes from A to B, (x, y, z) each.", 3 * (m.n() + 1)},
       {"tension_along", "N", "Tensions of the segments from A to B.", m.n()}};
+  if (breaks_) {
+    channels.push_back({"parted", "-", "Segment that has parted, counted from A on; 0: none."});
+    channels.push_back({"parted_at", "s", "When it has parted; 0 while the line is whole."});
+  }
   for (const LineModel& line : models_)
     for (int i = 1; i <= line.n_unknown(); ++i)
       for (const char* what : {"position", "velocity"})

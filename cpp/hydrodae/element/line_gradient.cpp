@@ -49,7 +49,7 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     const LineSegment& seg = at.m.segments[static_cast<std::size_t>(k)];
     const SegmentPull<double> p = segment_pull<double>(at, k);
     const Matrix3 P = Matrix3::Identity() - p.e * p.e.transpose();
-    const Plus<double> s = plus<double>((p.length - seg.length) / seg.length, seg.slack);
+    const Plus<double> s = at.stretch(k, p.length);
     const double c = seg.damping / seg.length;
     const Vector3 turned = P * (at.velocity(k + 1) - at.velocity(k)) / p.length;
     const Vector3 T_d = (seg.stiffness * s.slope + c * p.rate * s.curvature) / seg.length * p.e +
@@ -65,7 +65,7 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     K.by_velocity[here][1] -= D;
     K.by_velocity[next][1] -= D;
     K.by_velocity[next][0] += D;
-    if (const double bending = at.m.nodes[here].bending; k > 0 && bending > 0.0)
+    if (const double bending = at.bending(k); k > 0 && bending > 0.0)
       add_bending(bending, k, before, p, K);
     before = p;
   }
@@ -129,7 +129,7 @@ NodeWater<double> add_water(const LineView<double>& at, const sea::WaveField& se
   add_morison(node.body, node.body_lift, 0.0, Vector3::Zero(), above, u, a, w.fluid, g, attached);
   K.by_place[k][2] += d.by_x + attached.by_x;
   K.by_velocity[k][1] += d.by_v + attached.by_v;
-  const int low = std::max(i - 1, 0), high = std::min(i + 1, at.m.n());
+  const int low = node_before(at, i), high = node_behind(at, i);
   const double length = (at.place(high) - at.place(low)).norm();
   const Matrix3 turn = d.by_t * (Matrix3::Identity() - w.t * w.t.transpose()) / length;
   K.by_place[k][static_cast<std::size_t>(high - i + 2)] += turn;

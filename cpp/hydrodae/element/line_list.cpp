@@ -32,8 +32,7 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
     if (seg.damping == 0.0)
       continue;
     const SegmentPull<double> p = segment_pull<double>(at, k);
-    out.damping += seg.damping / seg.length * p.rate * p.rate *
-                   plus<double>((p.length - seg.length) / seg.length, seg.slack).slope;
+    out.damping += seg.damping / seg.length * p.rate * p.rate * at.stretch(k, p.length).slope;
   }
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& node = m.nodes[static_cast<std::size_t>(i)];
@@ -59,12 +58,12 @@ double line_energy(const LineView<double>& at) {
   Vector3 before = Vector3::Zero();
   for (int k = 0; k < m.n(); ++k) {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
-    const LineNode& node = m.nodes[static_cast<std::size_t>(k)];
     const Vector3 d = at.place(k + 1) - at.place(k), e = d.normalized();
-    out +=
-        seg.stiffness * seg.length * plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
-    if (k > 0 && node.bending > 0.0)
-      out += node.bending * (1.0 - before.dot(e));
+    if (k != at.parted)
+      out += seg.stiffness * seg.length *
+             plus_integral((d.norm() - seg.length) / seg.length, seg.slack);
+    if (k > 0)
+      out += at.bending(k) * (1.0 - before.dot(e));
     before = e;
   }
   for (int i = 0; i <= m.n(); ++i) {
@@ -75,6 +74,18 @@ double line_energy(const LineView<double>& at) {
       out += node.bed_stiffness * plus_integral(m.bed + node.axis_height - z, node.bed_width);
     if (!m.is_end(i))
       out += 0.5 * node.mass * at.velocity(i).squaredNorm();
+  }
+  return out;
+}
+
+/// The segment that bears most, of those that are whole.
+Overload heaviest(const LineView<double>& at) {
+  Overload out;
+  for (int k = 0; k < at.m.n(); ++k) {
+    const double ratio =
+        segment_pull<double>(at, k).tension / at.m.segments[static_cast<std::size_t>(k)].strength;
+    if (ratio > out.ratio)
+      out = {ratio, k + 1};
   }
   return out;
 }
@@ -139,48 +150,49 @@ private:
 
 } // namespace
 
-template <class S> void LineList::loads(double t, const S* in, S* out) const {
+template <class S> void LineList::loads(double t, const S* in, const double* held, S* out) const {
   for (std::size_t k = 0; k < size(); ++k) {
     S* force = line_scratch<S>(3 * models_[k].nodes.size());
-    evaluate_line<S>(view(k, in), sea_of(k), t, force, out, out + shape.width);
+    evaluate_line<S>(view(k, in, held), sea_of(k), t, force, out, out + shape.width);
     in += shape.n_in();
     out += shape.n_out();
   }
 }
 
-void LineList::evaluate(double t, const double* in, const double*, double* out) const {
-  loads(t, in, out);
+void LineList::evaluate(double t, const double* in, const double* held, double* out) const {
+  loads(t, in, held, out);
 }
 
-void LineList::evaluate(double t, const Dual* in, const double*, Dual* out) const {
-  loads(t, in, out);
+void LineList::evaluate(double t, const Dual* in, const double* held, Dual* out) const {
+  loads(t, in, held, out);
 }
 
-void LineList::jacobian(double t, const double* in, const double*, double* jacobian) const {
+void LineList::jacobian(double t, const double* in, const double* held, double* jacobian) const {
   thread_local LineBlocks blocks;
   for (std::size_t k = 0; k < size(); ++k) {
     const auto n = models_[k].nodes.size();
     double* force = line_scratch<double>(3 * n + static_cast<std::size_t>(shape.n_out()));
     double* out = force + 3 * n;
-    evaluate_line<double>(view(k, in), sea_of(k), t, force, out, out + shape.width);
-    jacobian = line_jacobian(view(k, in), sea_of(k), t, out + shape.width, blocks, jacobian);
+    const LineView<double> at = view(k, in, held);
+    evaluate_line<double>(at, sea_of(k), t, force, out, out + shape.width);
+    jacobian = line_jacobian(at, sea_of(k), t, out + shape.width, blocks, jacobian);
     in += shape.n_in();
   }
 }
 
-void LineList::energy(const double* in, const double*, double* joules) const {
+void LineList::energy(const double* in, const double* held, double* joules) const {
   for (std::size_t k = 0; k < size(); ++k, in += shape.n_in())
-    joules[k] = line_energy(view(k, in));
+    joules[k] = line_energy(view(k, in, held));
 }
 
-void LineList::observe(double t, const double* in, const double*, const double* out,
+void LineList::observe(double t, const double* in, const double* held, const double* out,
                        double* values) const {
   for (std::size_t k = 0; k < size(); ++k) {
     const LineModel& m = models_[k];
-    const LineView<double> at = view(k, in);
+    const LineView<double> at = view(k, in, held);
     const LinePowers power = line_powers(at, sea_of(k), t, out + shape.width);
     double *position = values + 8, *along = position + 3 * (m.n() + 1);
-    double most = 0.0, ratio = 0.0;
+    double most = 0.0;
     for (int i = 0; i <= m.n(); ++i) {
       const Vector3 x = at.place(i);
       position = std::copy(x.data(), x.data() + 3, position);
@@ -188,21 +200,27 @@ void LineList::observe(double t, const double* in, const double*, const double* 
     for (int i = 0; i < m.n(); ++i) {
       along[i] = segment_pull<double>(at, i).tension;
       most = std::max(most, along[i]);
-      ratio = std::max(ratio, along[i] / m.segments[static_cast<std::size_t>(i)].strength);
     }
     const double* load = out;
     values[0] = m.free_end ? 0.0 : Eigen::Map<const Vector3>(load + 3).norm();
     values[1] = Eigen::Map<const Vector3>(load).norm();
     values[2] = most;
-    values[3] = ratio;
+    values[3] = heaviest(at).ratio;
     values[4] = line_energy(at);
     values[5] = power.water;
     values[6] = power.damping;
     values[7] = power.seabed;
     values = along + m.n();
+    if (breaks_)
+      values = std::copy_n(held + k * Parting::n_signals, Parting::n_signals, values);
     in += shape.n_in();
     out += shape.n_out();
   }
+}
+
+Overload LineList::overload(std::size_t law, double, const double* in, const double* held) const {
+  const LineView<double> at = seen(law, in, held[0]);
+  return at.parted < 0 ? heaviest(at) : Overload{};
 }
 
 bool LineList::lost_at_rest(std::size_t law) const {
@@ -219,7 +237,7 @@ std::shared_ptr<const Elements> LineList::started(const double* in) const {
   Unknown* u = out->unknowns.data();
   for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {
     const LineModel& m = models_[k];
-    const LineView<double> at = view(k, in);
+    const LineView<double> at = seen(k, in, 0.0);
     const LineAtRest rest = line_at_rest(m, still_, in, free_ends_[k], names[k], false);
     for (int i = 1; i <= m.n_unknown(); ++i) {
       const LineSegment& seg = m.segments[static_cast<std::size_t>(i - 1)];

@@ -88,8 +88,21 @@ inline double plus_integral(double x, double w) {
 template <class S> struct LineView {
   const LineModel& m;
   const S *x, *v, *z;
+  int parted = -1; ///< segment that has parted
   Vec3<S> place(int i) const { return Eigen::Map<const Vec3<S>>(at(i, x, 0)); }
   Vec3<S> velocity(int i) const { return Eigen::Map<const Vec3<S>>(at(i, v, 3)); }
+
+  /// s(strain) of segment k of this length.
+  Plus<S> stretch(int k, const S& length) const {
+    if (k == parted)
+      return {S(0), S(0), S(0)};
+    const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
+    return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
+  }
+  /// EI / l at node k, between two segments.
+  double bending(int k) const {
+    return k == parted || k == parted + 1 ? 0.0 : m.nodes[static_cast<std::size_t>(k)].bending;
+  }
 
 private:
   const S* at(int i, const S* end, int part) const {
@@ -102,9 +115,18 @@ template <class S> S length_of(const Vec3<S>& d) {
   return sqrt(d.cwiseProduct(d).sum());
 }
 
+/// Nodes by which the direction of the line at node i goes: its neighbours, but not over a segment
+/// that has parted, unless it is all there is.
+template <class S> int node_before(const LineView<S>& at, int i) {
+  return i == 0 || (at.parted == i - 1 && i < at.m.n()) ? i : i - 1;
+}
+template <class S> int node_behind(const LineView<S>& at, int i) {
+  return i == at.m.n() || (at.parted == i && i > 0) ? i : i + 1;
+}
+
 /// Along the line at node i: from its neighbour before to that behind.
 template <class S> Vec3<S> tangent(const LineView<S>& at, int i) {
-  const Vec3<S> d = at.place(std::min(i + 1, at.m.n())) - at.place(std::max(i - 1, 0));
+  const Vec3<S> d = at.place(node_behind(at, i)) - at.place(node_before(at, i));
   return d / length_of<S>(d);
 }
 
@@ -119,7 +141,7 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   out.length = length_of<S>(d);
   out.e = d / out.length;
   out.rate = out.e.cwiseProduct(at.velocity(k + 1) - at.velocity(k)).sum();
-  const Plus<S> s = plus<S>((out.length - S(seg.length)) / S(seg.length), seg.slack);
+  const Plus<S> s = at.stretch(k, out.length);
   out.tension = S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * s.slope;
   return out;
 }
@@ -201,7 +223,7 @@ template <class S> void add_elastic(const LineView<S>& at, S* force) {
     const SegmentPull<S> p = segment_pull<S>(at, k);
     on(k) += p.tension * p.e;
     on(k + 1) -= p.tension * p.e;
-    const double c = k > 0 ? at.m.nodes[static_cast<std::size_t>(k)].bending : 0.0;
+    const double c = k > 0 ? at.bending(k) : 0.0;
     if (c > 0.0) {
       const S s = e_before.cwiseProduct(p.e).sum();
       const Vec3<S> q_a = S(-c) / l_before * (p.e - s * e_before),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/element/breaking.h"
 #include "hydrodae/element/rope_model.h"
 
 namespace hydrodae::element {
@@ -199,6 +200,19 @@ private:
 } // namespace
 
 std::shared_ptr<const Elements> Rope::list(const std::vector<Rope>& ropes) {
+  if (ropes.front().breaking_load) {
+    std::vector<std::shared_ptr<const Elements>> whole;
+    std::vector<Breaking::Bears> bears;
+    for (Rope rope : ropes) {
+      // The largest tension is the first channel of all ropes.
+      bears.emplace_back([load = *rope.breaking_load](const double*, const double* values) {
+        return Overload{values[0] / load, 1};
+      });
+      rope.breaking_load.reset();
+      whole.push_back(list({rope}));
+    }
+    return std::make_shared<const Breaking>(whole, bears, ropes.front().breaks);
+  }
   if (!ropes.front().is_plain())
     return ropes_over_sheaves(ropes);
   return std::make_shared<const RopeList>(ropes);

@@ -34,6 +34,8 @@ struct Rope {
   std::vector<double> winch_time, winch_length;
   std::vector<double> radii; ///< of each point; empty: zeros
   std::vector<Vector3> axes;
+  std::optional<double> breaking_load;
+  bool breaks = false;
 
   bool has_sheave(std::size_t point) const { return !radii.empty() && radii[point] > 0.0; }
   bool is_plain() const; ///< without sheaves
@@ -45,7 +47,8 @@ struct Rope {
   /// Unstretched length that does not follow a winch [m].
   double free_length() const;
 
-  /// Ropes of one shape make one list: as many points and sheaves.
+  /// Ropes of one shape make one list: as many points and sheaves, and all have breaking loads, or
+  /// all break, or none.
   std::size_t shape() const;
 
   static std::shared_ptr<const Elements> list(const std::vector<Rope>& ropes);
@@ -78,6 +81,10 @@ struct Rope {
         {"axes", &R::axes, "-",
          "Axes of the sheaves, one for each point (any where there is none), world axes: from the "
          "first point to the last the rope runs round them by the rule of the right hand."},
+        {"breaking_load", &R::breaking_load, "N",
+         "Tension that it bears; the summary tells where it is exceeded.", false, more_than(0)},
+        {"breaks", &R::breaks, "-",
+         "Whether it parts for good where its tension reaches `breaking_load`."},
     };
   }
 };

@@ -63,7 +63,8 @@ std::size_t Rope::shape() const {
   std::size_t sheaves = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     sheaves += has_sheave(i) ? 1 : 0;
-  return points.size() + 128 * sheaves;
+  const std::size_t bears = breaks ? 2 : breaking_load ? 1 : 0;
+  return points.size() + 128 * (sheaves + 128 * bears);
 }
 
 namespace {
@@ -123,6 +124,8 @@ std::optional<Fault> Rope::fault() const {
     if ((points[i] - points[i - 1]).norm() == 0.0)
       return Fault{"points", "two points in a row are at one place in the reference pose: the "
                              "rope has no direction between them"};
+  if (breaks && !breaking_load)
+    return Fault{"breaks", "a rope that breaks needs its 'breaking_load'"};
   if (length && pretension)
     return Fault{"pretension", "write either 'length' or 'pretension'"};
   if (const std::string_view wrong = Curve::fault(winch_time, winch_length); !wrong.empty())

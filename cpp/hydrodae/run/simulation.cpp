@@ -55,6 +55,7 @@ Simulation::Simulation(Start start, model::Scene&& scene)
     switching_ = std::make_unique<solve::Switching>(regime_, options_.rtol);
     switching_->settle(0.0, y_, yp_);
   }
+  partings_ = PartingWatch::make(regime_, y_);
   formulate();
   begin_history();
   choose_method();
@@ -143,6 +144,8 @@ void Simulation::advance(double limit, const Inside& inside) {
     history_->append(t_, y_, yp_);
   watch_steps(event, end);
   event_here_ = event;
+  if (event && partings_)
+    partings_->part(t_, y_);
   if (event)
     restart();
   failed_ = false;

@@ -14,6 +14,7 @@
 #include "hydrodae/run/impacts.h"
 #include "hydrodae/run/inputs.h"
 #include "hydrodae/run/method_choice.h"
+#include "hydrodae/run/parting_watch.h"
 #include "hydrodae/run/state.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/switching.h"
@@ -158,6 +159,7 @@ private:
   bool written_ = false;                        ///< inputs that the motion does not know yet
   bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
+  std::unique_ptr<PartingWatch> partings_;      ///< where ropes or lines may part
   std::unique_ptr<solve::Consistency> consistency_; ///< null: none was needed since a restore
   std::unique_ptr<system::History> history_;        ///< where loads depend on the past
   std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps

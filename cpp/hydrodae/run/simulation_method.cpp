@@ -76,7 +76,7 @@ bool Simulation::take_back(bool event) {
 }
 
 bool Simulation::has_events() const {
-  return switching_ || (controllers_ && controllers_->hear_crossings());
+  return switching_ || partings_ || (controllers_ && controllers_->hear_crossings());
 }
 
 /// The first event inside the last step, if any.
@@ -85,6 +85,9 @@ std::optional<double> Simulation::locate() {
   std::optional<double> first;
   if (controllers_)
     first = controllers_->locate(step_start_, t_, nodes, at_);
+  if (partings_)
+    if (const auto event = partings_->locate(step_start_, first.value_or(t_), nodes, at_))
+      first = event;
   if (switching_)
     if (const auto event = switching_->locate(step_start_, first.value_or(t_), nodes, at_))
       return event;

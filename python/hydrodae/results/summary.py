@@ -161,19 +161,39 @@ def _impacts(results: Recording) -> list[str]:
 
 
 def _overloads(results: Recording) -> list[str]:
-    """One line for each mooring line whose samples exceed its breaking load."""
+    """One line for each rope or mooring line that parts, or exceeds its breaking load."""
     lines = []
     for channel in results.channels("forces/*/tension_ratio"):
+        name = channel.split("/")[1]
+        if f"forces/{name}/parted" in results:
+            lines += _parting(results, name)
+            continue
         ratio = results[channel].to_numpy()
         over = np.flatnonzero(ratio > 1.0)
         if not len(over):
             continue
-        name, first, most = channel.split("/")[1], int(over[0]), int(np.argmax(ratio))
+        first, most = int(over[0]), int(np.argmax(ratio))
         lines.append(
             f"  {name}: BREAKING LOAD EXCEEDED from t = {results.time[first]:.4g} s, at most "
             f"{ratio[most]:.3g} times at t = {results.time[most]:.4g} s; the line goes on unbroken"
         )
     return lines
+
+
+def _parting(results: Recording, name: str) -> list[str]:
+    """That this rope or line has parted, when and where."""
+    place = results[f"forces/{name}/parted"].to_numpy()
+    if not len(place) or not place[-1]:
+        return []
+    at = float(results[f"forces/{name}/parted_at"].to_numpy()[-1])
+    if f"forces/{name}/tension_along" in results:
+        segments = results[f"forces/{name}/tension_along"].shape[1]
+        where = f" in segment {int(place[-1])} of {segments}, counted from end A"
+    elif f"forces/{name}/length_on_seabed" in results:
+        where = f" in part {int(place[-1])}, counted from end A"
+    else:
+        where = ""
+    return [f"  {name}: PARTED at t = {at:.4g} s{where}"]
 
 
 def _extrema(results: Recording, name: str) -> str:

@@ -1,0 +1,108 @@
+#include "hydrodae/run/parting_watch.h"
+
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/elements.h"
+
+namespace hydrodae::run {
+
+namespace {
+
+constexpr int bisections_of_ratio = 60;
+
+} // namespace
+
+std::unique_ptr<PartingWatch> PartingWatch::make(system::Regime& regime, const VectorX& y) {
+  std::unique_ptr<PartingWatch> out(new PartingWatch(regime));
+  for (std::size_t i = 0; i < regime.elements.size(); ++i)
+    if (const auto* laws = dynamic_cast<const element::Parting*>(regime.elements[i].laws.get());
+        laws && laws->may_part())
+      out->lists_.push_back({i, laws});
+  if (out->lists_.empty())
+    return nullptr;
+  out->visit(0.0, y, [&](const List& list, std::size_t law, const element::Overload& now, double*) {
+    if (now.ratio < 1.0)
+      return;
+    const std::string& name = regime.elements[list.index].laws->names[law];
+    throw ModelError("force." + name + ".breaking_load",
+                     "force " + in_quotes(name) + ": its tension at the start is " +
+                         rounded_text(now.ratio) +
+                         " times its 'breaking_load': it would part before anything moves");
+  });
+  return out;
+}
+
+/// Acts on each law, its overload, and its signals.
+template <class Visit> void PartingWatch::visit(double t, const VectorX& y, Visit&& act) {
+  if (yp_.size() != y.size())
+    yp_ = VectorX::Zero(y.size());
+  ws_.time = t;
+  system::unpack<double>(s_, y.data(), yp_.data(), ws_.bodies);
+  for (const List& list : lists_) {
+    const system::ElementList& of = s_.elements[list.index];
+    system::ElementScratch<double>& scratch = ws_.elements[list.index];
+    system::gather<double>(s_, of, ws_, y.data(), scratch);
+    const element::Shape& shape = of.laws->shape;
+    for (std::size_t k = 0; k < of.laws->size(); ++k) {
+      double* held = s_.signals[list.index].data() + k * static_cast<std::size_t>(shape.n_signals);
+      act(list, k,
+          list.laws->overload(k, t, scratch.in.data() + k * static_cast<std::size_t>(shape.n_in()),
+                              held),
+          held + shape.n_signals - element::Parting::n_signals);
+    }
+  }
+}
+
+bool PartingWatch::overloaded(double t, const VectorX& y) {
+  bool any = false;
+  visit(t, y, [&](const List&, std::size_t, const element::Overload& now, const double*) {
+    any = any || now.ratio >= 1.0;
+  });
+  return any;
+}
+
+std::optional<double> PartingWatch::locate(double t0, double t1, int nodes,
+                                           const system::Recorder::Interpolant& at) {
+  const auto is_beyond = [&](double t) {
+    at(t, y_, yp_);
+    return overloaded(t, y_);
+  };
+  double a = t0;
+  for (int node = 1; node <= nodes; ++node) {
+    double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
+    if (!is_beyond(b)) {
+      a = b;
+      continue;
+    }
+    for (int i = 0; i < bisections_of_ratio && b - a > 1e-15 * std::abs(b); ++i) {
+      const double middle = 0.5 * (a + b);
+      (is_beyond(middle) ? b : a) = middle;
+    }
+    return b;
+  }
+  return std::nullopt;
+}
+
+void PartingWatch::part(double t, const VectorX& y) {
+  visit(t, y, [&](const List&, std::size_t, const element::Overload& now, double* parted) {
+    if (now.ratio < 1.0)
+      return;
+    parted[0] = now.place;
+    parted[1] = t;
+  });
+}
+
+void PartingWatch::remember(Archive& a) {
+  for (const List& list : lists_) {
+    const element::Shape& shape = s_.elements[list.index].laws->shape;
+    std::vector<double>& held = s_.signals[list.index];
+    for (std::size_t end = static_cast<std::size_t>(shape.n_signals); end <= held.size();
+         end += static_cast<std::size_t>(shape.n_signals))
+      for (std::size_t k = end - element::Parting::n_signals; k < end; ++k)
+        a(held[k]);
+  }
+}
+
+} // namespace hydrodae::run

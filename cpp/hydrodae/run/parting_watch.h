@@ -1,0 +1,46 @@
+#pragma once
+/// Where ropes and lines part inside a step: the event, and what holds from then on.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/element/parting.h"
+#include "hydrodae/system/recorder.h"
+
+namespace hydrodae::run {
+
+class PartingWatch {
+public:
+  /// Null: nothing in the system parts. Throws ModelError where a rope or line is loaded beyond
+  /// what it bears at the start, y.
+  static std::unique_ptr<PartingWatch> make(system::Regime& regime, const VectorX& y);
+
+  /// The first parting in (t0, t1] of an accepted step, if any.
+  /// @param nodes  parts of the step at whose ends it is looked for
+  std::optional<double> locate(double t0, double t1, int nodes,
+                               const system::Recorder::Interpolant& at);
+
+  /// At an event: lets part what has reached its breaking load at t [s].
+  void part(double t, const VectorX& y);
+
+  void remember(Archive& a);
+
+private:
+  /// A list of ropes or lines that may part.
+  struct List {
+    std::size_t index;
+    const element::Parting* laws;
+  };
+  explicit PartingWatch(system::Regime& regime) : s_(regime), ws_(regime) {}
+  template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
+  bool overloaded(double t, const VectorX& y);
+
+  system::Regime& s_;
+  system::Workspace<double> ws_;
+  std::vector<List> lists_;
+  VectorX y_, yp_;
+};
+
+} // namespace hydrodae::run

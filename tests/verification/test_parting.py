@@ -1,0 +1,155 @@
+"""Ropes and lines that part at their breaking load, against closed forms."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.verification.blocks import METHODS, G, heaving, height_of, run_text
+
+import hydrodae
+from hydrodae.errors import CaseError
+
+MASS, EA, LENGTH = 10.0, 2e4, 8.0
+FORCES = {
+    "rope": f"points = [[0.0, 0.0, {LENGTH}], [0.0, 0.0, 0.0]]\n"
+    f'bodies = ["ground", "load"]\nstiffness = {EA}\n',
+    "sheave": "points = [[-0.5, 0.0, 0.0], [0.0, 0.0, 4.0], [0.5, 0.0, 0.0]]\n"
+    f'bodies = ["ground", "ground", "load"]\nstiffness = {EA}\n'
+    "radii = [0.0, 0.5, 0.0]\naxes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]]\n",
+}
+
+
+def dropped(kind: str, breaks: str, load: float = 1.5 * MASS * G) -> str:
+    """A mass that drops into a rope, just straight, so that T = m g (1 - cos w t)."""
+    at = (0.5 if kind == "sheave" else 0.0, 0.0, 0.0)
+    return heaving({"load": (MASS, at)}) + (
+        f'[[force]]\nname = "rope"\ntype = "rope"\n{FORCES[kind]}breaking_load = {load}\n{breaks}\n'
+    )
+
+
+@pytest.mark.parametrize("kind", ["rope", "sheave"])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_mass_falls_free_when_its_rope_parts(kind: str, method: str) -> None:
+    length = LENGTH if kind == "rope" else 8.0 + 0.5 * math.pi
+    w = math.sqrt(EA / (length * MASS))
+    when = 2.0 * math.pi / (3.0 * w)  # 1 - cos w t = 1.5
+    run = run_text(dropped(kind, "breaks = true"), 2.0 * when, method=method, step=when / 20.0)
+    at = run["forces/rope/parted_at"].values
+    assert at[-1] == pytest.approx(when, rel=1e-6)
+    late = run.time > when
+    assert (run["forces/rope/parted"].values == late).all()
+    assert (at[~late] == 0.0).all()
+    assert (run["forces/rope/tension"].values[late] == 0.0).all()
+    assert (run["forces/rope/tension_ratio"].values <= 1.0).all()
+    since = run.time[late] - when
+    fallen = -G / w**2 * 1.5 - G / w * math.sin(w * when) * since - 0.5 * G * since**2
+    assert height_of(run, "load")[late] == pytest.approx(fallen, rel=1e-6)
+    assert np.abs(run["energy/balance_error"].values).max() < 1e-6 * MASS * G * LENGTH
+    assert f"rope: PARTED at t = {when:.4g} s" in run.summary()
+
+
+def test_what_does_not_break_is_told_and_goes_on() -> None:
+    run = run_text(dropped("rope", ""), 1.0)
+    assert "forces/rope/parted" not in run
+    assert run["forces/rope/tension_ratio"].values.max() == pytest.approx(2.0 / 1.5, rel=1e-2)
+    assert "rope: BREAKING LOAD EXCEEDED" in run.summary()
+
+
+def test_a_run_goes_on_from_a_state_as_if_it_had_not_stopped() -> None:
+    text = dropped("rope", "breaks = true")
+    text += "[solver]\nend_time = 1.0\n[output]\nstep = 0.1\n"
+    one, two = (hydrodae.Simulation(hydrodae.Case.from_text(text)) for _ in range(2))
+    while one.time < 0.7:
+        one.advance(0.7)
+    assert one.read("forces/rope/parted") == 1.0
+    two.restore(one.state())
+    assert two.read("forces/rope/parted") == 1.0
+    for run in (one, two):
+        while not run.finished:
+            run.advance()
+    assert two.read("bodies/load/position.z") == one.read("bodies/load/position.z")
+
+
+def moored(body: str) -> str:
+    return f"""
+[environment]
+gravity = {G}
+[[body]]
+name = "buoy"
+motion = ["surge"]
+mass = 1000.0
+center_of_gravity = [0.0, 0.0, 0.0]
+[[force]]
+name = "wind"
+type = "constant_load"
+body = "buoy"
+force = [2e4, 0.0, 0.0]
+[[force]]
+name = "bow"
+body_b = "buoy"
+point_a = [-100.0, 0.0, -50.0]
+point_b = [0.0, 0.0, 0.0]
+{body}"""
+
+
+def test_a_catenary_parts_where_its_weakest_part_is_overloaded() -> None:
+    text = moored(
+        'type = "catenary"\nlength = [60.0, 60.0]\nweight = [200.0, 100.0]\n'
+        "stiffness = [1e7, 1e7]\nbreaking_load = [5e4, 1e5]\nbreaks = true\n"
+    )
+    run = run_text(text, 8.0, step=0.05)
+    name = "forces/bow/"
+    when = run[name + "parted_at"].values[-1]
+    assert 0.0 < when < 7.0
+    assert run[name + "parted"].values[-1] == 1.0  # the first part, from the anchor on
+    late = run.time > when
+    ratio, most = run[name + "tension_ratio"].values[~late], run[name + "tension"].values[~late]
+    assert 0.5 < ratio[-1] <= 1.0
+    assert most[-1] > 5e4 * ratio[-1]  # the part above bears more of its own
+    speed = run["bodies/buoy/velocity"].values[late, 0]
+    assert np.diff(speed) == pytest.approx(20.0 * np.diff(run.time[late]), rel=1e-6)
+    assert np.abs(run["energy/balance_error"].values).max() < 1e-5 * 2e4 * 100.0
+
+
+@pytest.mark.parametrize("method", ["radau", "ida"])
+def test_a_line_parts_at_the_segment_that_bears_most(method: str) -> None:
+    """A mass that drops into a light line that parts at its top: both fall free."""
+    text = heaving({"load": (MASS, (0.0, 0.0, 0.0))}) + (
+        '[[force]]\nname = "line"\ntype = "line"\nbody_b = "load"\n'
+        f"point_a = [0.0, 0.0, {LENGTH}]\npoint_b = [0.0, 0.0, 0.0]\nlength = [{LENGTH}]\n"
+        f"segments = [6]\nmass = [1e-3]\nstiffness = [{EA}]\ndamping_ratio = [0.3]\n"
+        f"breaking_load = [{1.5 * MASS * G}]\nbreaks = true\n"
+    )
+    text += '[[force]]\nname = "push"\ntype = "constant_load"\nbody = "load"\n'
+    text += f"force = [0, 0, {-MASS * G}]\n"
+    run = run_text(text, 0.6, method=method, rtol=1e-7, step=0.01)
+    when = run["forces/line/parted_at"].values[-1]
+    assert 0.0 < when < 0.4
+    assert run["forces/line/parted"].values[-1] == 1.0
+    late = run.time > when + 0.02
+    along = run["forces/line/tension_along"].values[late]
+    assert (along[:, 0] == 0.0).all()
+    assert np.abs(along).max() < 0.05 * MASS * G
+    speed = run["bodies/load/velocity"].values[late, 2]
+    assert np.polyfit(run.time[late], speed, 1)[0] == pytest.approx(-2.0 * G, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("breaks", "load", "message"),
+    [
+        ("breaks = true\npretension = 200.0", 100.0, "2 times its 'breaking_load'"),
+        ("breaks = true", -1.0, "breaking_load"),
+    ],
+)
+def test_what_cannot_be_is_refused(breaks: str, load: float, message: str) -> None:
+    with pytest.raises(CaseError, match=message):
+        run_text(dropped("rope", breaks, load), 0.1)
+
+
+def test_a_rope_that_breaks_needs_to_know_at_what_load(tmp_path: Path) -> None:
+    text = dropped("rope", "breaks = true").replace("breaking_load", "#")
+    with pytest.raises(CaseError, match="needs its 'breaking_load'"):
+        run_text(text, 0.1)
