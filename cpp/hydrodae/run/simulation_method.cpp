@@ -10,7 +10,7 @@ namespace hydrodae::run {
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
   if (options_.method == "auto" && options_.coordinates == "reduced")
-    methods_ = MethodChoice("explicit_rk"); // it alone knows them
+    methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
   else if (options_.method == "auto")
     methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();

@@ -261,7 +261,7 @@ std::string JointTree::in_words(const Regime& s) const {
   for (const CouplerData& c : s.couplers)
     if (s.holds(c))
       left.push_back("'" + c.name + "'");
-  return left.empty() ? text : text + " (" + joined(left) + ")";
+  return rows_left(s) == 0 ? text : text + " (" + joined(left) + ")";
 }
 
 } // namespace hydrodae::system
