@@ -78,13 +78,17 @@ def compare(
     Sizes are those of the largest channel of a kind, `least` at least.
     """
     assert list(bodies) == list(reduced)
-    for name in bodies:
-        if name.startswith(("solver/", "energy/")) or (leave and leave in name):
+    names = [n for n in bodies if not n.startswith(("solver/", "energy/"))]
+    values = {name: np.asarray(bodies[name]) for name in names}
+    sizes: dict[str, float] = {}
+    for name in names:
+        kind = name.rsplit("/", 1)[-1]
+        sizes[kind] = max(sizes.get(kind, least), float(np.abs(values[name]).max()))
+    for name in names:
+        if leave and leave in name:
             continue
-        one, other = np.asarray(bodies[name]), np.asarray(reduced[name])
-        like = bodies.channels("*/" + name.rsplit("/", 1)[-1])
-        size = max(float(np.abs(np.asarray(bodies[each])).max()) for each in like)
-        assert np.abs(one - other).max() <= tolerance * max(size, least), name
+        difference = float(np.abs(values[name] - np.asarray(reduced[name])).max())
+        assert difference <= tolerance * sizes[name.rsplit("/", 1)[-1]], name
 
 
 def both(
@@ -191,7 +195,7 @@ def test_a_device_in_waves_with_memory(repository: Path) -> None:
         {
             "solver.method": "explicit_rk",
             "solver.rtol": 1e-8,
-            "solver.end_time": 8.0,
+            "solver.end_time": 4.0,
             "sea.ramp": 2.0,
         }
     )

@@ -46,7 +46,8 @@ struct SolverOptions {
         {"coordinates",
          &O::coordinates,
          "-",
-         "Unknowns of the motion: those of all bodies, with multipliers for all joints; or reduced, "
+         "Unknowns of the motion: those of all bodies, with multipliers for all joints; or "
+         "reduced, "
          "those of the joints of a tree, with multipliers only for what closes loops (explicit_rk "
          "only).",
          false,
