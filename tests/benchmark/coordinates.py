@@ -149,6 +149,9 @@ def draw(charts: dict[str, dict[str, list[Point]]], path: Path) -> None:
         axis.set_title(name)
         axis.set_xlabel("error / motion [-]")
         axis.invert_xaxis()
+        times = [p.time for points in ways.values() for p in points]
+        middle = float(np.exp(np.mean(np.log(times))))
+        axis.set_ylim(middle / 3.0, middle * 3.0)  # else noise would look like a difference
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("processor time [s]")
     axes[0].legend(fontsize=7)
@@ -177,8 +180,8 @@ def main() -> None:
             print(
                 f"  {way:22s} start {1e3 * start:7.1f} ms, "
                 f"{time_at(points, arguments.error):8.3f} s at {arguments.error:g}, "
-                f"{min(each, default=float('nan')):7.1f} us a call; errors "
-                + " ".join(f"{p.error:.1e} ({p.steps})" for p in points),
+                f"{min(each, default=float('nan')):7.1f} us a call; error, s, steps "
+                + "; ".join(f"{p.error:.1e}, {p.time:.3f}, {p.steps}" for p in points),
                 flush=True,
             )
         draw(charts, arguments.output)

@@ -220,7 +220,7 @@ def test_a_run_goes_on_from_its_state(repository: Path) -> None:
         while not simulation.finished:
             simulation.advance()
         ends.append(np.array(simulation.read("bodies/flap1/velocity")))
-    np.testing.assert_array_equal(*ends)
+    np.testing.assert_array_equal(ends[0], ends[1])
 
 
 PENDULUM = BODY.format(name="bob", mass=1.0, at=[0, 0, -1], more='motion = "planar"').replace(
