@@ -154,6 +154,17 @@ def test_planar_bodies_turn_over_and_over() -> None:
     assert "2 velocities in place of 6, 0 of 4" in tell(reduced)
 
 
+def test_a_joint_that_would_break_locks_stays_as_rows() -> None:
+    """A planar body on one that moves in space: it has its own coordinates, and multipliers."""
+    text = BODY.format(name="flat", mass=1.0, at=[0.0, 0.0, -1.0], more='motion = "planar"')
+    text = text.replace("products_of_inertia = [0.05, -0.03, 0.08]\n", "")
+    text += BODY.format(name="free", mass=1.0, at=[1.0, 0.0, -1.0], more="")
+    text += joint("ball", "spherical", "free", "flat", [0.5, 0.0, -1.0])
+    text += joint("cross", "universal", "ground", "free", [1.0, 0.0, 0.0], AXIS)
+    _, reduced = both(text_case(text, 1.0))
+    assert "5 velocities in place of 9, 3 of 7 constraint rows left ('ball')" in tell(reduced)
+
+
 @pytest.mark.parametrize("name", ["n_four_bar_2", "slider_crank_equal", "bricard"])
 def test_loops_are_cut_and_closed(name: str, repository: Path) -> None:
     """Rows of the joints that close loops stay, those that follow from others do not."""
