@@ -15,7 +15,7 @@ namespace hydrodae::solve {
 namespace {
 
 constexpr double same_pose = 1e-6; ///< misfit [levers or rad]; markers may be as far out of line
-constexpr double singular = 1e-8;  ///< of the last pivot against the first
+constexpr double singular_pivot = 1e-8; ///< of the last pivot against the first
 
 void require_no_pressed_friction(const system::Regime& s) {
   system::for_each_law(
@@ -151,7 +151,8 @@ void JointSpace::drop_dependent_rows(Index needed) {
   for (Index i = 0; i < m_; ++i)
     rows.col(i).normalize();
   const PivotedColumns order = pivoted_columns(rows);
-  if (needed > 0 && !(std::abs(order.pivots[needed - 1]) > singular * std::abs(order.pivots[0])))
+  if (needed > 0 &&
+      !(std::abs(order.pivots[needed - 1]) > singular_pivot * std::abs(order.pivots[0])))
     return;
   std::vector<bool> keep(static_cast<std::size_t>(m_), false);
   for (Index i = 0; i < needed; ++i)

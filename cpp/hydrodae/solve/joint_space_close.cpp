@@ -10,9 +10,9 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr int projections = 8;
-constexpr double closed = 1e-13; ///< gaps in units of their scale
-constexpr double moving = 1e-8;  ///< rates of the gaps likewise
+constexpr int tree_projections = 8;
+constexpr double tree_closed = 1e-13; ///< gaps in units of their scale
+constexpr double tree_moving = 1e-8;  ///< rates of the gaps likewise
 
 } // namespace
 
@@ -80,7 +80,7 @@ void JointSpace::share_reactions(VectorX& y) {
 bool JointSpace::are_rows_at_rest(const VectorX& u) {
   for (Index i = 0; i < m_; ++i)
     if (std::abs(residual_[cut_.lambda0 + i]) >
-        moving * std::max(cut_.row_scale[cut_.lambda0 + i], u.cwiseAbs().maxCoeff()))
+        tree_moving * std::max(cut_.row_scale[cut_.lambda0 + i], u.cwiseAbs().maxCoeff()))
       return false;
   return true;
 }
@@ -95,7 +95,7 @@ bool JointSpace::project(double t, VectorX& x) {
     y_.tail(cut_.n - cut_.lambda0).setZero();
     return own_->residual(t, y_, yp0_, residual_);
   };
-  for (int i = 0; i < projections; ++i) {
+  for (int i = 0; i < tree_projections; ++i) {
     if (!residual())
       return false;
     rhs_.setZero();
@@ -107,9 +107,9 @@ bool JointSpace::project(double t, VectorX& x) {
       rhs_[n_ + cut_.lambda(row) - cut_.lambda0] = -residual_[mu];
       gap = std::max(gap, std::abs(residual_[mu]) / cut_.row_scale[mu]);
     });
-    if (gap <= closed || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
+    if (gap <= tree_closed || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
       break;
-    if ((i > 1 && gap > 2.0 * before) || (i + 1 == projections && gap > 1e-9))
+    if ((i > 1 && gap > 2.0 * before) || (i + 1 == tree_projections && gap > 1e-9))
       return false;
     before = gap;
     solve();

@@ -9,12 +9,12 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr double regularisation = 1e-8; ///< e
-constexpr int refinements = 4;
-constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
-constexpr double small = 1e-5;      ///< change of x by which derivatives are taken
+constexpr double tree_regularisation = 1e-8; ///< e
+constexpr int tree_refinements = 4;
+constexpr double tree_converged = 1e-13; ///< residual, relative to the right-hand side
+constexpr double small_change = 1e-5;    ///< change of x by which derivatives are taken
 
-template <class Vector> double largest(const Vector& v) {
+template <class Vector> double largest_entry(const Vector& v) {
   return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
 }
 
@@ -59,7 +59,7 @@ bool JointSpace::factorise() {
       if (const double g = plain_(n_ + i, k); g != 0.0)
         d += g * g / plain_(k, k);
     metric_[i] = d > 0.0 ? d : 1.0;
-    matrix_(n_ + i, n_ + i) = -regularisation * metric_[i];
+    matrix_(n_ + i, n_ + i) = -tree_regularisation * metric_[i];
   }
   if (!matrix_.allFinite())
     return false;
@@ -70,11 +70,12 @@ bool JointSpace::factorise() {
 /// The residual is taken with e = 0 (saddle_point.h).
 void JointSpace::solve() {
   solution_ = lu_.solve(rhs_);
-  for (int i = 0; m_ > 0 && i < refinements; ++i) {
+  for (int i = 0; m_ > 0 && i < tree_refinements; ++i) {
     r_.noalias() = plain_ * solution_;
     r_ = rhs_ - r_;
-    const double load = largest(rhs_.head(n_)), motion = largest(solution_.head(n_));
-    if (largest(r_.head(n_)) <= converged * load && largest(r_.tail(m_)) <= converged * motion)
+    const double load = largest_entry(rhs_.head(n_)), motion = largest_entry(solution_.head(n_));
+    if (largest_entry(r_.head(n_)) <= tree_converged * load &&
+        largest_entry(r_.tail(m_)) <= tree_converged * motion)
       return;
     solution_ += lu_.solve(r_);
   }
@@ -144,7 +145,7 @@ const VectorX& JointSpace::of_bodies(const VectorX& x, const VectorX& change) {
   double size = 0.0;
   for (Index i = 0; i < n; ++i)
     size = std::max(size, std::abs(change[i]) / (1.0 + std::abs(x[i])));
-  const double scale = size > 0.0 && std::isfinite(size) ? small / size : 1.0;
+  const double scale = size > 0.0 && std::isfinite(size) ? small_change / size : 1.0;
   moved_.move(tree_, x.data());
   moved_.write(s_, before_);
   moved_x_ = x + scale * change;
