@@ -52,7 +52,7 @@ void count(TreeLink& l) {
   l.n_q = l.n_u + (l.turn == Turn::ball ? 1 : 0);
 }
 
-bool parallel(const Vector3& a, const Vector3& b) { return cross<double>(a, b).norm() < exact; }
+bool are_parallel(const Vector3& a, const Vector3& b) { return cross<double>(a, b).norm() < exact; }
 
 /// Takes away the turns that a body with locked rotations does not make; `axes`: those of marker A.
 void lock(const BodyData& child, const Matrix3& axes, TreeLink& l) {
@@ -64,11 +64,11 @@ void lock(const BodyData& child, const Matrix3& axes, TreeLink& l) {
   }
   l.plane_axis = child.axis;
   const Vector3 only = axes.transpose() * Vector3::Unit(child.axis);
-  if (l.turn == Turn::ball || (l.turn == Turn::crossed && (parallel(only, Vector3::UnitX()) ||
-                                                           parallel(only, Vector3::UnitY())))) {
+  if (l.turn == Turn::ball || (l.turn == Turn::crossed && (are_parallel(only, Vector3::UnitX()) ||
+                                                           are_parallel(only, Vector3::UnitY())))) {
     l.turn = Turn::about_axis;
     l.axis = only;
-  } else if (l.turn == Turn::crossed || !parallel(only, l.axis)) {
+  } else if (l.turn == Turn::crossed || !are_parallel(only, l.axis)) {
     l.turn = Turn::none;
   }
   if (l.turn == Turn::about_axis)
