@@ -117,8 +117,8 @@ void JointSpace::accept(double t, const VectorX& x, const VectorX& xp) {
 }
 
 bool JointSpace::leave(double t, const VectorX&, const VectorX&, VectorX& y, VectorX& yp) {
-  y.setZero();
-  yp.setZero();
+  y.setZero(s_.n); // guards give them without a size
+  yp.setZero(s_.n);
   y.head(s_.lambda0) = y_.head(s_.lambda0);
   write_accelerations(bias_);
   if (of_redundant_) {
