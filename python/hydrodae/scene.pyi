@@ -69,6 +69,10 @@ _SolverMethod = Literal[
     "generalized_alpha",
     "explicit_rk",
 ]
+_SolverCoordinates = Literal[
+    "bodies",
+    "reduced",
+]
 _SolverFormulation = Literal[
     "stabilised",
     "index_2",
@@ -3170,6 +3174,7 @@ class Scene(SceneBase):
         *,
         end_time: float,
         method: _SolverMethod = ...,
+        coordinates: _SolverCoordinates = ...,
         formulation: _SolverFormulation = ...,
         start: _SolverStart = ...,
         rtol: float = ...,
@@ -3200,6 +3205,10 @@ class Scene(SceneBase):
             explicit_rk, radau or ida as suits the scene, and another of them where the one at
             work cannot go on. Allowed: auto, ida, radau, gauss, lobatto_iiic,
             generalized_alpha, explicit_rk.
+        coordinates : text, default "bodies"
+            Unknowns of the motion: those of all bodies, with multipliers for all joints; or
+            reduced, those of the joints of a tree, with multipliers only for what closes loops
+            (explicit_rk only). Allowed: bodies, reduced.
         formulation : text, default "stabilised"
             Equations of the constraints: stabilised index 2 (Gear, Gupta, Leimkuhler), plain
             index 2, index 3, or index 1; the last three for comparisons. Allowed: stabilised,

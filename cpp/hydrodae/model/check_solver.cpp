@@ -110,6 +110,12 @@ void check_formulation(const SolverOptions& o) {
                                  "(--force) runs it none the less");
 }
 
+void check_coordinates(const SolverOptions& o) {
+  if (o.coordinates == "reduced" && o.method != "auto" && o.method != "explicit_rk")
+    refuse_solver("coordinates", "\"reduced\" goes with method = \"explicit_rk\" only; " +
+                                     o.method + " takes coordinates = \"bodies\"");
+}
+
 } // namespace
 
 void check_solver(const Scene& scene) {
@@ -117,6 +123,7 @@ void check_solver(const Scene& scene) {
   check_order(o);
   check_step(o);
   check_formulation(o);
+  check_coordinates(o);
   check_counts(scene);
   if (o.method != "ida" && o.max_order != 5)
     refuse_solver("max_order",

@@ -30,6 +30,7 @@ struct SolverOptions {
   bool force = false;
   std::optional<double> length_scale;
   std::optional<double> time_scale;
+  std::string coordinates = "bodies";
 
   template <class O = SolverOptions> static Fields<O> fields() {
     return {
@@ -42,6 +43,16 @@ struct SolverOptions {
          false,
          any_value,
          {"auto", "ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
+        {"coordinates",
+         &O::coordinates,
+         "-",
+         "Unknowns of the motion: those of all bodies, with multipliers for all joints; or "
+         "reduced, "
+         "those of the joints of a tree, with multipliers only for what closes loops (explicit_rk "
+         "only).",
+         false,
+         any_value,
+         {"bodies", "reduced"}},
         {"formulation",
          &O::formulation,
          "-",

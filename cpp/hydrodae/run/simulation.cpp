@@ -10,6 +10,7 @@
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/system/joint_tree.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::run {
@@ -60,6 +61,8 @@ Simulation::Simulation(Start start, model::Scene&& scene)
   begin_history();
   choose_method();
   make_integrator();
+  if (options_.coordinates == "reduced")
+    notes_.push_back(system::JointTree(system_).in_words(regime_));
   trust_ = std::make_unique<solve::Trust>(regime_, pattern_, options_, y_, yp_);
   recorder_ = std::make_unique<system::Recorder>(regime_, 0.0, y_, yp_);
   recorder_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);

@@ -9,7 +9,9 @@ namespace hydrodae::run {
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
-  if (options_.method == "auto")
+  if (options_.method == "auto" && options_.coordinates == "reduced")
+    methods_ = MethodChoice(MethodOrder{{"explicit_rk"}, "no other has reduced coordinates"});
+  else if (options_.method == "auto")
     methods_ = MethodChoice(order_methods(find_traits(regime_, pattern_, options_, y_, yp_)));
   use_method();
 }

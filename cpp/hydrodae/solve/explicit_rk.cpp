@@ -7,7 +7,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/explicit_tableaux.h"
-#include "hydrodae/solve/saddle_point.h"
+#include "hydrodae/solve/joint_space.h"
 #include "hydrodae/solve/step_error.h"
 
 namespace hydrodae::solve {
@@ -22,21 +22,52 @@ struct Pair {
 const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
 const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
 
-class ExplicitRk : public Integrator {
+/// The coordinates of the bodies themselves: x = y, with all multipliers. Another space is that of
+/// the joints, with the same functions (joint_space.h).
+class BodySpace {
+public:
+  explicit BodySpace(Equations& equations) : e_(equations), saddle_(equations) {}
+  Index size() const { return e_.system.lambda0; } ///< of what the method integrates in x
+  void enter(double t, const VectorX& y, const VectorX& yp, VectorX& x, VectorX& xp) {
+    x = y;
+    xp = yp;
+    e_.accept(t, y, yp);
+  }
+  void follow() {}
+  bool rates(double t, VectorX& x, VectorX& xp) { return saddle_.accelerations(t, x, xp); }
+  bool project(double t, VectorX& x) { return saddle_.project(t, x); }
+  void accept(double t, const VectorX& x, const VectorX& xp) { e_.accept(t, x, xp); }
+  static bool leave(double, const VectorX& x, const VectorX& xp, VectorX& y, VectorX& yp) {
+    y = x;
+    yp = xp;
+    return true;
+  }
+  static const VectorX& of_bodies(const VectorX&, const VectorX& change) { return change; }
+  const std::string& jam() const { return saddle_.jam(); }
+  static Statistics statistics() { return {}; }
+
+private:
+  Equations& e_;
+  SaddlePoint saddle_;
+};
+
+/// In coordinates x of a Space; y are always those of the bodies.
+template <class Space> class ExplicitRk : public Integrator {
 public:
   ExplicitRk(const system::Regime& system, const system::Pattern& pattern,
              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
-        e_(system, pattern, options.rtol), saddle_(e_), n_(system.lambda0),
-        guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
-        stage_(y), stage_yp_(yp), trial_(y), trial_yp_(yp), w_(system.n), k_(n_, 17) {
+        e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
+        guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp),
+        w_(system.n), k_(n_, 17) {
+    space_.enter(t_, y_, yp_, x_, xp_);
+    x0_ = stage_ = stage_xp_ = trial_ = trial_xp_ = inside_ = inside_xp_ = x_;
     // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
     // could make, as it is for one of order 1.
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
-    e_.accept(t_, y_, yp_);
-    if (!saddle_.accelerations(t_, y_, yp_))
+    if (!find_rates())
       throw SolverError(t_, "no finite accelerations at the start");
   }
 
@@ -44,7 +75,10 @@ public:
   bool restart(double t, const VectorX& y, const VectorX& yp) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
-  Statistics statistics() const override { return e_.statistics; }
+  Statistics statistics() const override {
+    Statistics all = e_.statistics;
+    return all += space_.statistics();
+  }
   const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
   void remember(Archive& a) override {
@@ -52,6 +86,7 @@ public:
   }
 
 private:
+  bool find_rates() { return space_.rates(t_, x_, xp_) && space_.leave(t_, x_, xp_, y_, yp_); }
   void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
   bool try_step(double h);
   void combine(double h, std::span<const double> weights);
@@ -65,11 +100,13 @@ private:
   const bool fixed_;
   const double max_step_;
   Equations e_;
-  SaddlePoint saddle_;
+  Space space_;
   const Index n_;
   ProgressGuard guard_;
   double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
-  VectorX y_, yp_, y0_, stage_, stage_yp_, trial_, trial_yp_, w_;
+  VectorX y_, yp_;                                   ///< of the bodies, at the end of the last step
+  VectorX x_, xp_, x0_;                              ///< the same in the space, and x at its start
+  VectorX stage_, stage_xp_, trial_, trial_xp_, inside_, inside_xp_, w_;
   MatrixX k_;     ///< rates of the stages, one column each
   MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
@@ -79,39 +116,41 @@ private:
   VectorX local_error_;     ///< (n_blocks,), of fixed steps
 };
 
-void ExplicitRk::fail(const std::string& reason) {
-  const std::string jam = saddle_.jam().empty() ? "" : ": " + saddle_.jam();
+template <class Space> void ExplicitRk<Space>::fail(const std::string& reason) {
+  const std::string jam = space_.jam().empty() ? "" : ": " + space_.jam();
   throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + jam +
                             ", last step " + number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
 }
 
 /// stage_ = start + h sum_j a_j k_j
-void ExplicitRk::set_stage(const VectorX& start, double h, int stages, std::span<const double> a) {
+template <class Space>
+void ExplicitRk<Space>::set_stage(const VectorX& start, double h, int stages,
+                                  std::span<const double> a) {
   stage_.head(n_) = start.head(n_);
   for (int j = 0; j < stages; ++j)
     if (a[j] != 0.0)
       stage_.head(n_) += h * a[j] * k_.col(j);
 }
 
-bool ExplicitRk::try_step(double h) {
+template <class Space> bool ExplicitRk<Space>::try_step(double h) {
   const int s = pair_.stages;
-  k_.col(0) = yp_.head(n_);
+  k_.col(0) = xp_.head(n_);
   for (int i = 1; i < s; ++i) {
-    set_stage(y_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
-    if (!saddle_.accelerations(t_ + pair_.c[i] * h, stage_, stage_yp_))
+    set_stage(x_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
+    if (!space_.rates(t_ + pair_.c[i] * h, stage_, stage_xp_))
       return false;
-    k_.col(i) = stage_yp_.head(n_);
+    k_.col(i) = stage_xp_.head(n_);
   }
-  set_stage(y_, h, s, pair_.b);
+  set_stage(x_, h, s, pair_.b);
   trial_ = stage_;
-  if (!saddle_.accelerations(t_ + h, trial_, trial_yp_))
+  if (!space_.rates(t_ + h, trial_, trial_xp_))
     return false;
-  k_.col(s) = trial_yp_.head(n_);
+  k_.col(s) = trial_xp_.head(n_);
   return true;
 }
 
 /// stage_ = h sum_j weights_j k_j
-void ExplicitRk::combine(double h, std::span<const double> weights) {
+template <class Space> void ExplicitRk<Space>::combine(double h, std::span<const double> weights) {
   stage_.setZero();
   for (std::size_t j = 0; j < weights.size(); ++j)
     if (weights[j] != 0.0)
@@ -125,11 +164,11 @@ double of_order_8(double five, double three) {
 }
 
 /// Local error in units of the tolerance.
-double ExplicitRk::error(double h) {
+template <class Space> double ExplicitRk<Space>::error(double h) {
   e_.weights(y_, w_);
   auto size = [&](std::span<const double> weights) {
     combine(h, weights);
-    return e_.norm(w_, stage_);
+    return e_.norm(w_, space_.of_bodies(x_, stage_));
   };
   if (pair_.order == 5)
     return size(tableaux::rk5_e);
@@ -138,27 +177,28 @@ double ExplicitRk::error(double h) {
 }
 
 /// The same as a vector, of the last step.
-const VectorX& ExplicitRk::step_error() {
+template <class Space> const VectorX& ExplicitRk<Space>::step_error() {
   if (pair_.order == 5) {
     combine(done_, tableaux::rk5_e);
-    step_error_ = stage_.head(n_);
+    step_error_ = space_.of_bodies(x_, stage_).head(e_.system.lambda0);
     return step_error_;
   }
   e_.weights(y_, w_);
   combine(done_, tableaux::rk8_e3);
-  const double three = e_.norm(w_, stage_);
+  const double three = e_.norm(w_, space_.of_bodies(x_, stage_));
   combine(done_, tableaux::rk8_e5);
-  const double five = e_.norm(w_, stage_), size = std::hypot(five, 0.1 * three);
-  step_error_ = (size > 0.0 ? five / size : 0.0) * stage_.head(n_);
+  const VectorX& change = space_.of_bodies(x_, stage_);
+  const double five = e_.norm(w_, change), size = std::hypot(five, 0.1 * three);
+  step_error_ = (size > 0.0 ? five / size : 0.0) * change.head(e_.system.lambda0);
   return step_error_;
 }
 
 /// The same for each block, relative to its size.
-void ExplicitRk::estimate(double h) {
+template <class Space> void ExplicitRk<Space>::estimate(double h) {
   const system::Regime& s = e_.system;
   auto sizes = [&](std::span<const double> weights) {
     combine(h, weights);
-    return block_sizes(s, stage_);
+    return block_sizes(s, space_.of_bodies(x_, stage_));
   };
   if (pair_.order == 5)
     local_error_ = sizes(tableaux::rk5_e);
@@ -171,13 +211,13 @@ void ExplicitRk::estimate(double h) {
 /// hits would not be seen. They differ by little more than in the steps before where all is smooth;
 /// what is allowed was found on pendulums, linkages and floating bodies: 34 times the common at
 /// most.
-bool ExplicitRk::is_smooth(double h) {
+template <class Space> bool ExplicitRk<Space>::is_smooth(double h) {
   constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
   if (pair_.order == 5)
     return true; // its estimate knows the end
   stage_.setZero();
   stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
-  const double jump = std::max(e_.norm(w_, stage_), least);
+  const double jump = std::max(e_.norm(w_, space_.of_bodies(x_, stage_)), least);
   const double common = std::max(usual_jump_, least);
   if (!(jump <= allowed * common))
     return false;
@@ -185,11 +225,12 @@ bool ExplicitRk::is_smooth(double h) {
   return true;
 }
 
-double ExplicitRk::step(double end, double bound) {
+template <class Space> double ExplicitRk<Space>::step(double end, double bound) {
   constexpr double safety = 0.9, least = 0.2, most = 6.0;
   const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
   extended_ = false;
   bool failed = false;
+  space_.follow();
   for (;;) {
     const double left = end - t_, wanted = h_;
     double h = std::min({h_, left, fixed_ ? left : bound - t_});
@@ -216,7 +257,7 @@ double ExplicitRk::step(double end, double bound) {
       failed = true;
       continue;
     }
-    if (good && !saddle_.project(t_ + h, trial_)) {
+    if (good && !space_.project(t_ + h, trial_)) {
       if (fixed_)
         fail("the constraints cannot be met at the end of the step");
       ++e_.statistics.convergence_failures;
@@ -230,15 +271,15 @@ double ExplicitRk::step(double end, double bound) {
       failed = true;
       continue;
     }
-    y0_ = y_;
-    y_ = trial_;
+    x0_ = x_;
+    x_ = trial_;
     t0_ = t_;
     done_ = h;
     t_ = h == left ? end : t_ + h;
-    e_.accept(t_, y_, trial_yp_);
-    if (!saddle_.accelerations(t_, y_, yp_))
+    space_.accept(t_, x_, trial_xp_);
+    if (!find_rates())
       fail("no finite accelerations");
-    k_.col(pair_.stages) = yp_.head(n_);
+    k_.col(pair_.stages) = xp_.head(n_);
     if (!fixed_) {
       // Proportional-integral control (Gustafsson 1991).
       const double e = std::max(err, 1e-10);
@@ -258,31 +299,34 @@ double ExplicitRk::step(double end, double bound) {
   }
 }
 
-bool ExplicitRk::restart(double t, const VectorX& y, const VectorX& yp) {
+template <class Space>
+bool ExplicitRk<Space>::restart(double t, const VectorX& y, const VectorX& yp) {
   t_ = t0_ = t;
-  y_ = y0_ = y;
+  y_ = y;
   yp_ = yp;
+  space_.follow();
+  space_.enter(t_, y_, yp_, x_, xp_);
+  x0_ = x_;
   done_ = usual_jump_ = 0.0;
   last_error_ = 1e-4;
   extended_ = false;
   step_error_ = local_error_ = VectorX();
-  e_.accept(t_, y_, yp_);
-  return saddle_.accelerations(t_, y_, yp_);
+  return find_rates();
 }
 
 /// The three further stages of the interpolant of order 7, and its coefficients.
-void ExplicitRk::extend() {
+template <class Space> void ExplicitRk<Space>::extend() {
   if (extended_ || pair_.order == 5)
     return;
   for (int i = 0; i < 3; ++i) {
-    set_stage(y0_, done_, 13 + i,
+    set_stage(x0_, done_, 13 + i,
               std::span(tableaux::rk8_extra_a).subspan(static_cast<std::size_t>(16 * i)));
-    if (!saddle_.accelerations(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_yp_))
+    if (!space_.rates(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_xp_))
       fail("no finite accelerations inside the step");
-    k_.col(13 + i) = stage_yp_.head(n_);
+    k_.col(13 + i) = stage_xp_.head(n_);
   }
   // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
-  const auto dy = y_.head(n_) - y0_.head(n_);
+  const auto dy = x_.head(n_) - x0_.head(n_);
   dense_.setZero(n_, 7);
   dense_.col(0) = dy;
   dense_.col(1) = done_ * k_.col(0) - dy;
@@ -294,21 +338,21 @@ void ExplicitRk::extend() {
   extended_ = true;
 }
 
-void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
+template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
   if (t >= t_ || done_ == 0.0) {
     y = y_;
     yp = yp_;
     return;
   }
   const double x = (t - t0_) / done_;
-  y = y0_;
-  yp = yp_;
+  inside_ = x0_;
+  inside_xp_ = xp_;
   if (pair_.order == 5) {
     for (int i = 0; i < 7; ++i) {
       double weight = 0.0, power = x;
       for (int k = 0; k < 4; ++k, power *= x)
         weight += tableaux::rk5_p[4 * i + k] * power;
-      y.head(n_) += done_ * weight * k_.col(i);
+      inside_.head(n_) += done_ * weight * k_.col(i);
     }
   } else {
     extend();
@@ -317,9 +361,9 @@ void ExplicitRk::interpolate(double t, VectorX& y, VectorX& yp) {
       sum += dense_.col(i);
       sum *= i % 2 == 0 ? x : 1.0 - x;
     }
-    y.head(n_) += sum;
+    inside_.head(n_) += sum;
   }
-  if (!saddle_.accelerations(t, y, yp))
+  if (!space_.rates(t, inside_, inside_xp_) || !space_.leave(t, inside_, inside_xp_, y, yp))
     fail("no finite accelerations inside the step");
   for (const system::BodyData& b : e_.system.bodies)
     if (b.rotation == system::BodyData::Rotation::free)
@@ -332,7 +376,9 @@ std::unique_ptr<Integrator> make_explicit_rk(const system::Regime& system,
                                              const system::Pattern& pattern,
                                              const model::SolverOptions& options, double t0,
                                              const VectorX& y, const VectorX& yp) {
-  return std::make_unique<ExplicitRk>(system, pattern, options, t0, y, yp);
+  if (options.coordinates == "reduced")
+    return std::make_unique<ExplicitRk<JointSpace>>(system, pattern, options, t0, y, yp);
+  return std::make_unique<ExplicitRk<BodySpace>>(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

@@ -8,11 +8,14 @@ namespace hydrodae::system {
 
 namespace {
 
-/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma].
-void set_offsets(Regime& s) {
+/// Places of the multipliers in y = [q | u | z | lambda | mu | sigma]; `guided`: rows that have
+/// none, or empty.
+void set_offsets(Regime& s, const std::vector<bool>& guided) {
   s.lambdas.assign(s.system.n_rows, redundant);
   s.mus.assign(s.system.n_rows, redundant);
-  const auto acts = [&](const Row& row) { return !row.dropped; };
+  const auto acts = [&](const Row& row) {
+    return !row.dropped && (guided.empty() || !guided[row.number]);
+  };
   std::vector<bool> open(s.system.n_rows, false);
   for (const SwitchData& element : s.switches)
     open[s.couplers[static_cast<std::size_t>(element.coupler)].number] = !s.holds(element);
@@ -65,8 +68,10 @@ std::array<double, 3> Regime::drive(const CouplerData& c, double t) const {
   return f;
 }
 
-void lay_out(Regime& s) {
-  set_offsets(s);
+void lay_out(Regime& s) { lay_out(s, {}); }
+
+void lay_out(Regime& s, const std::vector<bool>& guided) {
+  set_offsets(s, guided);
   set_scales(s);
   set_names(s);
 }
