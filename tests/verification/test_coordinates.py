@@ -263,3 +263,18 @@ def test_auto_takes_the_method_that_knows_them() -> None:
         text_case(PENDULUM, 1.0).with_values({**REDUCED, "solver.method": "auto"})
     )
     assert results.statistics["method_in_use"] == "explicit_rk"
+
+
+def test_the_energy_guard_looks_inside_steps(repository: Path) -> None:
+    """A step that loses energy ends the run by the guard in both coordinates."""
+    case = hydrodae.Case.read(repository / "cases" / "benchmarks" / "bricard.toml").with_values(
+        {
+            "solver.method": "explicit_rk",
+            "solver.order": 5,
+            "solver.step": 0.2,
+            "solver.step_guard": 0,
+        }
+    )
+    for values in ({}, REDUCED):
+        with pytest.raises(hydrodae.SolverError, match="energy"):
+            hydrodae.run(case, set={**values, "solver.energy_guard": 1e-6})
