@@ -189,7 +189,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "ParaView. A case file is shown at its start, without a run.",
         epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
     )
-    if command == ["view"]:
+    if command in (["view"], ALL):
         from hydrodae.commands import view as view_command
 
         view_command.add_arguments(view)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import multiprocessing
 import signal
 import subprocess
 import sys
@@ -197,6 +198,33 @@ def test_a_record_of_something_else_is_kept(folder: Path) -> None:
     with pytest.raises(hydrodae.CaseError, match="no record of a sweep"):
         hydrodae.sweep(study, folder / "notes.nc", jobs=1)
     assert (folder / "notes.runs.jsonl").read_text() == "my notes"
+
+
+def test_a_killed_worker_is_one_message(folder: Path) -> None:
+    """As the kernel of the system kills what takes too much memory."""
+    study = write_study(folder, '[grid]\n"force.pto.damping" = [1, 2, 3, 4, 5, 6]\n')
+
+    def kill(done: float, _total: float) -> None:
+        for child in multiprocessing.active_children():
+            child.kill()
+
+    with pytest.raises(hydrodae.SolverError, match="call the sweep again to go on"):
+        hydrodae.sweep(study, folder / "study.nc", jobs=1, progress=kill)
+    kept = (folder / "study.runs.jsonl").read_text().count("completed")
+    assert 1 <= kept < 6
+
+
+def test_workers_do_not_run_the_script_again(tmp_path: Path) -> None:
+    """Without ``if __name__ == "__main__":`` each would begin processes of its own."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from hydrodae.processes import context\n"
+        "print('script', flush=True)\n"
+        "worker = context(anew=True).Process(target=print, args=('worker',))\n"
+        "worker.start()\nworker.join()\nprint(worker.exitcode)\n"
+    )
+    found = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+    assert (found.stdout.split(), found.stderr) == (["script", "worker", "0"], "")
 
 
 def test_killed_sweep_goes_on_and_runs_nothing_twice(folder: Path) -> None:
