@@ -64,6 +64,12 @@ def run_case(
     except HydrodaeError as error:
         kind = "failed" if isinstance(error, SolverError) else "refused"
         return row | {"status": kind, "reason": str(error)}
+    missing = [m.name for m in measures if m.name not in found]
+    if missing and "time" not in rungs:
+        raise MeasureError(
+            f"[result.{missing[0]}]: no rung of the study knows it: linear models tell the "
+            "statistic 'std' of coordinates, joints and reactions (hydrodae rao lists them)"
+        )
     return row | {
         "status": "completed",
         "reason": "",
