@@ -130,12 +130,12 @@ function symbolSize(joint, bodies) {
 /// Parts of the symbol of a joint along z, s half its size: cylinders about x, y, z, or a ball.
 function symbolParts(type, s) {
   const pin = (axis, length = 2.4, radius = 0.42) => {
-    const geometry = new L.CylinderGeometry(radius * s, radius * s, length * s, 20);
+    const geometry = new L.CylinderGeometry(radius * s, radius * s, length * s, 14);
     if (axis === "z") geometry.rotateX(Math.PI / 2);
     if (axis === "x") geometry.rotateZ(Math.PI / 2);
     return geometry;
   };
-  const ball = () => new L.SphereGeometry(0.8 * s, 20, 14);
+  const ball = () => new L.SphereGeometry(0.8 * s, 12, 8); // small: few panels are enough
   const rail = () => new L.BoxGeometry(0.55 * s, 0.55 * s, 3.4 * s);
   const known = {
     revolute: () => [pin("z")],
