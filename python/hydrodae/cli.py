@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with _plain_warnings():
             code: int | None = parsed.call(parsed)
-        sys.stdout.flush()
+        _flush()
     except SolverError as error:
         return _complain(error, SOLVER_FAILURE)
     except (RunInterrupted, KeyboardInterrupt) as error:
@@ -69,10 +69,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return code or DONE
 
 
+def _flush() -> None:
+    if sys.stdout is not None:  # it may have been closed, as by `hydrodae ... >&-`
+        sys.stdout.flush()
+
+
 def _give_up_full_output() -> None:
     """What standard output does not take now, Python would try to write again when it ends."""
     try:
-        sys.stdout.flush()
+        _flush()
     except OSError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -189,7 +194,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "ParaView. A case file is shown at its start, without a run.",
         epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
     )
-    if command == ["view"]:
+    if command in (["view"], ALL):
         from hydrodae.commands import view as view_command
 
         view_command.add_arguments(view)

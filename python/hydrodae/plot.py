@@ -221,7 +221,8 @@ def _draw(results: Results, panels: list[Panel]) -> Figure:
     )
     for axes, panel in zip(all_axes, map(most_moving, panels), strict=True):
         _draw_panel(axes, panel, results.time if panel.omega is None else panel.omega)
-    all_axes[0].set_xlim(results.time[0], results.end_time)
+    if results.end_time > results.time[0]:
+        all_axes[0].set_xlim(results.time[0], results.end_time)
     if spectral:
         all_axes[-1].set_xlim(0.0, 1.2 * highest_frequency(spectral))
     return figure

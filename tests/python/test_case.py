@@ -13,6 +13,7 @@ import pytest
 
 import hydrodae
 from hydrodae.case import parse_assignment, to_toml
+from hydrodae.case_tables import case_tables, overrides_of
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.results import Results
 
@@ -238,3 +239,21 @@ def test_what_is_no_case_is_told_by_its_kind(tmp_path: Path, repository: Path) -
         hydrodae.Case.read(database)
     with pytest.raises(CaseError, match="is a folder; give the case file in it"):
         hydrodae.Case.read(tmp_path)
+
+
+@pytest.mark.parametrize("before", ["\ufeff", ""])
+def test_tables_are_those_of_the_kernel(before: str) -> None:
+    """With a mark of the byte order, and a table as a value."""
+    text = '[solver]\nend_time = 1.0\nmethod = "ida"\n[[body]]\nname = "buoy_1"\nmass = 1.0\n'
+    text += "center_of_gravity = [0, 0, 0]\ninertia = [1, 1, 1]\n"
+    case = hydrodae.Case.from_text(before + text)
+    changed = case.with_values({"body.buoy_1.mass": 2.0, "solver": {"end_time": 2.0}})
+    tables = case_tables(changed)
+    assert tables["body"][0]["mass"] == 2.0
+    assert tables["solver"] == {"end_time": 2.0}  # a whole table, not a part of one
+    assert changed.end_time == 2.0
+
+
+def test_words_that_the_executable_took_can_be_read() -> None:
+    told = "solver.method = radau\nhydro.database = /a/b.h5"
+    assert overrides_of(told) == {"solver.method": "radau", "hydro.database": "/a/b.h5"}

@@ -55,6 +55,17 @@ def answer(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict:
     return found
 
 
+def test_json_of_a_run_and_of_its_linear_equivalent(moored, tmp_path, capsys) -> None:
+    results = str(tmp_path / "short.h5")
+    found = answer(capsys, "run", moored, "-o", results, "--set", "solver.end_time=1")
+    assert (found["status"], found["end_time"]) == ("completed", 1.0)
+    assert found["results"] == results
+    assert found["statistics"]["steps"] > 0
+    linear = answer(capsys, "spectral", moored)
+    assert linear["standard_deviation"]["sea/elevation"] > 0.1
+    assert linear["rate"]["bodies/float/heave"] > 0.0
+
+
 def test_json_of_check(moored, capsys) -> None:
     found = answer(capsys, "check", moored)
     assert found["bodies"] == ["float", "spar"]
@@ -110,7 +121,9 @@ def test_completion_is_a_script_of_the_shell(tmp_path, capsys) -> None:
     pytest.importorskip("shtab")
     assert cli.main(["completion", "bash"]) == 0
     script = tmp_path / "hydrodae.bash"
-    script.write_text(capsys.readouterr().out)
+    text = capsys.readouterr().out
+    assert "--freeboard" in text  # of view, which has its arguments only when it is asked for
+    script.write_text(text)
     asked = (
         f"source {script}; COMP_WORDS=(hydrodae equil); COMP_CWORD=1; "
         "_shtab_hydrodae; echo ${COMPREPLY[@]}"

@@ -217,7 +217,7 @@ def test_other_exceptions_of_signal_handlers_come_back(output):
 
 def test_other_threads_run_meanwhile(output):
     """One long stretch between two samples: with the GIL held nothing else would happen."""
-    scene = spring(solver__end_time="20000", output__step="20000", solver__max_step="0.05")
+    scene = spring(solver__end_time="4000", output__step="4000", solver__max_step="0.05")
     run = threading.Thread(target=_core.simulate, args=(scene, output, None, {}))
     ticks = 0
     start = time.monotonic()

@@ -20,6 +20,7 @@ from hydrodae.case import Case
 from hydrodae.frequency import LinearModel
 from hydrodae.starters import create
 from hydrodae.study.gradient.differences import derivative
+from hydrodae.study.gradient.parameters import read_parameter
 from hydrodae.study.sweep.optimise import text
 
 REGULAR = [{"name": "sea", "type": "regular", "height": 1.0, "period": 7.0}]
@@ -111,6 +112,81 @@ def test_frequency_domain_of_a_mooring_moves_the_equilibrium(moored: Path) -> No
     found = hydrodae.gradient(case, of, [key])
     by = fourth_order(lambda x: linear_value(case.with_values({key: x}), of), found.at[0], 1e-3)
     assert found.gradient[0] == pytest.approx(by, rel=1e-6)
+
+
+DRAG = """
+[[force]]
+name = "brake"
+type = "pto_general"
+joint = "slide"
+damping = 60e3
+exponent = 1.7
+load_limit = 60e3
+[[force]]
+name = "skin"
+type = "viscous_damping"
+body = "buoy"
+quadratic = [0.0, 0.0, 40e3, 0.0, 0.0, 0.0]
+[[morison]]
+name = "disc"
+body = "buoy"
+point = [0.0, 0.0, -5.0]
+area = 60.0
+volume = 1.0
+drag_coefficient = 2.0
+[solver]"""
+
+
+def dragged(buoy: Path) -> Case:
+    """The buoy with a limited take-off and drag of two kinds."""
+    return Case.from_text(buoy.read_text().replace("[solver]", DRAG), buoy.parent)
+
+
+@pytest.mark.parametrize(
+    ("of", "values", "keys"),
+    [
+        (POWER, {}, [DAMPING, "force.brake.load_limit", "wave.sea.peak_period"]),
+        ("joints/slide/displacement", {}, ["morison.disc.drag_coefficient", "body.buoy.mass"]),
+        (POWER, {"wave": REGULAR}, ["force.skin.quadratic[2]", "wave.sea.height"]),
+    ],
+)
+def test_statistical_linearisation_agrees_with_finite_differences(
+    buoy: Path, of: str, values: dict[str, Any], keys: list[str]
+) -> None:
+    """Against `hydrodae.spectral`, iterated anew at each point."""
+    case = dragged(buoy).with_values(values)
+
+    def value_at(there: Case) -> float:
+        found = hydrodae.spectral(there, tolerance=1e-11)
+        if of == POWER:
+            return found.power["pto"] + found.power["brake"]
+        return found.standard_deviation[of]
+
+    found = hydrodae.gradient(case, of, keys, rung="spectral")
+    assert found.value == pytest.approx(value_at(case), rel=1e-9)
+    for key, slope, x in zip(keys, found.gradient, found.at, strict=True):
+        parameter = read_parameter(case, key)
+        by = fourth_order(lambda y: value_at(case.with_values(parameter.values(y))), x, 2e-3)  # noqa: B023
+        assert slope == pytest.approx(by, rel=1e-6), key
+
+
+def test_best_damper_with_drag(buoy: Path) -> None:
+    """By the spectral rung: no damper beside it takes more."""
+    case = buoy.parent / "dragged.toml"
+    case.write_text(dragged(buoy).text)
+    study = buoy.parent / "best_dragged.toml"
+    text = STUDY.replace("METHOD", "SLSQP").replace('["frequency"]', '["spectral"]')
+    study.write_text(text.replace("case.toml", case.name))
+    found = hydrodae.optimise(study, study.with_suffix(".nc"), set={"wave": REGULAR})
+
+    def power(damping: float) -> float:
+        run = hydrodae.spectral(case, set={"wave": REGULAR, DAMPING: damping})
+        return run.power["pto"] + run.power["brake"]
+
+    best = found.values["damper"]
+    assert found.value == pytest.approx(power(best), rel=1e-6)
+    assert found.value > 1.0001 * max(power(0.95 * best), power(1.05 * best))
+    assert found.evaluations < 20
 
 
 def test_reaction_of_a_joint_with_moving_constraints(tmp_path: Path) -> None:
@@ -250,7 +326,8 @@ def test_run_in_waves_agrees_with_tight_adaptive_runs(buoy: Path, method: str) -
         (f"{POWER}.pta", [DAMPING], "frequency", "there are: pto"),
         ("bodies/buoy/heav", [DAMPING], "frequency", "bodies/buoy/heave"),
         (POWER, [DAMPING], "time", "fixed steps"),
-        (POWER, [DAMPING], "spectral", "gradients are of"),
+        (POWER, [DAMPING], "spectra", "gradients are of"),
+        ("bodies/buoy/heav", [DAMPING], "spectral", "bodies/buoy/heave"),
     ],
 )
 def test_wrong_questions_are_refused(
@@ -306,7 +383,7 @@ def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
         ("start = 3e5", "start = 3e6", "within the bounds"),
         ("start = 3e5", "stat = 3e5", "did you mean 'start'"),
         ("[1e4, 1e6]\nstart = 3e5", "[1e4, 1e5]", "outside the bounds"),
-        ('["frequency"]', '["spectral"]', "frequency"),
+        ('["frequency"]', '["frequency", "spectral"]', "an optimisation has one"),
         ('"mean_power_absorbed"', '"power"', "expected 'mean_power_absorbed'"),
         ("maximise", "minimise = 1\nmaximise", "one of 'maximise' and 'minimise'"),
     ],

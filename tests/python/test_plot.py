@@ -116,6 +116,11 @@ def test_run_without_samples_cannot_be_drawn(results_writer):
         plot.plot_overview(Results.read(results_writer(np.empty(0), status="failed")))
 
 
+def test_run_that_stopped_at_its_start_is_drawn_without_a_warning(results_writer):
+    stopped = Results.read(results_writer(np.zeros(1), status="interrupted"))
+    assert "interrupted at t = 0 s" in plot.plot_overview(stopped).axes[0].get_title(loc="left")
+
+
 def test_channels_of_one_quantity_share_a_panel(results):
     names = ["joints/*/angle", "joints/hinge1/angle_rate", "bodies/flap1/position.z"]
     figure = plot.plot_channels(results, names)

@@ -14,7 +14,7 @@ import pytest
 #: Rooms from the lowest to the highest. A room is a module or a folder with all that is in it,
 #: unless a part of it is listed by itself; those of one layer do not import each other.
 LAYERS = [
-    {"errors", "extras", "progress", "tcp", "units", "version"},
+    {"errors", "extras", "processes", "progress", "tcp", "units", "version"},
     {"names", "outputs", "starters"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
     {"curve", "damaged", "irf", "tables"},

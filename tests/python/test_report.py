@@ -12,8 +12,9 @@ import pytest
 
 import hydrodae
 from hydrodae import cli
+from hydrodae.case_tables import tables_of
 from hydrodae.report import report
-from hydrodae.report.scene import read_tables, rungs
+from hydrodae.report.scene import rungs
 from hydrodae.results import Results, ResultsError
 from hydrodae.starters import create
 
@@ -134,7 +135,7 @@ def test_report_of_a_sweep(flap: Path, capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_models_that_a_case_uses() -> None:
-    tables = read_tables(
+    tables = tables_of(
         '[[body]]\nname = "a"\nmotion = "heave"\n[[force]]\nname = "p"\ntype = "pto_linear"\n'
         '[hydro]\ndatabase = "x"\nradiation = "none"\n',
         'hydro.radiation = "convolution"\nforce.p.type = "pto_hydraulic"\nsolver.method = "ida"\n',

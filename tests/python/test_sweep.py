@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import multiprocessing
 import signal
 import subprocess
 import sys
@@ -18,7 +19,9 @@ import hydrodae
 from hydrodae.starters import create
 from hydrodae.study.sweep import text
 from hydrodae.study.sweep.fatigue import damage_equivalent_load
+from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import read_study
+from hydrodae.study.sweep.pool import run_case
 
 CASE = """
 title = "Mass on a spring with a take-off"
@@ -181,6 +184,20 @@ def test_wrong_studies_are_refused(folder: Path, text: str, told: str) -> None:
         hydrodae.sweep(write_study(folder, text), folder / "study.nc", jobs=1)
 
 
+def test_what_is_no_study_is_told_as_what_it_is(folder: Path) -> None:
+    with pytest.raises(hydrodae.CaseError, match=r'is a case; a study names one, case = "case'):
+        hydrodae.sweep(folder / "case.toml", folder / "x.nc")
+    with pytest.raises(hydrodae.CaseError, match="is a folder"):
+        hydrodae.sweep(folder, folder / "x.nc")
+    (folder / "figure.toml").write_bytes(b"\x89PNG\r\n\x1a\n")
+    with pytest.raises(hydrodae.CaseError, match="is a picture; a study is a TOML file"):
+        hydrodae.sweep(folder / "figure.toml", folder / "x.nc")
+    study = write_study(folder, '[grid]\n"force.pto.damping" = [1]\n')
+    study.write_bytes(b"\xef\xbb\xbf" + study.read_bytes())  # the mark of the byte order is none
+    with pytest.raises(hydrodae.CaseError, match=r"expected a name that ends in \.nc"):
+        hydrodae.sweep(study, folder / "x.csv")
+
+
 def test_no_job_at_a_time_is_refused(folder: Path) -> None:
     study = write_study(folder, '[grid]\n"body.float.mass" = [2.0]\n')
     for jobs in (0, -3):
@@ -197,6 +214,33 @@ def test_a_record_of_something_else_is_kept(folder: Path) -> None:
     with pytest.raises(hydrodae.CaseError, match="no record of a sweep"):
         hydrodae.sweep(study, folder / "notes.nc", jobs=1)
     assert (folder / "notes.runs.jsonl").read_text() == "my notes"
+
+
+def test_a_killed_worker_is_one_message(folder: Path) -> None:
+    """As the kernel of the system kills what takes too much memory."""
+    study = write_study(folder, '[grid]\n"force.pto.damping" = [1, 2, 3, 4, 5, 6]\n')
+
+    def kill(done: float, _total: float) -> None:
+        for child in multiprocessing.active_children():
+            child.kill()
+
+    with pytest.raises(hydrodae.SolverError, match="call the sweep again to go on"):
+        hydrodae.sweep(study, folder / "study.nc", jobs=1, progress=kill)
+    kept = (folder / "study.runs.jsonl").read_text().count("completed")
+    assert 1 <= kept < 6
+
+
+def test_workers_do_not_run_the_script_again(tmp_path: Path) -> None:
+    """Without ``if __name__ == "__main__":`` each would begin processes of its own."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from hydrodae.processes import context\n"
+        "print('script', flush=True)\n"
+        "worker = context(anew=True).Process(target=print, args=('worker',))\n"
+        "worker.start()\nworker.join()\nprint(worker.exitcode)\n"
+    )
+    found = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+    assert (found.stdout.split(), found.stderr) == (["script", "worker", "0"], "")
 
 
 def test_killed_sweep_goes_on_and_runs_nothing_twice(folder: Path) -> None:
@@ -244,6 +288,15 @@ def test_ten_kills_at_random_moments_change_nothing(folder: Path) -> None:
     xarray.testing.assert_identical(again.load(), whole.load())
     keys = [json.loads(line).get("key") for line in record.read_text().splitlines()]
     assert len(keys) == len(set(keys)) == 61
+
+
+def test_what_no_linear_rung_knows_is_refused(repository: Path) -> None:
+    """It was a column that is not there."""
+    case = hydrodae.Case.read(repository / "cases" / "sphere" / "wave.toml")
+    for channel, statistic in (("bodies/spher/heave", "std"), ("bodies/sphere/heave", "max")):
+        wanted = Measure("way", channel, statistic, None, 0.0)
+        with pytest.raises(hydrodae.CaseError, match=r"\[result\.way\]: no rung of the study"):
+            run_case(case, (wanted,), ("frequency",), {})
 
 
 def test_rungs_of_one_study_stand_side_by_side(tmp_path: Path) -> None:

@@ -14,12 +14,12 @@ from tests.python.nemoh_writer import NemohFolder
 
 import hydrodae
 from hydrodae import cli, hdb
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.freeboard import freeboard
-from hydrodae.viewer.source import tables_of
 from hydrodae.viewer.stage import Body, Sea
 
 
@@ -322,7 +322,7 @@ def test_pictures_are_alike_at_any_scale(scale):
 def test_replaced_values_are_seen_also_of_names_with_dots():
     case = hydrodae.Case.from_text(MOORED.replace("arm.1", "arm"))
     changed = case.with_values({"body.arm.mass": 12.0, "sea.ramp": 3.0})
-    tables = tables_of(changed)
+    tables = case_tables(changed)
     assert tables["body"][1]["mass"] == 12.0
     assert tables["sea"]["ramp"] == 3.0
 

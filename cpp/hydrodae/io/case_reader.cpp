@@ -20,6 +20,9 @@ namespace hydrodae::io {
 namespace {
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
+  if (text.starts_with("\x89HDF")) // the signature of HDF5
+    throw CaseError(name +
+                    ": is an HDF5 file, as results and databases are; a case is a TOML file");
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -59,7 +59,7 @@ class SceneBase:
             only if the scene can be used where it was made.
         """
         self.case()
-        Path(path).write_text(self.to_toml())
+        Path(path).write_text(self.to_toml(), encoding="utf-8")
         return Case.read(path)
 
     def __repr__(self) -> str:

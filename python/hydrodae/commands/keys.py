@@ -31,7 +31,11 @@ def run(arguments: argparse.Namespace) -> int:
 
     from hydrodae.tables import find, tables
 
-    console = Console(highlight=False, markup=False)
+    class Output(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError  # which is no failure, as in other commands
+
+    console = Output(highlight=False, markup=False)
     if arguments.table is None:
         console.print(_tables(tables()))
         return 0

@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from hydrodae.frequency.modes import Mode
     from hydrodae.hdb.database import HydroDatabase
     from hydrodae.hdb.findings import CheckReport
+    from hydrodae.results import Results
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao
+    from hydrodae.study.spectral import Spectral
+    from hydrodae.study.spectral.seeds import Seeds
     from hydrodae.study.sweep.optimise import Optimum
 
 
@@ -97,6 +100,40 @@ def _of_response(response: Response) -> dict[str, Any]:
     }
     head = {"omega": response.omega, "heading": response.heading, "channels": columns}
     return head | {"mean_power": response.power}
+
+
+def of_run(results: Results) -> dict[str, Any]:
+    """How a run ended, where its results are, and its figures (costs, powers, error)."""
+    return {
+        "title": results.title,
+        "status": results.status,
+        "message": results.message,
+        "end_time": results.end_time,
+        "results": str(results.path),
+        "statistics": results.statistics,
+        "notes": results.notes,
+    }
+
+
+def of_spectral(found: Spectral, runs: Seeds | None) -> dict[str, Any]:
+    """Standard deviations, powers and dampings; those of runs if there are any."""
+    told = {
+        "title": found.model.case.scene.title,
+        "standard_deviation": found.standard_deviation,
+        "rate": found.rate,
+        "mean_power": found.power,
+        "damping": found.damping,
+        "iterations": found.iterations,
+        "notes": found.notes,
+    }
+    if runs is not None:
+        told["runs"] = {
+            "names": runs.names,
+            "standard_deviation": runs.motion,
+            "rate": runs.rate,
+            "mean_power": runs.power,
+        }
+    return told
 
 
 def of_sweep(results: xarray.Dataset) -> dict[str, Any]:

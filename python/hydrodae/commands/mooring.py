@@ -68,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         print(text, end="")
     else:
-        Path(arguments.output).write_text(text)
+        Path(arguments.output).write_text(text, encoding="utf-8")
         print(f"written: {arguments.output}")
     return 0
 

@@ -51,15 +51,19 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         action="store_true",
         help="go on from the checkpoint of a run that was cut off, or stopped",
     )
+    parser.add_argument("--json", action="store_true", help="print one JSON object, for machines")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     parser.set_defaults(call=run)
 
 
 def _seconds(text: str) -> float:
     """A time of at least 0 s."""
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
     if not 0.0 <= value < float("inf"):
-        raise ValueError(text)
+        raise argparse.ArgumentTypeError(f"expected seconds of at least 0, got {text!r}")
     return value
 
 
@@ -69,6 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from hydrodae import simulate
     from hydrodae.commands.arguments import given_case
+    from hydrodae.commands.machine import of_run, print_json
     from hydrodae.progress import ProgressLine
 
     values: dict[str, object] = {}
@@ -79,8 +84,10 @@ def run(arguments: argparse.Namespace) -> int:
     case = given_case(arguments, values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
     how = {name: getattr(arguments, name) for name in ("verify", "checkpoint", "resume")}
-    if arguments.quiet:
-        simulate.run(case, output, **how)
+    if arguments.quiet or arguments.json:
+        results = simulate.run(case, output, **how)
+        if arguments.json:
+            print_json(of_run(results))
         return 0
     with ProgressLine(case.title) as progress:
         results = simulate.run(case, output, progress=progress, **how)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hydrodae.commands.arguments import given_case
+from hydrodae.commands.machine import add_json, of_spectral, print_json
 from hydrodae.study.rao.output import check_output
 from hydrodae.study.spectral import spectral
 
@@ -32,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="phasors of all channels over the waves, reactions too: .csv, or .nc, .h5 (netCDF, "
         "which is HDF5)",
     )
+    add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -39,10 +41,17 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output:
         check_output(arguments.output)
     found = spectral(given_case(arguments))
-    print(found)
+    runs = None
+    if not arguments.json:
+        print(found)
     if arguments.output:
-        print(f"written: {found.write(arguments.output)}")
+        written = found.write(arguments.output)
+        if not arguments.json:
+            print(f"written: {written}")
     if arguments.seeds is not None:
         runs = found.time_domain(arguments.seeds, settle=arguments.settle, jobs=arguments.jobs)
-        print("\n" + found.comparison(runs))
+        if not arguments.json:
+            print("\n" + found.comparison(runs))
+    if arguments.json:
+        print_json(of_spectral(found, runs))
     return 0

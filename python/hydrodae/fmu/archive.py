@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hydrodae.case import Case, CaseLike, read_case, to_toml
+from hydrodae.case_tables import case_tables, tables_of
 from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import Variable, choose, number_at
@@ -95,7 +96,7 @@ def _require_self_contained(case: Case) -> None:
     names = [*scene.python_drives, *scene.python_forces, *scene.python_controllers]
     if names:
         raise CaseError(f"{names[0]!r} is a Python function, which an FMU cannot take along")
-    controllers = tomllib.loads(case.text).get("controller", [])
+    controllers = case_tables(case).get("controller", [])
     inner = [c["name"] for c in controllers if c["type"] == "fmu"]
     if inner:
         raise CaseError(f"controller {inner[0]!r} is an FMU, which cannot be part of another one")
@@ -126,7 +127,7 @@ def _libraries_of_a_wheel() -> list[Path]:
 
 def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
     """Files that the case reads, by their name in the FMU, and the keys that name them as TOML."""
-    root = tomllib.loads(case.text)
+    root = tables_of(case.text)
     keys = {"hydro.database": root.get("hydro", {}).get("database")}
     for wave in root.get("wave", []):
         keys[f"wave.{wave['name']}.file"] = wave.get("file")

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hydrodae.case import Case
+from hydrodae.case_tables import case_tables, tables_of
 from hydrodae.errors import CaseError
 from hydrodae.simulation import Simulation
 from hydrodae.tables import Key, tables
@@ -124,7 +125,7 @@ def parameter_at(case: Case, key: str) -> Value:
 def _value_at(case: Case, key: str) -> Any:
     if key in case.overrides:
         return tomllib.loads(f"value = {case.overrides[key]}")["value"]
-    value: Any = tomllib.loads(case.text)
+    value: Any = tables_of(case.text)
     for part in key.split("."):
         value = _entry(value, part)
     return value
@@ -154,7 +155,7 @@ def _entry(value: Any, part: str) -> Any:
 
 def _is_taken(case: Case, name: str) -> bool:
     """Whether a controller of the case writes an input."""
-    controllers = tomllib.loads(case.text).get("controller", [])
+    controllers = case_tables(case).get("controller", [])
     return any(name in controller.get("outputs", []) for controller in controllers)
 
 
@@ -165,6 +166,6 @@ def _filtered(sort: str, names: Iterable[str], patterns: Sequence[str] | None) -
     for pattern in patterns:
         if not fnmatch.filter(every, pattern):
             near = difflib.get_close_matches(pattern, every, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
+            hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(every)}"
             raise CaseError(f"there is no {sort} {pattern!r}{hint}")
     return [name for name in every if any(fnmatch.fnmatchcase(name, p) for p in patterns)]

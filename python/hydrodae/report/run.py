@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hydrodae.case import Case, parse_assignment
+from hydrodae.case_tables import tables_of
 from hydrodae.errors import HydrodaeError
 from hydrodae.panels import overview
 from hydrodae.plot import plot_overview
 from hydrodae.report import page
-from hydrodae.report.scene import parts, read_tables, rungs, sketch
+from hydrodae.report.scene import parts, rungs, sketch
 from hydrodae.results import Results
 from hydrodae.results.series import statistics
 from hydrodae.version import version
@@ -20,7 +21,7 @@ from hydrodae.version import version
 
 def report_of_run(results: Results) -> str:
     """Return the page of a run: outcome, scene, models, checks, figures, versions, hashes."""
-    tables = read_tables(results.case_text, str(results.header.get("case_overrides", "")))
+    tables = tables_of(results.case_text, str(results.header.get("case_overrides", "")))
     title = results.title or results.path.name
     return page.page(title, filter(None, _sections(results, tables)))
 

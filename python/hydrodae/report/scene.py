@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -10,40 +9,9 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from hydrodae.case import parse_assignment
 from hydrodae.plot import COLORS, STYLE
 
 Tables = dict[str, Any]
-
-
-def read_tables(text: str, overrides: str) -> Tables:
-    """Return the tables of a case file with its values replaced, as the run had them.
-
-    Parameters
-    ----------
-    text : str
-        Case file.
-    overrides : str
-        A line ``key = value`` for each value that was replaced.
-    """
-    tables: Tables = tomllib.loads(text)
-    for line in overrides.splitlines():
-        key, value = parse_assignment(line)
-        _replace(tables, key, value)
-    return tables
-
-
-def _replace(tables: Tables, key: str, value: Any) -> None:
-    """Set a dotted key; an entry of a list of tables goes by its name."""
-    *path, last = key.split(".")
-    here: Any = tables
-    for word in path:
-        if isinstance(here, list):
-            here = next((entry for entry in here if entry.get("name") == word), {})
-        else:
-            here = here.setdefault(word, {})
-    if isinstance(here, dict):
-        here[last] = value
 
 
 def parts(tables: Tables) -> Iterator[tuple[str, str, str, str]]:

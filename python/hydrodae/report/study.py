@@ -13,9 +13,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from hydrodae.case_tables import tables_of
 from hydrodae.plot import STYLE
 from hydrodae.report import page
-from hydrodae.report.scene import parts, read_tables, rungs
+from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
 from hydrodae.version import version
 
@@ -32,7 +33,7 @@ def report_of_study(path: str | os.PathLike[str], study: xr.Dataset) -> str:
 
 def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
     case = str(study.attrs.get("case", ""))
-    tables = read_tables(case, "")
+    tables = tables_of(case, "")
     yield page.section("Outcome", page.text_block(text(study)))
     names = [str(name) for name in study.data_vars if study[name].dtype.kind == "f"]
     names.sort(key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST))

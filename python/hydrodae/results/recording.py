@@ -68,7 +68,14 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         self._owner = owner
         self._read: dict[str, xarray.DataArray] = {}
         if not self.path.is_file():
-            raise ResultsError(f"{self.path}: no such results file")
+            what = (
+                "is a folder; name a results file" if self.path.is_dir() else "no such results file"
+            )
+            raise ResultsError(f"{self.path}: {what}")
+        if self.path.suffix.lower() == ".toml":
+            raise ResultsError(
+                f"{self.path}: is a case, or a study, and no results file: run it first"
+            )
         with opened(self.path, ResultsError, "not a readable results file", search=True) as file:
             self._read_header(file)
         self._identity = _identity(self.path)
@@ -76,8 +83,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     def _read_header(self, file: h5py.File) -> None:
         found = file.attrs.get("format")
         if found != FORMAT:
+            what = "a hydrodynamic database, and " * (found == "hydrodae-hydro")
+            if self.path.suffix.lower() == ".nc":
+                what = "a netCDF file (hydrodae report shows those of sweeps), and "
             raise ResultsError(
-                f"{self.path}: not a results file (attribute format is {found!r}, not {FORMAT!r})"
+                f"{self.path}: {what}not a results file (attribute format is {found!r}, not "
+                f"{FORMAT!r})"
             )
         version = int(file.attrs["format_version"])
         if version != FORMAT_VERSION:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError, SolverError
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
@@ -208,11 +209,7 @@ def _run(
 
 def _hydro_table(case: Case) -> dict[str, Any]:
     """Table [hydro] of the case, with the values that were replaced."""
-    values = {key: tomllib.loads(f"x = {text}")["x"] for key, text in case.overrides.items()}
-    table: dict[str, Any] = dict(tomllib.loads(case.text).get("hydro", {}))
-    table |= values.get("hydro", {})
-    own = {key: value for key, value in values.items() if key.startswith("hydro.")}
-    return table | {key.removeprefix("hydro."): value for key, value in own.items()}
+    return dict(case_tables(case).get("hydro", {}))
 
 
 def _rung(case: Case, name: str, omega: float) -> Case:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.case_tables import overrides_of
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.simulation import Simulation
@@ -167,34 +167,3 @@ def _case_of(results: Results) -> Case:
             f"{results.path}: the case that it is of cannot be read from {folder}: {error}; "
             "tell where it is with --case (case=)"
         ) from error
-
-
-def overrides_of(text: str) -> dict[str, Any]:
-    """Replaced values by dotted key, from lines ``key = value``."""
-    found = {}
-    for line in text.splitlines():
-        key, equals, value = line.partition(" = ")
-        if equals:
-            found[key] = tomllib.loads(f"value = {value}")["value"]
-    return found
-
-
-def tables_of(case: Case) -> dict[str, Any]:
-    """Return the tables of a case file as nested dicts and lists, with what was replaced."""
-    tables = tomllib.loads(case.text)
-    for key, value in case.overrides.items():
-        _replace(tables, key.split("."), tomllib.loads(f"value = {value}")["value"])
-    return tables
-
-
-def _replace(inside: Any, keys: list[str], value: Any) -> None:
-    """Set a value in nested tables; entries of a list go by their name, which may hold dots."""
-    if isinstance(inside, list):
-        for count in range(1, len(keys)):
-            for entry in inside:
-                if entry.get("name") == ".".join(keys[:count]):
-                    _replace(entry, keys[count:], value)
-    elif len(keys) == 1:
-        inside[keys[0]] = value
-    else:
-        _replace(inside.setdefault(keys[0], {}), keys[1:], value)

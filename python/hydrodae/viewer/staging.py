@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae.case_tables import case_tables
 from hydrodae.viewer.bodies import make_bodies
 from hydrodae.viewer.curves import make_curves
 from hydrodae.viewer.lines import make_lines
 from hydrodae.viewer.sea import make_sea, seabed
-from hydrodae.viewer.source import Run, Source, tables_of
+from hydrodae.viewer.source import Run, Source
 from hydrodae.viewer.stage import Joint, Stage
 
 #: Forces that take power, or are controlled: their joint is marked.
@@ -47,7 +48,7 @@ def make_stage(
     HydrodaeError
         A shape or channel that is asked for is wrong, or the database cannot be read.
     """
-    tables = tables_of(source.case)
+    tables = case_tables(source.case)
     notes = _thin_out(source, step)
     bodies = make_bodies(source, tables, shapes or {}, height)
     lines, missing = make_lines(source, tables, bodies)

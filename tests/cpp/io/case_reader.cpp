@@ -202,6 +202,11 @@ TEST_CASE("a wrong override is told with its key") {
             .starts_with("--set joint.hinge.body_b: joint 'hinge': body_b = 'flop' is no body"));
 }
 
+TEST_CASE("results in place of a case are told as what they are") {
+  CHECK(message_of([] { read("\x89HDF\r\n\x1a\n"); }) ==
+        "case.toml: is an HDF5 file, as results and databases are; a case is a TOML file");
+}
+
 TEST_CASE("files are named in errors") {
   const TemporaryFolder folder;
   const std::string path = folder / "case.toml";

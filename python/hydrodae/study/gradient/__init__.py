@@ -17,6 +17,7 @@ from hydrodae.study.gradient.linear import linear_gradient
 from hydrodae.study.gradient.parameters import Parameter, read_parameter, values_of
 from hydrodae.study.gradient.quantity import Found, Quantity, quantity
 from hydrodae.study.gradient.runs import run_gradient
+from hydrodae.study.gradient.spectral import spectral_gradient
 
 __all__ = ["Gradient", "Objective", "gradient", "objective"]
 
@@ -25,6 +26,7 @@ Keys = str | Sequence[str]
 
 RUNGS: dict[str, Callable[[Case, Quantity, Sequence[Parameter]], Found]] = {
     "frequency": linear_gradient,
+    "spectral": spectral_gradient,
     "time": run_gradient,
 }
 
@@ -44,7 +46,7 @@ class Gradient:
     gradient : (n,) array
         Unit of the value over those of the parameters.
     affine : tuple of bool
-        For each parameter: matrices (frequency domain) or value (runs) are affine in it, and the
+        For each parameter: matrices (linear models) or value (runs) are affine in it, and the
         difference is exact to rounding; else it is of fourth order.
     calls : int
         Linearisations or runs of the case.
@@ -62,7 +64,7 @@ class Gradient:
     rung: str
 
     def __str__(self) -> str:
-        what = "linearisations" if self.rung == "frequency" else "runs"
+        what = "runs" if self.rung == "time" else "linearisations"
         lines = [f"{self.of} = {self.value:.6g} {self.unit} ({self.calls} {what})"]
         rows = zip(self.parameters, self.at, self.gradient, self.affine, strict=True)
         for name, x, slope, affine in rows:
@@ -88,8 +90,10 @@ def gradient(
     G xi = 0, is differentiated exactly: Z dxi - G^T dlambda = dF - dZ xi + dG^T lambda. The
     matrices' own derivatives are differences, exact to rounding where they are affine in the key
     (masses, stiffnesses, dampings, amplitudes of waves), else of fourth order; the static
-    equilibrium moves with the key. In the time domain runs with the same fixed steps are
-    differenced (internal numerical differentiation).
+    equilibrium moves with the key. By statistical linearisation the fixed point of motion and
+    linear equivalents is differentiated implicitly, likewise. In the time domain runs with the
+    same fixed steps are differenced (internal numerical
+    differentiation).
 
     Parameters
     ----------
@@ -102,7 +106,7 @@ def gradient(
     set : mapping from str, optional
         Values that replace those of the case, by dotted key.
     rung : str
-        "frequency" or "time".
+        "frequency", "spectral" (as `hydrodae.spectral`) or "time".
     statistic : str
         Of a channel: "std" (the amplitude over sqrt 2 in one regular wave), in runs also mean,
         max, min, range, rms, last.
@@ -135,8 +139,8 @@ def gradient(
 
 def _read(case: CaseLike, set: Mapping[str, Any] | None, rung: str) -> Case:
     if rung not in RUNGS:
-        raise CaseError(f"rung {rung!r}: gradients are of {' or '.join(map(repr, RUNGS))}")
-    return without_memory(case, set)[0] if rung == "frequency" else read_case(case, set)
+        raise CaseError(f"rung {rung!r}: gradients are of {', '.join(map(repr, RUNGS))}")
+    return read_case(case, set) if rung == "time" else without_memory(case, set)[0]
 
 
 def _gradient(case: Case, what: Quantity, parameters: Sequence[Parameter], rung: str) -> Gradient:

@@ -32,9 +32,9 @@ def require_smooth(case: Case, parameters: Sequence[Parameter], rung: str) -> No
     controllers = case_tables(case).get("controller", [])
     for controller in controllers:
         name, kind = controller["name"], controller["type"]
-        if rung == "frequency":
+        if rung != "time":
             raise CaseError(
-                f"controller.{name}: the frequency domain has no controllers, and its gradient "
+                f"controller.{name}: the {rung} domain has no controllers, and its gradient "
                 "would be that of another device; take rung='time', or a case without it"
             )
         if kind in NOT_SMOOTH:

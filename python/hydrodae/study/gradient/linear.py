@@ -33,7 +33,7 @@ def linear_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter])
     model = LinearModel(case)
     system = sea_system(model)
     solved = Solved.of(system)
-    form, unit = _form(case, system, what)
+    form, unit = make_form(case, system, what)
     value = form.value(solved)
     slopes, affine, calls = [], [], 1
     for parameter in parameters:
@@ -50,7 +50,7 @@ def linear_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter])
 
 
 @dataclass(frozen=True)
-class _Form:
+class Form:
     """S = sum over waves and rows of a^2/2 f |R xi + L lambda|^2, or its root.
 
     Attributes
@@ -64,6 +64,7 @@ class _Form:
     root: bool
 
     def value(self, solved: Solved) -> float:
+        """Return the sum, or its root."""
         total = self._sum(solved)
         return float(np.sqrt(total)) if self.root else total
 
@@ -98,15 +99,15 @@ class _Form:
         return float(total / (2.0 * value)) if value > 0.0 else 0.0
 
 
-def _form(case: Case, system: SeaSystem, what: Quantity) -> tuple[_Form, str]:
-    """Form and unit of a quantity."""
+def make_form(case: Case, system: SeaSystem, what: Quantity) -> tuple[Form, str]:
+    """Form and unit of a quantity: of powers what linear take-offs take."""
     if what.measure is None:
         chosen = what.take_offs(case)
         rows = [k for k, name in enumerate(system.dampers) if name in chosen]
         none = np.zeros((len(rows), len(system.arrays["constraints"])))
-        return _Form(lambda a: (a["damper_map"][rows], none, a["damper_power"][rows]), False), "W"
+        return Form(lambda a: (a["damper_map"][rows], none, a["damper_power"][rows]), False), "W"
     row = [_channel(system, what)]
-    return _Form(lambda a: (a["by_xi"][row], a["by_lambda"][row], a["one"]), True), unit_of(
+    return Form(lambda a: (a["by_xi"][row], a["by_lambda"][row], a["one"]), True), unit_of(
         what.measure
     )
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae import processes
 from hydrodae.case import Case, parse_assignment
 from hydrodae.errors import CaseError
 from hydrodae.simulate import run
@@ -126,7 +127,7 @@ def time_domain(
         names=tuple(names),
         settle=settle,
     )
-    with ProcessPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
+    with ProcessPoolExecutor(jobs or os.cpu_count(), processes.context(anew=False)) as pool:
         return list(pool.map(work, map(float, omega)))
 
 

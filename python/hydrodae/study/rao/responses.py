@@ -200,6 +200,8 @@ def rao(
         model = case
     else:
         model = LinearModel(read_case(case, set))
+    if not np.isfinite(heading):
+        raise CaseError(f"heading {heading:g}: expected a direction of travel")
     chosen = model.response(_chosen(model, periods), heading)
     return Rao(
         model,

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae import processes
 from hydrodae.case import Case
 from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
@@ -94,7 +95,7 @@ def time_domain(
     if jobs == 1:
         runs = [work(seed) for seed in seeds]
     else:
-        with ProcessPoolExecutor(max_workers=jobs) as pool:
+        with ProcessPoolExecutor(jobs, processes.context(anew=False)) as pool:
             runs = list(pool.map(work, seeds))
     return Seeds(
         names=tuple(names),

@@ -70,7 +70,7 @@ def equivalents(
     free, iw = model.free, 1j * waves[:, 0][:, None]
     z = free.T @ model.dynamic_stiffness_at(w) @ free
     force = _excitation(model, waves)
-    water = [_water(model, load, waves) for load in loads]
+    water = [water_velocity(model, load, waves) for load in loads]
     factors = [np.zeros((len(load.map), *2 * (load.map.shape[1],))) for load in loads]
     change, mixing = 0.0, Mixing()
     for iteration in range(1, most + 1):
@@ -102,7 +102,7 @@ def _excitation(model: LinearModel, waves: Array) -> Complex:
     return out
 
 
-def _water(model: LinearModel, load: Load, waves: Array) -> Complex | None:
+def water_velocity(model: LinearModel, load: Load, waves: Array) -> Complex | None:
     """Velocity (n, nw, d) of the water along the axes of a load, per metre of amplitude."""
     if load.points is None or load.axes is None:
         return None
@@ -137,9 +137,13 @@ def _motion(load: Load, water: Complex | None, rate: Complex, amplitude: Array) 
     seen = -(rate @ np.swapaxes(load.map, 1, 2))
     if water is not None:
         seen = seen + water
-    seen = seen * amplitude[:, None]
+    return motion_of(seen * amplitude[:, None])
+
+
+def motion_of(seen: Complex) -> Motion:
+    """What a load sees, from its phasors (n, nw, d) in each wave of the sea."""
     covariance = 0.5 * (np.swapaxes(seen, 1, 2) @ seen.conj()).real
-    return Motion(covariance, seen[:, 0] if len(amplitude) == 1 else None)
+    return Motion(covariance, seen[:, 0] if seen.shape[1] == 1 else None)
 
 
 def _change(old: Array, new: Array) -> float:

@@ -6,14 +6,13 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from hydrodae import outputs
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.study.sweep.table import dataset, text, write
+from hydrodae.study.sweep.table import claim, dataset, text, write
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def sweep(
         raise CaseError(f"jobs: runs at a time: expected at least 1, got {jobs}")
     plan = read_study(study)
     case = open_case(plan.case, set or {}, plan.rungs)
-    target = outputs.claim(output, outputs.NETCDF)
+    target = claim(output)
     case.with_values(
         {k: v for k, v in plan.points[0].items() if k != RUNG}
     )  # a wrong key is told before anything runs
@@ -87,7 +86,7 @@ def sweep(
                 done += 1
                 if progress is not None:
                     progress(done, len(plan.points))
-        attributes = {"case": case.text, "study": plan.path.read_text(), "hydrodae": version()}
+        attributes = {"case": case.text, "study": plan.text, "hydrodae": version()}
         results = dataset(plan, journal.rows, attributes)
     write(target, results)
     return results

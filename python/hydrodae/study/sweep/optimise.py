@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import OptimizeResult, minimize
 
-from hydrodae import outputs
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, HydrodaeError
 from hydrodae.study.gradient import Objective
@@ -20,7 +19,7 @@ from hydrodae.study.sweep.journal import Journal, Row
 from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.problem import Problem, read_problem
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.study.sweep.table import write
+from hydrodae.study.sweep.table import claim, write
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -93,7 +92,7 @@ def optimise(
     problem = read_problem(study)
     case = open_case(problem.case, set or {}, (problem.rung,))
     objective = _objective(problem, case)
-    target = outputs.claim(output, outputs.NETCDF)
+    target = claim(output)
     record = target.with_name(target.stem + ".runs.jsonl")
     with Journal(record, problem.identity(objective.case)) as journal:
         path = _Path(problem, objective, journal, progress)
@@ -210,7 +209,7 @@ def _dataset(problem: Problem, rows: list[Row], case: Case, message: str) -> xar
         out[parameter.name] = (along, [row["point"][parameter.name] for row in rows], told)
         out[f"gradient_{parameter.name}"] = (along, [row["gradient"][n] for row in rows])
     out["calls"] = (along, [row["calls"] for row in rows])
-    attributes = {"case": case.text, "study": problem.path.read_text(), "hydrodae": version()}
+    attributes = {"case": case.text, "study": problem.text, "hydrodae": version()}
     return xr.Dataset(out, attrs=attributes | {"message": message})
 
 

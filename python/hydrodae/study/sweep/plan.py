@@ -6,7 +6,6 @@ import hashlib
 import json
 import math
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +16,7 @@ import numpy as np
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import Measure, make_measure
-from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_points
+from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_file, read_points
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.version import version
 
@@ -42,6 +41,7 @@ class Study:
     """What `read_study` found: a case, points, measures."""
 
     path: Path
+    text: str
     case: Path
     points: list[Point]
     dimensions: dict[str, list[Any]] = field(default_factory=dict)  #: of a full grid, else empty
@@ -77,10 +77,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         Something in the file is wrong; the message tells what, where, and what was expected.
     """
     file = Path(path)
-    try:
-        given = tomllib.loads(file.read_text())
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise CaseError(f"{file}: {error}") from None
+    text, given = read_file(file)
     if "optimise" in given:
         raise CaseError(f"{file}: has the table [optimise]: call it with --optimise")
     known(file, "", given, TABLES)
@@ -98,6 +95,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         raise CaseError(f"{file}: key 'over': means over repetitions need a [grid] alone")
     study = Study(
         file,
+        text,
         file.parent / given["case"],
         points,
         dimensions,

@@ -14,11 +14,40 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae import outputs
 from hydrodae.errors import CaseError
 
 Point = dict[str, Any]
 #: Points of one study at most: each is kept in memory, and a run takes some hundredths of a second.
 MOST_POINTS = 1_000_000
+
+
+def read_file(file: Path) -> tuple[str, dict[str, Any]]:
+    """Return text and tables of a study file.
+
+    Raises
+    ------
+    CaseError
+        It cannot be read, or is something else: a case, results, a table.
+    """
+    if file.is_dir():
+        raise CaseError(f"{file}: is a folder; give the study file in it")
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+        given = tomllib.loads(text)
+    except UnicodeDecodeError:
+        kind = outputs.kind_of(file) or outputs.OTHER
+        raise CaseError(f"{file}: is a {kind}; a study is a TOML file (docs/sweeps.md)") from None
+    except OSError as error:
+        raise CaseError(f"{file}: cannot read the study: {error.strerror}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise CaseError(f"{file}: {error}") from None
+    if "case" not in given and ("body" in given or "solver" in given):
+        raise CaseError(
+            f'{file}: is a case; a study names one, case = "{file.name}", and what varies '
+            "(docs/sweeps.md)"
+        )
+    return text, given
 
 
 def read_points(file: Path, given: Mapping[str, Any]) -> tuple[list[Point], dict[str, list[Any]]]:
@@ -152,13 +181,15 @@ def read_csv(file: Path, where: str, name: Any) -> list[dict[str, str]]:
         raise CaseError(f"{file}: [{where}]: key 'file': the path of a CSV file is needed")
     path = file.parent / name
     try:
-        with path.open(newline="") as stream:
+        with path.open(newline="", encoding="utf-8-sig") as stream:
             table = csv.DictReader(stream, skipinitialspace=True, strict=True)
             rows, names = list(table), table.fieldnames or []
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        raise CaseError(f"{path}: cannot read the table: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{path}: {error}") from None
     if not rows or any(None in row or None in row.values() for row in rows):
-        raise CaseError(f"{path}: expected a line of names and lines of as many values")
+        raise CaseError(f"{path}: expected a line of names, lines of as many values, and commas")
     if len(names) != len(set(names)):
         raise CaseError(f"{path}: column {max(names, key=list(names).count)!r} stands there twice")
     return rows

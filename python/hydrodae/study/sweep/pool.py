@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import ctypes
-import multiprocessing
 import os
 import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
+from hydrodae import processes
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
@@ -63,6 +64,12 @@ def run_case(
     except HydrodaeError as error:
         kind = "failed" if isinstance(error, SolverError) else "refused"
         return row | {"status": kind, "reason": str(error)}
+    missing = [m.name for m in measures if m.name not in found]
+    if missing and "time" not in rungs:
+        raise MeasureError(
+            f"[result.{missing[0]}]: no rung of the study knows it: linear models tell the "
+            "statistic 'std' of coordinates, joints and reactions (hydrodae rao lists them)"
+        )
     return row | {
         "status": "completed",
         "reason": "",
@@ -83,12 +90,17 @@ def run_points(
 
     Rows come as they are finished. No more points wait in line than processes can take, so that an
     interruption loses only what is at work.
+
+    Raises
+    ------
+    SolverError
+        A process was killed.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(points))
     left = iter(points)
     with ProcessPoolExecutor(
         jobs,
-        mp_context=multiprocessing.get_context("spawn"),
+        mp_context=processes.context(anew=True),
         initializer=_begin,
         initargs=(path, values, measures, rungs),
     ) as pool:
@@ -102,6 +114,11 @@ def run_points(
                 done, working = wait(working, return_when=FIRST_COMPLETED)
                 for future in done:
                     yield future.result()
+        except BrokenProcessPool:
+            raise SolverError(
+                "a process of the sweep has ended by itself: killed, or out of memory? What is "
+                "finished is kept; call the sweep again to go on, with fewer runs at a time (jobs)"
+            ) from None
         except BaseException:
             for process in list(getattr(pool, "_processes", {}).values()):
                 process.kill()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +14,7 @@ from hydrodae.errors import CaseError
 from hydrodae.study.gradient.quantity import POWER, Quantity
 from hydrodae.study.sweep.measures import make_measure
 from hydrodae.study.sweep.plan import digest_of_files
-from hydrodae.study.sweep.points import known
+from hydrodae.study.sweep.points import known, read_file
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.version import version
 
@@ -42,6 +41,8 @@ class Problem:
     ----------
     path, case : path
         Of the study and of its case.
+    text : str
+        Of the study.
     quantity : Quantity
     maximise : bool
     parameters : tuple of Bound
@@ -55,6 +56,7 @@ class Problem:
     """
 
     path: Path
+    text: str
     case: Path
     quantity: Quantity
     maximise: bool
@@ -85,10 +87,7 @@ def read_problem(path: str | os.PathLike[str]) -> Problem:
         Something in the file is wrong; the message tells what, where, and what was expected.
     """
     file = Path(path)
-    try:
-        given = tomllib.loads(file.read_text())
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise CaseError(f"{file}: {error}") from None
+    text, given = read_file(file)
     known(file, "", given, TABLES)
     if not isinstance(given.get("case"), str):
         raise CaseError(f"{file}: key 'case': the path of a case file is needed")
@@ -100,12 +99,11 @@ def read_problem(path: str | os.PathLike[str]) -> Problem:
     if len(goals) != 1:
         raise CaseError(f"{file}: [optimise]: expected one of 'maximise' and 'minimise'")
     rungs = check_rungs(given.get("rungs", [*DEFAULT]), file)
-    if len(rungs) != 1 or rungs[0] == "spectral":
-        raise CaseError(
-            f'{file}: key \'rungs\': an optimisation has one, ["frequency"] or ["time"]'
-        )
+    if len(rungs) != 1:
+        raise CaseError(f"{file}: key 'rungs': an optimisation has one, got {', '.join(rungs)}")
     return Problem(
         file,
+        text,
         file.parent / given["case"],
         _quantity(file, given, table[goals[0]]),
         goals[0] == "maximise",

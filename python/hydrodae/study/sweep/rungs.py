@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from time import perf_counter
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.frequency.sea import wave_components
@@ -107,7 +107,7 @@ def _linear(
 ) -> Found:
     """Standard deviations of what is measured, and the powers of the take-offs."""
     found: Found = {}
-    forces = tomllib.loads(case.text).get("force", [])
+    forces = case_tables(case).get("force", [])
     takes = [f["name"] for f in forces if str(f.get("type", "")).startswith("pto_")]
     each = {name: power[name] for name in takes if name in power}
     if each:

@@ -11,11 +11,14 @@ import numpy as np
 import xarray as xr
 from scipy.stats import t as student
 
+from hydrodae import outputs
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 
 HOURS_A_YEAR = 8766.0
+#: Of netCDF files.
+ENDINGS = (".nc", ".nc4", ".netcdf", ".cdf")
 
 
 def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]) -> xr.Dataset:
@@ -100,6 +103,19 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     out["annual_energy"] = energy.drop_vars([a for a in axes if a in energy.coords])
     out["annual_energy"].attrs = {"units": "J"}
     out["hours"] = ((), sum(s.hours), {"units": "h", "long_name": "hours a year in the table"})
+
+
+def claim(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a table of a study, which may be written.
+
+    Raises
+    ------
+    CaseError
+        Its name does not end as one of netCDF, or a file of another kind is there.
+    """
+    if Path(path).suffix.lower() not in ENDINGS:
+        raise CaseError(f"{path}: the table is a netCDF file: expected a name that ends in .nc")
+    return outputs.claim(path, outputs.NETCDF)
 
 
 def write(path: str | os.PathLike[str], results: xr.Dataset) -> Path:

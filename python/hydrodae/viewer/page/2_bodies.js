@@ -114,18 +114,28 @@ function makeBody(body) {
            kind: "body" };
 }
 
-const SYMBOL = 0.032 * RADIUS; // half the size of the symbol of a joint
+/// Half the size of the symbol of a joint: small beside the scene and beside what it joins.
+function symbolSize(joint, bodies) {
+  let least = 0.032 * RADIUS;
+  for (const { name, group } of bodies) {
+    const parts = group.children.filter((part) => part.isMesh && part.userData.name === name);
+    if (!joint.bodies.includes(name) || parts.length === 0) continue;
+    const boxes = parts.map(({ geometry }) => (geometry.computeBoundingBox(), geometry.boundingBox));
+    const box = boxes.reduce((all, other) => all.union(other), boxes[0].clone());
+    least = Math.min(least, 0.12 * Math.max(...box.getSize(new L.Vector3()).toArray()));
+  }
+  return least;
+}
 
-/// Parts of the symbol of a joint along z: [length, radius] of cylinders about x, y, z, or a ball.
-function symbolParts(type) {
-  const s = SYMBOL;
+/// Parts of the symbol of a joint along z, s half its size: cylinders about x, y, z, or a ball.
+function symbolParts(type, s) {
   const pin = (axis, length = 2.4, radius = 0.42) => {
-    const geometry = new L.CylinderGeometry(radius * s, radius * s, length * s, 20);
+    const geometry = new L.CylinderGeometry(radius * s, radius * s, length * s, 14);
     if (axis === "z") geometry.rotateX(Math.PI / 2);
     if (axis === "x") geometry.rotateZ(Math.PI / 2);
     return geometry;
   };
-  const ball = () => new L.SphereGeometry(0.8 * s, 20, 14);
+  const ball = () => new L.SphereGeometry(0.8 * s, 12, 8); // small: few panels are enough
   const rail = () => new L.BoxGeometry(0.55 * s, 0.55 * s, 3.4 * s);
   const known = {
     revolute: () => [pin("z")],
@@ -146,7 +156,7 @@ function makeJoint(joint, bodies, scene) {
   const hidden = new L.MeshLambertMaterial({ // seen through what covers it
     color: paint.color, depthTest: false, transparent: true, opacity: 0.3,
   });
-  for (const geometry of symbolParts(joint.type)) {
+  for (const geometry of symbolParts(joint.type, symbolSize(joint, bodies))) {
     const mesh = new L.Mesh(geometry, paint);
     mesh.userData.name = joint.name;
     const ghost = new L.Mesh(geometry, hidden);
