@@ -9,7 +9,6 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equilibrium.h"
-#include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/system/joint_tree.h"
 #include "hydrodae/system/mechanisms.h"
 
@@ -236,16 +235,6 @@ void Simulation::approach(double event) {
   y_ = y_start_;
   yp_ = yp_start_;
   make_integrator();
-}
-
-/// The rule by which the work over the coming step is summed.
-void Simulation::choose_quadrature() {
-  const int nodes = integrator_->quadrature_nodes();
-  if (nodes == quadrature_nodes_)
-    return;
-  quadrature_nodes_ = nodes;
-  const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
-  recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 
 /// Goes on from an event, or with other inputs, by the rows and loads that hold from now on.

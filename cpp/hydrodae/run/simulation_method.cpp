@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/run/simulation.h"
+#include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/solve/stiffness.h"
 
 namespace hydrodae::run {
@@ -104,6 +105,16 @@ void Simulation::watch_steps(bool event, double end) {
                longest = options_.max_step > 0.0 ? 0.9 * options_.max_step : INFINITY;
   const bool own = !event && t_ < end && t_ < bound_ && h < longest;
   methods_.accept(h, solve::motion_rate(regime_, y_), own);
+}
+
+/// The rule by which the work over the coming step is summed.
+void Simulation::choose_quadrature() {
+  const int nodes = integrator_->quadrature_nodes();
+  if (nodes == quadrature_nodes_)
+    return;
+  quadrature_nodes_ = nodes;
+  const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
+  recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 
 } // namespace hydrodae::run
