@@ -7,7 +7,12 @@
 
 namespace hydrodae {
 
-inline std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+inline std::string in_quotes(std::string_view text) {
+  std::string out(1, '\'');
+  out.append(text);
+  out.push_back('\'');
+  return out;
+}
 
 /// "a, b, c", or with another separator
 template <class Range> std::string joined(const Range& items, std::string_view separator = ", ") {

@@ -13,7 +13,7 @@ constexpr double first_substep = 1.0 / 3.0;              // rad of the motion at
 constexpr double much_turned = 0.6, little_turned = 0.3; // of the vector in a substep
 // Part of the vector by which the change of the equations between two looks may alter it.
 constexpr double much_altered = 0.6, little_altered = 0.2;
-constexpr double doubtful = 0.15; // growth between looks, of the square of that
+constexpr double doubtful_of_altered = 0.15; // growth between looks, of the square of that
 } // namespace
 
 bool ErrorGrowth::add_with_signs(double t, const VectorX& step_error, const VectorX& unit,
@@ -100,7 +100,7 @@ double ErrorGrowth::carry_window(int substeps, const VectorX& unit) {
 /// that are full are closed, group by group, as the parts of a linear sum may be.
 void ErrorGrowth::take_old(const VectorX& unit, const VectorX& before) {
   constexpr double deepest = -4.0; // levels below are not come back from
-  const double doubt = doubtful * altered_ * altered_;
+  const double doubt = doubtful_of_altered * altered_ * altered_;
   const VectorX after = sizes(error_.old, unit), middle = sizes(error_.middle, unit);
   for (Index g = 0; g < before.size(); ++g) {
     if (before[g] > 0.0) {

@@ -243,10 +243,12 @@ void check_drives(const Regime& s, const Constraints& constraints, const Selecti
         names.push_back(in_quotes(own->name));
       for (const auto& other : others)
         names.push_back(in_quotes(other.second->name));
+      const bool several = own && !others.empty();
+      std::string text = several ? "the drives " : "the drive ";
+      text += joined(names);
+      text += several ? " move" : " moves";
       throw ModelError("constraint." + (own ? own->name : others.front().second->name),
-                       std::string(own && !others.empty() ? "the drives " : "the drive ") +
-                           joined(names) + (own && !others.empty() ? " move" : " moves") +
-                           " what other constraints hold already (" + constraints.name(row) +
+                       text + " what other constraints hold already (" + constraints.name(row) +
                            " follows from them)" + why + "; leave one of them out");
     };
     for (int i = 0; i <= drive_samples; ++i) {
