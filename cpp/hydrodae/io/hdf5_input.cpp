@@ -123,6 +123,7 @@ Input::Source Input::open_dataset(const std::string& dataset) const {
   source.space = checked(H5Dget_space(source.id), H5Sclose, what);
   source.shape = shape_of(source.space);
   refuse_null(source);
+  refuse_truncated(source);
   return source;
 }
 
@@ -140,6 +141,15 @@ Input::Source Input::open_attribute(const std::string& object, const std::string
   refuse_null(source);
   source.is_attribute = true;
   return source;
+}
+
+/// HDF5 before 1.12 reads beyond what a damaged compact dataset keeps in its header.
+void Input::refuse_truncated(const Source& source) const {
+  const Handle creation =
+      checked(H5Dget_create_plist(source.id), H5Pclose, path_ + ": " + source.name);
+  if (H5Pget_layout(creation) == H5D_COMPACT &&
+      H5Dget_storage_size(source.id) < size_of(source.shape) * H5Tget_size(source.type))
+    refuse(source.name, "holds less data than its shape needs: the file is damaged");
 }
 
 /// A null dataspace looks like one number, and reads as nothing.

@@ -51,6 +51,7 @@ private:
   std::vector<std::string> strings(const Source& source) const;
   // All sizes are checked before memory is asked for.
   void refuse_null(const Source& source) const;
+  void refuse_truncated(const Source& source) const;
   void require_shape(const Source& source, const std::vector<hsize_t>& shape) const;
   void require_list(const Source& source, hsize_t longest) const;
 
