@@ -1,18 +1,11 @@
 #include "hydrodae/run/parting_watch.h"
 
-#include <cmath>
-
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/run/first_beyond.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
-
-namespace {
-
-constexpr int bisections_of_ratio = 60;
-
-} // namespace
 
 std::unique_ptr<PartingWatch> PartingWatch::make(system::Regime& regime, const VectorX& y) {
   std::unique_ptr<PartingWatch> out(new PartingWatch(regime));
@@ -69,20 +62,7 @@ std::optional<double> PartingWatch::locate(double t0, double t1, int nodes,
     at(t, y_, yp_);
     return overloaded(t, y_);
   };
-  double a = t0;
-  for (int node = 1; node <= nodes; ++node) {
-    double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
-    if (!is_beyond(b)) {
-      a = b;
-      continue;
-    }
-    for (int i = 0; i < bisections_of_ratio && b - a > 1e-15 * std::abs(b); ++i) {
-      const double middle = 0.5 * (a + b);
-      (is_beyond(middle) ? b : a) = middle;
-    }
-    return b;
-  }
-  return std::nullopt;
+  return first_beyond(t0, t1, nodes, is_beyond);
 }
 
 void PartingWatch::part(double t, const VectorX& y) {

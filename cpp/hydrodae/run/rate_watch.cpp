@@ -4,6 +4,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/run/first_beyond.h"
 #include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
@@ -11,7 +12,6 @@ namespace hydrodae::run {
 namespace {
 
 constexpr double beyond_zero = 1e-9; ///< of the largest rate
-constexpr int bisections_of_rate = 60;
 
 int motion_of(const system::Regime& s, const std::string& channel) {
   std::vector<std::string> names;
@@ -52,20 +52,7 @@ std::optional<double> RateWatch::locate(double t0, double t1, int nodes,
     at(t, y_, yp_);
     return beyond(rate(t, y_, yp_));
   };
-  double a = t0;
-  for (int node = 1; node <= nodes; ++node) {
-    double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
-    if (!is_beyond(b)) {
-      a = b;
-      continue;
-    }
-    for (int i = 0; i < bisections_of_rate && b - a > 1e-15 * std::abs(b); ++i) {
-      const double middle = 0.5 * (a + b);
-      (is_beyond(middle) ? b : a) = middle;
-    }
-    return b;
-  }
-  return std::nullopt;
+  return first_beyond(t0, t1, nodes, is_beyond);
 }
 
 bool RateWatch::accept(double t, const VectorX& y, const VectorX& yp) {

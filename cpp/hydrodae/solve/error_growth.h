@@ -24,9 +24,9 @@ class ImpactError;
 class ErrorGrowth {
 public:
   enum class Way {
-    with_signs,
-    sizes,     ///< look by look
-    coherently ///< in size radian by radian of the motion: errors of one kind, as of fixed steps
+    with_signs, ///< third of a radian by third of a radian
+    sizes,      ///< look by look
+    coherently  ///< in size radian by radian of the motion: errors of one kind, as of fixed steps
   };
 
   /// What there is to carry on from one layout of the rows to the next.
@@ -37,14 +37,15 @@ public:
     VectorX old_piled; ///< the sum of their sizes, grown and faded as theirs (n_error_groups,)
     VectorX window;    ///< length of this one, by group [rad] (n_error_groups,)
     bool with_signs = false;
-    VectorX fresh;        ///< errors since the last look (lambda0,)
-    VectorX gathered;     ///< those of them whose size was added (lambda0,)
-    VectorX added;        ///< sizes of these (n_error_groups,)
-    VectorX piled, plain; ///< E and the sum without growth, by group (n_error_groups,)
-    VectorX level;        ///< ln of the factor by which the oldest of E has grown (n_error_groups,)
-    VectorX change;       ///< of the equations, the largest so far (n_error_groups,)
-    VectorX rough_level;  ///< `level` where the equations changed much last (n_error_groups,)
-    VectorX since_rough;  ///< looks since then (n_error_groups,)
+    VectorX fresh;       ///< errors since the last look (lambda0,)
+    VectorX gathered;    ///< those of them whose size was added (lambda0,)
+    VectorX added;       ///< sizes of these (n_error_groups,)
+    VectorX piled;       ///< E, by group (n_error_groups,)
+    VectorX plain;       ///< the sum without growth (n_error_groups,)
+    VectorX level;       ///< ln of the factor by which the oldest of E has grown (n_error_groups,)
+    VectorX change;      ///< of the equations, the largest so far (n_error_groups,)
+    VectorX rough_level; ///< `level` where the equations changed much last (n_error_groups,)
+    VectorX since_rough; ///< looks since then (n_error_groups,)
     void remember(Archive& a) {
       a(vector, middle, old, old_piled, window, with_signs, fresh, gathered, added, piled, plain,
         level, change, rough_level, since_rough);
@@ -102,7 +103,7 @@ private:
   double carry_window(int substeps, const VectorX& unit);
   bool carry(double t, const VectorX& rate, VectorX& fresh);
   void look_again(double change, double much, double little);
-  void take_old(const VectorX& unit, const VectorX& turned);
+  void take_old(const VectorX& unit, const VectorX& before);
   void limit(VectorX& vector, const VectorX& unit, double to) const;
   void follow(Index group, double phase);
   double between_rough(Index group, double level);
