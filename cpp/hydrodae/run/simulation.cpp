@@ -206,7 +206,7 @@ bool Simulation::make_step(double end) {
 
 /// No step may pass over what is known ahead of time, nor over an event that was found.
 double Simulation::find_bound() {
-  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns());
+  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns(), integrator_->gap());
   if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
     event_near_ = INFINITY;
   const double step = scene_.solver.step;

@@ -65,6 +65,7 @@ public:
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }
+  double gap() const override { return gap_; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
   void remember(Archive& a) override;
 
@@ -114,6 +115,7 @@ private:
   VectorX local_error_, inner_error_; ///< (n_blocks,)
   VectorX nodes_;                     ///< of the interpolant, on [0, 1]
   double largest_product_ = 0.0;      ///< of prod (x - node) on [0, 1]
+  double gap_ = 1.0;                  ///< see `gap`
   VectorX slope0_, slope_;            ///< rates of the positions at both ends, where it is a line
   int since_change_ = 0, slack_ = 0;  ///< steps of this order; those last that Newton limited
 };
@@ -125,6 +127,7 @@ void Collocation::use(int stages) {
   newton_ = entry.get();
   stage_error_.emplace(newton_->rk());
   nodes_ = newton_->rk().c;
+  gap_ = fixed_ ? 1.0 : largest_gap({nodes_.begin(), nodes_.end()});
   if (family_ != Family::lobatto_iiic) {
     nodes_.conservativeResize(stages + 1);
     nodes_[stages] = 0.0;

@@ -129,7 +129,7 @@ bool GeneralizedAlpha::refresh(double t, double h) {
   const double by_x = (1.0 - alpha_m_) / ((1.0 - alpha_f_) * h * gamma_),
                by_q = gamma_ / (beta_ * h);
   factored_ = h;
-  return newton_matrix_.factorise(e_.parts, by_x, by_q, false);
+  return newton_matrix_.factorise(e_.parts, {by_x, by_q, by_x});
 }
 
 bool GeneralizedAlpha::newton(double t, double h) {

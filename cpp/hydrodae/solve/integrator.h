@@ -2,8 +2,10 @@
 /// What all integrators have in common: they make steps on F(t, y, y') = 0, and give the solution
 /// inside the last step.
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/model/solver_options.h"
@@ -54,8 +56,24 @@ public:
   /// empty where the tolerance bounds it.
   virtual const VectorX& inner_error() const { return local_error(); }
 
+  /// Largest part of the next step between two times at which it asks for the loads, its ends among
+  /// them; 1 where steps are to be short beside waves whatever that is: fixed steps, and explicit
+  /// ones, whose estimated errors are a thousand times too large in long steps.
+  virtual double gap() const { return 1.0; }
+
   /// Nodes that a quadrature over one step needs to be as exact as the method.
   virtual int quadrature_nodes() const { return 3; }
+
+protected:
+  /// Of nodes in [0, 1], in any order.
+  static double largest_gap(std::vector<double> nodes) {
+    nodes.insert(nodes.end(), {0.0, 1.0});
+    std::sort(nodes.begin(), nodes.end());
+    double out = 0.0;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+      out = std::max(out, nodes[i] - nodes[i - 1]);
+    return out;
+  }
 };
 
 /// The integrator that `options.method` names, at time `t0` [s] with consistent y, y'. The system

@@ -2,6 +2,7 @@
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -57,15 +58,17 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
     }
     return false;
   }
-  bool refactorise(bool careful) {
-    const bool ok =
-        is_real<Scalar>
-            ? klu_l_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common)
-            : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
-    return ok && growth() > bad_pivots && !(careful && ill());
+  bool refactorise() {
+    return is_real<Scalar>
+               ? klu_l_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common)
+               : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
+  }
+  bool is_finite() const {
+    return std::all_of(values.begin(), values.end(),
+                       [](const Scalar& v) { return std::isfinite(std::abs(v)); });
   }
   bool factorise(bool careful) {
-    if (numeric && refactorise(careful))
+    if (numeric && refactorise() && growth() > bad_pivots && !(careful && ill()))
       return true;
     drop();
     numeric = is_real<Scalar>
@@ -116,10 +119,11 @@ template <class Scalar> SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = defaul
 template <class Scalar> std::vector<Scalar>& SparseLu<Scalar>::values() { return impl_->values; }
 
 template <class Scalar> bool SparseLu<Scalar>::factorise(bool careful) {
-  for (const Scalar& v : impl_->values)
-    if (!std::isfinite(std::abs(v)))
-      return false;
-  return impl_->factorise(careful);
+  return impl_->is_finite() && impl_->factorise(careful);
+}
+
+template <class Scalar> bool SparseLu<Scalar>::refactorise() {
+  return impl_->numeric && impl_->is_finite() && impl_->refactorise();
 }
 
 template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {

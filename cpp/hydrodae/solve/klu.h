@@ -35,6 +35,11 @@ public:
   /// also where a real matrix is ill-conditioned with those of before.
   bool factorise(bool careful = false);
 
+  /// With the pivots of before, which are not looked at: whoever calls it judges the residual of a
+  /// solution, and calls `factorise` where that is large. False where there are none, or where they
+  /// do not do.
+  bool refactorise();
+
   /// Order of elimination, with the pivots of the last factorisation where there is one.
   Elimination elimination() const;
 

@@ -7,8 +7,8 @@ namespace hydrodae::solve {
 
 LinearFlow::LinearFlow(const system::Regime& s, const system::Pattern& pattern, double t,
                        const VectorX& y, const VectorX& yp)
-    : s_(s), e_(s, pattern, 1.0), first_u_(y.segment(s.u0, s.n_u)), u_(first_u_), row_size_(s.n),
-      time_(t) {
+    : s_(s), pattern_(condensed(s, pattern)), e_(s, pattern_, 1.0), mean_(pattern_),
+      first_u_(y.segment(s.u0, s.n_u)), u_(first_u_), row_size_(s.n), time_(t) {
   e_.accept(t, y, yp);
   e_.jacobian(t, y, yp);
   before_ = first_by_y_ = by_y_ = e_.parts.by_y;
@@ -18,44 +18,53 @@ LinearFlow::LinearFlow(const system::Regime& s, const system::Pattern& pattern, 
 /// The implicit midpoint rule with the mean of the derivatives at both looks, lest what turns or
 /// swings between them feeds the change; memory states by backward Euler, since some fade within a
 /// substep; the constraints hold at its end, and so do the loads of states of forces, which may
-/// fade within a thousandth of it.
+/// fade within a thousandth of it. Rows of motions count twice, as (K + 2 M / h) d = ...
 bool LinearFlow::look(double t, const VectorX& y, const VectorX& yp, int substeps) {
-  const double h = (t - time_) / substeps;
-  const system::Pattern& p = e_.pattern;
-  if (!lu_)
-    lu_ = std::make_unique<SparseLu<double>>(p.column_start, p.row);
+  h_ = (t - time_) / substeps;
+  if (!matrix_)
+    matrix_ = std::make_unique<NewtonMatrix<double>>(s_, pattern_);
   e_.accept(t, y, yp);
   e_.jacobian(t, y, yp);
-  std::vector<double>& values = lu_->values();
-  from_.assign(values.size(), 0.0);
+  const double alpha = 2.0 / h_;
+  from_.assign(by_y_.size(), 0.0);
   for (Index c = 0; c < s_.n; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k) {
-      const Index row = p.row[k];
+    for (Index k = pattern_.column_start[c]; k < pattern_.column_start[c + 1]; ++k) {
+      const Index row = pattern_.row[k];
       const bool of_force = c >= s_.z0 && c < s_.memory0 && !s_.is_absolute(c);
-      const bool moves = s_.is_motion(row), half = moves && c < s_.lambda0 && !of_force;
-      const double by_y = moves ? 0.5 * (by_y_[k] + e_.parts.by_y[k]) : e_.parts.by_y[k],
-                   by_rate =
-                       (moves ? 0.5 * (by_rate_[k] + e_.parts.by_yp[k]) : e_.parts.by_yp[k]) / h;
-      values[k] = (half ? 0.5 * by_y : by_y) + by_rate;
-      if (row < s_.lambda0 && c < s_.lambda0)
-        from_[k] = by_rate - (half ? 0.5 * by_y : 0.0);
+      double &by_y = mean_.by_y[k], &by_rate = mean_.by_yp[k];
+      by_y = e_.parts.by_y[k];
+      by_rate = 0.5 * e_.parts.by_yp[k];
+      if (s_.is_motion(row)) {
+        by_y = (of_force ? 1.0 : 0.5) * (by_y + by_y_[k]);
+        by_rate += 0.5 * by_rate_[k];
+        if (c < s_.lambda0)
+          from_[k] = alpha * by_rate - (of_force ? 0.0 : by_y);
+      } else if (row < s_.memory0 && c < s_.lambda0) {
+        from_[k] = alpha * by_rate;
+      }
     }
+  mean_.memory = e_.parts.memory;
   before_.swap(by_y_);
   by_y_ = e_.parts.by_y;
   by_rate_ = e_.parts.by_yp;
   u_ = y.segment(s_.u0, s_.n_u);
   time_ = t;
-  return lu_->factorise();
+  return matrix_->factorise(mean_, {alpha, alpha, 1.0 / h_});
 }
 
 bool LinearFlow::step(VectorX& change) {
   constexpr double most = 1e3;
-  const system::Pattern& p = e_.pattern;
   rhs_.setZero(s_.n);
   for (Index c = 0; c < s_.lambda0; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1] && change[c] != 0.0; ++k)
-      rhs_[p.row[k]] += from_[k] * change[c];
-  lu_->solve(rhs_.data());
+    for (Index k = pattern_.column_start[c]; k < pattern_.column_start[c + 1] && change[c] != 0.0;
+         ++k)
+      rhs_[pattern_.row[k]] += from_[k] * change[c];
+  if (s_.has_memory()) {
+    const Index n = s_.lambda0 - s_.memory0;
+    rhs_.segment(s_.memory0, n) = change.segment(s_.memory0, n) / h_;
+    matrix_->subtract_memory_loads(change.segment(s_.memory0, n), rhs_.data());
+  }
+  matrix_->solve(rhs_.data());
   if (!rhs_.allFinite() || rhs_.head(s_.n_q).norm() > most * change.norm())
     return false;
   change = rhs_.head(s_.lambda0);
@@ -63,17 +72,18 @@ bool LinearFlow::step(VectorX& change) {
 }
 
 VectorX LinearFlow::effect(const VectorX& change) {
-  const system::Pattern& p = e_.pattern;
   rhs_.setZero(s_.n);
   for (Index c = 0; c < s_.lambda0; ++c)
-    for (Index k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
-      rhs_[p.row[k]] += (by_y_[k] - before_[k]) * change[c];
-  lu_->solve(rhs_.data());
+    for (Index k = pattern_.column_start[c]; k < pattern_.column_start[c + 1]; ++k) {
+      const Index row = pattern_.row[k];
+      rhs_[row] += (s_.is_motion(row) ? 2.0 : 1.0) * (by_y_[k] - before_[k]) * change[c];
+    }
+  matrix_->solve(rhs_.data());
   return rhs_.head(s_.lambda0);
 }
 
 void LinearFlow::compare(const VectorX& rate, VectorX& since_last, VectorX& since_first) {
-  const system::Pattern& p = e_.pattern;
+  const system::Pattern& p = pattern_;
   since_last.setZero(s_.n_error_groups());
   row_size_.setZero();
   const auto entries = [&](auto&& visit) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hydrodae/solve/equations.h"
-#include "hydrodae/solve/klu.h"
+#include "hydrodae/solve/newton_matrix.h"
 
 namespace hydrodae::solve {
 
@@ -40,15 +40,17 @@ public:
 
 private:
   const system::Regime& s_;
+  const system::Pattern pattern_; ///< without the radiation memory
   Equations e_;
-  std::unique_ptr<SparseLu<double>> lu_;
+  system::JacobianParts mean_; ///< of both looks, rows of motions twice; see `look`
+  std::unique_ptr<NewtonMatrix<double>> matrix_;
   std::vector<double> by_y_, by_rate_; ///< derivatives at the last look
   std::vector<double> before_;         ///< by y, at the look before
   std::vector<double> first_by_y_;
   std::vector<double> from_; ///< of the change at the start of a substep
   VectorX first_u_, u_;      ///< velocities at the first and the last look (n_u,)
   VectorX rhs_, row_size_;
-  double time_;
+  double time_, h_ = 0.0; ///< of the last look, length of its substeps [s]
 };
 
 } // namespace hydrodae::solve

@@ -114,29 +114,24 @@ template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
 }
 
 template <class Scalar>
-bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, Scalar alpha,
-                                     Scalar alpha_q, bool careful) {
+bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const Alphas& alphas,
+                                     bool careful) {
   parts_ = &parts;
   std::vector<Scalar>& values = lu_.values();
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = parts.by_y[k] + (k < n_of_positions_ ? alpha_q : alpha) * parts.by_yp[k];
+    values[k] = parts.by_y[k] +
+                (k < n_of_positions_ ? alphas.of_positions : alphas.of_most) * parts.by_yp[k];
   if (s_.has_memory()) {
-    find_transfer(alpha);
+    find_transfer(alphas.of_memory);
     add_memory();
   }
   return lu_.factorise(careful);
 }
 
-template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
+template <class Scalar>
+void NewtonMatrix<Scalar>::subtract_memory_loads(const VectorS& z, Scalar* b) {
   const HydroData& h = s_.hydro;
-  if (!s_.has_memory())
-    return lu_.solve(b);
-  Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
-  z_ = r_z;
-  r_z.setZero(); // their rows of the matrix are those of the identity
-  VectorS w = z_.col(0);
-  divide(w);
-  U_.noalias() = h.output.template cast<Scalar>() * w;
+  U_.noalias() = h.output.template cast<Scalar>() * z;
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -148,6 +143,18 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
     for (int k = 0; k < body.n_active; ++k)
       b[body.u0 + k] -= force[body.active[static_cast<std::size_t>(k)]];
   }
+}
+
+template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
+  const HydroData& h = s_.hydro;
+  if (!s_.has_memory())
+    return lu_.solve(b);
+  Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
+  z_ = r_z;
+  r_z.setZero(); // their rows of the matrix are those of the identity
+  w_ = z_.col(0);
+  divide(w_);
+  subtract_memory_loads(w_, b);
   lu_.solve(b);
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];

@@ -25,14 +25,20 @@ public:
   /// False when the matrix is singular or holds values that are not finite. The parts are read
   /// until the next call. `careful`: see SparseLu.
   bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false) {
-    return factorise(parts, alpha, alpha, careful);
+    return factorise(parts, {alpha, alpha, alpha}, careful);
   }
 
-  /// The same with an alpha of their own for the rates of the positions.
-  bool factorise(const system::JacobianParts& parts, Scalar alpha, Scalar alpha_q, bool careful);
+  /// The same with an alpha of their own for the rates of the positions, and of the memory states.
+  struct Alphas {
+    Scalar of_most, of_positions, of_memory;
+  };
+  bool factorise(const system::JacobianParts& parts, const Alphas& alphas, bool careful = false);
 
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
+
+  /// b -= L C z for memory states z (n_states,), with the parts of the last `factorise`.
+  void subtract_memory_loads(const VecX<Scalar>& z, Scalar* b);
 
   /// See SparseLu.
   Elimination elimination() const { return lu_.elimination(); }
@@ -57,6 +63,7 @@ private:
   MatrixX input_;      ///< B_r (n_states, n_moving)
   MatrixS driven_;     ///< D^-1 B_r
   MatrixS z_;          ///< (n_states, 1) scratch
+  VectorS w_;          ///< (n_states,) scratch
   VectorS U_;          ///< (n_moving,) scratch
 };
 

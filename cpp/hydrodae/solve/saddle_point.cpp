@@ -14,6 +14,7 @@ namespace {
 constexpr double regularisation = 1e-8; ///< e
 constexpr int refinements = 4;
 constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
+constexpr double much_left = 1e-6;  ///< likewise: more than regularisation leaves
 constexpr int projections = 8;
 constexpr double closed = 1e-13; ///< gaps in units of their scale
 constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
@@ -93,7 +94,8 @@ bool SaddlePoint::factorise() {
     metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
     values[diagonal_[i - s_.n_u]] = -regularisation * metric_[i - s_.n_u];
   }
-  return lu_->factorise();
+  old_pivots_ = lu_->refactorise();
+  return old_pivots_ || lu_->factorise();
 }
 
 void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
@@ -103,7 +105,8 @@ void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
       out[row_[k]] += plain_[k] * x[c];
 }
 
-/// x = K^-1 rhs, the residual taken with e = 0.
+/// x = K^-1 rhs, the residual taken with e = 0. Where much of it is left the pivots may have gone
+/// bad, and are looked at.
 void SaddlePoint::solve(VectorX& x) {
   x = rhs_;
   lu_->solve(x.data());
@@ -111,10 +114,18 @@ void SaddlePoint::solve(VectorX& x) {
     multiply(x, r_);
     r_ = rhs_ - r_;
     // Forces and gaps are of different units, and converge each by their own size.
-    const double load = largest(rhs_.head(s_.n_u)), motion = largest(x.head(s_.n_u));
-    if (largest(r_.head(s_.n_u)) <= converged * load &&
-        largest(r_.tail(s_.n_lambda)) <= converged * motion)
+    const double load = largest(rhs_.head(s_.n_u)), motion = largest(x.head(s_.n_u)),
+                 forces = largest(r_.head(s_.n_u)), gaps = largest(r_.tail(s_.n_lambda));
+    if (forces <= converged * load && gaps <= converged * motion)
       return;
+    if (old_pivots_ && !(forces <= much_left * load && gaps <= much_left * motion)) {
+      old_pivots_ = false;
+      if (!lu_->factorise()) {
+        x.setConstant(NAN);
+        return;
+      }
+      return solve(x);
+    }
     lu_->solve(r_.data());
     x += r_;
   }

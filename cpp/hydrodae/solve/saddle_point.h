@@ -90,6 +90,7 @@ private:
   std::vector<double> plain_;   ///< values with e = 0
   VectorX metric_;              ///< (n_lambda,) D
   std::unique_ptr<SparseLu<double>> lu_;
+  bool old_pivots_ = false; ///< those of a matrix before, which nobody has looked at
   VectorX residual_, rhs_, x_, r_, yp0_;
   std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
   std::string jam_;

@@ -11,9 +11,10 @@ namespace hydrodae::system {
 
 namespace {
 
-constexpr double share_of_period = 0.2; ///< of the shortest wave that matters, in one step
-constexpr double most_turn = 12.0;      ///< of a joint in one step [rad]; see turned_angle
-constexpr double kept = 0.999;          ///< of the variance: waves that matter are longer than that
+// Of the shortest wave that matters: points in a period, and its part in one step whatever those.
+constexpr double points_of_wave = 7.0, least_of_wave = 0.2, most_of_wave = 0.5;
+constexpr double most_turn = 12.0; ///< of a joint in one step [rad]; see turned_angle
+constexpr double kept = 0.999;     ///< of the variance: waves that matter are longer than that
 
 /// Response of a body of unit mass that is as stiff as its time scale tells to a load per metre of
 /// each component: |C| / max(1/T, w)^2.
@@ -144,7 +145,7 @@ void Forcing::add_waves(const Regime& s) {
     }
   }
   if (most > 0.0)
-    wave_limit_ = share_of_period * 2.0 * pi / most;
+    shortest_wave_ = 2.0 * pi / most;
 }
 
 void Forcing::add_paths(const Regime& s) {
@@ -205,9 +206,10 @@ void Forcing::add_elements(const Regime& s, double end, double output_step) {
   }
 }
 
-Forcing::Limit Forcing::limit(const Turns& turns) {
-  const double t = turns.time;
-  Limit out{t + wave_limit_, &waves_};
+Forcing::Limit Forcing::limit(const Turns& turns, double gap) {
+  const double t = turns.time,
+               of_wave = std::clamp(1.0 / (points_of_wave * gap), least_of_wave, most_of_wave);
+  Limit out{t + of_wave * shortest_wave_, &waves_};
   const auto take = [&](double time, const std::string& name) {
     if (time < out.time)
       out = {time, &name};

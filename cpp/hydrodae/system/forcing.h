@@ -24,7 +24,8 @@ public:
   };
 
   /// @param turns of the state from which the step starts: tells where bodies are on their paths
-  Limit limit(const Turns& turns);
+  /// @param gap largest part of the step between two times at which it asks for the loads
+  Limit limit(const Turns& turns, double gap);
 
   /// By group: how far its bodies will about be moved, in units of their lever [-]; 0: not at all.
   const VectorX& motion() const { return motion_; }
@@ -51,7 +52,7 @@ private:
   std::vector<std::size_t> angles_; ///< motions that are angles
   std::vector<Track> tracks_;
   std::vector<Curve> curves_;
-  double wave_limit_ = INFINITY; ///< [s]
+  double shortest_wave_ = INFINITY; ///< period of the shortest that matters [s]
   std::string waves_ = "the waves", turning_ = "a joint that turns this fast";
   VectorX motion_;
 };
