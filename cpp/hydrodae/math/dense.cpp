@@ -1,5 +1,6 @@
 #include "hydrodae/math/dense.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -43,6 +44,15 @@ PivotedColumns pivoted_columns(const MatrixX& A) {
       out.pivots[k] = std::abs(qr.matrixQR()(k, k));
   }
   return out;
+}
+
+std::pair<double, VectorX> lowest_eigenpair(const MatrixX& A) {
+  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(A);
+  return {solver.eigenvalues()[0], solver.eigenvectors().col(0)};
+}
+
+bool is_positive_definite(const MatrixX& A) {
+  return Eigen::LLT<MatrixX>(A).info() == Eigen::Success;
 }
 
 VectorX symmetric_eigenvalues(const MatrixX& A) {

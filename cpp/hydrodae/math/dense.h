@@ -2,6 +2,7 @@
 /// Decompositions of dense matrices where ranks matter, or where cost does not. They stand in one
 /// file since Eigen's take long to compile; inner loops keep factors of their own.
 
+#include <utility>
 #include <vector>
 
 #include "hydrodae/core/types.h"
@@ -33,5 +34,11 @@ PivotedColumns pivoted_columns(const MatrixX& A);
 
 /// Eigenvalues of a symmetric matrix, ascending.
 VectorX symmetric_eigenvalues(const MatrixX& A);
+
+/// The smallest eigenvalue of a symmetric matrix, and its eigenvector of length one.
+std::pair<double, VectorX> lowest_eigenpair(const MatrixX& A);
+
+/// Are all eigenvalues of a symmetric matrix positive?
+bool is_positive_definite(const MatrixX& A);
 
 } // namespace hydrodae

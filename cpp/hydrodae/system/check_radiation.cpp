@@ -1,13 +1,12 @@
 #include "hydrodae/system/check_radiation.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::system {
@@ -21,8 +20,6 @@ constexpr double allowed_table = 0.05;
 constexpr double own = 0.05;        ///< the same for one coordinate, of its own largest
 constexpr double negligible = 1e-4; ///< of the largest: what belongs to a coordinate below is noise
 constexpr double budget = 4e8;      ///< multiplications that the check may take
-
-using Hermitian = Eigen::MatrixXcd;
 
 /// Hermitian part of H(iw), by the masses of the coordinates once scaled [1/s].
 struct Damping {
@@ -186,26 +183,32 @@ std::string coordinate_name(const System& s, Index u) {
                        "solver.force (--force) runs it none the less");
 }
 
-/// The smallest eigenvalue of a Hermitian matrix and the coordinate that has most of it.
+/// As a real symmetric matrix, of a Hermitian one R + i I twice as large: [[R, -I], [I, R]].
+MatrixX symmetric(const Damping& d) {
+  if (d.imaginary.size() == 0)
+    return d.real;
+  const Index n = d.real.rows();
+  MatrixX out(2 * n, 2 * n);
+  out << d.real, -d.imaginary, d.imaginary, d.real;
+  return out;
+}
+
+/// The smallest eigenvalue and the coordinate that has most of its vector.
 std::pair<double, Index> lowest(const Damping& d) {
-  Hermitian H = d.real.cast<std::complex<double>>();
-  if (d.imaginary.size() > 0)
-    H += std::complex<double>(0.0, 1.0) * d.imaginary;
-  const Eigen::SelfAdjointEigenSolver<Hermitian> solver(H);
+  const auto [value, vector] = lowest_eigenpair(symmetric(d));
+  const Index n = d.real.rows();
+  VectorX squares = vector.head(n).cwiseAbs2();
+  if (vector.size() > n)
+    squares += vector.tail(n).cwiseAbs2();
   Index u = 0;
-  solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&u);
-  return {solver.eigenvalues()[0], u};
+  squares.maxCoeff(&u);
+  return {value, u};
 }
 
 bool is_positive(const Damping& d, double shift) {
-  if (d.imaginary.size() == 0) {
-    MatrixX shifted = d.real;
-    shifted.diagonal().array() += shift;
-    return shifted.llt().info() == Eigen::Success;
-  }
-  Hermitian shifted = d.real + std::complex<double>(0.0, 1.0) * d.imaginary;
+  MatrixX shifted = symmetric(d);
   shifted.diagonal().array() += shift;
-  return shifted.llt().info() == Eigen::Success;
+  return is_positive_definite(shifted);
 }
 
 /// @param largest  of each coordinate over all frequencies, over its mass
