@@ -302,6 +302,27 @@ def test_events_without_end_are_told() -> None:
         run(text, 1.0)
 
 
+def test_an_impact_at_a_pose_that_is_a_little_off_is_one_event() -> None:
+    """The interpolant leaves the joints open; closing them moves the stop beyond its bound."""
+    bars = [(0.46601954298361314, -0.1811788772383368), (1.0015733517454977, -0.7053810567211082)]
+    hinges = [(0.0, 0.0), (0.9320390859672263, -0.3623577544766736)]
+    text = "[solver]\nend_time = 2.0\nrtol = 1e-3\nmethod = 'explicit_rk'\n"
+    for k, ((x, z), (hinge_x, hinge_z)) in enumerate(zip(bars, hinges, strict=True)):
+        start = "velocity = [0.1715, 0.0, 0.0348], angular_velocity = [0.0, -0.5, 0.0]" if k else ""
+        text += (
+            f"[[body]]\nname = 'bar{k}'\nmotion = 'planar'\nmass = {2.0 - k}\n"
+            f"center_of_gravity = [{x}, 0.0, {z}]\ninertia = [0.1, {0.1667 / (1 + 3 * k)}, 0.1]\n"
+            f"initial = {{ {start} }}\n"
+            f"[[joint]]\nname = 'hinge{k}'\ntype = 'revolute'\naxis = [0.0, -1.0, 0.0]\n"
+            f"body_a = '{'bar0' if k else 'ground'}'\nbody_b = 'bar{k}'\n"
+            f"point = [{hinge_x}, 0.0, {hinge_z}]\n"
+        )
+    text += "[[constraint]]\nname = 'stop'\ntype = 'stop'\njoint = 'hinge1'\nrestitution = 0.5\n"
+    text += "lower_deg = -22.918311805232932\nupper_deg = 28.64788975654116\n"
+    results = hydrodae.run(hydrodae.Case.from_text(text))
+    assert 1 <= len(results.impacts["stop"]["time"]) < 20
+
+
 def test_impacts_report_their_impulses_and_the_energy_they_take() -> None:
     """A ball falls 1 m: v = e^n sqrt(2 g), impulse m (1 + e) v, energy (1 - e^2) m v^2 / 2."""
     results = run(BALL, 2.5)

@@ -51,6 +51,16 @@ def test_a_mass_falls_free_when_its_rope_parts(kind: str, method: str) -> None:
     assert f"rope: PARTED at t = {when:.4g} s" in run.summary()
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_a_brief_overload_parts_a_rope(method: str) -> None:
+    over = 1e-5  # of what it bears, for a five-hundredth of the period
+    text = dropped("rope", "breaks = true", 2.0 * (1.0 - over) * MASS * G)
+    w = math.sqrt(EA / (LENGTH * MASS))
+    when = math.acos(-1.0 + 2.0 * over) / w
+    run = run_text(text, 2.0, method=method, step=0.5)
+    assert run["forces/rope/parted_at"].values[-1] == pytest.approx(when, rel=1e-4)
+
+
 def test_what_does_not_break_is_told_and_goes_on() -> None:
     run = run_text(dropped("rope", ""), 1.0)
     assert "forces/rope/parted" not in run

@@ -1,5 +1,7 @@
 #include "hydrodae/run/parting_watch.h"
 
+#include <algorithm>
+
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/first_beyond.h"
@@ -48,21 +50,21 @@ template <class Visit> void PartingWatch::visit(double t, const VectorX& y, Visi
   }
 }
 
-bool PartingWatch::overloaded(double t, const VectorX& y) {
-  bool any = false;
+/// Of what is loaded most, over what it bears [-].
+double PartingWatch::largest_ratio(double t, const VectorX& y) {
+  double out = 0.0;
   visit(t, y, [&](const List&, std::size_t, const element::Overload& now, const double*) {
-    any = any || now.ratio >= 1.0;
+    out = std::max(out, now.ratio);
   });
-  return any;
+  return out;
 }
 
 std::optional<double> PartingWatch::locate(double t0, double t1, int nodes,
                                            const system::Recorder::Interpolant& at) {
-  const auto is_beyond = [&](double t) {
+  return first_beyond(t0, t1, nodes, [&](double t) {
     at(t, y_, yp_);
-    return overloaded(t, y_);
-  };
-  return first_beyond(t0, t1, nodes, is_beyond);
+    return largest_ratio(t, y_) - 1.0;
+  });
 }
 
 void PartingWatch::part(double t, const VectorX& y) {

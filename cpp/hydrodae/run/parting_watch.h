@@ -35,7 +35,7 @@ private:
   };
   explicit PartingWatch(system::Regime& regime) : s_(regime), ws_(regime) {}
   template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
-  bool overloaded(double t, const VectorX& y);
+  double largest_ratio(double t, const VectorX& y);
 
   system::Regime& s_;
   system::Workspace<double> ws_;

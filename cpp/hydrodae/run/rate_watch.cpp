@@ -42,22 +42,24 @@ double RateWatch::rate(double t, const VectorX& y, const VectorX& yp) {
           system::joint_velocity<double>(s_.joints[static_cast<std::size_t>(joint)], ws_.bodies));
 }
 
-bool RateWatch::beyond(double rate) const { return side_ * rate < -beyond_zero * fastest_; }
+/// By what part of the largest rate it has crossed zero, and a little more.
+double RateWatch::beyond(double rate) const {
+  return fastest_ > 0.0 ? -side_ * rate / fastest_ - beyond_zero : -1.0;
+}
 
 std::optional<double> RateWatch::locate(double t0, double t1, int nodes,
                                         const system::Recorder::Interpolant& at) {
   if (side_ == 0.0)
     return std::nullopt;
-  const auto is_beyond = [&](double t) {
+  return first_beyond(t0, t1, nodes, [&](double t) {
     at(t, y_, yp_);
     return beyond(rate(t, y_, yp_));
-  };
-  return first_beyond(t0, t1, nodes, is_beyond);
+  });
 }
 
 bool RateWatch::accept(double t, const VectorX& y, const VectorX& yp) {
   const double now = rate(t, y, yp);
-  const bool crossed = side_ != 0.0 && beyond(now);
+  const bool crossed = side_ != 0.0 && beyond(now) >= 0.0;
   fastest_ = std::max(fastest_, std::abs(now));
   if (crossed || side_ == 0.0)
     side_ = now > 0.0 ? 1.0 : now < 0.0 ? -1.0 : 0.0;

@@ -30,7 +30,7 @@ public:
 
 private:
   double rate(double t, const VectorX& y, const VectorX& yp);
-  bool beyond(double rate) const;
+  double beyond(double rate) const;
 
   const system::Regime& s_;
   int motion_;

@@ -19,8 +19,8 @@ constexpr long watch = 1000; ///< events; see `count`
 
 Switching::Switching(system::Regime& system, double rtol)
     : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
-      struck_(system.switches.size()), y_(system::initial_state(system)),
-      yp_(VectorX::Zero(system.n)) {
+      depth_(system.switches.size()), struck_(system.switches.size()),
+      y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
   for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
     set(k, s_.switches[k].kind == Kind::stop ? State::upper : State::stick);
   lay_out(s_);
@@ -82,7 +82,7 @@ void Switching::follow(const system::Turns& turns) {
 }
 
 void Switching::remember(Archive& a) {
-  a(struck_, events_, recent_, checked_, holding_, ws_.turns);
+  a(depth_, struck_, events_, recent_, checked_, holding_, ws_.turns);
 }
 
 void Switching::resume(double t, const VectorX& y, const VectorX& yp) {
@@ -127,17 +127,23 @@ double Switching::load(const Data& element, const VectorX& y) const {
   return y[s_.lambda(s_.couplers[static_cast<std::size_t>(element.coupler)])];
 }
 
+/// Of an open stop from the bound that is nearer [m or rad].
+double Switching::gap(std::size_t k) const {
+  const Data& element = s_.switches[k];
+  const double s = motion(element).value;
+  return std::min(element.upper - s, s - element.lower);
+}
+
 /// How far the switch is from having to change; negative when it is past that.
 double Switching::margin(std::size_t k, const VectorX& y) const {
   const Data& element = s_.switches[k];
   const Size& size = size_[k];
   switch (s_.mode(element)) {
   case State::open: {
-    const double s = motion(element).value, gap = std::min(element.upper - s, s - element.lower);
     // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
     const double scale = motion_scale(element);
     const bool slow = approach(k) <= rtol_ * scale * size.rate;
-    return gap + (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length;
+    return gap(k) + depth_[k] + (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length;
   }
   case State::upper:
     return -load(element, y) + 2.0 * resting * size.load;
@@ -216,6 +222,9 @@ std::optional<double> Switching::locate(double t0, double t1, int nodes, const I
     speed = now;
     a = b;
   }
+  for (std::size_t k = 0; k < count; ++k)
+    if (depth_[k] > 0.0 && gap(k) >= 0.0)
+      depth_[k] = 0.0;
   system::accept_turns(s_, t1, y_.data(), yp_.data(), ws_);
   present_->equations.accept(t1, y_, yp_);
   return std::nullopt;

@@ -120,6 +120,7 @@ private:
   Motion motion(const Data& element) const;
   double motion_scale(const Data& element) const;
   double load(const Data& element, const VectorX& y) const;
+  double gap(std::size_t k) const;
   double margin(std::size_t k, const VectorX& y) const;
   double approach(std::size_t k) const;
   std::optional<double> first_root(double a, double b, const Interpolant& at);
@@ -139,6 +140,7 @@ private:
   const double rtol_;
   system::Workspace<double> ws_;
   std::vector<Size> size_;
+  std::vector<double> depth_; ///< beyond its bound, at which the last event left an open stop
   std::vector<Struck> struck_;
   double time_scale_ = 0.0; ///< shortest of the bodies [s]
   VectorX y_, yp_;

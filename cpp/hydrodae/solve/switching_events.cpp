@@ -232,6 +232,10 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
     if (!correct(y, changes))
       break;
   }
+  for (std::size_t k = 0; k < size_.size(); ++k) // the projection may have moved it further in
+    depth_[k] = s_.switches[k].kind == Kind::stop && s_.mode(s_.switches[k]) == State::open
+                    ? std::max(0.0, -gap(k))
+                    : 0.0;
   holding_ = std::any_of(s_.switches.begin(), s_.switches.end(),
                          [this](const Data& element) { return s_.holds(element); });
   return struck;
