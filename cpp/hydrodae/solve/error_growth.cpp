@@ -32,8 +32,8 @@ std::vector<bool> guided_groups(const system::Regime& s) {
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, Way way, int every)
-    : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), y_(y), yp_(yp),
-      growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
+    : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s)),
+      y_(y), yp_(yp), growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
       change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
       fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {
   begin(std::move(error));
@@ -85,9 +85,9 @@ VectorX ErrorGrowth::place_sizes(VectorX vector, const VectorX& unit) const {
 }
 
 bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
-                      bool last, const Interpolant& at) {
+                      const VectorX& motion, bool last, const Interpolant& at) {
   if (way_ == Way::with_signs)
-    return add_with_signs(t, step_error, unit, rate, last, at);
+    return add_with_signs(t, step_error, unit, rate, motion, last, at);
   error_.fresh += step_error;
   const double phase = rate.size() > 0 ? rate.maxCoeff() * (t - window_) : 0.0;
   if (way_ == Way::coherently &&
@@ -96,14 +96,18 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
     error_.gathered = error_.fresh;
     window_ = t;
   }
+  keep(t, step_error, rate, motion, at);
   if (++steps_ < every_ && !last)
     return false;
-  steps_ = 0;
+  y_ = pieces_[n_pieces_ - 1].y;
+  yp_ = pieces_[n_pieces_ - 1].yp;
   growth_.setOnes();
   fade_.setOnes();
   const VectorX before = sizes(error_.vector, unit), fresh = sizes(error_.fresh, unit);
   VectorX shown = VectorX::Ones(s_.n_error_groups());
-  at(t, y_, yp_);
+  flow_.keep(last_look_);
+  const VectorX at_last_look = error_.vector;
+  bool closely = false;
   if (VectorX carried = error_.fresh; carry(t, rate, carried)) {
     const VectorX after = sizes(error_.vector, unit);
     const VectorX places = place_sizes(carried, unit);
@@ -113,21 +117,32 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
                               change_[g] > rough ? doubtfully_hidden : hidden);
       if (before[g] > 0.0)
         growth_[g] = after[g] / before[g];
-      if (!last && before[g] > 0.0) // no growth is told where the error of an impact is not carried
-        follow(g, rate[g] * (t - since_));
     }
+    closely = !last && n_pieces_ > 1 && is_doubtful(motion.cwiseProduct(rate) * (t - since_));
+    // None is told where the error of an impact is not carried.
+    for (Index g = 0; g < s_.n_error_groups(); ++g)
+      if (last || before[g] <= 0.0)
+        continue;
+      else if (!is_smooth(g))
+        follow(g, rate[g] * (t - since_));
+      else if (!closely)
+        grow(g, std::log(std::clamp(growth_[g], 1e-12, 1e6)), rate[g] * (t - since_));
   }
-  limit(error_.vector, unit, 1e-3); // it tells growth only
   error_.added += sizes(error_.fresh - error_.gathered, unit);
   error_.added.array() *= shown.array();
-  error_.gathered.setZero();
-  window_ = t;
+  if (closely)
+    look_closely(unit, rate, motion, at_last_look);
+  limit(error_.vector, unit, VectorX::Ones(rate.size()), 1e-3); // it tells growth only
   error_.piled += error_.added;
   error_.plain += error_.added;
+  error_.gathered.setZero();
+  window_ = t;
   error_.added.setZero();
   error_.vector += error_.fresh;
   error_.fresh.setZero();
   since_ = t;
+  steps_ = 0;
+  n_pieces_ = 0;
   return true;
 }
 
@@ -173,12 +188,13 @@ void ErrorGrowth::fade(Index g, double factor) {
     error_.piled[g] *= factor;
 }
 
-/// Where a group's part of the vector is larger than its motion, it is brought to that size.
-void ErrorGrowth::limit(VectorX& vector, const VectorX& unit, double to) const {
+/// Where a group's part of the vector is larger than `most`, it is brought to a part of that.
+void ErrorGrowth::limit(VectorX& vector, const VectorX& unit, const VectorX& most,
+                        double part) const {
   const VectorX size = sizes(vector, unit);
   for (Index i = 0; i < s_.lambda0; ++i)
-    if (const double own = size[s_.error_group[static_cast<std::size_t>(i)]]; !(own <= 1.0))
-      vector[i] = std::isfinite(own) ? to * vector[i] / own : 0.0;
+    if (const int g = s_.error_group[static_cast<std::size_t>(i)]; !(size[g] <= most[g]))
+      vector[i] = std::isfinite(size[g]) ? part * most[g] * vector[i] / size[g] : 0.0;
 }
 
 /// Looks are as close as the equations change between them.

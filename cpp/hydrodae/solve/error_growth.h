@@ -68,8 +68,9 @@ public:
   /// @param last of these rows: carries it along in any case
   /// @param unit what counts as one of each position and velocity, those of points too (lambda0,)
   /// @param rate of the motion of each group [1/s] (n_error_groups,)
-  bool add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate, bool last,
-           const Interpolant& at);
+  /// @param motion its size so far [levers or rad] (n_error_groups,)
+  bool add(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
+           const VectorX& motion, bool last, const Interpolant& at);
 
   /// Over an impact at the time of the last look.
   void carry_over(const ImpactError& impact, const VectorX& unit);
@@ -90,21 +91,31 @@ public:
   /// errors of its steps are gone once the constraints take part.
   bool is_guided(Index group) const { return guided_[static_cast<std::size_t>(group)]; }
 
+  /// Is a group dry, and nothing in it whose derivatives may jump inside a step?
+  bool is_smooth(Index group) const { return smooth_[static_cast<std::size_t>(group)]; }
+
   void remember(Archive& a) {
-    a(error_, flow_, growth_, fade_, change_, since_, window_, every_, steps_, bins_, bin_,
-      bin_start_, substep_);
+    a(error_, flow_, growth_, fade_, change_, since_, window_, every_, steps_, pieces_, n_pieces_,
+      bins_, bin_, bin_start_, substep_);
   }
 
 private:
+  static std::vector<bool> smooth_groups(const system::Regime& system);
   void begin(Error error);
   bool add_with_signs(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
-                      bool last, const Interpolant& at);
+                      const VectorX& motion, bool last, const Interpolant& at);
   void carry_with_signs(double t, const VectorX& unit);
   double carry_window(int substeps, const VectorX& unit);
   bool carry(double t, const VectorX& rate, VectorX& fresh);
+  bool is_doubtful(const VectorX& moved) const;
+  void look_closely(const VectorX& unit, const VectorX& rate, const VectorX& motion,
+                    VectorX vector);
+  void grow(Index group, double seen, double phase);
   void look_again(double change, double much, double little);
   void take_old(const VectorX& unit, const VectorX& before);
-  void limit(VectorX& vector, const VectorX& unit, double to) const;
+  void limit(VectorX& vector, const VectorX& unit, const VectorX& most, double part) const;
+  void keep(double t, const VectorX& step_error, const VectorX& rate, const VectorX& motion,
+            const Interpolant& at);
   void follow(Index group, double phase);
   double between_rough(Index group, double level);
   VectorX sizes(const VectorX& vector, const VectorX& unit) const;
@@ -114,11 +125,21 @@ private:
   LinearFlow flow_;
   Error error_;
   std::vector<bool> guided_; ///< (n_error_groups,)
+  std::vector<bool> smooth_; ///< likewise: dry, and nothing in it has kinks
   VectorX y_, yp_, growth_, fade_, change_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]
   Way way_;
+  bool fine_ = false; ///< growth has been seen: looks inside of steps
   int fewest_, most_, every_, steps_ = 0;
+  struct Piece { ///< of a step since the last look: its end, and the error that comes there
+    double time = 0.0;
+    VectorX y, yp, error;
+    void remember(Archive& a) { a(time, y, yp, error); }
+  };
+  std::vector<Piece> pieces_; ///< the first n_pieces_ of them are in use; none with signs
+  std::size_t n_pieces_ = 0;
+  LinearFlow::Look last_look_;
   MatrixX bins_;           ///< errors of the steps since the last look, in order (lambda0, bins)
   int bin_ = 0;            ///< the last of them in use
   double bin_start_ = 0.0; ///< [s]

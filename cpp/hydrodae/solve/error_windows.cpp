@@ -17,7 +17,8 @@ constexpr double doubtful_of_altered = 0.15; // growth between looks, of the squ
 } // namespace
 
 bool ErrorGrowth::add_with_signs(double t, const VectorX& step_error, const VectorX& unit,
-                                 const VectorX& rate, bool last, const Interpolant& at) {
+                                 const VectorX& rate, const VectorX& motion, bool last,
+                                 const Interpolant& at) {
   const Index most = bins_.cols();
   if (substep_ <= 0.0)
     substep_ =
@@ -40,7 +41,7 @@ bool ErrorGrowth::add_with_signs(double t, const VectorX& step_error, const Vect
   for (int i = 0; i <= bin_; ++i)
     error_.plain += sizes(bins_.col(i), unit);
   for (VectorX* vector : {&error_.vector, &error_.middle, &error_.old})
-    limit(*vector, unit, 1.0);
+    limit(*vector, unit, motion.cwiseMax(1.0), 1.0);
   error_.piled = error_.old_piled + sizes(error_.middle, unit) + sizes(error_.vector, unit);
   error_.fresh.setZero();
   bins_.col(0).setZero();

@@ -52,6 +52,22 @@ bool LinearFlow::look(double t, const VectorX& y, const VectorX& yp, int substep
   return matrix_->factorise(mean_, {alpha, alpha, 1.0 / h_});
 }
 
+void LinearFlow::keep(Look& out) const {
+  out.by_y = by_y_;
+  out.by_rate = by_rate_;
+  out.before = before_;
+  out.u = u_;
+  out.time = time_;
+}
+
+void LinearFlow::go_back(const Look& to) {
+  by_y_ = to.by_y;
+  by_rate_ = to.by_rate;
+  before_ = to.before;
+  u_ = to.u;
+  time_ = to.time;
+}
+
 bool LinearFlow::step(VectorX& change) {
   constexpr double most = 1e3;
   rhs_.setZero(s_.n);

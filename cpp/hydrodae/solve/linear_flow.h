@@ -36,6 +36,15 @@ public:
 
   double time() const { return time_; } ///< of the last look [s]
 
+  /// What it knows of the last look, to look again from there.
+  struct Look {
+    std::vector<double> by_y, by_rate, before;
+    VectorX u;
+    double time = 0.0;
+  };
+  void keep(Look& out) const;
+  void go_back(const Look& to);
+
   void remember(Archive& a) { a(by_y_, by_rate_, before_, first_by_y_, first_u_, u_, time_); }
 
 private:

@@ -47,8 +47,9 @@ Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
       exact_(options.step > 0.0), doubt_(options.step > 0.0 ? 3.0 : 2.0),
       allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.lambda0)),
       reached_(VectorX::Zero(s.n_error_groups())), fastest_(reached_), largest_(reached_),
-      when_(reached_), missing_(reached_), rates_(reached_), displaced_(reached_),
-      start_(y.head(s.lambda0)), energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
+      when_(reached_), piled_(MatrixX::Zero(reached_.size(), 3)), missing_(reached_),
+      rates_(reached_), displaced_(reached_), start_(y.head(s.lambda0)),
+      energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
       energies_[static_cast<std::size_t>(b.mechanism)].group = b.group;
@@ -148,7 +149,7 @@ void Trust::accept(double t, Integrator& integrator, const VectorX& reached, con
   }
   measure(y, reached);
   take_inner(t, integrator.inner_error());
-  if (growth_->add(t, integrator.step_error(), unit_, rates_, event, at))
+  if (growth_->add(t, integrator.step_error(), unit_, rates_, reached_, event, at))
     look(t, recorder);
 }
 
@@ -179,19 +180,28 @@ const std::string& Trust::worst_of(Index group) const {
   return s_.blocks[worst].name;
 }
 
+/// The least of the last looks: what is gone in the next was that of a singular pose.
+double Trust::lasting(Index group, double now) {
+  piled_(group, 2) = piled_(group, 1);
+  piled_(group, 1) = piled_(group, 0);
+  piled_(group, 0) = now;
+  return piled_.row(group).minCoeff();
+}
+
 void Trust::look(double t, const system::Recorder& recorder) {
-  constexpr double seen = 1e-2;
+  constexpr double seen = 1e-2, seen_of_smooth = 1e-6;
   missing_.setZero();
   take_energy(t, recorder);
   looked_ = t;
   const ErrorGrowth::Error& e = growth_->error();
   for (Index g = 0; g < reached_.size(); ++g) {
-    const double off = std::max(e.piled[g], missing_[g]);
+    const double piled = lasting(g, e.piled[g]), off = std::max(piled, missing_[g]);
     take(g, t, off);
     const double whole = size(g);
     const double most = allowed_ * whole / doubt_;
     // Growth alone, of next to nothing, may be that of looks too far apart.
-    const bool grown = e.piled[g] > most && e.plain[g] > seen * most;
+    const bool grown =
+        piled > most && e.plain[g] > (growth_->is_smooth(g) ? seen_of_smooth : seen) * most;
     if (allowed_ > 0.0 && (grown || missing_[g] > most))
       throw SolverError(
           t, "stopped at t = " + number_text(t) + " s: the errors of the steps so far have put " +
@@ -220,7 +230,7 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
 
 void Trust::remember(Archive& a) {
   a(*growth_, unit_, reached_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_,
-    energies_, looked_, least_, exact_);
+    energies_, looked_, least_, exact_, piled_);
 }
 
 Trust::Estimate Trust::estimate() const {

@@ -63,6 +63,7 @@ private:
   void measure(const VectorX& y, const VectorX& reached);
   void measure_points(const system::Block& block, const VectorX& y);
   void look(double t, const system::Recorder& recorder);
+  double lasting(Index group, double now);
   void take_energy(double t, const system::Recorder& recorder);
   struct Energy;
   bool tells_less(const system::Recorder::Balance& balance) const;
@@ -84,6 +85,7 @@ private:
   VectorX reached_;        ///< by group: largest displacement so far, in levers or rad
   VectorX fastest_;        ///< by group: largest speed so far, in levers per s or rad/s
   VectorX largest_, when_; ///< by group: of the error in levers or rad, time [s]
+  MatrixX piled_;          ///< by group: the error piled up, at the last three looks
   VectorX missing_;        ///< by group: what the missing energy has put off, now
   VectorX damped_;         ///< by group: what dampers leave of an error since the last look
   VectorX rates_;          ///< by group: of the motion [1/s]
