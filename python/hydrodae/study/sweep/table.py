@@ -12,6 +12,7 @@ import xarray as xr
 from scipy.stats import t as student
 
 from hydrodae import outputs
+from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
@@ -53,6 +54,12 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     _add_means(out, study)
     _add_energy(out, study)
     return out
+
+
+def texts_of(case: Case) -> dict[str, str]:
+    """Attributes that keep a case: its text, and a line ``key = value`` for each value replaced."""
+    lines = "\n".join(f"{key} = {value}" for key, value in case.overrides.items())
+    return {"case": case.text, "overrides": lines}
 
 
 def _axes(study: Study) -> tuple[tuple[int, ...], dict[str, Any]]:
