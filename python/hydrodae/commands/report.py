@@ -14,7 +14,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "checks, figures, statistics, versions and hashes of a run; matrices and failures of a "
         "sweep; best values and the search of an optimisation.",
     )
-    parser.add_argument("results", metavar="RESULTS", help="of run (.h5), sweep or sweep --optimise (.nc)")
+    parser.add_argument("results", metavar="RESULTS", help="of a run (.h5), of a sweep (.nc)")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS_report.html")
     parser.set_defaults(call=run)
 
