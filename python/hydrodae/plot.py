@@ -25,6 +25,7 @@ from hydrodae.panels import (
     highest_frequency,
     most_moving,
     overview,
+    scaled,
     select,
     spectra,
 )
@@ -93,7 +94,8 @@ def plot_channels(results: Results, names: Iterable[str]) -> Figure:
     CaseError
         A component does not exist, or a pattern matches nothing.
     """
-    return _draw(results, gather(line for name in names for line in select(results, name)))
+    lines = (line for name in names for line in select(results, name))
+    return _draw(results, [scaled(panel) for panel in gather(lines)])
 
 
 @matplotlib.rc_context(STYLE)

@@ -62,6 +62,15 @@ def test_energies_share_a_scale_and_potential_counts_from_its_least(results):
     assert lines["kinetic added mass"].max() == pytest.approx(largest)
 
 
+def test_named_channels_have_prefixes_of_their_units_but_for_lengths_and_angles(results):
+    figure = plot.plot_channels(results, ["energy/kinetic", "joints/hinge1/angle", "bodies/flap1/position"])
+    kinetic, angle, position = figure.axes
+    assert kinetic.get_ylabel() == "kinetic [kJ]"
+    largest = results["energy/kinetic"].max().item() / 1e3
+    assert max(kinetic.lines[0].get_ydata()) == pytest.approx(largest)
+    assert [angle.get_ylabel(), position.get_ylabel()] == ["angle [deg]", "position [m]"]
+
+
 def test_overview_shows_powers_with_their_means_tensions_and_spectra(results_writer):
     time = np.linspace(0.0, 600.0, 6001)
     wave = np.sin(2 * np.pi * time / 9.0)
