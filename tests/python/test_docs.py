@@ -190,7 +190,7 @@ def test_page_for_closed_loops_runs(repository, tmp_path, monkeypatch, capsys) -
     assert set(expected) <= set(said.splitlines())
     load, apart = re.findall(r"pin (\d+) kN.*\n(\S+)$", said, re.MULTILINE)[0]
     assert float(apart) < 1e-4 * 1e3 * float(load)  # N, kN
-    with pytest.raises(hydrodae.CaseError, match="cannot be moved .* joints/pin gap along x stays"):
+    with pytest.raises(hydrodae.CaseError, match="joints/pin gap along x stays"):
         hydrodae.check("cylinder.toml", set={"joint.cylinder.initial.displacement": 1.0})
 
 

@@ -63,9 +63,9 @@ def test_energies_share_a_scale_and_potential_counts_from_its_least(results):
 
 
 def test_named_channels_have_prefixes_of_their_units_but_for_lengths_and_angles(results):
-    figure = plot.plot_channels(results, ["energy/kinetic", "joints/hinge1/angle", "bodies/flap1/position"])
-    kinetic, angle, position = figure.axes
-    assert kinetic.get_ylabel() == "kinetic [kJ]"
+    names = ["energy/kinetic", "joints/hinge1/angle", "bodies/flap1/position"]
+    kinetic, angle, position = plot.plot_channels(results, names).axes
+    assert kinetic.get_ylabel() == "energy [kJ]"
     largest = results["energy/kinetic"].max().item() / 1e3
     assert max(kinetic.lines[0].get_ydata()) == pytest.approx(largest)
     assert [angle.get_ylabel(), position.get_ylabel()] == ["angle [deg]", "position [m]"]
