@@ -26,4 +26,5 @@ note "a C++ program that uses the installed library"
 bash tests/package/run.sh
 
 note "Python tests"
-.venv/bin/pytest -n "$(nproc)" "$@"
+# worksteal: neighbours stay in one process, so that few fixtures are made twice
+.venv/bin/pytest -n "$(nproc)" --dist worksteal "$@"
