@@ -67,7 +67,7 @@ def test_named_channels_have_prefixes_of_their_units_but_for_lengths_and_angles(
     kinetic, angle, position = plot.plot_channels(results, names).axes
     assert kinetic.get_ylabel() == "energy [kJ]"
     largest = results["energy/kinetic"].max().item() / 1e3
-    assert max(kinetic.lines[0].get_ydata()) == pytest.approx(largest)
+    assert np.max(kinetic.lines[0].get_ydata()) == pytest.approx(largest)
     assert [angle.get_ylabel(), position.get_ylabel()] == ["angle [deg]", "position [m]"]
 
 
