@@ -247,7 +247,7 @@ def _power(results: Results) -> Panel:
         lines.append(line if mean is None else replace(line, level=float(mean)))
     panel = scaled(Panel("absorbed power", "W", lines))
     start = float(results.statistics.get("mean_power_from", 0.0))
-    panel.note = f"dashed: mean after {start:g} s" if start else "dashed: mean"
+    panel.note = f"level, dashed: mean after {start:g} s" if start else "dashed: mean"
     panel.lines = [
         line
         if line.level is None
