@@ -12,18 +12,25 @@ cd "$root"
 note "building and running the C++ tests"
 build_preset tests
 ctest --preset tests -j "$(nproc)"
+# mypy has one process, and so have the checks up to the program that uses the library.
+.venv/bin/mypy >build/mypy.log 2>&1 &
+types=$!
 note "a sample of mutated inputs"
 .venv/bin/python tests/fuzz/run.py --seconds 15 --seed 1
 
-note "style and types"
+note "style"
 .venv/bin/ruff check .
 .venv/bin/ruff format --check .
 find cpp python/bindings tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 .venv/bin/clang-format --dry-run -Werror
-.venv/bin/mypy
 
 note "a C++ program that uses the installed library"
 bash tests/package/run.sh
 
+note "types"
+wait "$types" || { cat build/mypy.log; fail "mypy found errors"; }
+cat build/mypy.log
+
 note "Python tests"
-.venv/bin/pytest -n "$(nproc)" "$@"
+# worksteal: neighbours stay in one process, so that few fixtures are made twice
+.venv/bin/pytest -n "$(nproc)" --dist worksteal "$@"

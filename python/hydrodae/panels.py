@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: A panel with more lines than this shows those that move most.
 MOST_LINES = 8
+#: Units of which k, M or G are drawn.
+_PREFIXED = ("N", "N m", "N s", "N m s", "W", "J", "Pa")
 
 
 @dataclass(frozen=True)
@@ -100,6 +102,26 @@ def gather(lines: Iterable[Line]) -> list[Panel]:
     return list(panels.values())
 
 
+def scaled(panel: Panel) -> Panel:
+    """The panel in k, M or G of its unit, by its largest value; angles and lengths as they are."""
+    if panel.unit not in _PREFIXED:
+        return panel
+    largest = max((float(np.abs(line.values).max()) for line in panel.lines), default=0.0)
+    prefixes = (("G", 1e9), ("M", 1e6), ("k", 1e3))
+    prefix, factor = next(((p, f) for p, f in prefixes if largest >= f), ("", 1.0))
+    unit = f"{prefix}{panel.unit}"
+    lines = [
+        replace(
+            line,
+            unit=unit,
+            values=line.values / factor,
+            level=None if line.level is None else line.level / factor,
+        )
+        for line in panel.lines
+    ]
+    return Panel(panel.quantity, unit, lines, panel.note)
+
+
 def overview(results: Results) -> list[Panel]:
     """Panels of the standard picture over time: what of it the file has.
 
@@ -115,10 +137,10 @@ def overview(results: Results) -> list[Panel]:
         Panel("body displacement\nfrom the start", "m", _from_start(_moving(results, "position"))),
         Panel("body rotation", "deg", _moving(results, "rotation")),
         _power(results),
-        _scaled(Panel("reaction force", "N", _sizes(results, "reaction_force"))),
-        _scaled(Panel("reaction moment", "N m", _sizes(results, "reaction_moment"))),
-        *(_scaled(panel) for panel in gather(_constraint_loads(results))),
-        _scaled(Panel("tension", "N", _tensions(results))),
+        scaled(Panel("reaction force", "N", _sizes(results, "reaction_force"))),
+        scaled(Panel("reaction moment", "N m", _sizes(results, "reaction_moment"))),
+        *(scaled(panel) for panel in gather(_constraint_loads(results))),
+        scaled(Panel("tension", "N", _tensions(results))),
         _energy(results),
     ]
     return [panel for panel in panels if panel.lines]
@@ -223,9 +245,9 @@ def _power(results: Results) -> Panel:
         line = replace(select(results, name)[0], quantity="absorbed power")
         mean = results.statistics.get(f"mean_power_absorbed.{line.label}")
         lines.append(line if mean is None else replace(line, level=float(mean)))
-    panel = _scaled(Panel("absorbed power", "W", lines))
+    panel = scaled(Panel("absorbed power", "W", lines))
     start = float(results.statistics.get("mean_power_from", 0.0))
-    panel.note = f"dashed: mean after {start:g} s" if start else "dashed: mean"
+    panel.note = f"level, dashed: mean after {start:g} s" if start else "dashed: mean"
     panel.lines = [
         line
         if line.level is None
@@ -244,24 +266,6 @@ def _tensions(results: Results) -> list[Line]:
             line = select(results, name)[0]
             lines.append(replace(line, label=line.label + end, quantity="tension"))
     return lines
-
-
-def _scaled(panel: Panel) -> Panel:
-    """The panel in k, M or G of its unit, by its largest value."""
-    largest = max((float(np.abs(line.values).max()) for line in panel.lines), default=0.0)
-    prefixes = (("G", 1e9), ("M", 1e6), ("k", 1e3))
-    prefix, factor = next(((p, f) for p, f in prefixes if largest >= f), ("", 1.0))
-    unit = f"{prefix}{panel.unit}"
-    lines = [
-        replace(
-            line,
-            unit=unit,
-            values=line.values / factor,
-            level=None if line.level is None else line.level / factor,
-        )
-        for line in panel.lines
-    ]
-    return Panel(panel.quantity, unit, lines, panel.note)
 
 
 #: The potential counts from its least value, and with it the total.
@@ -285,4 +289,4 @@ def _energy(results: Results) -> Panel:
         else line
         for line in lines
     ]
-    return _scaled(Panel("energy", "J", lines))
+    return scaled(Panel("energy", "J", lines))

@@ -20,11 +20,13 @@ from hydrodae import outputs
 from hydrodae.curve import Curve
 from hydrodae.errors import CaseError
 from hydrodae.panels import (
+    Line,
     Panel,
     gather,
     highest_frequency,
     most_moving,
     overview,
+    scaled,
     select,
     spectra,
 )
@@ -37,6 +39,9 @@ if TYPE_CHECKING:
 
 #: Colours that stay apart for the colour-blind (after Okabe and Ito 2008). Black is ours.
 COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#8C510A"]
+
+#: Lines that differ by less, relative to their span, cannot be told apart in a picture.
+_SAME = 0.005
 
 #: Settings of every picture; hold them around own drawing with ``matplotlib.rc_context(STYLE)``.
 STYLE: Any = {
@@ -93,7 +98,8 @@ def plot_channels(results: Results, names: Iterable[str]) -> Figure:
     CaseError
         A component does not exist, or a pattern matches nothing.
     """
-    return _draw(results, gather(line for name in names for line in select(results, name)))
+    lines = (line for name in names for line in select(results, name))
+    return _draw(results, [scaled(panel) for panel in gather(lines)])
 
 
 @matplotlib.rc_context(STYLE)
@@ -229,8 +235,10 @@ def _draw(results: Results, panels: list[Panel]) -> Figure:
 
 
 def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
-    for line in panel.lines:
-        (drawn,) = axes.plot(at, line.values, label=line.label)
+    for k, line in enumerate(panel.lines):
+        below = sum(_falls_on(line, other) for other in panel.lines[:k])
+        style = (0.0, (5.0, 5.0 * below)) if below else "-"
+        (drawn,) = axes.plot(at, line.values, label=line.label, linestyle=style)
         if line.level is not None:
             axes.axhline(line.level, color=drawn.get_color(), linestyle="--", linewidth=1.0)
     axes.set_ylabel(panel.label)
@@ -238,6 +246,12 @@ def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
         axes.set_ylim(bottom=0.0)
     if [line.label for line in panel.lines] != [panel.quantity.partition("\n")[0]]:
         outside_legend(axes, panel.note)
+
+
+def _falls_on(line: Line, other: Line) -> bool:
+    """Whether a line would hide another one: it is dashed then, and both colours are seen."""
+    near = _SAME * max(line.span, other.span)
+    return bool(np.all(np.abs(line.values - other.values) <= near))
 
 
 def _draw_curve(axes: Axes, curve: Curve, color: str) -> None:

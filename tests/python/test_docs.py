@@ -37,6 +37,8 @@ RUN_APART = {
     ("docs/control.md", "python"): 3,
     ("docs/extending.md", "python"): 1,
     ("docs/conventions.md", "python"): 1,
+    ("docs/closed_loop.md", "sh"): 3,
+    ("docs/closed_loop.md", "python"): 3,
     ("docs/fmu.md", "sh"): 1,
     ("docs/fmu.md", "python"): 1,
     ("docs/tcp.md", "python"): 1,
@@ -165,6 +167,31 @@ def test_commands_of_the_page_for_plugins_run(repository, tmp_path, monkeypatch)
     compiler, *lines = command_lines(repository / "cases" / "plugin" / "README.md")
     subprocess.run(shlex.split(compiler), check=True)
     run_lines(lines, monkeypatch)
+
+
+def test_page_for_closed_loops_runs(repository, tmp_path, monkeypatch, capsys) -> None:
+    """Its blocks in their order; its case file is what its Python writes."""
+    monkeypatch.chdir(tmp_path)
+    page = repository / "docs" / "closed_loop.md"
+    known: dict[str, object] = {}
+    said, expected, case = "", [], {}
+    for block in all_blocks(page):
+        if block.language == "text" and block.text.startswith("  "):
+            expected += block.text.splitlines()
+        elif block.language == "toml":
+            case = tomllib.loads(block.text)
+        elif block.language == "python":
+            exec(compile(block.text, page.name, "exec"), known)
+        elif block.language == "sh" and not block.reason:
+            run_lines(block.text.splitlines(), monkeypatch)
+        said += capsys.readouterr().out
+    assert case == tomllib.loads(Path("cylinder.toml").read_text())
+    assert len(expected) == 9
+    assert set(expected) <= set(said.splitlines())
+    load, apart = re.findall(r"pin (\d+) kN.*\n(\S+)$", said, re.MULTILINE)[0]
+    assert float(apart) < 1e-4 * 1e3 * float(load)  # N, kN
+    with pytest.raises(hydrodae.CaseError, match="joints/pin gap along x stays"):
+        hydrodae.check("cylinder.toml", set={"joint.cylinder.initial.displacement": 1.0})
 
 
 def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:

@@ -47,7 +47,13 @@ def test_all_names_are_there() -> None:
 
 
 def test_a_run_imports_no_study_and_no_database() -> None:
-    text = "import sys, hydrodae; print(sorted(m for m in sys.modules if 'hydrodae.' in m))"
+    """Nor do the processes of a sweep import what they have no use for: it takes a second each."""
+    text = (
+        "import sys, hydrodae; print(sorted(m for m in sys.modules if 'hydrodae.' in m))\n"
+        "import hydrodae.study.sweep.pool\n"
+        "slow = {'matplotlib', 'scipy.stats', 'xarray'} & set(sys.modules)\n"
+        "assert not slow, slow"
+    )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert "hydrodae.simulate" in done.stdout
     assert "hydrodae.hdb" not in done.stdout

@@ -18,6 +18,7 @@ import hydrodae
 import hydrodae.case_tables
 from hydrodae.case import Case
 from hydrodae.frequency import LinearModel
+from hydrodae.report import report
 from hydrodae.starters import create
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import read_parameter
@@ -362,6 +363,11 @@ def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
     assert found.values["damper"] == pytest.approx(best, rel=1e-3)
     assert found.keys == {DAMPING: found.values["damper"]}
     assert found.evaluations < 20
+    page = report(output).read_text()
+    assert f"maximise {POWER}" in page
+    assert page.count(f">{found.values['damper']:,.5g}<") == 1
+    assert "H 1 m, T 7 s" in page  # the sea of the case was replaced
+    assert "frequency domain" in page
     assert f"damper = {found.values['damper']:.6g}" in text(found)
     xarray.testing.assert_identical(found.dataset.load(), xarray.load_dataset(output))
     # Cut off after four evaluations, as by a kill: the same again, and nothing twice.
@@ -386,6 +392,8 @@ def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
         ('["frequency"]', '["frequency", "spectral"]', "an optimisation has one"),
         ('"mean_power_absorbed"', '"power"', "expected 'mean_power_absorbed'"),
         ("maximise", "minimise = 1\nmaximise", "one of 'maximise' and 'minimise'"),
+        ("parameter.damper", "parameter.calls", "'calls' cannot be the name"),
+        ("parameter.damper", "parameter.mean_power_absorbed", "none of best"),
     ],
 )
 def test_wrong_problems_are_refused(buoy: Path, old: str, new: str, told: str) -> None:

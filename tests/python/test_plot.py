@@ -62,6 +62,27 @@ def test_energies_share_a_scale_and_potential_counts_from_its_least(results):
     assert lines["kinetic added mass"].max() == pytest.approx(largest)
 
 
+def test_named_channels_have_prefixes_of_their_units_but_for_lengths_and_angles(results):
+    names = ["energy/kinetic", "joints/hinge1/angle", "bodies/flap1/position"]
+    kinetic, angle, position = plot.plot_channels(results, names).axes
+    assert kinetic.get_ylabel() == "energy [kJ]"
+    largest = results["energy/kinetic"].max().item() / 1e3
+    assert np.max(kinetic.lines[0].get_ydata()) == pytest.approx(largest)
+    assert [angle.get_ylabel(), position.get_ylabel()] == ["angle [deg]", "position [m]"]
+
+
+def test_lines_that_fall_on_each_other_are_both_seen(results_writer):
+    time = np.linspace(0.0, 10.0, 101)
+    wave = np.sin(time)
+    channels = {
+        f"joints/{name}/angle": (values, "rad", f"marker A of {name}")
+        for name, values in {"a": wave, "b": 1.001 * wave, "c": 1.1 * wave, "d": wave}.items()
+    }
+    results = Results.read(results_writer(time, channels=channels))
+    (axes,) = plot.plot_channels(results, ["joints/*/angle"]).axes
+    assert [line.get_linestyle() for line in axes.lines] == ["-", "--", "-", "--"]
+
+
 def test_overview_shows_powers_with_their_means_tensions_and_spectra(results_writer):
     time = np.linspace(0.0, 600.0, 6001)
     wave = np.sin(2 * np.pi * time / 9.0)
@@ -82,7 +103,7 @@ def test_overview_shows_powers_with_their_means_tensions_and_spectra(results_wri
     (power,) = panels["absorbed power"].lines
     assert power.label == "pto, mean 40 kW"
     assert power.level == pytest.approx(40.0)
-    assert panels["absorbed power"].note == "dashed: mean after 60 s"
+    assert panels["absorbed power"].note == "level, dashed: mean after 60 s"
     assert [line.label for line in panels["tension"].lines] == ["bow", "bow anchor"]
     assert panels["tension"].unit == "kN"
     figure = plot.plot_overview(results)

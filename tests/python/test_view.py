@@ -83,6 +83,10 @@ def test_sea_is_a_sum_of_waves_that_travel():
     assert sea.elevation(20.0, x, y) == pytest.approx(grown)
     assert sea.elevation(5.0, x, y) == pytest.approx(0.5 * 0.3 * np.cos(10.0 + 0.8 + 0.1))
     assert sea.elevation(0.0, x, y) == 0.0
+    sea = Sea(np.array([[2.0, 0.4, 1.5, 0.3, 0.1], [1.0, 0.1, 0.2, 0.5, -2.0]]), 10.0, np.inf)
+    times, x, y = np.array([0.0, 5.0, 20.0]), np.array([[1.0, -3.0]]), np.array([[0.5, 7.0]])
+    each = [sea.elevation(t, x, y).ravel() for t in times]
+    assert sea.elevations(times, x, y) == pytest.approx(np.array(each))
 
 
 MOORED = """

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
 import shutil
 from pathlib import Path
 
@@ -10,13 +12,25 @@ import pytest
 
 @pytest.fixture(scope="session")
 def rm3(reference: Path, repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of cases/rm3 with `heave.h5`, prepared from the reference data."""
+    """A copy of cases/rm3 with `heave.h5`, prepared from the reference data.
+
+    The database is made by the first process of the tests that asks for it, and copied by others.
+    """
     from tests.verification.test_rm3 import prepare
 
     folder = tmp_path_factory.mktemp("rm3")
     for path in (repository / "cases" / "rm3").glob("*.toml"):
         shutil.copy(path, folder)
-    prepare(reference, folder / "heave.h5")
+    together = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:  # a folder of its own for each
+        together = together.parent
+    made = together / "rm3_heave.h5"
+    with (together / "rm3_heave.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not made.exists():
+            prepare(reference, folder / "making.h5")
+            (folder / "making.h5").rename(made)
+    shutil.copy(made, folder / "heave.h5")
     return folder
 
 

@@ -9,12 +9,12 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     """Add the command to those of `hydrodae`."""
     parser = commands.add_parser(
         "report",
-        help="write a run or a sweep as one HTML page",
+        help="write a run, a sweep or an optimisation as one HTML page",
         description="Write one HTML page that needs no other file: scene, models used, notes, "
         "checks, figures, statistics, versions and hashes of a run; matrices and failures of a "
-        "sweep.",
+        "sweep; best values and the search of an optimisation.",
     )
-    parser.add_argument("results", metavar="RESULTS", help="results of run (.h5) or sweep (.nc)")
+    parser.add_argument("results", metavar="RESULTS", help="of a run (.h5), of a sweep (.nc)")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS_report.html")
     parser.set_defaults(call=run)
 

@@ -1,4 +1,4 @@
-"""Reports: a run or a sweep on one HTML page that needs no other file."""
+"""Reports: a run, a sweep or an optimisation on one HTML page that needs no other file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
     Parameters
     ----------
     source : path
-        Results file of a run (HDF5), or of a sweep (netCDF).
+        Results file of a run (HDF5), or of a sweep or an optimisation (netCDF).
     output : path, optional
         Ends in .html; default: that of `source` with _report.html in place of its ending.
 
@@ -29,7 +29,7 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
     Raises
     ------
     ResultsError
-        `source` is neither, or `output` is not named as a page.
+        `source` is none of these, or `output` is not named as a page.
     """
     path = Path(source)
     target = Path(output) if output is not None else path.with_name(f"{path.stem}_report.html")
@@ -42,6 +42,7 @@ def report(source: str | os.PathLike[str], output: str | os.PathLike[str] | None
 
 
 def _page(path: Path) -> str:
+    from hydrodae.report.optimum import report_of_optimum
     from hydrodae.report.run import report_of_run
     from hydrodae.report.study import report_of_study
 
@@ -52,7 +53,9 @@ def _page(path: Path) -> str:
             study = xarray.load_dataset(path, engine="netcdf4")
         except (OSError, ValueError) as error:
             raise ResultsError(f"{path}: {error}") from None
+        if "study" in study.attrs and "best" in study and "goal" in study.attrs:
+            return report_of_optimum(path, study)
         if "status" not in study or "study" not in study.attrs:
-            raise ResultsError(f"{path}: is not the results file of a sweep")
+            raise ResultsError(f"{path}: is not the results file of a sweep or an optimisation")
         return report_of_study(path, study)
     return report_of_run(Results.read(path))

@@ -22,6 +22,11 @@ from hydrodae.version import version
 
 #: What is drawn first, if it is there.
 _FIRST = ("mean_power_absorbed_mean", "mean_power_absorbed", "capture_width")
+#: What models of the motion but the time domain are called in tables.
+_LINEAR = {
+    "frequency": "frequency domain",
+    "spectral": "frequency domain, linearised in the sea",
+}
 #: Cost and trust: their ranges are enough.
 _TOLD_ONLY = ("estimated_error", "steps")
 
@@ -32,8 +37,6 @@ def report_of_study(path: str | os.PathLike[str], study: xr.Dataset) -> str:
 
 
 def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
-    case = str(study.attrs.get("case", ""))
-    tables = tables_of(case, "")
     yield page.section("Outcome", page.text_block(text(study)))
     names = [str(name) for name in study.data_vars if study[name].dtype.kind == "f"]
     names.sort(key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST))
@@ -54,13 +57,29 @@ def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
         ),
     )
     yield page.section("Runs that did not complete", _failures(study))
+    yield from about(path, study)
+
+
+def about(path: Path, study: xr.Dataset, rung: str = "") -> Iterator[str]:
+    """Sections of what was run: scene, models, versions and hashes, files.
+
+    `rung` names the model of the motion where the study has one that is not the time domain.
+    """
+    case, overrides = (str(study.attrs.get(key, "")) for key in ("case", "overrides"))
+    tables = tables_of(case, overrides)
+    models = dict(rungs(tables))
+    if rung in _LINEAR:
+        models["motion"] = _LINEAR[rung]
+        if "radiation" in models:
+            models["radiation"] = "A(w) and B(w) of the database"
     yield page.section("Scene", page.table(["part", "name", "type", "where"], parts(tables)))
-    yield page.section("Models used", page.table(["effect", "model"], rungs(tables)))
+    yield page.section("Models used", page.table(["effect", "model"], models.items()))
     yield page.section("Versions and hashes", page.table([], _provenance(path, study)))
     yield page.section(
         "Files",
         page.folded("study", str(study.attrs.get("study", ""))),
         page.folded("case", case),
+        page.folded("replaced values", overrides) if overrides else "",
     )
 
 

@@ -89,7 +89,7 @@ def _sea(sea: Sea, time: Array, frame: Frame, path: Path) -> Path:
     number = np.arange(POINTS**2).reshape(POINTS, POINTS)
     corners = [number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]]
     cells = list(np.stack(corners, axis=-1).reshape(-1, 4))
-    heights = np.array([sea.elevation(float(t), x, y).ravel() for t in time])
+    heights = sea.elevations(time, x, y)
     points = (np.column_stack([x.ravel(), y.ravel(), z]) for z in heights)
     return write(path, time, points, "Polygons", cells, {}, {"elevation": heights})
 

@@ -123,6 +123,19 @@ class Sea:
             total += amplitude * np.cos(w * time - k * along + phase)
         return np.asarray(total * self.growth(time), dtype=float)
 
+    def elevations(self, times: Array, x: Array, y: Array) -> Array:
+        """(n_times, n_places) elevations [m] at places x, y: one product of two matrices.
+
+        cos(wt + b) = cos wt cos b - sin wt sin b with b = phase - k.x
+        """
+        w, k, heading, amplitude, phase = np.reshape(self.waves, (-1, 5)).T[:, :, None]
+        place = phase - k * (np.cos(heading) * np.ravel(x) + np.sin(heading) * np.ravel(y))
+        turned = np.outer(times, w)
+        total = np.cos(turned) @ (amplitude * np.cos(place))
+        total -= np.sin(turned) @ (amplitude * np.sin(place))
+        growth = np.array([self.growth(float(time)) for time in times])
+        return np.asarray(growth[:, None] * total, dtype=float)
+
     def growth(self, time: float) -> float:
         """Part of their height that the waves have: a polynomial of degree 7, then 1."""
         if self.ramp <= 0.0 or time >= self.ramp:

@@ -8,20 +8,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from hydrodae import outputs
 from hydrodae.errors import CaseError
 from hydrodae.frequency import Response
-from hydrodae.plot import STYLE, outside_legend
 from hydrodae.study.rao.text import NOTHING, coordinates, short_name
 from hydrodae.units import displayed
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -128,6 +126,11 @@ def draw(response: Response, title: str, names: Sequence[str] | None = None) -> 
     names : sequence of str, optional
         Responses to show; by default all bodies and joints that move.
     """
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    from hydrodae.plot import STYLE, outside_legend
+
     panels: dict[str, list[tuple[str, Array]]] = {}
     units = dict(zip(response.names, response.units, strict=True))
     for name in names if names is not None else coordinates(response):

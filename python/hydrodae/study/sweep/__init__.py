@@ -12,7 +12,7 @@ from hydrodae.study.sweep.journal import Journal
 from hydrodae.study.sweep.plan import RUNG, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.study.sweep.table import claim, dataset, text, write
+from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def sweep(
                 done += 1
                 if progress is not None:
                     progress(done, len(plan.points))
-        attributes = {"case": case.text, "study": plan.text, "hydrodae": version()}
+        attributes = {"study": plan.text, "hydrodae": version(), **texts_of(case)}
         results = dataset(plan, journal.rows, attributes)
     write(target, results)
     return results

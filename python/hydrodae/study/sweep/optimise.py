@@ -19,7 +19,7 @@ from hydrodae.study.sweep.journal import Journal, Row
 from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.problem import Problem, read_problem
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.study.sweep.table import claim, write
+from hydrodae.study.sweep.table import claim, texts_of, write
 from hydrodae.version import version
 
 if TYPE_CHECKING:
@@ -205,19 +205,30 @@ def _dataset(problem: Problem, rows: list[Row], case: Case, message: str) -> xar
     units = {"units": rows[0]["unit"]}
     out: dict[str, Any] = {problem.name: (along, values, units), "best": ((), best)}
     for n, parameter in enumerate(problem.parameters):
-        told = {"key": ", ".join(parameter.keys)}
+        low, high = parameter.bounds
+        told = {"key": ", ".join(parameter.keys), "least": low, "most": high}
         out[parameter.name] = (along, [row["point"][parameter.name] for row in rows], told)
         out[f"gradient_{parameter.name}"] = (along, [row["gradient"][n] for row in rows])
     out["calls"] = (along, [row["calls"] for row in rows])
-    attributes = {"case": case.text, "study": problem.text, "hydrodae": version()}
-    return xr.Dataset(out, attrs=attributes | {"message": message})
+    attributes = {
+        **texts_of(case),
+        "study": problem.text,
+        "hydrodae": version(),
+        "quantity": problem.name,
+        "goal": "maximise" if problem.maximise else "minimise",
+        "rung": problem.rung,
+        "method": problem.method,
+        "message": message,
+    }
+    return xr.Dataset(out, attrs=attributes)
 
 
 def text(found: Optimum) -> str:
     """The best values and what they took, for people."""
     names = [name for name in found.dataset.data_vars if found.dataset[name].dims]
     first = float(found.dataset[names[0]][0])
-    lines = [f"{found.message}: {found.evaluations} evaluations, {found.calls} solutions"]
+    work = f"{found.evaluations} evaluations, {found.calls} linearisations or runs of the case"
+    lines = [f"{found.message}: {work}"]
     lines.append(f"{names[0]} = {found.value:.6g} {found.unit} (at the start {first:.6g})")
     lines += [f"  {name} = {value:.6g}" for name, value in found.values.items()]
     return "\n".join(lines)

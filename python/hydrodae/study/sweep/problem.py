@@ -101,13 +101,16 @@ def read_problem(path: str | os.PathLike[str]) -> Problem:
     rungs = check_rungs(given.get("rungs", [*DEFAULT]), file)
     if len(rungs) != 1:
         raise CaseError(f"{file}: key 'rungs': an optimisation has one, got {', '.join(rungs)}")
+    quantity = _quantity(file, given, table[goals[0]])
+    parameters = _parameters(file, table.get("parameter"))
+    _check_names(file, quantity.name, [parameter.name for parameter in parameters])
     return Problem(
         file,
         text,
         file.parent / given["case"],
-        _quantity(file, given, table[goals[0]]),
+        quantity,
         goals[0] == "maximise",
-        _parameters(file, table.get("parameter")),
+        parameters,
         rungs[0],
         _method(file, table),
         _number(file, table, "tolerance", 1e-8),
@@ -132,6 +135,18 @@ def _parameters(file: Path, tables: Any) -> tuple[Bound, ...]:
     if not isinstance(tables, dict) or not tables:
         raise CaseError(f"{file}: [optimise]: expected tables [optimise.parameter.NAME]")
     return tuple(_bound(file, name, table) for name, table in tables.items())
+
+
+def _check_names(file: Path, quantity: str, parameters: list[str]) -> None:
+    """Each is a variable of one netCDF file, beside those that every search has."""
+    taken = {"best", "calls", "evaluation"}
+    for name in [quantity, *parameters]:
+        if name in taken or not name or "/" in name:
+            raise CaseError(
+                f"{file}: [optimise]: {name!r} cannot be the name of a variable of the netCDF "
+                f"file: expected one without '/' that is none of {', '.join(sorted(taken))}"
+            )
+        taken |= {name, f"gradient_{name}"}
 
 
 def _bound(file: Path, name: str, table: Any) -> Bound:

@@ -5,16 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from hydrodae import outputs
+from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 HOURS_A_YEAR = 8766.0
 #: Of netCDF files.
@@ -28,6 +31,8 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     `NAME_mean` and `NAME_interval`, half the width of the 95 % confidence interval of the mean
     (Student's t), stand beside the values.
     """
+    import xarray as xr  # which the processes that run the points do without
+
     shape, coordinates = _axes(study)
     dimensions = tuple(coordinates) if study.dimensions else ("point",)
     ordered = [rows[point_key(point)] for point in study.points]
@@ -55,6 +60,12 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     return out
 
 
+def texts_of(case: Case) -> dict[str, str]:
+    """Attributes that keep a case: its text, and a line ``key = value`` for each value replaced."""
+    lines = "\n".join(f"{key} = {value}" for key, value in case.overrides.items())
+    return {"case": case.text, "overrides": lines}
+
+
 def _axes(study: Study) -> tuple[tuple[int, ...], dict[str, Any]]:
     if not study.dimensions:
         return (len(study.points),), {}
@@ -78,7 +89,7 @@ def _add_means(out: xr.Dataset, study: Study) -> None:
     for name in [n for n in numbers if n not in ("estimated_error", "steps")]:
         values = out[name]
         count = values.count(along)
-        width = student.ppf(0.975, np.maximum(count - 1, 1)) * values.std(along, ddof=1)
+        width = stdtrit(np.maximum(count - 1, 1), 0.975) * values.std(along, ddof=1)
         mean = values.mean(along)
         mean.attrs = values.attrs
         interval = (width / np.sqrt(count)).where(count > 1)
@@ -90,6 +101,8 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     """Annual energy [J] = sum over sea states of mean power times hours (scatter table)."""
     if study.scatter is None:
         return
+    import xarray as xr
+
     s = study.scatter
     name = "mean_power_absorbed" + "_mean" * bool(study.over)
     if name not in out:
