@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.all_round import closed
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.coordinates import DOFS
 from hydrodae.hdb.database import HydroDatabase
@@ -116,9 +117,8 @@ def cylinders(
         solved.append(_solve(points, body, water, float(w), orders, count))
         if progress is not None:
             progress(float(i + 1), float(omega.size))
-    database = _collect(
-        list(places), points, body, water, solved, f"{orders} orders, {count} modes"
-    )
+    how = f"{orders} orders, {count} modes"
+    database = closed(_collect(list(places), points, body, water, solved, how))
     middle = water.omega.size // 2
     w = float(omega[middle])
     error = _distance(solved[middle], _solve(points, body, water, w, orders + 2, 2 * count))

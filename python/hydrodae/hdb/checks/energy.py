@@ -175,11 +175,13 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
 
 def _circle(db: HydroDatabase) -> Array | None:
     """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
-    beta = np.mod(db.heading, 2.0 * np.pi)
-    order = np.argsort(beta)
-    steps = np.diff(np.r_[beta[order], beta[order[0]] + 2.0 * np.pi])
-    if db.heading.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
-        weight = np.empty(beta.size)
+    # each direction once: a full turn closes headings that go all round
+    order = np.argsort(db.heading)
+    order = order[db.heading[order] < db.heading.min() + 2.0 * np.pi - 1e-6]
+    beta = db.heading[order]
+    steps = np.diff(np.r_[beta, beta[0] + 2.0 * np.pi])
+    if beta.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
+        weight = np.zeros(db.heading.size)
         weight[order] = 0.5 * (steps + np.roll(steps, 1))
         return weight
     half = np.sort(db.heading)
@@ -187,7 +189,7 @@ def _circle(db: HydroDatabase) -> Array | None:
     if not ends.all() or np.diff(half).max() > LARGEST_STEP or not _symmetric_about_y(db):
         return None
     gaps = np.diff(half)
-    weight = np.empty(beta.size)
+    weight = np.empty(db.heading.size)
     # both halves of the circle: the mirrored force has the same size
     weight[np.argsort(db.heading)] = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
     return weight
