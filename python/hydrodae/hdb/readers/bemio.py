@@ -19,7 +19,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -151,11 +151,11 @@ def _attach_body(path: Path, data: SourceData, name: str, g: h5py.Group, scale: 
     stiffness = "hydro_coeffs/linear_restoring_stiffness"
     if point is None or buoyancy is None or len(volume) != 1 or stiffness not in g:
         text = f"{name}: cg, cb, disp_vol or linear_restoring_stiffness is missing"
-        data.findings.append(Finding("warning", "hydrostatics", text))
+        data.findings.append(without_hydrostatics(text, [name]))
         return
     k = scale * _array(path, g, stiffness)[:6, :6]
     if not np.all(np.isfinite(k)) or not np.isfinite(volume[0]):
-        data.findings.append(Finding("warning", "hydrostatics", f"{name}: holds NaN; left out"))
+        data.findings.append(without_hydrostatics(f"{name}: holds NaN; left out", [name]))
         return
     hydrostatics = Hydrostatics.from_stiffness(
         k, point, float(volume[0]), buoyancy, data.rho, data.gravity

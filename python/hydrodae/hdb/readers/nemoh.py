@@ -19,6 +19,7 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
+from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.time_sense import correct_time_sense
@@ -246,11 +247,9 @@ def _compare_grid(data: SourceData, cal: NemohCal) -> None:
 def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:
     found = nh.read_all(root, len(names), data.rho, data.gravity)
     data.files += [file for f in found if f is not None for file in f.files]
-    missing = [name for name, f in zip(names, found, strict=True) if f is None]
-    if missing:
-        data.findings.append(
-            Finding("warning", "hydrostatics", f"no Hydrostatics and KH files of {missing}")
-        )
+    for name, mesh, f in zip(names, meshes, found, strict=True):
+        if f is None:
+            statics_of_mesh(data, root, name, mesh)
     force = data.excitation if data.excitation is not None else data.froude_krylov
     heave = None
     if force is not None:

@@ -16,7 +16,7 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.source import SourceData, Water
+from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
@@ -266,7 +266,7 @@ def _attach_hydrostatics(
             data.hydrostatics[name] = (hydrostatics, point)
     if missing:
         text = f"no complete .hst and .mmx files of {missing}"
-        data.findings.append(Finding("warning", "hydrostatics", text))
+        data.findings.append(without_hydrostatics(text, missing))
 
 
 def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:
