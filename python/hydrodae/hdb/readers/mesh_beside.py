@@ -63,7 +63,7 @@ def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
 
 
 def long_wave_share(data: SourceData, name: str, statics: Hydrostatics) -> float | None:
-    """Heave force at the lowest frequency over rho g A_w - w^2 (rho V + A); None if waves are short.
+    """Heave force at the lowest frequency over rho g A_w - w^2 (rho V + A); None in short waves.
 
     Parameters
     ----------
