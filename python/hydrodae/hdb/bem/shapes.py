@@ -17,6 +17,8 @@ from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.hydrostatics import Hydrostatics
 
 Array = NDArray[np.float64]
+#: No hull is longer [m].
+LONGEST = 2000.0
 #: Largest difference of the volumes by the three axes of a closed surface.
 LEAK = 0.01
 
@@ -198,6 +200,7 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     """
     corners = np.asarray(panels, dtype=float)
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    _check_size(corners)
     area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     # exact to second degree: the middles of the three sides
     middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
@@ -209,6 +212,12 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
             "the surface displaces no water: it is dry, or its normals point inwards"
         )
     if np.abs(by_axis - volume).max() > LEAK * volume:
+        turned = _turned_panels(corners)
+        if turned:
+            raise DatabaseError(
+                f"{turned} edges run the same way in both panels that share them: panels are "
+                f"turned against each other; let the mesh program unify the normals"
+            )
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
     # half a hull that is open at its plane of symmetry has the right volumes all the same
@@ -223,6 +232,28 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     down = -area[:, 2]  # the water plane closes the surface: int n_z over the hull = - A_w
     moments = [(f.mean(axis=1) * down).sum() for f in (x, y, x * x, y * y, x * y)]
     return Hydrostatics(volume, center, float(down.sum()), np.array(moments))
+
+
+def _check_size(corners: Array) -> None:
+    """Refuse what no hull in metres measures."""
+    length = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    if length > LONGEST:
+        raise DatabaseError(
+            f"the surface is {length:.4g} m long: is it in millimetres? Mesh files are in metres; "
+            f"after the file, :scale=0.001 turns one"
+        )
+
+
+def _turned_panels(corners: Array) -> int:
+    """Number of edges that two panels run through the same way; 0 where all are turned alike."""
+    size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    rounded = np.round(corners.reshape(-1, 3) / (1e-5 * size)).astype(np.int64)
+    _, node = np.unique(rounded, axis=0, return_inverse=True)
+    panels = node.reshape(-1, 4)
+    edges = np.stack([panels, np.roll(panels, -1, axis=1)], axis=2).reshape(-1, 2)
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    _, count = np.unique(edges, axis=0, return_counts=True)
+    return int((count > 1).sum())
 
 
 def _plane(axis: int, along: float, u: Array, v: Array) -> Array:

@@ -15,6 +15,7 @@ from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_ba
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
+from hydrodae.hdb.checks.heave import heave_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.longwave import long_wave_findings
@@ -57,6 +58,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
                 database, lambda db: [*_energy(db, judged), *irregular_findings(db, judged)]
             ),
             *energy_findings(database, judged),
+            *heave_findings(database),
             *_causality(database),
             *unit_findings(database),
             *spike_findings(database, judged),

@@ -19,7 +19,7 @@ from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scales
 
@@ -50,24 +50,6 @@ class EnergyIdentity:
     damping: Array
     valid: NDArray[np.bool_]
     method: str
-
-
-def group_velocity(omega: Array, depth: float, gravity: float) -> Array:
-    """Group velocity c_g = w/(2k) (1 + 2kh / sinh 2kh) of waves, (nw,) [m/s].
-
-    Parameters
-    ----------
-    omega : (nw,) array
-        [rad/s].
-    depth, gravity : float
-        [m] (may be infinite), [m/s2].
-    """
-    k = wavenumber(omega, depth, gravity)
-    ratio = np.zeros_like(k)
-    if np.isfinite(depth):
-        kh = np.minimum(2.0 * k * depth, 700.0)
-        ratio = kh / np.sinh(kh)
-    return np.asarray(0.5 * omega / k * (1.0 + ratio))
 
 
 def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:

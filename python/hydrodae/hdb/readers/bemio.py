@@ -61,6 +61,11 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     groups = [f[name] for name in _bodies(path, f)]
     findings: list[Finding] = []
     counts = [int(_dof(g)) for g in groups]
+    for g, n in zip(groups, counts, strict=True):
+        if n < 6:
+            raise DatabaseError(
+                f"{path}: {g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
+            )
     starts = np.r_[0, np.cumsum(counts)]
     kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
     if any(n > 6 for n in counts):

@@ -191,7 +191,12 @@ def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
         if degrees:
             titles.append(float(degrees[1]))
         elif radians:
-            titles.append(float(np.degrees(float(radians[1]))))
+            angle = float(radians[1])
+            if abs(angle) > 4.0 * np.pi:
+                raise DatabaseError(
+                    f"{path}:{block.line - 1}: angle {angle:g}: expected radians; degrees?"
+                )
+            titles.append(float(np.degrees(angle)))
         else:
             raise DatabaseError(f"{path}:{block.line - 1}: no heading in {block.title!r}")
     stated = np.array(titles)
