@@ -129,6 +129,8 @@ def test_holes_and_inner_normals_are_errors():
     turned[::3] = turned[::3, ::-1]
     with pytest.raises(DatabaseError, match="panels are turned against each other"):
         shapes.hydrostatics(turned, np.zeros(3))
+    with pytest.raises(DatabaseError, match="3 panels stand in the surface twice"):
+        shapes.hydrostatics(np.concatenate([panels, panels[:3]]), np.zeros(3))
     with pytest.raises(DatabaseError, match="4000 m long: is it in millimetres"):
         shapes.hydrostatics(1000.0 * panels, np.zeros(3))
 

@@ -161,12 +161,17 @@ def _body(
     if name not in points:
         raise CaseError(f"--body {name}: needs --cog {name}=X,Y,Z, its reference point [m]")
     first, words = _words(name, what)
+    axes = words.get("mirror", "")
     try:
         panels = immersed(_panels(name, first, words, size, settings))
     except DatabaseError as error:
         hint = ""
-        if "holes" in str(error) and "mirror" not in words and Path(first).is_file():
-            hint = " (half of a hull: add :mirror=y, or x, or xy)"
+        if "holes" in str(error) and Path(first).is_file():
+            hint = (
+                f" (with its mirror image, mirror={axes}: the half does not end at that plane)"
+                if axes
+                else " (half of a hull: add :mirror=y, or x, or xy)"
+            )
         raise DatabaseError(f"body {name}: {error}{hint}") from error
     return bem.WettedBody(name, panels, np.array(points[name]))
 

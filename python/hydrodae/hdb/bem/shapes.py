@@ -196,17 +196,24 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     Raises
     ------
     DatabaseError
-        The surface has holes, or its normals point inwards.
+        The surface has holes, panels twice or turned against each other, is kilometres long, or
+        its normals point inwards.
     """
     corners = np.asarray(panels, dtype=float)
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     _check_size(corners)
+    twice = _panels_twice(corners)
+    if twice:
+        raise DatabaseError(f"{twice} panels stand in the surface twice, or have no area")
     area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     # exact to second degree: the middles of the three sides
     middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
     mean = middle.mean(axis=1)
     by_axis = (mean * area).sum(axis=0)
     volume = float(by_axis[2])
+    if volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0:
+        shown = ", ".join(f"{v:.5g}" for v in by_axis)
+        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
     if volume <= 0.0:
         raise DatabaseError(
             "the surface displaces no water: it is dry, or its normals point inwards"
@@ -244,16 +251,28 @@ def _check_size(corners: Array) -> None:
         )
 
 
+def _edges(corners: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Number of each directed edge (n, 4), -1 for one of no length, and how often each occurs."""
+    size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    rounded = np.round(corners.reshape(-1, 3) / (1e-5 * max(size, 1e-30))).astype(np.int64)
+    _, node = np.unique(rounded, axis=0, return_inverse=True)
+    begin = node.reshape(-1, 4)
+    end = np.roll(begin, -1, axis=1)
+    code, edge = np.unique(begin * len(rounded) + end, return_inverse=True)
+    number = np.where(begin == end, -1, edge.reshape(begin.shape))
+    return number, np.bincount(number[number >= 0], minlength=code.size)
+
+
+def _panels_twice(corners: Array) -> int:
+    """Number of panels that stand there twice, turned alike."""
+    number, _ = _edges(corners)
+    _, count = np.unique(np.sort(number, axis=1), axis=0, return_counts=True)
+    return int((count - 1).sum())
+
+
 def _turned_panels(corners: Array) -> int:
     """Number of edges that two panels run through the same way; 0 where all are turned alike."""
-    size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
-    rounded = np.round(corners.reshape(-1, 3) / (1e-5 * size)).astype(np.int64)
-    _, node = np.unique(rounded, axis=0, return_inverse=True)
-    panels = node.reshape(-1, 4)
-    edges = np.stack([panels, np.roll(panels, -1, axis=1)], axis=2).reshape(-1, 2)
-    edges = edges[edges[:, 0] != edges[:, 1]]
-    _, count = np.unique(edges, axis=0, return_counts=True)
-    return int((count > 1).sum())
+    return int((_edges(corners)[1] > 1).sum())
 
 
 def _plane(axis: int, along: float, u: Array, v: Array) -> Array:
