@@ -350,7 +350,7 @@ def test_hydrostatics_of_the_mesh_where_their_files_are_missing(tmp_path):
     mesh = written / "mesh" / "body1.dat"
     mesh.write_text(box_mesh(2.0, 1.0))
     database, report = hdb.import_database(written)
-    found = database.bodies["body1"].hydrostatics
+    found = hydrostatics(database, "body1")
     assert (found.displaced_volume, found.waterplane_area) == pytest.approx((4.0, 4.0))
     told = report.find("assumption")[0]
     assert told.severity == "info"

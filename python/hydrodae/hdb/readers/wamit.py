@@ -189,6 +189,10 @@ def _modes(
     modes = modes[modes <= 6 * bodies]
     raw = control.names or [stem.name if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
     names = unique_names(raw)
+    lost = [name for i, name in enumerate(names) if not np.any((modes - 1) // 6 == i)]
+    if lost:
+        text = f"{path.name} holds no modes of {', '.join(lost)}, which the control files name"
+        findings.append(Finding("warning", "coordinates", text))
     labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in modes.astype(int)]
     return modes, names, tuple(labels)
 
