@@ -65,6 +65,11 @@ def test_an_open_bottom_is_a_hole() -> None:
     sides = box[box[..., 2].max(axis=1) > -1.49]
     with pytest.raises(DatabaseError, match="has holes: its volume by x, y, z is 18, 18, 0 m3"):
         immersed(sides)
+    with pytest.raises(DatabaseError, match="it has no panels"):
+        shapes.hydrostatics(box[:0], np.zeros(3))
+    box[::3] = box[::3, ::-1]
+    with pytest.raises(DatabaseError, match="panels are turned against each other"):
+        immersed(box)
 
 
 def test_a_body_deeper_than_the_water_is_refused(tmp_path: Path) -> None:

@@ -114,5 +114,5 @@ def immersed(panels: Array) -> Array:
         try:
             hydrostatics(below, np.zeros(3))
         except DatabaseError as other:
-            raise (error if "holes" in str(error) else other) from None
+            raise (other if "inwards" in str(error) else error) from None
     return below

@@ -200,11 +200,19 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
         its normals point inwards.
     """
     corners = np.asarray(panels, dtype=float)
+    if not len(corners):
+        raise DatabaseError("the surface displaces no water: it has no panels in it")
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     _check_size(corners)
     twice = _panels_twice(corners)
     if twice:
         raise DatabaseError(f"{twice} panels stand in the surface twice, or have no area")
+    turned = _turned_panels(corners)
+    if turned:
+        raise DatabaseError(
+            f"{turned} edges run the same way in both panels that share them: panels are turned "
+            f"against each other; let the mesh program unify the normals"
+        )
     area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     # exact to second degree: the middles of the three sides
     middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
@@ -219,12 +227,6 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
             "the surface displaces no water: it is dry, or its normals point inwards"
         )
     if np.abs(by_axis - volume).max() > LEAK * volume:
-        turned = _turned_panels(corners)
-        if turned:
-            raise DatabaseError(
-                f"{turned} edges run the same way in both panels that share them: panels are "
-                f"turned against each other; let the mesh program unify the normals"
-            )
         shown = ", ".join(f"{v:.5g}" for v in by_axis)
         raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
     # half a hull that is open at its plane of symmetry has the right volumes all the same
@@ -251,28 +253,33 @@ def _check_size(corners: Array) -> None:
         )
 
 
-def _edges(corners: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Number of each directed edge (n, 4), -1 for one of no length, and how often each occurs."""
+def _nodes(corners: Array) -> NDArray[np.intp]:
+    """Numbers (n, 4) of the corners; those of one place, to rounding, have one number."""
     size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
     rounded = np.round(corners.reshape(-1, 3) / (1e-5 * max(size, 1e-30))).astype(np.int64)
-    _, node = np.unique(rounded, axis=0, return_inverse=True)
-    begin = node.reshape(-1, 4)
-    end = np.roll(begin, -1, axis=1)
-    code, edge = np.unique(begin * len(rounded) + end, return_inverse=True)
-    number = np.where(begin == end, -1, edge.reshape(begin.shape))
-    return number, np.bincount(number[number >= 0], minlength=code.size)
+    return np.unique(rounded, axis=0, return_inverse=True)[1].reshape(-1, 4)
 
 
 def _panels_twice(corners: Array) -> int:
     """Number of panels that stand there twice, turned alike."""
-    number, _ = _edges(corners)
-    _, count = np.unique(np.sort(number, axis=1), axis=0, return_counts=True)
+    begin = _nodes(corners)
+    end = np.roll(begin, -1, axis=1)
+    edges = np.where(begin == end, -1, begin * corners[..., 0].size + end)
+    _, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
     return int((count - 1).sum())
 
 
 def _turned_panels(corners: Array) -> int:
-    """Number of edges that two panels run through the same way; 0 where all are turned alike."""
-    return int((_edges(corners)[1] > 1).sum())
+    """Number of edges that more panels run through one way than back, by two or more.
+
+    Open edges have one more; surfaces that touch along an edge as many of both.
+    """
+    begin = _nodes(corners)
+    end = np.roll(begin, -1, axis=1)
+    low, high = np.minimum(begin, end), np.maximum(begin, end)
+    _, edge = np.unique(low * corners[..., 0].size + high, return_inverse=True)
+    balance = np.bincount(edge.ravel(), weights=np.sign(end - begin).ravel())
+    return int((np.abs(balance) > 1.5).sum())
 
 
 def _plane(axis: int, along: float, u: Array, v: Array) -> Array:
