@@ -19,7 +19,7 @@ from hydrodae.hdb.findings import Finding
 FEWEST = 3
 #: Longest k times the side of the waterplane, and least share of the largest force.
 LONGEST, LEAST_FORCE = 1.5, 0.2
-#: Factors that neither the shape nor bodies beside it explain: 23 tables of eight codes are within
+#: Factors that neither the shape nor bodies beside it explain: 20 tables of six codes are within
 #: 0.77 and 1.07, but for a body that stands on the ground.
 DOUBTFUL, WRONG = 2.0, 10.0
 
