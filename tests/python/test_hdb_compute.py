@@ -212,6 +212,7 @@ def test_a_frequency_that_capytaine_cannot_solve_is_named(tmp_path, monkeypatch)
         (["--body", "b=spere:radius=5", "--cog", "b=0,0,0"], "did you mean 'sphere'"),
         (["--body", "b=sphere:radius=five", "--cog", "b=0,0,0"], "expected a number"),
         (["--body", "b=none.stl", "--cog", "b=0,0,0"], "no such mesh file"),
+        (["--body", "b=none.stl:scale=0", "--cog", "b=0,0,0"], "scale=0: expected a number > 0"),
         (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--cog", "c=0,0,0"], "no body 'c'"),
         (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--omega", "1,2"], "expected 3 num"),
         (["--body", "b=sphere:radius=5", "--cog", "b=0,0,0", "--omega", "2,1,9"], "LO < HI"),

@@ -11,6 +11,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import cut_at_water, immersed
+from hydrodae.hdb.bem.lids import water_line
 from hydrodae.hdb.bem.meshes import read_mesh
 
 
@@ -47,6 +48,28 @@ def test_whole_panels_stay_as_they_are() -> None:
     hull = shapes.cylinder(0.7, radius=2.0, draft=3.0)
     assert np.array_equal(cut_at_water(hull), hull)
     assert len(cut_at_water(hull + np.array([0.0, 0.0, 5.0]))) == 0
+
+
+def test_corners_that_nearly_agree_are_one() -> None:
+    """Parts of a mesh made apart, and single precision, leave gaps of some micrometres."""
+    box = shapes.box(0.5, length=4.0, width=3.0, draft=1.5)
+    shaken = box + np.random.default_rng(3).normal(0.0, 1e-6, box.shape)
+    welded = immersed(shaken)
+    assert len(welded) == len(box)
+    assert [len(loop) for loop in water_line(welded)] == [len(loop) for loop in water_line(box)]
+    assert volume(welded) == pytest.approx(18.0, rel=1e-5)
+
+
+def test_an_open_bottom_is_a_hole() -> None:
+    box = shapes.box(0.5, length=4.0, width=3.0, draft=1.5)
+    sides = box[box[..., 2].max(axis=1) > -1.49]
+    with pytest.raises(DatabaseError, match="has holes: its volume by x, y, z is 18, 18, 0 m3"):
+        immersed(sides)
+    with pytest.raises(DatabaseError, match="it has no panels"):
+        shapes.hydrostatics(box[:0], np.zeros(3))
+    box[::3] = box[::3, ::-1]
+    with pytest.raises(DatabaseError, match="panels are turned against each other"):
+        immersed(box)
 
 
 def test_a_body_deeper_than_the_water_is_refused(tmp_path: Path) -> None:

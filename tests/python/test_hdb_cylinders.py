@@ -73,7 +73,8 @@ def test_damping_of_an_array_is_the_energy_of_its_waves() -> None:
     )
     k = float(wavenumber(omega, h, GRAVITY))
     group = 0.5 * omega / k * (1.0 + 2.0 * k * h / np.sinh(2.0 * k * h))
-    force = database.excitation[0]
+    assert database.heading.size == count + 1  # the first again closes the circle
+    force = database.excitation[0, :count]
     energy = k / (8.0 * np.pi * RHO * GRAVITY * group) * 2.0 * np.pi / count
     damping = energy * np.einsum("hi,hj->ij", force, force.conj())
     scale = np.sqrt(np.diag(database.radiation_damping[0]))

@@ -11,10 +11,11 @@ import pytest
 from hydrodae import hdb
 from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb.checks.energy import energy_identity, group_velocity
+from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.examination import examination
 from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.checks.repair import repair
+from hydrodae.hdb.dispersion import group_velocity
 from hydrodae.hdb.findings import CheckReport, Finding
 
 

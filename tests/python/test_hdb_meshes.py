@@ -125,6 +125,14 @@ def test_holes_and_inner_normals_are_errors():
         shapes.hydrostatics(np.delete(panels, slice(0, 4), axis=0), np.zeros(3))
     with pytest.raises(DatabaseError, match="normals point inwards"):
         shapes.hydrostatics(panels[:, ::-1], np.zeros(3))
+    turned = panels.copy()
+    turned[::3] = turned[::3, ::-1]
+    with pytest.raises(DatabaseError, match="panels are turned against each other"):
+        shapes.hydrostatics(turned, np.zeros(3))
+    with pytest.raises(DatabaseError, match="3 panels stand in the surface twice"):
+        shapes.hydrostatics(np.concatenate([panels, panels[:3]]), np.zeros(3))
+    with pytest.raises(DatabaseError, match="4000 m long: is it in millimetres"):
+        shapes.hydrostatics(1000.0 * panels, np.zeros(3))
 
 
 # lids

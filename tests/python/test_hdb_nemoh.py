@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -327,3 +328,46 @@ def test_capytaine_legacy_folder_equals_its_netcdf(reference):
     for name in ("omega", "heading", "added_mass", "radiation_damping", "excitation"):
         a, b = getattr(tec, name), getattr(nc, name)
         np.testing.assert_allclose(a, b, atol=2e-6 * np.abs(b).max(), err_msg=name)
+
+
+def box_mesh(length, draft):
+    """Text of a Nemoh mesh: the four sides and the bottom of a floating box."""
+    a = 0.5 * length
+    ring = [(-a, -a), (a, -a), (a, a), (-a, a)]
+    nodes = [(x, y, z) for z in (0.0, -draft) for x, y in ring]
+    panels = [(i + 1, (i + 1) % 4 + 1, (i + 1) % 4 + 5, i + 5) for i in range(4)] + [(5, 6, 7, 8)]
+    lines = ["2 0", *(f"{n} {x} {y} {z}" for n, (x, y, z) in enumerate(nodes, 1)), "0 0 0 0"]
+    return "\n".join([*lines, *(" ".join(map(str, p)) for p in panels), "0 0 0 0", ""])
+
+
+def test_hydrostatics_of_the_mesh_where_their_files_are_missing(tmp_path):
+    folder, w = NemohFolder(omega=(0.3, 1.0, 1.5, 2.0, 2.5)), 0.3
+    # rho g A_w - w^2 (rho V + A) of a box of 2 m x 2 m and 1 m
+    heave = 9810.0 * 4.0 - w**2 * (4000.0 + 1022.3)
+    folder.force = lambda w, h, i: heave if i == 2 else 1.0
+    written = folder.write(tmp_path / "f")
+    (written / "mesh").mkdir()
+    mesh = written / "mesh" / "body1.dat"
+    mesh.write_text(box_mesh(2.0, 1.0))
+    database, report = hdb.import_database(written)
+    found = hydrostatics(database, "body1")
+    assert (found.displaced_volume, found.waterplane_area) == pytest.approx((4.0, 4.0))
+    told = report.find("assumption")[0]
+    assert told.severity == "info"
+    assert "taken from its mesh body1.dat: 4 m3, 4 m2" in told.message
+    assert not report.find("hydrostatics")
+    # another hull, no hull, no mesh: the one option that is needed is named
+    for text, why in (
+        (box_mesh(2.6, 1.0), "body1.dat .* is not the hull of the tables: .* 0.59 of that"),
+        ("nothing", "body1.dat: expected a mesh"),
+        (None, "nor body1.dat; bodies that move"),
+    ):
+        mesh.unlink() if text is None else mesh.write_text(text)
+        database, report = hdb.import_database(written)
+        assert database.bodies["body1"].hydrostatics is None
+        told = report.find("hydrostatics")[0]
+        assert re.search(why, told.message)
+        assert "--mesh body1=FILE" in told.message
+    mesh.write_text(box_mesh(2.0, 1.0))
+    given, _ = hdb.import_database(written, meshes={"body1": mesh})
+    assert given.bodies["body1"].hydrostatics is not None

@@ -24,6 +24,10 @@ def test_bodies_that_stand_in_each_other_are_refused(tmp_path):
     assert overlapping({"a": still, "b": shapes.sphere(0.4, radius=1.0, z=-2.5)}) is None
     sides = [shapes.box(0.5, length=2.0, width=2.0, draft=1.0, x=x) for x in (-1.0, 1.0)]
     assert overlapping({"a": sides[0], "b": sides[1]}) is None
+    # less than the middles of panels show
+    posts = [shapes.cylinder(0.5, radius=1.0, draft=1.0, x=x) for x in (0.0, 1.95, 2.05)]
+    assert overlapping({"a": posts[0], "b": posts[1]}) == ("a", "b")
+    assert overlapping({"a": posts[0], "b": posts[2]}) is None
     point = np.zeros(3)
     bodies = [bem.WettedBody("a", still, point), bem.WettedBody("b", still * 0.9, point)]
     with pytest.raises(DatabaseError, match="body 'b' stands in body 'a': their hulls overlap"):

@@ -11,6 +11,7 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.readers.finishing import uncoupled_finding
 from hydrodae.hdb.readers.kinds import kind
 from hydrodae.hdb.reading import read_source
 
@@ -221,3 +222,28 @@ def test_a_and_b_tell_what_the_first_column_holds(reference, tmp_path, option):
     told = [f.message for f in data.findings if "first column" in f.message]
     assert len(told) == 1
     assert f"(IPEROUT {option})" in told[0]
+
+
+def test_bodies_and_couplings_that_are_left_out_are_told(tmp_path):
+    folder = tmp_path / "run"
+    write_run(folder)
+    path = folder / "run.1"
+    title, *rows = path.read_text().splitlines()
+    own = [r for r in rows if (int(r.split()[1]) <= 6) == (int(r.split()[2]) <= 6)]
+    path.write_text("\n".join([title, *own]))
+    for run, expected in ((write_run(tmp_path / "whole"), 0), (folder, 1)):
+        data = read_source(run)
+        uncoupled_finding(data)
+        told = [f for f in data.findings if f.check == "coupling of bodies"]
+        assert len(told) == expected
+    assert "couples b and a" in told[0].message
+    first = [r for r in own if int(r.split()[1]) <= 6]
+    path.write_text("\n".join([title, *first]))
+    force = folder / "run.3"
+    title, *rows = force.read_text().splitlines()
+    force.write_text("\n".join([title, *(r for r in rows if int(r.split()[2]) <= 6)]))
+    data = read_source(folder)
+    assert data.coordinates[-1] == "a.yaw"
+    assert "holds no modes of b" in next(
+        f.message for f in data.findings if f.check == "coordinates"
+    )

@@ -149,6 +149,12 @@ def test_non_passive_data_give_a_passive_fit_that_says_so(exact: Table) -> None:
     )
 
 
+def test_hankel_realisation_keeps_to_the_states_allowed(exact: Table) -> None:
+    # of seven states one is a real pole at the highest frequency of K(t), which counts twice
+    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3, max_states=7)
+    assert memory.n_states <= 7
+
+
 def test_hankel_realisation_finds_the_same_modes(exact: Table) -> None:
     memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3)
     assert memory.n_states <= 8

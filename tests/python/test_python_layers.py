@@ -32,6 +32,7 @@ LAYERS = [
     {"hdb.kernels"},
     {"hdb.radiation_kernel"},
     {"hdb.database"},
+    {"hdb.all_round"},
     {"hdb.readers", "hdb.checks", "hdb.bem", "hdb.writers"},
     {"hdb.reading"},
     {"hdb.importing", "hdb.prepare"},

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.all_round import closed, closing_finding
 from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.coordinates import DOFS
 from hydrodae.hdb.database import HydroDatabase
@@ -37,7 +38,7 @@ class Water:
     depth : float
         [m], finite: the eigenfunctions are those of a finite depth. Ten draughts are nearly deep.
     heading : (nh,) array
-        Directions of travel [rad].
+        Directions of travel [rad]; those that go all round are closed with the first, a turn on.
     rho, gravity : float
         [kg/m3], [m/s2].
     """
@@ -116,9 +117,9 @@ def cylinders(
         solved.append(_solve(points, body, water, float(w), orders, count))
         if progress is not None:
             progress(float(i + 1), float(omega.size))
-    database = _collect(
-        list(places), points, body, water, solved, f"{orders} orders, {count} modes"
-    )
+    how = f"{orders} orders, {count} modes"
+    asked = _collect(list(places), points, body, water, solved, how)
+    database = closed(asked)
     middle = water.omega.size // 2
     w = float(omega[middle])
     error = _distance(solved[middle], _solve(points, body, water, w, orders + 2, 2 * count))
@@ -132,6 +133,7 @@ def cylinders(
                 error,
                 w,
             ),
+            *([] if database is asked else [closing_finding(asked.heading)]),
             *check(database).findings,
         ]
     )

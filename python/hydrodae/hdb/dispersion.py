@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Array = NDArray[np.float64]
+
 
 def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> NDArray[np.float64]:
     """Wavenumber k [rad/m] of waves of frequency omega [rad/s] in water of depth h [m].
@@ -28,3 +30,21 @@ def frequency(wavenumbers: ArrayLike, depth: float, gravity: float) -> NDArray[n
     """Frequency [rad/s] of waves of the given wavenumbers [rad/m]."""
     k = np.asarray(wavenumbers, dtype=float)
     return np.sqrt(gravity * k * (np.tanh(k * depth) if np.isfinite(depth) else 1.0))
+
+
+def group_velocity(omega: Array, depth: float, gravity: float) -> Array:
+    """Group velocity c_g = w/(2k) (1 + 2kh / sinh 2kh) of waves, (nw,) [m/s].
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        [rad/s].
+    depth, gravity : float
+        [m] (may be infinite), [m/s2].
+    """
+    k = wavenumber(omega, depth, gravity)
+    ratio = np.zeros_like(k)
+    if np.isfinite(depth):
+        kh = np.minimum(2.0 * k * depth, 700.0)
+        ratio = kh / np.sinh(kh)
+    return np.asarray(0.5 * omega / k * (1.0 + ratio))

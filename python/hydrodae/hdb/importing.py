@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.all_round import closed, closing_finding, goes_round
 from hydrodae.hdb.bem.meshes import read_mesh
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.checks.check import check
@@ -81,7 +82,8 @@ def import_database(
         if cut is not None:
             raise DatabaseError(f"{source}: frequencies are cut where a source is imported (cut)")
         database = read(source, rho=rho, depth=depth, gravity=gravity)
-        noticed = list[Finding]()
+        noticed = [closing_finding(database.heading)] if goes_round(database.heading) else []
+        database = closed(database)
     else:
         data = read_source(source, rho=rho, depth=depth, gravity=gravity)
         if cut is not None:

@@ -13,7 +13,7 @@ from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
-from hydrodae.hdb.readers.kinds import resolve
+from hydrodae.hdb.readers.kinds import others, resolve
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
 from hydrodae.hdb.readers.wamit import read_wamit
 
@@ -50,6 +50,10 @@ def read_source(
         raise _naming(path, error) from None
     if what != "wamit":
         _check_water(path, data, water)
+    left = others(Path(source), what)
+    if left:
+        text = f"{path.name} is read, not what is beside it: {', '.join(left)}; name the file"
+        data.findings.append(Finding("warning", "source", text))
     return data
 
 

@@ -62,11 +62,15 @@ def fit_hankel(
     for count in orders:
         last = count == orders[-1]
         modes = realise(kernel, count, problem)
+        while last and modes.n_states > most and count > 1:
+            # a pole at the highest frequency that K(t) resolves counts twice
+            count -= 1
+            modes = realise(kernel, count, problem)
         start = goal.miss(quality(modes, problem, goal.band))
         near = near or start <= HOPEFUL
         if last and not near:
             return None
-        if (start > HOPEFUL and not last) or modes.n_states > most:
+        if not last and (start > HOPEFUL or modes.n_states > most):
             continue
         modes, _ = refine(modes, problem, 12, 0.02)
         free = goal.miss(quality(modes, problem, goal.band))

@@ -46,7 +46,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "box:length=L:width=W:draft=D[..], cone:radius=R:draft=D[:bottom=RADIUS..], "
         "ring:radius=R:inner=R:draft=D[..] in metres; revolution:profile=FILE[:x=..:y=..:z=..] "
         "with points r z a line; or a mesh file (STL, GDF, Nemoh, GMSH), which may be followed by "
-        ":x=..:y=..:z=.. to move it, and :mirror=y (x, xy) if it is a half; may be repeated",
+        ":x=..:y=..:z=.. to move it, :mirror=y (x, xy) if it is a half and "
+        ":scale=0.001 if it is in millimetres; may be repeated",
     )
     compute.add_argument(
         "--cog",
@@ -160,12 +161,17 @@ def _body(
     if name not in points:
         raise CaseError(f"--body {name}: needs --cog {name}=X,Y,Z, its reference point [m]")
     first, words = _words(name, what)
+    axes = words.get("mirror", "")
     try:
         panels = immersed(_panels(name, first, words, size, settings))
     except DatabaseError as error:
         hint = ""
-        if "holes" in str(error) and "mirror" not in words and Path(first).is_file():
-            hint = " (half of a hull: add :mirror=y, or x, or xy)"
+        if "holes" in str(error) and Path(first).is_file():
+            hint = (
+                f" (with its mirror image, mirror={axes}: the half does not end at that plane)"
+                if axes
+                else " (half of a hull: add :mirror=y, or x, or xy)"
+            )
         raise DatabaseError(f"body {name}: {error}{hint}") from error
     return bem.WettedBody(name, panels, np.array(points[name]))
 
@@ -204,10 +210,13 @@ def _panels(
             shapes.build(first, 1.0, lengths)  # says what is missing
         return shapes.build(first, size or _size(first, lengths, settings), lengths)
     axes = words.pop("mirror", "")
-    panels = read_mesh(first)
+    scale = _lengths(name, {"scale": words.pop("scale", "1")})["scale"]
+    if not 0.0 < scale < np.inf:
+        raise CaseError(f"--body {name}: scale={scale:g}: expected a number > 0 [-]")
+    panels = scale * read_mesh(first)
     if axes:
         panels = mirrored(panels, axes)
-    return np.asarray(panels + _shift(name, words, "a mesh takes x, y, z and mirror only"))
+    return np.asarray(panels + _shift(name, words, "a mesh takes x, y, z, mirror and scale only"))
 
 
 def _turned(

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem.shapes import hydrostatics
 
 Array = NDArray[np.float64]
 
+#: Corners nearer than this share of the surface's length are one.
+WELD = 1e-5
 _AT_WATER = 1e-9  #: [m]: corners nearer to z = 0 are in it
 
 
@@ -52,6 +57,27 @@ def _lower_part(panel: Array) -> list[Array]:
     return fan
 
 
+def _welded(panels: Array) -> Array:
+    """Give corners that nearly agree one place, and put those that nearly touch z = 0 there.
+
+    Single precision and meshes whose parts were made apart leave gaps that no water line bears.
+    """
+    if not len(panels):
+        return panels
+    points = panels.reshape(-1, 3).copy()
+    near = WELD * float(np.ptp(points, axis=0).max())
+    points[np.abs(points[:, 2]) <= near, 2] = 0.0
+    place, number = np.unique(points, axis=0, return_inverse=True)
+    pairs = cKDTree(place).query_pairs(near, output_type="ndarray")
+    if len(pairs):
+        shape = (len(place), len(place))
+        links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=shape)
+        _, group = connected_components(links, directed=False)
+        _, first = np.unique(group, return_index=True)
+        place = place[first[group]]
+    return np.asarray(place[number.ravel()].reshape(panels.shape))
+
+
 def immersed(panels: Array) -> Array:
     """Cut a surface off at z = 0 and turn its normals into the water.
 
@@ -69,6 +95,7 @@ def immersed(panels: Array) -> Array:
     DatabaseError
         Nothing of it is in the water, or it has holes.
     """
+    panels = _welded(panels)
     below: Array = panels
     if panels[..., 2].max() > 1e-9:
         below = cut_at_water(panels)
@@ -87,5 +114,5 @@ def immersed(panels: Array) -> Array:
         try:
             hydrostatics(below, np.zeros(3))
         except DatabaseError as other:
-            raise (error if "holes" in str(error) else other) from None
+            raise (other if "inwards" in str(error) else error) from None
     return below

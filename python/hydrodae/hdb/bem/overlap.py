@@ -15,7 +15,7 @@ INSIDE = 0.75
 
 
 def overlapping(hulls: dict[str, Array]) -> tuple[str, str] | None:
-    """Return two bodies of which a panel of one lies inside the other, or None.
+    """Return two bodies of which a panel of one, or a corner of it, is inside the other, or None.
 
     Parameters
     ----------
@@ -23,8 +23,9 @@ def overlapping(hulls: dict[str, Array]) -> tuple[str, str] | None:
         Wetted surfaces below z = 0 by name [m]; the water plane closes them.
     """
     for one, other in permutations(hulls, 2):
-        panels, points = hulls[one], hulls[other].mean(axis=1)
+        panels, middles = hulls[one], hulls[other].mean(axis=1)
         corners = panels.reshape(-1, 3)
+        points = np.concatenate([middles, np.unique(hulls[other].reshape(-1, 3), axis=0)])
         near = np.all((points > corners.min(axis=0)) & (points < corners.max(axis=0)), axis=1)
         if np.any(np.abs(_winding(panels, points[near])) > INSIDE):
             return one, other

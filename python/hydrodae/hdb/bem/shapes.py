@@ -17,6 +17,8 @@ from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.hydrostatics import Hydrostatics
 
 Array = NDArray[np.float64]
+#: No hull is longer [m].
+LONGEST = 2000.0
 #: Largest difference of the volumes by the three axes of a closed surface.
 LEAK = 0.01
 
@@ -194,16 +196,32 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     Raises
     ------
     DatabaseError
-        The surface has holes, or its normals point inwards.
+        The surface has holes, panels twice or turned against each other, is kilometres long, or
+        its normals point inwards.
     """
     corners = np.asarray(panels, dtype=float)
+    if not len(corners):
+        raise DatabaseError("the surface displaces no water: it has no panels in it")
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    _check_size(corners)
+    twice = _panels_twice(corners)
+    if twice:
+        raise DatabaseError(f"{twice} panels stand in the surface twice, or have no area")
+    turned = _turned_panels(corners)
+    if turned:
+        raise DatabaseError(
+            f"{turned} edges run the same way in both panels that share them: panels are turned "
+            f"against each other; let the mesh program unify the normals"
+        )
     area = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     # exact to second degree: the middles of the three sides
     middle = 0.5 * (triangles + np.roll(triangles, 1, axis=1))
     mean = middle.mean(axis=1)
     by_axis = (mean * area).sum(axis=0)
     volume = float(by_axis[2])
+    if volume <= 1e-6 * float(np.abs(by_axis).max()) and by_axis.max() > 0.0:
+        shown = ", ".join(f"{v:.5g}" for v in by_axis)
+        raise DatabaseError(f"the surface has holes: its volume by x, y, z is {shown} m3")
     if volume <= 0.0:
         raise DatabaseError(
             "the surface displaces no water: it is dry, or its normals point inwards"
@@ -223,6 +241,45 @@ def hydrostatics(panels: ArrayLike, point: ArrayLike) -> Hydrostatics:
     down = -area[:, 2]  # the water plane closes the surface: int n_z over the hull = - A_w
     moments = [(f.mean(axis=1) * down).sum() for f in (x, y, x * x, y * y, x * y)]
     return Hydrostatics(volume, center, float(down.sum()), np.array(moments))
+
+
+def _check_size(corners: Array) -> None:
+    """Refuse what no hull in metres measures."""
+    length = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    if length > LONGEST:
+        raise DatabaseError(
+            f"the surface is {length:.4g} m long: is it in millimetres? Mesh files are in metres; "
+            f"after the file, :scale=0.001 turns one"
+        )
+
+
+def _nodes(corners: Array) -> NDArray[np.intp]:
+    """Numbers (n, 4) of the corners; those of one place, to rounding, have one number."""
+    size = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    rounded = np.round(corners.reshape(-1, 3) / (1e-5 * max(size, 1e-30))).astype(np.int64)
+    return np.unique(rounded, axis=0, return_inverse=True)[1].reshape(-1, 4)
+
+
+def _panels_twice(corners: Array) -> int:
+    """Number of panels that stand there twice, turned alike."""
+    begin = _nodes(corners)
+    end = np.roll(begin, -1, axis=1)
+    edges = np.where(begin == end, -1, begin * corners[..., 0].size + end)
+    _, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    return int((count - 1).sum())
+
+
+def _turned_panels(corners: Array) -> int:
+    """Number of edges that more panels run through one way than back, by two or more.
+
+    Open edges have one more; surfaces that touch along an edge as many of both.
+    """
+    begin = _nodes(corners)
+    end = np.roll(begin, -1, axis=1)
+    low, high = np.minimum(begin, end), np.maximum(begin, end)
+    _, edge = np.unique(low * corners[..., 0].size + high, return_inverse=True)
+    balance = np.bincount(edge.ravel(), weights=np.sign(end - begin).ravel())
+    return int((np.abs(balance) > 1.5).sum())
 
 
 def _plane(axis: int, along: float, u: Array, v: Array) -> Array:

@@ -19,7 +19,7 @@ from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scales
 
@@ -50,24 +50,6 @@ class EnergyIdentity:
     damping: Array
     valid: NDArray[np.bool_]
     method: str
-
-
-def group_velocity(omega: Array, depth: float, gravity: float) -> Array:
-    """Group velocity c_g = w/(2k) (1 + 2kh / sinh 2kh) of waves, (nw,) [m/s].
-
-    Parameters
-    ----------
-    omega : (nw,) array
-        [rad/s].
-    depth, gravity : float
-        [m] (may be infinite), [m/s2].
-    """
-    k = wavenumber(omega, depth, gravity)
-    ratio = np.zeros_like(k)
-    if np.isfinite(depth):
-        kh = np.minimum(2.0 * k * depth, 700.0)
-        ratio = kh / np.sinh(kh)
-    return np.asarray(0.5 * omega / k * (1.0 + ratio))
 
 
 def energy_identity(database: HydroDatabase) -> EnergyIdentity | None:
@@ -175,11 +157,13 @@ def energy_findings(database: HydroDatabase, band: Band | None = None) -> list[F
 
 def _circle(db: HydroDatabase) -> Array | None:
     """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
-    beta = np.mod(db.heading, 2.0 * np.pi)
-    order = np.argsort(beta)
-    steps = np.diff(np.r_[beta[order], beta[order[0]] + 2.0 * np.pi])
-    if db.heading.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
-        weight = np.empty(beta.size)
+    # each direction once: a full turn closes headings that go all round
+    order = np.argsort(db.heading)
+    order = order[db.heading[order] < db.heading.min() + 2.0 * np.pi - 1e-6]
+    beta = db.heading[order]
+    steps = np.diff(np.r_[beta, beta[0] + 2.0 * np.pi])
+    if beta.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
+        weight = np.zeros(db.heading.size)
         weight[order] = 0.5 * (steps + np.roll(steps, 1))
         return weight
     half = np.sort(db.heading)
@@ -187,7 +171,7 @@ def _circle(db: HydroDatabase) -> Array | None:
     if not ends.all() or np.diff(half).max() > LARGEST_STEP or not _symmetric_about_y(db):
         return None
     gaps = np.diff(half)
-    weight = np.empty(beta.size)
+    weight = np.empty(db.heading.size)
     # both halves of the circle: the mirrored force has the same size
     weight[np.argsort(db.heading)] = np.r_[gaps, 0.0] + np.r_[0.0, gaps]
     return weight

@@ -20,6 +20,9 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.tables import Body
 
+#: Cosine of three degrees: so near an axis added mass turns no force by 60 degrees.
+NEAR_AXIS = float(np.cos(np.radians(3.0)))
+
 
 @dataclass(frozen=True)
 class _Wave:
@@ -76,6 +79,7 @@ def _at_row(db: HydroDatabase, row: int) -> list[Finding]:
         h = int(along.argmax())
         wave = _Wave(row, k, float(omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
         found += _phase(db, body, wave)
+        found += _directions(db, body, row, k)
         if body.hydrostatics is not None and body.reference_point is not None:
             found += _heave(db, body, wave)
             found += _displacement(db, body, wave)
@@ -130,6 +134,40 @@ def _phase(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     if abs(angle + 0.5 * np.pi) < 1.0:
         text += ": phases of the other time convention, or headings from where the waves come"
     return [Finding(severity, "phase convention", text, off, wave.omega)]
+
+
+def _directions(db: HydroDatabase, body: Body, row: int, k: float) -> list[Finding]:
+    """Waves along an axis must push along it: headings in radians, or axes turned, do not.
+
+    Off the axes, and of a body whose own axes are turned, added mass turns the force.
+    """
+    labels = [f"{body.name}.{dof}" for dof in ("surge", "sway")]
+    if any(label not in db.coordinates for label in labels):
+        return []
+    i, beta = db.index(labels), db.heading
+    length = float(np.cbrt(np.abs(db.added_mass[row, i, i]).max() / db.rho))
+    if k * length > 0.5:
+        return []
+    point = np.zeros(3) if body.reference_point is None else np.asarray(body.reference_point)
+    if body.hydrostatics is not None:
+        point = body.hydrostatics.center_of_buoyancy
+    lag = k * (point[0] * np.cos(beta) + point[1] * np.sin(beta))
+    table = db.froude_krylov if db.excitation_split else db.excitation
+    force = (table[row][:, i] * np.exp(1j * lag)[:, None]).imag
+    size = np.hypot(*force.T)
+    along = np.stack([np.cos(beta), np.sin(beta)], axis=1)
+    on_axis = (np.abs(along).max(axis=1) > NEAR_AXIS) & (size > 0.1 * size.max(initial=0.0))
+    cosine = np.abs((force * along).sum(axis=1)) / np.where(size > 0.0, size, np.inf)
+    wrong = np.flatnonzero(on_axis & (cosine < 0.5))
+    if not wrong.size:
+        return []
+    h = int(wrong[0])
+    angle = np.degrees(np.arctan2(force[h, 1], force[h, 0]))
+    text = (
+        f"{body.name}: long waves of heading {np.degrees(beta[h]):.4g} deg push towards "
+        f"{angle:.4g} deg: are headings in another unit, or are the axes turned?"
+    )
+    return [Finding("error", "heading", text, omega=float(db.omega[row]))]
 
 
 def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:

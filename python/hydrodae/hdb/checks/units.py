@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.hdb.causality import causal_line
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scales
 
+Array = NDArray[np.float64]
 #: Correlation that a line must have, and factor that is no longer noise.
 CORRELATION, FACTOR = 0.98, 2.0
 TURN = 2.0 * np.pi
 
 
 def unit_findings(db: HydroDatabase) -> list[Finding]:
-    """Tell if A and B agree only after the frequencies or B are multiplied by a factor.
+    """Tell if A and B agree only with other frequencies, or with B multiplied by a factor.
 
     Parameters
     ----------
@@ -24,9 +26,12 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
         least.
     """
     used = np.flatnonzero(scales(db) > 0.0)
-    tables = (getattr(db, t)[:, used, used] for t in ("added_mass", "radiation_damping"))
-    slope, correlation = causal_line(db.omega, *tables)
+    a, b = (getattr(db, t)[:, used, used] for t in ("added_mass", "radiation_damping"))
+    slope, correlation = causal_line(db.omega, a, b)
     clear = correlation > CORRELATION
+    if not clear.any() and _agree(TURN / db.omega[::-1], a[::-1], b[::-1]):
+        text = "A and B fit each other if the frequencies [rad/s] are periods [s], or the reverse"
+        return [Finding("error", "units of frequency", text)]
     if clear.sum() < max(2, 0.4 * slope.size):
         return []
     factor = float(np.median(slope[clear]))
@@ -41,3 +46,10 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
     elif abs(factor * TURN - 1.0) < 0.15:
         text += " (Hz taken for rad/s?)"
     return [Finding("error", "units of frequency", text, factor)]
+
+
+def _agree(omega: Array, a: Array, b: Array) -> bool:
+    """Tell if at least two coordinates have A and B that belong to each other."""
+    slope, correlation = causal_line(omega, a, b)
+    right = (correlation > CORRELATION) & (1.0 / FACTOR < slope) & (slope < FACTOR)
+    return bool(right.sum() >= 2)

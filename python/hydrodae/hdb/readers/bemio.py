@@ -19,7 +19,7 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -61,6 +61,11 @@ def _read(path: Path, f: h5py.File) -> SourceData:
     groups = [f[name] for name in _bodies(path, f)]
     findings: list[Finding] = []
     counts = [int(_dof(g)) for g in groups]
+    for g, n in zip(groups, counts, strict=True):
+        if n < 6:
+            raise DatabaseError(
+                f"{path}: {g.name}/properties/dof is {n}; expected 6 or more, the rigid ones first"
+            )
     starts = np.r_[0, np.cumsum(counts)]
     kept = np.concatenate([start + np.arange(6) for start in starts[:-1]])
     if any(n > 6 for n in counts):
@@ -151,11 +156,11 @@ def _attach_body(path: Path, data: SourceData, name: str, g: h5py.Group, scale: 
     stiffness = "hydro_coeffs/linear_restoring_stiffness"
     if point is None or buoyancy is None or len(volume) != 1 or stiffness not in g:
         text = f"{name}: cg, cb, disp_vol or linear_restoring_stiffness is missing"
-        data.findings.append(Finding("warning", "hydrostatics", text))
+        data.findings.append(without_hydrostatics(text, [name]))
         return
     k = scale * _array(path, g, stiffness)[:6, :6]
     if not np.all(np.isfinite(k)) or not np.isfinite(volume[0]):
-        data.findings.append(Finding("warning", "hydrostatics", f"{name}: holds NaN; left out"))
+        data.findings.append(without_hydrostatics(f"{name}: holds NaN; left out", [name]))
         return
     hydrostatics = Hydrostatics.from_stiffness(
         k, point, float(volume[0]), buoyancy, data.rho, data.gravity

@@ -55,6 +55,9 @@ def read_capytaine(path: Path) -> SourceData:
         if name not in ds:
             raise DatabaseError(f"{path}: no variable {name!r} in it")
     ds, omega = _frequencies(path, ds)
+    if np.any(np.isnan(omega) | (omega < 0.0)):
+        at = int(np.flatnonzero(np.isnan(omega) | (omega < 0.0))[0])
+        raise DatabaseError(f"{path}: frequency {at + 1} is {omega[at]:g} rad/s; expected all >= 0")
     findings: list[Finding] = []
     raw, coordinates = _coordinates(path, ds, findings)
     a = _matrix(path, ds, "added_mass", raw)

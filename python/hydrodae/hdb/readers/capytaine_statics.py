@@ -14,7 +14,7 @@ from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers.reference import reference_by_statics
-from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 
 Array = NDArray[np.float64]
 
@@ -48,9 +48,8 @@ def attach_bodies(data: SourceData, ds: xr.Dataset, raw: list[str], path: Path) 
                 data.reference_points[name] = reference_by_statics(data, name, near)
                 data.assumed_points.add(name)
         else:
-            data.findings.append(
-                Finding("warning", "hydrostatics", f"{name}: not in the file, or incomplete")
-            )
+            text = f"{name}: not in the file, or incomplete"
+            data.findings.append(without_hydrostatics(text, [name]))
 
 
 def _hydrostatics(

@@ -28,6 +28,7 @@ def finish(data: SourceData) -> HydroDatabase:
         )
     asymmetry_finding(data)
     exchange_finding(data)
+    uncoupled_finding(data)
     a = 0.5 * (data.added_mass + data.added_mass.transpose(0, 2, 1))
     b = 0.5 * (data.radiation_damping + data.radiation_damping.transpose(0, 2, 1))
     fk, diffraction, split = _split_excitation(data)
@@ -155,6 +156,24 @@ def exchange_finding(data: SourceData) -> None:
             f"what their own added masses allow: are rows or columns exchanged?"
         )
         data.findings.append(Finding("error", "coupling of added_mass", text, float(ratio[i, j])))
+
+
+def uncoupled_finding(data: SourceData) -> None:
+    """Report bodies that no entry of A and B couples: blocks left out, not zero by symmetry."""
+    bodies = bodies_of(data.coordinates)
+    body = np.array([bodies.index(c.rpartition(".")[0]) for c in data.coordinates])
+    filled = np.any(data.added_mass != 0.0, axis=0) | np.any(data.radiation_damping != 0.0, axis=0)
+    radiates = [bool(filled[np.ix_(body == i, body == i)].any()) for i in range(len(bodies))]
+    alone = [
+        f"{bodies[i]} and {bodies[j]}"
+        for i in range(len(bodies))
+        for j in range(i)
+        if radiates[i] and radiates[j]
+        if not filled[np.ix_(body == i, body == j)].any()
+    ]
+    if alone:
+        text = f"A and B hold nothing that couples {'; '.join(alone[:4])}: taken as zero"
+        data.findings.append(Finding("warning", "coupling of bodies", text))
 
 
 def _split_excitation(data: SourceData) -> tuple[Complex, Complex, bool]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.all_round import TURN, closing_finding, goes_round
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
 
@@ -16,13 +17,13 @@ ALIKE = 0.02
 
 
 def settle_headings(data: SourceData) -> None:
-    """Sort the headings; leave out those that stand there twice.
+    """Sort the headings; leave out those that stand there twice, and close the circle.
 
     Parameters
     ----------
     data : SourceData
-        Changed in place: heading, forces, findings. 0 and 360 degrees both stay: runs look up
-        headings between the first and the last.
+        Changed in place: heading, forces, findings. 0 and 360 degrees both stay, and headings that
+        go all round get the first again as the last (`hydrodae.hdb.all_round`).
 
     Raises
     ------
@@ -51,6 +52,10 @@ def settle_headings(data: SourceData) -> None:
         text = f"{shown} deg stand there twice, with equal forces: taken once"
         data.findings.append(Finding("warning", "headings", text))
         _take(data, np.setdiff1d(np.arange(data.heading.size), twice))
+    if goes_round(data.heading):
+        data.findings.append(closing_finding(data.heading))
+        _take(data, np.r_[np.arange(data.heading.size), 0])
+        data.heading[-1] += TURN
 
 
 def _take(data: SourceData, index: np.ndarray) -> None:

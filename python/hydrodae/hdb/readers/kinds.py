@@ -69,9 +69,12 @@ def _folder(path: Path) -> tuple[Path, str]:
     if inside:
         names = ", ".join(p.name for p in inside[:6])
         raise DatabaseError(f"{path}: which one is meant? {names}: name the file")
-    below = [p for p in sorted(path.iterdir()) if p.is_dir() and wamit_stem(p) is not None]
+    below = [p for p in sorted(path.iterdir()) if p.is_dir() and _holds_one(p)]
     if len(below) == 1:
-        return below[0], "wamit"
+        return _folder(below[0])
+    if below:
+        names = ", ".join(p.name for p in below[:6])
+        raise DatabaseError(f"{path}: databases are in the folders {names}: name one of them")
     runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
     if len(runs) > 1:
         raise DatabaseError(f"{path}: which one is meant? {', '.join(runs[:6])}: name the file")
@@ -88,6 +91,34 @@ def _folder(path: Path) -> tuple[Path, str]:
         f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
         f".1 or .out of WAMIT, .AH1 or .LIS of AQWA, or a .yml with OrcaWave's results"
     )
+
+
+def _holds_one(path: Path) -> bool:
+    """Tell whether a folder itself holds a database."""
+    if wamit_stem(path) is not None or _tables(path):
+        return True
+    try:
+        return aqwa_file(path) is not None or orcawave_file(path) is not None
+    except DatabaseError:  # several of a kind
+        return True
+
+
+def others(source: Path, what: str) -> list[str]:
+    """Names of the databases of other kinds than `what` beside each other in a folder."""
+    if not source.is_dir():
+        return []
+    stem = wamit_stem(source)
+    names = {} if stem is None else {"wamit": [f"{stem.name}.1 or .out"]}
+    for kind_of, search in (("aqwa", aqwa_file), ("orcawave", orcawave_file)):
+        try:
+            found = search(source)
+        except DatabaseError:  # several of a kind
+            continue
+        if found is not None:
+            names[kind_of] = [found.name]
+    if what != "bemio":
+        names["capytaine"] = [p.name for p in _tables(source)]
+    return [name for kind_of, listed in names.items() if kind_of != what for name in listed]
 
 
 def _tables(path: Path) -> list[Path]:

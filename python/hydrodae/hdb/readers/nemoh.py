@@ -19,6 +19,7 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
+from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.time_sense import correct_time_sense
@@ -190,7 +191,12 @@ def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
         if degrees:
             titles.append(float(degrees[1]))
         elif radians:
-            titles.append(float(np.degrees(float(radians[1]))))
+            angle = float(radians[1])
+            if abs(angle) > 4.0 * np.pi:
+                raise DatabaseError(
+                    f"{path}:{block.line - 1}: angle {angle:g}: expected radians; degrees?"
+                )
+            titles.append(float(np.degrees(angle)))
         else:
             raise DatabaseError(f"{path}:{block.line - 1}: no heading in {block.title!r}")
     stated = np.array(titles)
@@ -246,11 +252,9 @@ def _compare_grid(data: SourceData, cal: NemohCal) -> None:
 def _attach_hydrostatics(data: SourceData, root: Path, names: list[str], meshes: list[str]) -> None:
     found = nh.read_all(root, len(names), data.rho, data.gravity)
     data.files += [file for f in found if f is not None for file in f.files]
-    missing = [name for name, f in zip(names, found, strict=True) if f is None]
-    if missing:
-        data.findings.append(
-            Finding("warning", "hydrostatics", f"no Hydrostatics and KH files of {missing}")
-        )
+    for name, mesh, f in zip(names, meshes, found, strict=True):
+        if f is None:
+            statics_of_mesh(data, root, name, mesh)
     force = data.excitation if data.excitation is not None else data.froude_krylov
     heave = None
     if force is not None:

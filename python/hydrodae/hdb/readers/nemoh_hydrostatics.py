@@ -141,7 +141,7 @@ def from_meshes(
     """
     result = []
     for name, point in zip(meshes, points, strict=True):
-        path = find(root, f"{name}.dat", f"{name}.gdf", f"{name}.stl")
+        path = mesh_file(root, name)
         if path is None:
             return None
         try:
@@ -155,11 +155,16 @@ def from_meshes(
     return result if same_volume and same_area else None
 
 
+def mesh_file(root: Path, name: str) -> Path | None:
+    """Find the mesh that Nemoh.cal calls `name`, without suffix."""
+    return find(root, f"{name}.dat", f"{name}.gdf", f"{name}.stl")
+
+
 def wetted_meshes(root: Path, meshes: dict[str, str]) -> dict[str, Array]:
     """Panels (n, 4, 3) [m] by body of the mesh files that are there; `meshes` has their names."""
     found = {}
     for body, name in meshes.items():
-        path = find(root, f"{name}.dat", f"{name}.gdf", f"{name}.stl")
+        path = mesh_file(root, name)
         try:
             if path is not None:
                 found[body] = read_mesh(path)

@@ -22,7 +22,7 @@ from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
-from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.text import line_of, read_text
 
 Array = NDArray[np.float64]
@@ -128,7 +128,7 @@ def read_orcawave(path: Path) -> SourceData:
         statics = body.hydrostatics(rho, gravity)
         if statics is None:
             text = f"{name}: the stiffness is not about the centre of mass; left out"
-            findings.append(Finding("warning", "hydrostatics", text))
+            findings.append(without_hydrostatics(text, [name]))
         else:
             data.hydrostatics[name] = (statics, body.point)
     return data

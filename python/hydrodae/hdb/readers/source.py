@@ -91,6 +91,16 @@ class SourceData:
     extra: dict[str, SourceTable] = field(default_factory=dict)
 
 
+def without_hydrostatics(text: str, names: Iterable[str]) -> Finding:
+    """Tell that bodies have no hydrostatics, and what gives them some."""
+    options = " ".join(f"--mesh {name}=FILE" for name in names)
+    return Finding(
+        "warning",
+        "hydrostatics",
+        f"{text}; bodies that move need them: {options} takes those of the mesh of the wetted hull",
+    )
+
+
 def sha256(files: Iterable[Path]) -> str:
     """Hash of one file's bytes, or of the names and hashes of several in alphabetical order."""
     paths = sorted(files, key=lambda p: p.name.lower())

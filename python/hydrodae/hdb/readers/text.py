@@ -16,8 +16,9 @@ def read_text(path: Path) -> str:
     """Return the text of a file in UTF-8 or UTF-16, whatever its line ends."""
     raw = path.read_bytes()
     if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return raw.decode("utf-16", "replace")
-    return raw.decode("utf-8", "replace").lstrip("\ufeff")
+        return raw.decode("utf-16", "replace").rstrip("\x1a")
+    # some programs of Windows end a file with Ctrl-Z, as DOS did
+    return raw.decode("utf-8", "replace").lstrip("\ufeff").rstrip("\x1a")
 
 
 def read_lines(path: Path) -> list[str]:

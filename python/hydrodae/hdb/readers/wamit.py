@@ -16,7 +16,7 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
-from hydrodae.hdb.readers.source import SourceData, Water
+from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
@@ -189,6 +189,10 @@ def _modes(
     modes = modes[modes <= 6 * bodies]
     raw = control.names or [stem.name if bodies == 1 else f"body{i + 1}" for i in range(bodies)]
     names = unique_names(raw)
+    lost = [name for i, name in enumerate(names) if not np.any((modes - 1) // 6 == i)]
+    if lost:
+        text = f"{path.name} holds no modes of {', '.join(lost)}, which the control files name"
+        findings.append(Finding("warning", "coordinates", text))
     labels = [f"{names[(m - 1) // 6]}.{DOFS[(m - 1) % 6]}" for m in modes.astype(int)]
     return modes, names, tuple(labels)
 
@@ -266,7 +270,7 @@ def _attach_hydrostatics(
             data.hydrostatics[name] = (hydrostatics, point)
     if missing:
         text = f"no complete .hst and .mmx files of {missing}"
-        data.findings.append(Finding("warning", "hydrostatics", text))
+        data.findings.append(without_hydrostatics(text, missing))
 
 
 def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:

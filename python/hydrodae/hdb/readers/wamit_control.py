@@ -82,10 +82,14 @@ def read_control(stem: Path) -> Control:
 
 def beside(stem: Path, suffix: str) -> Path | None:
     """Return the file `<stem><suffix>` whatever the case of its name, or None."""
-    wanted = (stem.name + suffix).lower()
-    if not stem.parent.is_dir():
+    return named(stem.parent, stem.name + suffix)
+
+
+def named(folder: Path | None, name: str) -> Path | None:
+    """Return what is called `name` in a folder, whatever the case, or None."""
+    if folder is None or not folder.is_dir():
         return None
-    return next((p for p in sorted(stem.parent.iterdir()) if p.name.lower() == wanted), None)
+    return next((p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower()), None)
 
 
 def _numbers(text: str) -> list[float]:
@@ -236,9 +240,9 @@ def _frc(stem: Path, control: Control) -> None:
 def _hams_file(stem: Path) -> Path | None:
     """`ControlFile.in` of HAMS in the folder of the tables, above it, or in `Input` beside it."""
     for folder in (stem.parent, stem.parent.parent, stem.parent.parent.parent):
-        for place in (folder, folder / "Input"):
-            path = place / "ControlFile.in"
-            if path.is_file():
+        for place in (folder, named(folder, "Input")):
+            path = named(place, "ControlFile.in")
+            if path is not None and path.is_file():
                 return path
     return None
 

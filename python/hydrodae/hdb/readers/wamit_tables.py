@@ -7,6 +7,7 @@ negative values there stand for w = inf and w = 0, or the other way round.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -57,6 +58,8 @@ def read_rows(path: Path, least: int, most: int, meaning: str) -> tuple[Array, l
             raise DatabaseError(
                 f"{path}:{count}: not numbers: {line.strip()[:60]!r}; expected {meaning}"
             ) from None
+        if not all(map(math.isfinite, values[:2])):  # period or mode; tables may hold NaN
+            raise DatabaseError(f"{path}:{count}: {' '.join(words[:2])}: expected {meaning}")
         if not least <= len(values) <= most:
             wanted = f"{least}" if least == most else f"{least} or {most}"
             raise DatabaseError(

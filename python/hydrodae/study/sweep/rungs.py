@@ -14,7 +14,7 @@ from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.frequency.sea import wave_components
-from hydrodae.hdb.checks.energy import group_velocity
+from hydrodae.hdb.dispersion import group_velocity
 from hydrodae.hdb.reading import read
 from hydrodae.simulate import run
 from hydrodae.study.spectral import spectral

@@ -1,0 +1,93 @@
+"""Hydrostatics of a body from the mesh beside its tables, if the long waves agree with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.readers.nemoh_hydrostatics import mesh_file
+from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+
+#: What flat panels, and the slope of the waves, may leave of the long-wave force.
+ALIKE = 0.1
+
+
+def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
+    """Take the hydrostatics of a body from its mesh; tell what was taken, or what is needed.
+
+    Parameters
+    ----------
+    data : SourceData
+        With its forces; hydrostatics, files and findings are added.
+    root : Path
+        The folder of the run.
+    name, mesh : str
+        The body, and its mesh in Nemoh.cal, without suffix.
+    """
+    missing = f"{name}: no pair of Hydrostatics and KH files"
+    path, point = mesh_file(root, mesh), data.reference_points.get(name)
+    if path is None or point is None:
+        why = f", nor {mesh}.dat" if path is None else ""
+        data.findings.append(without_hydrostatics(missing + why, [name]))
+        return
+    try:
+        statics = mesh_statics(read_mesh(path), point)
+    except DatabaseError as error:
+        data.findings.append(without_hydrostatics(f"{missing}; {path.name}: {error}", [name]))
+        return
+    shown = f"{statics.displaced_volume:.5g} m3, {statics.waterplane_area:.5g} m2 of waterplane"
+    share = long_wave_share(data, name, statics)
+    if share is not None and abs(share - 1.0) > ALIKE:
+        text = (
+            f"{missing}, and its mesh {path.name} ({shown}) is not the hull of the tables: their "
+            f"long-wave heave force is {share:.2f} of that"
+        )
+        data.findings.append(without_hydrostatics(text, [name]))
+        return
+    proof = (
+        "no long wave to check that by"
+        if share is None
+        else f"the long-wave heave force is {share:.3f} of what follows"
+    )
+    text = f"{missing}; taken from its mesh {path.name}: {shown}; {proof}"
+    data.hydrostatics[name] = (statics, point)
+    data.files.append(path)
+    data.findings.append(Finding("info" if share is not None else "warning", "assumption", text))
+
+
+def long_wave_share(data: SourceData, name: str, statics: Hydrostatics) -> float | None:
+    """Heave force at the lowest frequency over rho g A_w - w^2 (rho V + A); None in short waves.
+
+    Parameters
+    ----------
+    data : SourceData
+    name : str
+        The body.
+    statics : Hydrostatics
+        What is to be checked.
+    """
+    label, force = f"{name}.heave", data.excitation
+    if force is None and data.froude_krylov is not None and data.diffraction is not None:
+        force = data.froude_krylov + data.diffraction
+    if force is None or label not in data.coordinates or not data.heading.size:
+        return None
+    i = data.coordinates.index(label)
+    known = np.flatnonzero(np.isfinite(force[:, :, i]).all(axis=1))
+    if not known.size:
+        return None
+    row = int(known[0])
+    omega = float(data.omega[row])
+    together = [j for j, c in enumerate(data.coordinates) if c.endswith(".heave")]
+    mass = data.rho * statics.displaced_volume + data.added_mass[row, i, together].sum()
+    stiffness = data.rho * data.gravity * statics.waterplane_area
+    k = float(wavenumber(np.array([omega]), data.water_depth, data.gravity)[0])
+    if not stiffness > 2.0 * omega**2 * mass or k * np.sqrt(statics.waterplane_area) > 0.5:
+        return None
+    return float(np.abs(force[row, 0, i]) / (stiffness - omega**2 * mass))
