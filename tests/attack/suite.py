@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 from tests.attack import (  # noqa: F401  the modules register their families
     buoyancy,
+    chains,
     contacts,
     control,
     driven,
@@ -20,6 +21,7 @@ from tests.attack import (  # noqa: F401  the modules register their families
     mechanisms,
     memories,
     moorings,
+    parting,
     ptos,
     rest,
     scales,
@@ -38,6 +40,8 @@ FLOOR = 1e-9
 DEFAULTS = tuple(
     Method(name, {"method": name, "rtol": 1e-6}) for name in ("auto", "ida", "radau", "explicit_rk")
 )
+#: The same in the coordinates of the joints.
+REDUCED = Method("reduced", {"method": "explicit_rk", "coordinates": "reduced", "rtol": 1e-6})
 RANDOM = tuple(
     f"{name}:random"
     for name in ("ida", "radau", "explicit_rk", "gauss", "lobatto_iiic", "generalized_alpha")
@@ -80,7 +84,7 @@ def random_method(column: str, scene: Scene, seed: int) -> Method:
 
 def methods_of(scene: Scene, columns: Sequence[str], seed: int) -> list[Method]:
     """Return the methods of the columns for a scene."""
-    known = {method.name: method for method in DEFAULTS}
+    known = {method.name: method for method in (*DEFAULTS, REDUCED)}
     return [known.get(c) or random_method(c, scene, seed) for c in columns]
 
 
@@ -95,7 +99,7 @@ def described(scene: Scene, method: Method) -> str:
 
 def columns() -> list[str]:
     """Return the names of all columns."""
-    return [*(m.name for m in DEFAULTS), *RANDOM]
+    return [*(m.name for m in DEFAULTS), REDUCED.name, *RANDOM]
 
 
 def ratio(cell: Cell) -> float | None:
