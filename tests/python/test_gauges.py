@@ -16,6 +16,7 @@ from hydrodae import Case, CaseError, Simulation, tcp
 
 BUOY = """
 environment.water_depth = 30.0
+environment.water_density = 1025.0
 [sea]
 ramp = 4.0
 [[body]]
@@ -97,7 +98,8 @@ AHEAD = "gauges/front/ahead_2"
 
 
 def case(more: str) -> Case:
-    return Case.from_text(BUOY.format(more=more))
+    text = BUOY.format(more=more)
+    return Case.from_text(text if "[[wave]]" in more else text.replace("ramp = 4.0", ""))
 
 
 def test_the_elevation_of_a_regular_wave_at_rest_and_on_a_body() -> None:
@@ -191,32 +193,29 @@ RECORD = (
 
 
 @pytest.mark.parametrize(
-    ("more", "key", "message"),
+    ("more", "message"),
     [
-        ('[[gauge]]\nname = "g"', "gauge 'g'", r"no \[\[wave\]\] whose elevation"),
-        (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nos"', "marker", "'nos' is no marker.*'nose'"),
-        (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nose"\npoint = [1.0, 2.0]', "marker", "give"),
-        (REGULAR + '[[gauge]]\nname = "g"\npoint = [1.0, 2.0, 3.0]', "point", r"expected \[x, y\]"),
-        (REGULAR + '[[gauge]]\nname = "g"\nahead = [1.0, -0.5]', "ahead", "-0.5"),
-        (REGULAR + '[[gauge]]\nname = "g"\nahed = [1.0]', "ahed", "did you mean.*ahead"),
-        (REGULAR + 2 * '[[gauge]]\nname = "g"\n', "g", "two gauge entries"),
+        ('[[gauge]]\nname = "g"', r"no \[\[wave\]\] whose elevation"),
+        (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nos"', "'nos' is no marker.*'nose'"),
+        (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nose"\npoint = [1.0, 2.0]', "give"),
+        (REGULAR + '[[gauge]]\nname = "g"\npoint = [1.0, 2.0, 3.0]', r"point' = \[x, y\]"),
+        (REGULAR + '[[gauge]]\nname = "g"\nahead = [1.0, -0.5]', "-0.5"),
+        (REGULAR + '[[gauge]]\nname = "g"\nahed = [1.0]', "did you mean.*ahead"),
+        (REGULAR + 2 * '[[gauge]]\nname = "g"\n', "two gauge entries"),
         (
             RECORD + '[[gauge]]\nname = "g"\nahead = [1.0, 3.0]',
-            "ahead",
-            "'buoy12' is 8 s long; a forecast of 3 s needs it until 9 s",
+            "'buoy12' is 8 s long; 'ahead' = 3 s needs it until 9 s",
         ),
         (
             REGULAR + GAUGES.replace("front", "frint") + LAW.format(type="python", keys=""),
-            "inputs",
             "no channel 'gauges/front/ahead_2'.*'gauges/frint/ahead_2'",
         ),
     ],
 )  # fmt: skip
-def test_what_cannot_be_is_told(more: str, key: str, message: str) -> None:
+def test_what_cannot_be_is_told(more: str, message: str) -> None:
     with pytest.raises(CaseError, match=message) as caught:
         Simulation(case(more), controllers={"law": lambda t, x: 0.0} if "law" in more else None)
-    assert key in str(caught.value)
-    assert "<case>:" in str(caught.value)
+    assert str(caught.value).startswith("<case>:")
 
 
 def test_a_record_is_known_to_its_end() -> None:

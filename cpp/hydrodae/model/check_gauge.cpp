@@ -19,7 +19,7 @@ void check_forecast(const Scene& scene, const Entry& entry, const sea::Gauge& ga
     if (last > length * (1.0 + 1e-12))
       refuse(entry, "ahead",
              "the record of wave " + in_quotes(wave.name) + " is " + number_text(length) +
-                 " s long; a forecast of " + number_text(ahead) + " s needs it until " +
+                 " s long; 'ahead' = " + number_text(ahead) + " s needs it until " +
                  number_text(last) + " s at the end of the run (solver.end_time)");
   }
 }
@@ -31,7 +31,7 @@ void check_gauge(const Scene& scene, const sea::Gauge& gauge) {
   if (scene.waves.empty())
     refuse(entry, "", "there is no [[wave]] whose elevation it could tell");
   if (!gauge.point.empty() && gauge.point.size() != 2)
-    refuse(entry, "point", "expected [x, y] of its place [m]");
+    refuse(entry, "point", "expected 'point' = [x, y], its place [m]");
   if (gauge.marker && !gauge.point.empty())
     refuse(entry, "marker", "give either 'point' or 'marker'");
   if (gauge.marker)
