@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.doc_blocks import blocks
 from tests.python.test_tcp import free_port
 
 import hydrodae
@@ -216,6 +217,13 @@ def test_what_cannot_be_is_told(more: str, message: str) -> None:
     with pytest.raises(CaseError, match=message) as caught:
         Simulation(case(more), controllers={"law": lambda t, x: 0.0} if "law" in more else None)
     assert str(caught.value).startswith("<case>:")
+
+
+def test_the_case_of_the_page(repository: Path) -> None:
+    (shown,) = (b for b in blocks(repository / "docs" / "control.md", "toml") if "[[gauge]]" in b)
+    assert "gauges/front/ahead_3 [m] -> forces/pto/load [N]" in hydrodae.check(
+        case(REGULAR + shown)
+    )
 
 
 def test_a_record_is_known_to_its_end() -> None:
