@@ -235,8 +235,10 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
 namespace {
 
 /// What controllers read and write, and all that may be written.
-void write_inputs(std::ostream& out, const model::Scene& scene,
-                  const std::vector<Channel>& channels, std::vector<run::Input> inputs) {
+void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Channel> channels,
+                  std::vector<run::Input> inputs) {
+  const std::vector<Channel> held = run::held_channels(scene, inputs);
+  channels.insert(channels.end(), held.begin(), held.end());
   const auto listed = [](const std::vector<control::Terminal>& terminals) {
     std::vector<std::string> names;
     for (const control::Terminal& t : terminals)

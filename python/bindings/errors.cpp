@@ -1,4 +1,5 @@
 #include "bindings.h"
+#include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
 
 namespace py = pybind11;
@@ -32,6 +33,8 @@ void translate(std::exception_ptr pointer) {
     raise("CaseError", error);
   } catch (const ModelError& error) { // without a place in a file; see simulation.cpp
     raise("CaseError", error);
+  } catch (const control::Stopped& stopped) {
+    raise("RunInterrupted", stopped);
   } catch (const Error& error) {
     raise("HydrodaeError", error);
   }

@@ -7,7 +7,9 @@
 
 #include "bindings.h"
 #include "functions.h"
+#include "hydrodae/control/law.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmu.h"
 #include "hydrodae/cosim/tcp.h"
 #include "hydrodae/run/simulation.h"
@@ -70,6 +72,11 @@ private:
     } catch (const ModelError& error) {
       functions_.raise_failure();
       throw CaseError(model::located(scene_, error));
+    } catch (const control::Stopped& stopped) {
+      functions_.raise_failure();
+      const std::string end = number_text(simulation_->scene().solver.end_time);
+      throw control::Stopped("stopped at t = " + number_text(simulation_->time()) + " s of " + end +
+                             " s: " + stopped.what());
     } catch (const Error&) {
       functions_.raise_failure();
       throw;

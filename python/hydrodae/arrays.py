@@ -23,9 +23,9 @@ from hydrodae.scene import Scene
 Array = NDArray[np.float64]
 
 #: Tables of which every unit has its own entries; the others are of the whole array.
-OF_UNITS = ("body", "joint", "constraint", "marker", "force", "morison", "controller")
+OF_UNITS = ("body", "joint", "constraint", "marker", "force", "morison", "gauge", "controller")
 #: Keys that name entries of these tables, or channels of theirs.
-REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b")
+REFERENCES = ("name", "hydro", "body", "body_a", "body_b", "bodies", "joint", "joint_b", "marker")
 CHANNELS = ("inputs", "outputs")
 #: Keys that are places in the world.
 PLACES = (
@@ -110,6 +110,8 @@ def place(
             raise CaseError(f"unit {unit!r}: expected letters, digits, _ and -, and a shift x, y")
         for table in (t for t in OF_UNITS if t in tables):
             for entry in tables[table]:
+                if table == "gauge" and "marker" not in entry:
+                    entry = {"point": [0.0, 0.0], **entry}
                 keys = {key: _moved(key, value, unit, own, offset) for key, value in entry.items()}
                 _add(array, table, keys)
     return array
@@ -140,7 +142,8 @@ def _moved(key: str, value: Any, unit: str, own: set[str], offset: Array) -> Any
             for name in names
         ]
     if key in PLACES:
-        return (np.asarray(value, dtype=float) + np.array([*offset, 0.0])).tolist()
+        places = np.asarray(value, dtype=float)  # of a gauge in plan
+        return (places + np.array([*offset, 0.0])[: places.shape[-1]]).tolist()
     return value
 
 

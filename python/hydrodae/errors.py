@@ -36,7 +36,9 @@ class SolverError(HydrodaeError, RuntimeError):
 
 
 class RunInterrupted(HydrodaeError):
-    """The run was stopped by the user; what was computed is kept in the results file.
+    """The run was stopped by the user, or by a controller that is another program or an FMU.
+
+    What was computed is kept in the results file; a `Simulation` has none.
 
     Attributes
     ----------

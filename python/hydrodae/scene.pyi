@@ -3166,6 +3166,41 @@ class Scene(SceneBase):
         CaseError
             A key or a value is wrong.
         """
+    def gauge(
+        self,
+        name: str,
+        *,
+        point: _Numbers = ...,
+        marker: str = ...,
+        ahead: _Numbers = ...,
+    ) -> str:
+        """Add `[[gauge]]`.
+
+        A place where the elevation of the undisturbed waves is reported, now and some time
+        ahead.
+
+        Parameters
+        ----------
+        name : text
+            Name of the gauge in the results.
+        point : list of numbers, m, optional
+            Where it stands, [x, y]; the origin by default.
+        marker : text, optional
+            Marker above or beneath which it stays, in place of a point.
+        ahead : list of numbers, s, optional
+            Times from now to those whose elevation is reported, too: a forecast without error,
+            as the waves are those of the run. Allowed: >= 0.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
     @property
     def controller(self) -> ControllerTypes:
         """A sampled controller: it reads channels, and holds inputs between its instants."""

@@ -106,7 +106,7 @@ class Simulation:
         return self._stepper.input_units
 
     def close(self) -> None:
-        """Tell controllers that are other programs that the run ends here."""
+        """Tell controllers that are other programs that the run ends here; ports are free then."""
         self._stepper.close()
 
     def advance(self, limit: float | None = None) -> float:
@@ -127,6 +127,9 @@ class Simulation:
         ------
         SolverError
             The step cannot be made, or a guard does not trust the motion. Only `restore` goes on.
+        RunInterrupted
+            A controller that is another program, or an FMU, has ended the run, as it ends
+            `hydrodae.run`. Only `restore` goes on.
         """
         return self._stepper.advance(np.inf if limit is None else float(limit))
 

@@ -17,7 +17,7 @@ from tests.fuzz.values import TEXTS, anything, case_text, near, number, toml
 Tables = dict[str, Any]
 ROOT = Path(__file__).resolve().parents[2]
 TOO_LARGE = ("n_four_bar_40", "n_four_bar_160", "n_four_bar_500")
-LISTS = ("body", "joint", "constraint", "marker", "force", "morison", "wave")
+LISTS = ("body", "joint", "constraint", "marker", "force", "morison", "wave", "gauge")
 
 
 @dataclass

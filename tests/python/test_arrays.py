@@ -64,6 +64,21 @@ def test_copies_have_names_and_places_of_their_own(tmp_path: Path) -> None:
     assert len(found["wave"]) == 1
 
 
+def test_gauges_of_copies_stand_beside_them(tmp_path: Path) -> None:
+    one = device(tmp_path)
+    one.marker("tip", body="arm", point=[0.0, 0.0, 1.0])
+    one.gauge("front", point=[-5.0, 1.0], ahead=[1.0])
+    one.gauge("here")
+    one.gauge("on", marker="tip")
+    found = tomllib.loads(arrays.place(one, UNITS, tmp_path).to_toml())
+    gauges = {entry["name"]: entry for entry in found["gauge"]}
+    (x, y) = UNITS["u2"]
+    assert gauges["u2_front"]["point"] == pytest.approx([x - 5.0, y + 1.0])
+    assert gauges["u2_here"]["point"] == pytest.approx([x, y])
+    assert gauges["u2_on"]["marker"] == "u2_tip"
+    assert "point" not in gauges["u2_on"]
+
+
 def test_uncoupled_copies_move_as_one_device_alone(
     tmp_path: Path, array_database: hdb.HydroDatabase
 ) -> None:

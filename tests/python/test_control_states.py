@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -91,6 +92,58 @@ def test_rollback_with_another_program(protocol: str) -> None:
         again(run)
         run.close()
     assert [t for t, reset in seen if reset] == [1.3, 1.3, 1.3]
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_a_program_that_ends_a_simulation_ends_it_as_a_run(protocol: str) -> None:
+    port = free_port()
+    run = Simulation(case(port, f'protocol = "{protocol}"'))
+    saved = run.state()
+    with damper(port, protocol, until=2.0), pytest.raises(hydrodae.RunInterrupted) as caught:
+        go(run, 4.0)
+    assert str(caught.value) == (
+        "stopped at t = 2.1 s of 5 s: controller 'pi': the other program has ended the run"
+    )
+    with pytest.raises(hydrodae.SolverError, match="goes on from a state that is restored only"):
+        run.advance()
+    with damper(port, protocol):
+        run.restore(saved)
+        assert go(run, 1.0)
+        run.close()
+
+
+def test_a_port_is_free_when_a_run_is_closed() -> None:
+    port = free_port()
+    run = Simulation(case(port))
+    run.close()  # before anybody was there
+    with damper(port, "hydrodae"):
+        other = Simulation(case(port))
+        go(other, 1.0)
+        other.close()
+    with (
+        socket.create_server(("127.0.0.1", port)),
+        pytest.raises(hydrodae.SolverError, match="cannot listen"),
+    ):
+        run.advance()
+    fresh = Simulation(case(port))
+    fresh.close()
+    with damper(port, "hydrodae"):  # a run that was closed listens again where it goes on
+        assert go(fresh, 1.0)
+        fresh.close()
+
+
+def test_going_back_to_the_last_exchange_is_told() -> None:
+    """A program that remembers would else take one instant for two."""
+    port = free_port()
+    with damper(port, "hydrodae") as seen:
+        run = Simulation(case(port))
+        go(run, 0.2)  # the exchange of that instant is still to come
+        saved = run.state()
+        go(run, 0.25)
+        run.restore(saved)
+        go(run, 0.35)
+        run.close()
+    assert seen == [(0.0, False), (0.1, False), (0.2, False), (0.2, True), (0.3, False)]
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)

@@ -144,6 +144,46 @@ def test_a_python_controller_equals_the_kernels_own() -> None:
     assert "controller pi: 50 calls" in python.summary()
 
 
+def test_a_controller_reads_what_another_one_holds() -> None:
+    """A cascade: it sees what held up to the instant."""
+    text = CART.format(type="python", keys="", inputs=RATE, period=0.1)
+    second = text[text.index("[[controller]]") : text.index("[solver]")]
+    second = second.replace('"pi"', '"two"').replace("forces/pto/load", "forces/spring/load")
+    second = second.replace("joints/slide/displacement_rate", "controllers/pi/output")
+    given = Case.from_text(text.replace("[solver]", second + "[solver]"))
+    seen: list[float] = []
+
+    def second_law(_time: float, held: float) -> float:
+        seen.append(held)
+        return 0.0
+
+    hydrodae.run(given, controllers={"pi": lambda t, rate: 0.1 + t, "two": second_law})
+    np.testing.assert_allclose(seen, [0.0, *(0.1 + 0.1 * np.arange(49))], atol=1e-12)
+    assert "controllers/pi/output [N] -> forces/spring/load [N]" in hydrodae.check(given)
+
+
+@pytest.mark.parametrize("method", ["radau", "ida"])
+def test_instants_that_differ_by_rounding_are_one(method: str) -> None:
+    """48 x 0.1 + 0.2 is 1e-15 beside 5, and 3 x 0.1 beside 0.3."""
+    text = CART.format(type="python", keys="delay = 0.2", inputs=RATE, period=0.1)
+    second = text[text.index("[[controller]]") : text.index("[solver]")]
+    second = second.replace('"pi"', '"two"').replace("pto", "spring").replace("0.1", "0.3")
+    text = text.replace("[solver]", second + "[solver]").replace("radau", method)
+    seen: dict[str, list[float]] = {"pi": [], "two": []}
+
+    def law(name: str) -> Any:
+        def answer(t: float, rate: float) -> float:
+            seen[name].append(t)
+            return -0.5 * rate
+
+        return answer
+
+    hydrodae.run(Case.from_text(text), controllers={name: law(name) for name in seen})
+    assert len(seen["pi"]) == 50
+    assert len(seen["two"]) == 17
+    assert seen["two"] == seen["pi"][::3]
+
+
 def test_an_answer_holds_after_its_delay() -> None:
     """A delay longer than the period: several answers are on their way."""
     given = case("python", "delay = 0.25")

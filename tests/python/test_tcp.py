@@ -176,6 +176,28 @@ def answers(first: bytes, wait: bool = True) -> Callable[[socket.socket], None]:
     return act
 
 
+def test_frames_may_come_byte_by_byte() -> None:
+    given = case(port := free_port(), end=0.25)
+
+    def act(connection: socket.socket) -> None:
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        said = b'{"protocol": "hydrodae", "version": 1}'
+        (length,) = struct.unpack("<I", connection.recv(4, socket.MSG_WAITALL))
+        connection.recv(length, socket.MSG_WAITALL)
+        parts = struct.pack("<I", len(said)) + said
+        for number in range(1, 5):
+            for k in range(len(parts)):
+                connection.sendall(parts[k : k + 1])
+                time.sleep(0.0002)  # so that they do not come together
+            asked = connection.recv(HEAD.size + 8, socket.MSG_WAITALL)
+            if number < 4:
+                parts = frame(number, HEAD.unpack(asked[: HEAD.size])[3], 0.25 * number)
+
+    results = with_peer(given, raw_peer(port, act))
+    held = results["controllers/pi/output"].to_numpy()
+    np.testing.assert_array_equal(held, [0.0, 0.25, 0.25, 0.5, 0.5, 0.75])
+
+
 def listens(connection: socket.socket) -> None:
     while connection.recv(10000):
         pass

@@ -305,6 +305,20 @@ def test_controllers_inside_go_back_with_a_state(
         thread.join(10.0)
 
 
+def test_a_state_of_another_end_finds_the_port_free(repository: Path, tmp_path: Path) -> None:
+    """The run that it replaces listens there."""
+    told = {"controller.pi.port": free_port()}
+    given = repository / "cases" / "control" / "case_tcp.toml"
+    path = export(given, tmp_path / "float.fmu", set=told)
+    with Device(path, tmp_path / "float") as device:
+        device.begin(stop=3.0)
+        saved = device.save()
+        device.fmu.reset()
+        device.begin(stop=4.0)
+        device.load(saved)
+        assert device.get("time") == [0.0]
+
+
 def test_what_cannot_be_in_an_fmu_is_refused(tmp_path: Path) -> None:
     controller = """
     [[controller]]

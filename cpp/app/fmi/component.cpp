@@ -119,6 +119,8 @@ void Component::begin(double end_time) {
     scene = io::read_case(contents_.case_path, values);
   }
   cosim::join_tcp(scene);
+  run_.reset(); // it may have the port of the new one
+  phase_ = Phase::instantiated;
   try {
     run_ = std::make_unique<run::Simulation>(scene);
   } catch (const ModelError& error) {

@@ -15,12 +15,12 @@ class TcpLaw final : public control::Law {
 public:
   TcpLaw(const model::Controller& c, const std::string& title, control::Terminals terminals)
       : subject_{title, c.name, c.period, c.delay}, terminals_(std::move(terminals)), host_(c.host),
-        port_(c.port), timeout_(c.timeout), connect_timeout_(c.connect_timeout),
+        port_(c.port), serves_(c.role != "client"), timeout_(c.timeout),
+        connect_timeout_(c.connect_timeout),
         protocol_(c.protocol == "hotint" ? make_hotint_protocol() : make_hydrodae_protocol()) {
-    if (c.role == "client")
-      return;
     try {
-      listener_.emplace(host_, port_);
+      if (serves_)
+        listener_.emplace(host_, port_);
     } catch (const Error& error) {
       throw ModelError("controller." + c.name + ".port",
                        "controller " + in_quotes(c.name) + ": " + error.what());
@@ -28,7 +28,7 @@ public:
   }
   TcpLaw(const TcpLaw&) = delete;
   TcpLaw& operator=(const TcpLaw&) = delete;
-  ~TcpLaw() override { TcpLaw::finish("the run has ended early"); }
+  ~TcpLaw() override { leave("the run has ended early"); }
 
   void sample(double t, std::span<const double> in, std::span<double> out) override {
     try {
@@ -45,15 +45,23 @@ public:
                              stopped.what());
     } catch (const Error& error) {
       const std::string told = "controller " + in_quotes(subject_.controller) + ": " + error.what();
-      finish(told);
+      leave(told); // and listens on, as `restore` may go on with another connection
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + told);
     }
   }
 
-  void restored(double t) override { reset_ = socket_.open() && t != t_; }
+  /// Also at the time of the last exchange, which then is made once more.
+  void restored(double) override { reset_ = socket_.open(); }
 
-  /// The run ends whether the other program hears it or not.
+  /// The port is free from now on.
   void finish(const std::string& error) override {
+    leave(error);
+    listener_.reset();
+  }
+
+private:
+  /// Whether the other program hears it or not.
+  void leave(const std::string& error) {
     if (!socket_.open())
       return;
     try {
@@ -64,8 +72,9 @@ public:
     socket_.close();
   }
 
-private:
   void meet(double t) {
+    if (serves_ && !listener_) // a run that was closed goes on
+      listener_.emplace(host_, port_);
     socket_ = listener_ ? listener_->accept(connect_timeout_)
                         : Socket::connect(host_, port_, connect_timeout_);
     protocol_->greet(socket_, subject_, terminals_, t, timeout_);
@@ -75,9 +84,10 @@ private:
   control::Terminals terminals_;
   std::string host_;
   int port_;
+  bool serves_;                      ///< it listens; else it connects
   double timeout_, connect_timeout_; ///< [s]
   std::unique_ptr<Protocol> protocol_;
-  std::optional<Listener> listener_; ///< of a server
+  std::optional<Listener> listener_; ///< of a server, until the run ends
   Socket socket_;                    ///< closed before the first sampling instant
   double t_ = 0.0;                   ///< of the last exchange [s]
   bool reset_ = false;

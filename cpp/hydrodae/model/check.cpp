@@ -90,6 +90,7 @@ void check(const Scene& scene) {
   check_names(forces, "force");
   check_names(names_of(scene.morison), "morison");
   check_names(names_of(scene.waves), "wave");
+  check_names(names_of(scene.gauges), "gauge");
   check_names(names_of(scene.controllers), "controller");
 
   for (const Body& body : scene.bodies) {
@@ -111,6 +112,8 @@ void check(const Scene& scene) {
     check_controller(scene, controller);
   check_solver(scene);
   check_sea(scene);
+  for (const sea::Gauge& gauge : scene.gauges)
+    check_gauge(scene, gauge);
   if (scene.hydro && scene.database)
     check_database(scene);
 }

@@ -36,6 +36,7 @@
 #include "hydrodae/model/controller.h"
 #include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
+#include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
 
 namespace hydrodae::model {
@@ -355,6 +356,7 @@ struct Scene {
   std::vector<std::string> overrides;           ///< "key = value" as given on the command line
   std::map<std::string, std::string> positions; ///< key path -> "file:line:column", for messages
   std::vector<Controller> controllers;
+  std::vector<sea::Gauge> gauges;
 };
 
 /// Cross-checks that need more than one entry: names exist and are unique, masses and inertias are

@@ -23,6 +23,7 @@ template <class Visit> void for_each_table(const Visit& visit) {
   visit("marker", &Scene::markers);
   visit("force", &Scene::forces);
   visit("morison", &Scene::morison);
+  visit("gauge", &Scene::gauges);
   visit("controller", &Scene::controllers);
   visit("solver", &Scene::solver);
   visit("output", &Scene::output);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "hydrodae/control/bang_bang.h"
 #include "hydrodae/control/declutching.h"
@@ -100,6 +101,12 @@ const Channel* find_channel(const std::vector<Channel>& channels, const std::str
   return nullptr;
 }
 
+/// Is an instant reached at t? Those that differ by the rounding of k T or t + delay are one.
+bool reached(double instant, double t) {
+  constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
+  return instant <= t * (1.0 + rounding);
+}
+
 } // namespace
 
 std::size_t find_column(const std::vector<Channel>& channels, const std::string& name) {
@@ -138,6 +145,21 @@ control::Terminals find_terminals(const model::Controller& controller,
   return out;
 }
 
+std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs) {
+  std::vector<Channel> out;
+  for (const model::Controller& c : scene.controllers)
+    for (std::size_t k = 0; k < c.outputs.size(); ++k) {
+      const auto written = std::find_if(inputs.begin(), inputs.end(), [&](const Input& input) {
+        return input.name == c.outputs[k];
+      });
+      out.push_back({"controllers/" + c.name + "/output" +
+                         (c.outputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
+                     1, written == inputs.end() ? "" : written->unit, "-",
+                     "What the controller holds " + c.outputs[k] + " at."});
+    }
+  return out;
+}
+
 Controllers::Controllers(const model::Scene& scene, const system::Regime& regime,
                          const std::vector<Channel>& channels, std::vector<Input>& inputs) {
   for (const model::Controller& c : scene.controllers) {
@@ -173,13 +195,19 @@ double Controllers::next_time() const {
   return first;
 }
 
+double Controllers::limit(double end) const {
+  const double next = next_time();
+  return reached(end, next) ? end : next;
+}
+
 bool Controllers::One::is_due(double t, bool event) const {
-  return next <= t || (event && law->hears_events()) || law->is_due();
+  return reached(next, t) || (event && law->hears_events()) || law->is_due();
 }
 
 bool Controllers::is_due(double t, bool event) const {
-  return next_time() <= t || std::any_of(all_.begin(), all_.end(),
-                                         [&](const One& one) { return one.is_due(t, event); });
+  return reached(next_time(), t) || std::any_of(all_.begin(), all_.end(), [&](const One& one) {
+           return one.is_due(t, event);
+         });
 }
 
 bool Controllers::hear_crossings() const {
@@ -230,7 +258,7 @@ void Controllers::One::sample(double t, std::span<const double> row) {
     }
   for (std::size_t k = 0; k < out.size(); ++k)
     swings[k].add(out[k]);
-  if (next <= t)
+  if (reached(next, t))
     ++count;
   const double own = law->next_time(t);
   next = std::isnan(own) ? static_cast<double>(count) * period : own;
@@ -240,7 +268,7 @@ void Controllers::One::sample(double t, std::span<const double> row) {
 /// @returns whether an input has another value now
 bool Controllers::One::write(double t) {
   bool changed = false;
-  for (; !late.empty() && late.front().first <= t; late.pop_front())
+  for (; !late.empty() && reached(late.front().first, t); late.pop_front())
     for (std::size_t k = 0; k < inputs.size(); ++k)
       changed = inputs[k]->set(t, late.front().second[k]) || changed;
   return changed;
@@ -257,24 +285,6 @@ std::string Controllers::runaway() const {
                ", ever by the same factor; its period or delay is too long for what it closes, or "
                "its gain has the wrong sign";
   return "";
-}
-
-std::vector<Channel> Controllers::outputs() const {
-  std::vector<Channel> out;
-  for (const One& one : all_)
-    for (std::size_t k = 0; k < one.inputs.size(); ++k)
-      out.push_back({"controllers/" + one.name + "/output" +
-                         (one.inputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
-                     1, one.inputs[k]->unit, "-",
-                     "What the controller holds " + one.inputs[k]->name + " at."});
-  return out;
-}
-
-std::size_t Controllers::width() const {
-  std::size_t sum = 0;
-  for (const One& one : all_)
-    sum += one.inputs.size();
-  return sum;
 }
 
 void Controllers::fill(double*& out) const {

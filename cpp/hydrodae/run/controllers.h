@@ -22,6 +22,9 @@ namespace hydrodae::run {
 /// nearest name, where there is none.
 std::size_t find_column(const std::vector<Channel>& channels, const std::string& name);
 
+/// What each controller holds: columns of the results, which other controllers may read.
+std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs);
+
 /// What a controller reads and writes, by the names that it has. Throws ModelError with the nearest
 /// name where there is no such channel or input.
 control::Terminals find_terminals(const model::Controller& controller,
@@ -38,8 +41,9 @@ public:
 
   bool empty() const { return all_.empty(); }
 
-  /// The next instant at which something is due [s].
-  double next_time() const;
+  /// Where a step is to end that would go on until `end`: there, or at the first instant before it
+  /// at which something is due [s].
+  double limit(double end) const;
 
   bool is_due(double t, bool event) const;
 
@@ -61,9 +65,7 @@ public:
   /// Which one feeds the motion, and how its answers have grown; empty: none does.
   std::string runaway() const;
 
-  /// What each holds: columns of the results.
-  std::vector<Channel> outputs() const;
-  std::size_t width() const;
+  /// What each holds, in the order of `held_channels`.
   void fill(double*& out) const;
 
   /// Wall time of the calls, where a controller is not one of the kernel's own.
@@ -99,6 +101,8 @@ private:
     bool write(double t);
     void remember(Archive& a);
   };
+
+  double next_time() const;
 
   std::vector<One> all_;
 };

@@ -104,10 +104,10 @@ void Simulation::make_channels() {
   width_ = recorder_->width() + solver_channels.size() + impacts_.width();
   if (scene_.controllers.empty())
     return;
-  controllers_ = std::make_unique<Controllers>(scene_, regime_, channels_, inputs_);
-  const std::vector<Channel> held = controllers_->outputs();
+  const std::vector<Channel> held = held_channels(scene_, inputs_);
   channels_.insert(channels_.end(), held.begin(), held.end());
-  width_ += controllers_->width();
+  width_ += held.size();
+  controllers_ = std::make_unique<Controllers>(scene_, regime_, channels_, inputs_);
 }
 
 solve::Statistics Simulation::statistics() const {
@@ -131,8 +131,8 @@ void Simulation::advance(double limit, const Inside& inside) {
   }
   now_.clear();
   failed_ = true; // until the step is accepted by all
-  const double end =
-      std::min({limit, options_.end_time, controllers_ ? controllers_->next_time() : INFINITY});
+  const double last = std::min(limit, options_.end_time);
+  const double end = controllers_ ? controllers_->limit(last) : last;
   const bool event = take_step(end);
   if (controllers_)
     controllers_->accept(t_, y_, yp_);

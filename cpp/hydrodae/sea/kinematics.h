@@ -47,6 +47,16 @@ struct WaveField {
   }
 };
 
+/// Elevation at one place and time, with the ramp [m].
+inline double elevation(const WaveField& field, double t, double x, double y) {
+  const double growth = ramp(t, field.ramp);
+  double sum = 0.0;
+  for (const WaveField::Term& w : field.terms)
+    sum +=
+        w.amplitude * std::cos(w.omega * t + w.phase - w.wavenumber * (w.cosine * x + w.sine * y));
+  return growth * sum;
+}
+
 /// Velocity [m/s] and acceleration [m/s2] of the water at a point, elevation [m] above it.
 template <class S> struct FluidPoint {
   Vec3<S> velocity, acceleration;

@@ -113,6 +113,7 @@ System build(const model::Scene& scene, bool with_excitation) {
     s.markers.push_back({m.name, body_index(scene, m.body),
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
                          m.axes == "body"});
+  add_gauges(scene, s);
   set_coupler_offsets(scene, s);
   find_mechanisms(s);
   number(s);

@@ -81,6 +81,9 @@ void set_hydrostatics(const model::Scene& scene, System& system);
 /// ModelError.
 void add_sea(const model::Scene& scene, System& system);
 
+/// Gauges of the elevation, and the waves that they see (build_gauges.cpp); behind the markers.
+void add_gauges(const model::Scene& scene, System& system);
+
 /// Morison elements and the water that they feel (build_morison.cpp). Throws ModelError.
 void add_morison(const model::Scene& scene, System& system);
 

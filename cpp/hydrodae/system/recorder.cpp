@@ -211,7 +211,7 @@ void Recorder::sample(double t, const Interpolant& at, std::span<double> row) {
   if (end_ > t_) // else the start of the run
     at(t, y_, yp_);
   observer_.observe(t, y_, yp_);
-  fill(row, work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0));
+  fill(t, row, work_at(end_ > t_ ? (t - t_) / (end_ - t_) : 0.0));
 }
 
 void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) {
@@ -219,7 +219,7 @@ void Recorder::look(const VectorX& y, const VectorX& yp, std::span<double> row) 
   y_ = y;
   yp_ = yp;
   observer_.observe(t_, y_, yp_);
-  fill(row, work_);
+  fill(t_, row, work_);
   whole_ = before;
 }
 

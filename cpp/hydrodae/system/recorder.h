@@ -120,7 +120,7 @@ private:
     return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic,
             w.kinetic,       w.given,          w.spends};
   }
-  void fill(std::span<double> row, const std::vector<double>& work);
+  void fill(double t, std::span<double> row, const std::vector<double>& work);
   void make_channels();
   void check_paths() const;
   void add_channel(std::string path, int width, std::string unit, std::string frame,
@@ -130,6 +130,8 @@ private:
   void fill_bodies(double*& out);
   void fill_joints(double*& out);
   void fill_markers(double*& out);
+  void add_gauges();
+  void fill_gauges(double t, double*& out);
   void fill_energy(double*& out, const std::vector<double>& work);
   double balance(const std::vector<double>& work);
   void balance_mechanisms();

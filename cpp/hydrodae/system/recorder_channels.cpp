@@ -138,6 +138,7 @@ void Recorder::make_channels() {
   }
   if (o.in_waves)
     add_channel("sea/elevation", 1, "m", "world", "Of the waves at the origin, undisturbed.");
+  add_gauges();
   add_channel("energy/kinetic", 1, "J", "-", "Of the bodies.");
   add_channel("energy/kinetic_added_mass", 1, "J", "-", "Of the fluid: U . A_inf U / 2.");
   add_channel("energy/potential", 1, "J", "-",
@@ -207,6 +208,36 @@ void Recorder::fill_markers(double*& out) {
   }
 }
 
+void Recorder::add_gauges() {
+  for (const GaugeData& g : s_.system.gauges) {
+    const std::string head = "gauges/" + g.name + "/";
+    const std::string place = g.marker < 0
+                                  ? "x = " + number_text(g.x) + " m, y = " + number_text(g.y) + " m"
+                                  : "marker " + s_.markers[static_cast<std::size_t>(g.marker)].name;
+    add_channel(head + "elevation", 1, "m", "world", "Of the undisturbed waves at " + place + ".");
+    for (std::size_t k = 0; k < g.ahead.size(); ++k)
+      add_channel(head + "ahead_" + std::to_string(k + 1), 1, "m", "world",
+                  "Elevation " + number_text(g.ahead[k]) + " s later where the gauge is now: at " +
+                      place + ".");
+  }
+}
+
+void Recorder::fill_gauges(double t, double*& out) {
+  for (const GaugeData& g : s_.system.gauges) {
+    double x = g.x, y = g.y;
+    if (g.marker >= 0) {
+      const MarkerData& m = s_.markers[static_cast<std::size_t>(g.marker)];
+      const BodyState<double>& b = observer_.bodies()[static_cast<std::size_t>(m.body)];
+      const Vector3 place = b.r + b.R * m.point;
+      x = place[0];
+      y = place[1];
+    }
+    *out++ = sea::elevation(s_.system.gauged, t, x, y);
+    for (const double ahead : g.ahead)
+      *out++ = sea::elevation(s_.system.gauged, t + ahead, x, y);
+  }
+}
+
 void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
   const Observation& o = observer_.observation();
   *out++ = o.kinetic;
@@ -219,7 +250,7 @@ void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
 }
 
 /// From where the observer is.
-void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
+void Recorder::fill(double t, std::span<double> row, const std::vector<double>& work) {
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);
@@ -232,6 +263,7 @@ void Recorder::fill(std::span<double> row, const std::vector<double>& work) {
                   out);
   if (observer_.observation().in_waves)
     *out++ = observer_.observation().elevation;
+  fill_gauges(t, out);
   fill_energy(out, work);
 }
 

@@ -24,6 +24,7 @@
 #include "hydrodae/element/friction_loads.h"
 #include "hydrodae/joint/basic.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/sea/kinematics.h"
 #include "hydrodae/system/hydro_data.h"
 
 namespace hydrodae::system {
@@ -151,6 +152,14 @@ struct MarkerData {
   bool body_axes = false;          ///< of velocity and acceleration
 };
 
+/// A place where the elevation is reported.
+struct GaugeData {
+  std::string name;
+  double x = 0.0, y = 0.0;   ///< where it stands [m]
+  int marker = -1;           ///< in System::markers, with which it goes; -1: none
+  std::vector<double> ahead; ///< of forecasts [s]
+};
+
 /// A coupler that holds at times only. While it is open it has no multipliers, and costs nothing.
 ///   stop      lower <= s <= upper; its load pushes back only
 ///   friction  stick: s' = 0 while |load| <= static_load; slip: load -+ kinetic_load (the signal of
@@ -224,6 +233,8 @@ struct System {
   VectorX group_size;                 ///< (n_error_groups,) how many of these each has
   bool scales_follow = true;          ///< the motion; else length_scale was given
   std::vector<std::string> notes;     ///< what the build found worth telling
+  std::vector<GaugeData> gauges;
+  sea::WaveField gauged; ///< what these see; without terms where there are none
 
   Index n_error_groups() const { return group_size.size(); }
   bool has_memory() const { return memory0 < lambda0; }
