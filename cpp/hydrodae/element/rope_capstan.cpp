@@ -62,7 +62,7 @@ public:
   explicit CapstanRopes(const std::vector<Rope>& ropes, bool rough = true)
       : ropes_(ropes), rough_(rough) {
     type = Rope::type;
-    at_rest_only = "it sticks on what it rubs on";
+    at_rest_only = "as if nothing rubbed";
     for (const Rope& rope : ropes) {
       models_.emplace_back(rope);
       names.push_back(rope.name);
@@ -169,7 +169,7 @@ public:
     return out;
   }
   std::shared_ptr<const Elements> statics() const override {
-    return std::make_shared<CapstanRopes>(ropes_, false);
+    return rough_ ? std::make_shared<CapstanRopes>(ropes_, false) : nullptr;
   }
 
   bool may_rub() const override { return rough_; }
