@@ -1996,6 +1996,7 @@ class ForceTypes(TypedList):
         winch_length: _Numbers = ...,
         radii: _Numbers = ...,
         axes: _Rows = ...,
+        friction: _Numbers = ...,
         breaking_load: float = ...,
         breaks: bool = ...,
     ) -> str:
@@ -2032,6 +2033,10 @@ class ForceTypes(TypedList):
         axes : list of points, optional
             Axes of the sheaves, one for each point (any where there is none), world axes: from
             the first point to the last the rope runs round them by the rule of the right hand.
+        friction : list of numbers, optional
+            Coefficients of friction of the points and sheaves, one for each point (0 at the
+            ends), or one for all between the ends; a sheave with friction does not turn on its
+            body.
         breaking_load : number, N, optional
             Tension that it bears; the summary tells where it is exceeded. Allowed: > 0.
         breaks : true or false, default false

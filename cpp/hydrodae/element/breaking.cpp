@@ -134,4 +134,20 @@ Overload Breaking::overload(std::size_t law, double t, const double* in, const d
   return bears_[law](in, values.data());
 }
 
+/// That of a law which rubs; null: it does not.
+static const Rubbing* rubbing(const std::shared_ptr<const Elements>& whole) {
+  const auto* laws = dynamic_cast<const Rubbing*>(whole.get());
+  return laws && laws->may_rub() ? laws : nullptr;
+}
+
+bool Breaking::may_rub() const { return rubbing(whole_.front()); }
+
+bool Breaking::agrees(std::size_t law, double t, const double* in, const double* held) const {
+  return has_parted(held) || rubbing(whole_[law])->agrees(0, t, in, held);
+}
+
+bool Breaking::settle(std::size_t law, double t, const double* in, double* held) const {
+  return !has_parted(held) && rubbing(whole_[law])->settle(0, t, in, held);
+}
+
 } // namespace hydrodae::element

@@ -8,10 +8,11 @@
 
 #include "hydrodae/element/elements.h"
 #include "hydrodae/element/parting.h"
+#include "hydrodae/element/rubbing.h"
 
 namespace hydrodae::element {
 
-class Breaking final : public Elements, public Parting {
+class Breaking final : public Elements, public Parting, public Rubbing {
 public:
   /// What a whole law bears, by what it sees and the values of its own channels.
   using Bears = std::function<Overload(const double* in, const double* values)>;
@@ -34,6 +35,10 @@ public:
 
   bool may_part() const override { return breaks_; }
   Overload overload(std::size_t law, double t, const double* in, const double* held) const override;
+
+  bool may_rub() const override;
+  bool agrees(std::size_t law, double t, const double* in, const double* held) const override;
+  bool settle(std::size_t law, double t, const double* in, double* held) const override;
 
 private:
   bool has_parted(const double* held) const {

@@ -213,6 +213,8 @@ std::shared_ptr<const Elements> Rope::list(const std::vector<Rope>& ropes) {
     }
     return std::make_shared<const Breaking>(whole, bears, ropes.front().breaks);
   }
+  if (ropes.front().has_friction())
+    return ropes_with_friction(ropes);
   if (!ropes.front().is_plain())
     return ropes_over_sheaves(ropes);
   return std::make_shared<const RopeList>(ropes);

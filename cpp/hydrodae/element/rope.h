@@ -18,7 +18,7 @@ namespace hydrodae::element {
 ///   force on point i = T (e_i - e_(i-1)),  e_i: direction from point i to point i + 1
 ///
 /// l: sum of the distances [m]. A winch that changes L0 in time gives the power -T L0'. Over
-/// sheaves it runs as rope_path.h says.
+/// sheaves it runs as rope_path.h says, and with friction as rope_capstan.h says.
 struct Rope {
   static constexpr std::string_view type = "rope";
   static constexpr std::string_view doc = "Elastic rope without mass over points and sheaves of "
@@ -34,21 +34,25 @@ struct Rope {
   std::vector<double> winch_time, winch_length;
   std::vector<double> radii; ///< of each point; empty: zeros
   std::vector<Vector3> axes;
+  std::vector<double> friction; ///< coefficient of each point, or of all between the ends
   std::optional<double> breaking_load;
   bool breaks = false;
 
   bool has_sheave(std::size_t point) const { return !radii.empty() && radii[point] > 0.0; }
   bool is_plain() const; ///< without sheaves
+  double friction_at(std::size_t point) const;
+  bool has_friction() const; ///< anywhere
 
-  /// What the port joins, by the names of the bodies: the points, and after them one for each
-  /// sheave, at its radius along its axis.
+  /// What the port joins, by the names of the bodies: the points, after them one for each sheave,
+  /// at its radius along its axis, and then one for each sheave with friction, at its radius
+  /// across.
   std::vector<std::pair<std::string, Vector3>> ends() const;
 
   /// Unstretched length that does not follow a winch [m].
   double free_length() const;
 
-  /// Ropes of one shape make one list: as many points and sheaves, and all have breaking loads, or
-  /// all break, or none.
+  /// Ropes of one shape make one list: as many points, sheaves, and places with friction, and all
+  /// have breaking loads, or all break, or none.
   std::size_t shape() const;
 
   static std::shared_ptr<const Elements> list(const std::vector<Rope>& ropes);
@@ -81,6 +85,10 @@ struct Rope {
         {"axes", &R::axes, "-",
          "Axes of the sheaves, one for each point (any where there is none), world axes: from the "
          "first point to the last the rope runs round them by the rule of the right hand."},
+        {"friction", &R::friction, "-",
+         "Coefficients of friction of the points and sheaves, one for each point (0 at the ends), "
+         "or one for all between the ends; a sheave with friction does not turn on its body.",
+         false, at_least(0)},
         {"breaking_load", &R::breaking_load, "N",
          "Tension that it bears; the summary tells where it is exceeded.", false, more_than(0)},
         {"breaks", &R::breaks, "-",

@@ -15,6 +15,19 @@ bool Rope::is_plain() const {
   return true;
 }
 
+double Rope::friction_at(std::size_t point) const {
+  if (friction.empty() || point == 0 || point + 1 == points.size())
+    return 0.0;
+  return friction.size() == 1 ? friction.front() : friction[point];
+}
+
+bool Rope::has_friction() const {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (friction_at(i) > 0.0)
+      return true;
+  return false;
+}
+
 std::vector<std::pair<std::string, Vector3>> Rope::ends() const {
   std::vector<std::pair<std::string, Vector3>> out;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -22,6 +35,9 @@ std::vector<std::pair<std::string, Vector3>> Rope::ends() const {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (has_sheave(i))
       out.emplace_back(bodies[i], points[i] + radii[i] * axes[i].normalized());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (has_sheave(i) && friction_at(i) > 0.0)
+      out.emplace_back(bodies[i], points[i] + radii[i] * axes[i].unitOrthogonal());
   return out;
 }
 
@@ -60,16 +76,38 @@ double Rope::free_length() const {
 }
 
 std::size_t Rope::shape() const {
-  std::size_t sheaves = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  std::size_t sheaves = 0, places = 0, spun = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool rubs = friction_at(i) > 0.0;
     sheaves += has_sheave(i) ? 1 : 0;
+    places += rubs ? 1 : 0;
+    spun += rubs && has_sheave(i) ? 1 : 0;
+  }
   const std::size_t bears = breaks ? 2 : breaking_load ? 1 : 0;
-  return points.size() + 128 * (sheaves + 128 * bears);
+  return points.size() + 128 * (sheaves + 128 * (places + 128 * (spun + 128 * bears)));
 }
 
 namespace {
 
 constexpr double largest_fleet_angle = pi / 12.0;
+constexpr double largest_friction = 5.0;
+
+std::optional<Fault> fault_of_friction(const Rope& rope) {
+  const std::vector<double>& all = rope.friction;
+  if (!all.empty() && rope.points.size() == 2)
+    return Fault{"friction", "a rope over two points rubs nowhere: 'friction' goes with points "
+                             "between its ends"};
+  if (all.size() > 1 && all.size() != rope.points.size())
+    return Fault{"friction", "'friction' takes one entry for each of the points, ends included, or "
+                             "one for all between the ends"};
+  if (all.size() > 1 && (all.front() > 0.0 || all.back() > 0.0))
+    return Fault{"friction", "the ends of a rope are held: their friction is 0"};
+  for (const double mu : all)
+    if (mu > largest_friction)
+      return Fault{"friction",
+                   "a coefficient of friction is 5 at most: what holds better is an end"};
+  return {};
+}
 
 /// Keys that hold one entry for each point.
 std::optional<Fault> fault_of_lists(const Rope& rope) {
@@ -81,6 +119,8 @@ std::optional<Fault> fault_of_lists(const Rope& rope) {
   for (const std::size_t end : {std::size_t(0), rope.points.size() - 1})
     if (rope.has_sheave(end))
       return Fault{"radii", "the ends of a rope are points: their radius is 0"};
+  if (const std::optional<Fault> wrong = fault_of_friction(rope))
+    return wrong;
   for (std::size_t i = 0; i < rope.points.size(); ++i)
     if (rope.has_sheave(i) && (rope.axes.empty() || rope.axes[i].norm() == 0.0))
       return Fault{"axes", "a sheave needs the direction of its axis in 'axes'"};
@@ -134,10 +174,10 @@ std::optional<Fault> Rope::fault() const {
     return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
   if (const std::optional<Fault> wrong = fault_of_lists(*this))
     return wrong;
-  if (is_plain())
+  if (is_plain() && !has_friction())
     return {};
   if (points.size() > most_with_sheaves)
-    return Fault{"points", "a rope with sheaves takes 20 points at most"};
+    return Fault{"points", "a rope with sheaves or friction takes 20 points at most"};
   return fault_of_path(*this);
 }
 

@@ -64,9 +64,9 @@ public:
   }
   /// Loads on the points.
   template <class S> void load(const RopeState<S>& now, S* out) const;
+  template <class S> void see_nodes(const S* x, const S* v, RopeNode<S>* nodes) const;
 
 private:
-  template <class S> void see_nodes(const S* x, const S* v, RopeNode<S>* nodes) const;
   template <class S> void measure(RopeState<S>& now) const;
   template <class S> void pull(double t, double change, RopeState<S>& now) const;
 };
@@ -158,5 +158,6 @@ template <class S> void RopeModel::load(const RopeState<S>& now, S* out) const {
 std::vector<Schedule> winch_schedules(const std::vector<Rope>& ropes);
 
 std::shared_ptr<const Elements> ropes_over_sheaves(const std::vector<Rope>& ropes);
+std::shared_ptr<const Elements> ropes_with_friction(const std::vector<Rope>& ropes);
 
 } // namespace hydrodae::element

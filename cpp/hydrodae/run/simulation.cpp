@@ -55,7 +55,7 @@ Simulation::Simulation(Start start, model::Scene&& scene)
     switching_ = std::make_unique<solve::Switching>(regime_, options_.rtol);
     switching_->settle(0.0, y_, yp_);
   }
-  partings_ = PartingWatch::make(regime_, y_);
+  law_events_ = LawEvents::make(regime_, y_);
   formulate();
   begin_history();
   choose_method();
@@ -146,8 +146,8 @@ void Simulation::advance(double limit, const Inside& inside) {
     history_->append(t_, y_, yp_);
   watch_steps(event, end);
   event_here_ = event;
-  if (event && partings_)
-    partings_->part(t_, y_);
+  if (event && law_events_)
+    law_events_->part(t_, y_);
   if (event)
     restart();
   failed_ = false;
@@ -243,10 +243,14 @@ void Simulation::restart() {
   std::optional<double> struck;
   follow_turns();
   const VectorX y = y_, yp = yp_;
+  if (law_events_)
+    law_events_->settle(t_, y_);
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
     struck = consistency().restore(t_, y_, yp_);
+  if (struck && law_events_ && law_events_->settle(t_, y_) && !switching_)
+    consistency().restore(t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
   if (struck && switching_ && switching_->hit())
     trust_->carry_over({regime_, *switching_, *switching_->hit(), t_, y, yp, y_, yp_});

@@ -13,8 +13,8 @@
 #include "hydrodae/run/guards.h"
 #include "hydrodae/run/impacts.h"
 #include "hydrodae/run/inputs.h"
+#include "hydrodae/run/law_events.h"
 #include "hydrodae/run/method_choice.h"
-#include "hydrodae/run/parting_watch.h"
 #include "hydrodae/run/state.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/switching.h"
@@ -159,7 +159,7 @@ private:
   bool written_ = false;                        ///< inputs that the motion does not know yet
   bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
-  std::unique_ptr<PartingWatch> partings_;      ///< where ropes or lines may part
+  std::unique_ptr<LawEvents> law_events_;       ///< where ropes or lines part, or ropes slip
   std::unique_ptr<solve::Consistency> consistency_; ///< null: none was needed since a restore
   std::unique_ptr<system::History> history_;        ///< where loads depend on the past
   std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps

@@ -79,7 +79,7 @@ bool Simulation::take_back(bool event) {
 }
 
 bool Simulation::has_events() const {
-  return switching_ || partings_ || (controllers_ && controllers_->hear_crossings());
+  return switching_ || law_events_ || (controllers_ && controllers_->hear_crossings());
 }
 
 /// The first event inside the last step, if any.
@@ -88,8 +88,8 @@ std::optional<double> Simulation::locate() {
   std::optional<double> first;
   if (controllers_)
     first = controllers_->locate(step_start_, t_, nodes, at_);
-  if (partings_)
-    if (const auto event = partings_->locate(step_start_, first.value_or(t_), nodes, at_))
+  if (law_events_)
+    if (const auto event = law_events_->locate(step_start_, first.value_or(t_), nodes, at_))
       first = event;
   if (switching_)
     if (const auto event = switching_->locate(step_start_, first.value_or(t_), nodes, at_))

@@ -28,8 +28,8 @@ void Simulation::remember(Archive& a) {
   for (const Input& input : inputs_)
     if (system::Lag* lag = input.lag())
       a(*lag);
-  if (partings_)
-    a(*partings_);
+  if (law_events_)
+    a(*law_events_);
   if (modes.size() != system_.switches.size())
     throw Error("the state has other switches than the scene");
   for (std::size_t k = 0; k < modes.size() && !a.saves(); ++k)
