@@ -2036,7 +2036,7 @@ class ForceTypes(TypedList):
         friction : list of numbers, optional
             Coefficients of friction of the points and sheaves, one for each point (0 at the
             ends), or one for all between the ends; a sheave with friction does not turn on its
-            body.
+            body. Allowed: >= 0.
         breaking_load : number, N, optional
             Tension that it bears; the summary tells where it is exceeded. Allowed: > 0.
         breaks : true or false, default false

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 namespace hydrodae::run {
 
@@ -13,6 +14,7 @@ namespace hydrodae::run {
 /// @returns the first double that was seen beyond, by bisection [s]; none where nothing was
 template <class Measure>
 std::optional<double> first_beyond(double t0, double t1, int nodes, Measure&& measure) {
+  static_assert(std::is_same_v<decltype(measure(t0)), double>);
   constexpr int halvings = 60;
   constexpr double near = -0.3, shift = 1e-3; // of the measure, of a part
   const auto bisect = [&](double a, double b) {

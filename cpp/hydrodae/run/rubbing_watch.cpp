@@ -37,15 +37,14 @@ template <class Visit> void RubbingWatch::visit(double t, const VectorX& y, Visi
 
 std::optional<double> RubbingWatch::locate(double t0, double t1, int nodes,
                                            const system::Recorder::Interpolant& at) {
-  const auto is_beyond = [&](double t) {
+  return first_beyond(t0, t1, nodes, [&](double t) {
     at(t, y_, yp_);
     bool changes = false;
     visit(t, y_, [&](const List& list, std::size_t law, const double* in, const double* held) {
       changes = changes || !list.laws->agrees(law, t, in, held);
     });
-    return changes;
-  };
-  return first_beyond(t0, t1, nodes, is_beyond);
+    return changes ? 1.0 : -1.0;
+  });
 }
 
 bool RubbingWatch::settle(double t, const VectorX& y) {
