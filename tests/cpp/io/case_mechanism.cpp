@@ -128,6 +128,7 @@ const std::vector<BadInput> bad_inputs = {
     {"[[force]]\nname = \"spring\"", "[constraints]\n[[force]]\nname = \"spring\"",
      "case.toml:50:2: unknown key 'constraints' in the case; did you mean 'constraint'? (valid: "
      "title, environment, hydro, sea, wave, body, joint, constraint, marker, force, morison, "
+     "gauge, "
      "controller, solver, "
      "output)"},
     {"point_b = [0.0, 0.0, -2.0]\nlength = 1.5\n", "",
