@@ -32,7 +32,7 @@ lower = -1.0
 restitution = 0.6
 )";
 
-constexpr double gravity = 9.81, restitution = 0.6;
+constexpr double ball_gravity = 9.81, ball_restitution = 0.6;
 
 /// What an impact of the ball at `speed` makes of an error of its height and rate.
 Eigen::Vector2d after_impact(double speed, double height, double rate) {
@@ -44,11 +44,11 @@ Eigen::Vector2d after_impact(double speed, double height, double rate) {
   VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
   y[q0] -= 1.0;
   y[s.u0] = yp[q0] = -speed;
-  yp[s.u0] = -gravity;
+  yp[s.u0] = -ball_gravity;
   const VectorX y0 = y, yp0 = yp;
   REQUIRE(switching.settle(0.5, y, yp).has_value());
   REQUIRE(switching.hit().has_value());
-  REQUIRE(y[s.u0] == doctest::Approx(restitution * speed));
+  REQUIRE(y[s.u0] == doctest::Approx(ball_restitution * speed));
   const solve::ImpactError impact(s, switching, *switching.hit(), 0.5, y0, yp0, y, yp);
   VectorX error = VectorX::Zero(s.lambda0);
   error[q0] = height;
@@ -60,7 +60,7 @@ Eigen::Vector2d after_impact(double speed, double height, double rate) {
 } // namespace
 
 TEST_CASE("an error goes over an impact as that of a ball that falls") {
-  constexpr double g = gravity, e = restitution;
+  constexpr double g = ball_gravity, e = ball_restitution;
   for (const double speed : {3.0, 0.2, 1e-3}) {
     CAPTURE(speed);
     for (const auto& [height, rate] :
@@ -75,6 +75,6 @@ TEST_CASE("an error goes over an impact as that of a ball that falls") {
 TEST_CASE("an error that is larger than the impact is followed no further than a fall through it") {
   constexpr double height = 1e-2;
   const double rate = std::abs(after_impact(1e-3, height, 0.0)[1]);
-  CHECK(rate < 2.0 * (1.0 + restitution) * std::sqrt(2.0 * gravity * height));
-  CHECK(rate > 0.5 * std::sqrt(2.0 * gravity * height));
+  CHECK(rate < 2.0 * (1.0 + ball_restitution) * std::sqrt(2.0 * ball_gravity * height));
+  CHECK(rate > 0.5 * std::sqrt(2.0 * ball_gravity * height));
 }
