@@ -32,7 +32,7 @@ std::vector<bool> guided_groups(const system::Regime& s) {
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, Way way, int every)
-    : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s)),
+    : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s, way)),
       y_(y), yp_(yp), growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
       change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
       fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {

@@ -100,7 +100,7 @@ public:
   }
 
 private:
-  static std::vector<bool> smooth_groups(const system::Regime& system);
+  static std::vector<bool> smooth_groups(const system::Regime& system, Way way);
   void begin(Error error);
   bool add_with_signs(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
                       const VectorX& motion, bool last, const Interpolant& at);
@@ -125,7 +125,7 @@ private:
   LinearFlow flow_;
   Error error_;
   std::vector<bool> guided_; ///< (n_error_groups,)
-  std::vector<bool> smooth_; ///< likewise: dry, and nothing in it has kinks
+  std::vector<bool> smooth_; ///< likewise: see smooth_groups
   VectorX y_, yp_, growth_, fade_, change_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]

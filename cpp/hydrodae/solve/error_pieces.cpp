@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "hydrodae/solve/error_growth.h"
 
@@ -37,12 +38,39 @@ bool has_no_kinks(const element::Elements& laws) {
   return true;
 }
 
+/// Joints that close a loop of bodies, the ground among them, which guides those of one or two
+/// coordinates.
+std::vector<int> joints_of_loops(const system::Regime& s) {
+  std::vector<std::size_t> root(s.bodies.size() + 1);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    if (s.bodies[i].n_active < 3)
+      root[i + 1] = 0;
+  const auto find = [&](int body) {
+    auto i = static_cast<std::size_t>(body + 1); // 0: the ground
+    while (root[i] != i)
+      i = root[i];
+    return i;
+  };
+  std::vector<int> out;
+  for (std::size_t i = 0; i < s.joints.size(); ++i) {
+    const std::size_t a = find(std::max(s.joints[i].A.body, -1)),
+                      b = find(std::max(s.joints[i].B.body, -1));
+    if (a == b)
+      out.push_back(static_cast<int>(i));
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  return out;
+}
+
 } // namespace
 
-/// By group: is it dry, and nothing in it whose derivatives may jump inside a step? Radiation damps
-/// what floats, and waves bound its steps.
-std::vector<bool> ErrorGrowth::smooth_groups(const system::Regime& s) {
-  std::vector<bool> out(static_cast<std::size_t>(s.n_error_groups()), true);
+/// By group: is it dry, without closed loops (at whose singular poses growth comes and goes), and
+/// nothing in it whose derivatives may jump inside a step? Radiation damps what floats, and waves
+/// bound its steps. Errors of fixed steps are all of one kind, and of others with signs: they are
+/// followed by other means.
+std::vector<bool> ErrorGrowth::smooth_groups(const system::Regime& s, Way way) {
+  std::vector<bool> out(static_cast<std::size_t>(s.n_error_groups()), way == Way::sizes);
   std::fill(out.begin() + s.n_groups, out.end(), false); // points
   const auto body = [&](int index) {
     if (index >= 0 && s.bodies[static_cast<std::size_t>(index)].group >= 0)
@@ -69,6 +97,8 @@ std::vector<bool> ErrorGrowth::smooth_groups(const system::Regime& s) {
   }
   for (const system::HydroBody& floating : s.hydro.bodies)
     body(floating.body);
+  for (int i : joints_of_loops(s))
+    joint(i);
   for (const system::SwitchData& element : s.switches)
     joint(s.motions[static_cast<std::size_t>(element.motion)].joint);
   return out;
