@@ -154,7 +154,7 @@ def test_going_on_equals_coming_back(name: str, method: str, repository: Path) -
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_hundreds_of_rollbacks_leave_no_trace(method: str, repository: Path) -> None:
+def test_a_thousand_rollbacks_leave_no_trace(method: str, repository: Path) -> None:
     name = {"ida": "stop", "radau": "friction", "explicit_rk": "delay"}.get(method, "stop")
     case, values = scene(name, method, repository)
     values["solver.end_time"] = 0.8 if method == "ida" else 2.0  # which restarts with small steps
@@ -166,7 +166,7 @@ def test_hundreds_of_rollbacks_leave_no_trace(method: str, repository: Path) -> 
         states.append(undisturbed.state())
     simulation = Simulation(case, set=values)
     chance = random.Random(1)
-    for _ in range(250):
+    for _ in range(1000):
         at = chance.randrange(len(states) - 1)
         simulation.restore(states[at])
         for _ in range(chance.randint(0, gap)):  # go on some steps, and leave them

@@ -5,6 +5,16 @@
 
 namespace hydrodae::element {
 
+namespace {
+
+/// That of a law which rubs; null: it does not.
+const Rubbing* rubbing(const std::shared_ptr<const Elements>& whole) {
+  const auto* laws = dynamic_cast<const Rubbing*>(whole.get());
+  return laws && laws->may_rub() ? laws : nullptr;
+}
+
+} // namespace
+
 Breaking::Breaking(std::vector<std::shared_ptr<const Elements>> whole, std::vector<Bears> bears,
                    bool breaks)
     : whole_(std::move(whole)), bears_(std::move(bears)), breaks_(breaks) {
@@ -132,12 +142,6 @@ Overload Breaking::overload(std::size_t law, double t, const double* in, const d
   whole_[law]->evaluate(t, in, held, out.data());
   whole_[law]->observe(t, in, held, out.data(), values.data());
   return bears_[law](in, values.data());
-}
-
-/// That of a law which rubs; null: it does not.
-static const Rubbing* rubbing(const std::shared_ptr<const Elements>& whole) {
-  const auto* laws = dynamic_cast<const Rubbing*>(whole.get());
-  return laws && laws->may_rub() ? laws : nullptr;
 }
 
 bool Breaking::may_rub() const { return rubbing(whole_.front()); }

@@ -5,55 +5,42 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/first_beyond.h"
-#include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
 
 std::unique_ptr<PartingWatch> PartingWatch::make(system::Regime& regime, const VectorX& y) {
   std::unique_ptr<PartingWatch> out(new PartingWatch(regime));
-  for (std::size_t i = 0; i < regime.elements.size(); ++i)
-    if (const auto* laws = dynamic_cast<const element::Parting*>(regime.elements[i].laws.get());
-        laws && laws->may_part())
-      out->lists_.push_back({i, laws});
-  if (out->lists_.empty())
+  if (out->view_.lists().empty())
     return nullptr;
-  out->visit(0.0, y, [&](const List& list, std::size_t law, const element::Overload& now, double*) {
-    if (now.ratio < 1.0)
-      return;
-    const std::string& name = regime.elements[list.index].laws->names[law];
-    throw ModelError("force." + name + ".breaking_load",
-                     "force " + in_quotes(name) + ": its tension at the start is " +
-                         rounded_text(now.ratio) +
-                         " times its 'breaking_load': it would part before anything moves");
-  });
+  out->visit(
+      0.0, y, [&](const View::List& list, std::size_t law, const element::Overload& now, double*) {
+        if (now.ratio < 1.0)
+          return;
+        const std::string& name = regime.elements[list.index].laws->names[law];
+        throw ModelError("force." + name + ".breaking_load",
+                         "force " + in_quotes(name) + ": its tension at the start is " +
+                             rounded_text(now.ratio) +
+                             " times its 'breaking_load': it would part before anything moves");
+      });
   return out;
 }
 
 /// Acts on each law, its overload, and its signals.
 template <class Visit> void PartingWatch::visit(double t, const VectorX& y, Visit&& act) {
-  if (yp_.size() != y.size())
-    yp_ = VectorX::Zero(y.size());
-  ws_.time = t;
-  system::unpack<double>(s_, y.data(), yp_.data(), ws_.bodies);
-  for (const List& list : lists_) {
-    const system::ElementList& of = s_.elements[list.index];
-    system::ElementScratch<double>& scratch = ws_.elements[list.index];
-    system::gather<double>(s_, of, ws_, y.data(), scratch);
-    const element::Shape& shape = of.laws->shape;
-    for (std::size_t k = 0; k < of.laws->size(); ++k) {
+  view_.visit(t, y, [&](const View::List& list, const double* in) {
+    const element::Shape& shape = s_.elements[list.index].laws->shape;
+    for (std::size_t k = 0; k < s_.elements[list.index].laws->size(); ++k) {
       double* held = s_.signals[list.index].data() + k * static_cast<std::size_t>(shape.n_signals);
-      act(list, k,
-          list.laws->overload(k, t, scratch.in.data() + k * static_cast<std::size_t>(shape.n_in()),
-                              held),
+      act(list, k, list.laws->overload(k, t, in + k * static_cast<std::size_t>(shape.n_in()), held),
           held + shape.n_signals - element::Parting::n_signals);
     }
-  }
+  });
 }
 
 /// Of what is loaded most, over what it bears [-].
 double PartingWatch::largest_ratio(double t, const VectorX& y) {
   double out = 0.0;
-  visit(t, y, [&](const List&, std::size_t, const element::Overload& now, const double*) {
+  visit(t, y, [&](const View::List&, std::size_t, const element::Overload& now, const double*) {
     out = std::max(out, now.ratio);
   });
   return out;
@@ -68,7 +55,7 @@ std::optional<double> PartingWatch::locate(double t0, double t1, int nodes,
 }
 
 void PartingWatch::part(double t, const VectorX& y) {
-  visit(t, y, [&](const List&, std::size_t, const element::Overload& now, double* parted) {
+  visit(t, y, [&](const View::List&, std::size_t, const element::Overload& now, double* parted) {
     if (now.ratio < 1.0)
       return;
     parted[0] = now.place;
@@ -77,7 +64,7 @@ void PartingWatch::part(double t, const VectorX& y) {
 }
 
 void PartingWatch::remember(Archive& a) {
-  for (const List& list : lists_) {
+  for (const View::List& list : view_.lists()) {
     const element::Shape& shape = s_.elements[list.index].laws->shape;
     std::vector<double>& held = s_.signals[list.index];
     for (std::size_t end = static_cast<std::size_t>(shape.n_signals); end <= held.size();

@@ -7,6 +7,7 @@
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/element/parting.h"
+#include "hydrodae/run/law_view.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae::run {
@@ -28,18 +29,14 @@ public:
   void remember(Archive& a);
 
 private:
-  /// A list of ropes or lines that may part.
-  struct List {
-    std::size_t index;
-    const element::Parting* laws;
-  };
-  explicit PartingWatch(system::Regime& regime) : s_(regime), ws_(regime) {}
+  using View = LawView<element::Parting>;
+  explicit PartingWatch(system::Regime& regime)
+      : s_(regime), view_(regime, &element::Parting::may_part) {}
   template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
   double largest_ratio(double t, const VectorX& y);
 
   system::Regime& s_;
-  system::Workspace<double> ws_;
-  std::vector<List> lists_;
+  View view_;
   VectorX y_, yp_;
 };
 

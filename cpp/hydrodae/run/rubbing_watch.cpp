@@ -3,36 +3,25 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/run/first_beyond.h"
-#include "hydrodae/system/elements.h"
 
 namespace hydrodae::run {
 
 std::unique_ptr<RubbingWatch> RubbingWatch::make(system::Regime& regime) {
   std::unique_ptr<RubbingWatch> out(new RubbingWatch(regime));
-  for (std::size_t i = 0; i < regime.elements.size(); ++i)
-    if (const auto* laws = dynamic_cast<const element::Rubbing*>(regime.elements[i].laws.get());
-        laws && laws->may_rub())
-      out->lists_.push_back({i, laws});
-  return out->lists_.empty() ? nullptr : std::move(out);
+  return out->view_.lists().empty() ? nullptr : std::move(out);
 }
 
 /// Acts on each law, what it sees, and its signals.
 template <class Visit> void RubbingWatch::visit(double t, const VectorX& y, Visit&& act) {
-  if (yp_.size() != y.size())
-    yp_ = VectorX::Zero(y.size());
-  ws_.time = t;
-  system::unpack<double>(s_, y.data(), yp_.data(), ws_.bodies);
-  for (const List& list : lists_) {
+  view_.visit(t, y, [&](const View::List& list, const double* in) {
     const system::ElementList& of = s_.elements[list.index];
-    system::ElementScratch<double>& scratch = ws_.elements[list.index];
-    system::gather<double>(s_, of, ws_, y.data(), scratch);
     const element::Shape& shape = of.laws->shape;
     const double* held = s_.held(of, t, room_);
     held_.assign(held, held + s_.signals[list.index].size()); // inputs as they lag
     for (std::size_t k = 0; k < of.laws->size(); ++k)
-      act(list, k, scratch.in.data() + k * static_cast<std::size_t>(shape.n_in()),
+      act(list, k, in + k * static_cast<std::size_t>(shape.n_in()),
           held_.data() + k * static_cast<std::size_t>(shape.n_signals));
-  }
+  });
 }
 
 std::optional<double> RubbingWatch::locate(double t0, double t1, int nodes,
@@ -40,16 +29,17 @@ std::optional<double> RubbingWatch::locate(double t0, double t1, int nodes,
   return first_beyond(t0, t1, nodes, [&](double t) {
     at(t, y_, yp_);
     bool changes = false;
-    visit(t, y_, [&](const List& list, std::size_t law, const double* in, const double* held) {
-      changes = changes || !list.laws->agrees(law, t, in, held);
-    });
+    visit(t, y_,
+          [&](const View::List& list, std::size_t law, const double* in, const double* held) {
+            changes = changes || !list.laws->agrees(law, t, in, held);
+          });
     return changes ? 1.0 : -1.0;
   });
 }
 
 bool RubbingWatch::settle(double t, const VectorX& y) {
   bool changed = false;
-  visit(t, y, [&](const List& list, std::size_t law, const double* in, double* held) {
+  visit(t, y, [&](const View::List& list, std::size_t law, const double* in, double* held) {
     const element::Elements& laws = *s_.elements[list.index].laws;
     changed = list.laws->settle(law, t, in, held) || changed;
     double* own = s_.signals[list.index].data() + law * laws.inputs.size();
@@ -65,7 +55,7 @@ bool RubbingWatch::settle(double t, const VectorX& y) {
 }
 
 void RubbingWatch::remember(Archive& a) {
-  for (const List& list : lists_)
+  for (const View::List& list : view_.lists())
     for (double& held : s_.signals[list.index])
       a(held);
 }

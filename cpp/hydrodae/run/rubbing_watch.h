@@ -8,6 +8,7 @@
 
 #include "hydrodae/core/archive.h"
 #include "hydrodae/element/rubbing.h"
+#include "hydrodae/run/law_view.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae::run {
@@ -29,16 +30,13 @@ public:
   void remember(Archive& a);
 
 private:
-  struct List {
-    std::size_t index;
-    const element::Rubbing* laws;
-  };
-  explicit RubbingWatch(system::Regime& regime) : s_(regime), ws_(regime) {}
+  using View = LawView<element::Rubbing>;
+  explicit RubbingWatch(system::Regime& regime)
+      : s_(regime), view_(regime, &element::Rubbing::may_rub) {}
   template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
 
   system::Regime& s_;
-  system::Workspace<double> ws_;
-  std::vector<List> lists_;
+  View view_;
   VectorX y_, yp_;
   std::vector<double> held_, room_;
 };

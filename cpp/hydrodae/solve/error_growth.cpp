@@ -33,7 +33,8 @@ std::vector<bool> guided_groups(const system::Regime& s) {
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, Way way, int every)
     : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s, way)),
-      y_(y), yp_(yp), growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
+      any_smooth_(std::find(smooth_.begin(), smooth_.end(), true) != smooth_.end()), y_(y), yp_(yp),
+      growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
       change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
       fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {
   begin(std::move(error));
@@ -96,16 +97,17 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
     error_.gathered = error_.fresh;
     window_ = t;
   }
-  keep(t, step_error, rate, motion, at);
+  if (any_smooth_)
+    keep(t, step_error, rate, motion, at);
   if (++steps_ < every_ && !last)
     return false;
-  y_ = pieces_[n_pieces_ - 1].y;
-  yp_ = pieces_[n_pieces_ - 1].yp;
+  at(t, y_, yp_);
   growth_.setOnes();
   fade_.setOnes();
   const VectorX before = sizes(error_.vector, unit), fresh = sizes(error_.fresh, unit);
   VectorX shown = VectorX::Ones(s_.n_error_groups());
-  flow_.keep(last_look_);
+  if (any_smooth_)
+    flow_.keep(last_look_);
   const VectorX at_last_look = error_.vector;
   bool closely = false;
   if (VectorX carried = error_.fresh; carry(t, rate, carried)) {
