@@ -73,6 +73,7 @@ private:
   void use(int stages);
   void start_values(double h, bool extrapolate);
   void jacobian(double h, bool extrapolate);
+  bool serves(double h) const;
   bool simplified(double h);
   bool full(double h);
   double error(double h, bool refine);
@@ -108,8 +109,12 @@ private:
   std::vector<std::pair<Index, int>> driven_; ///< rows that drives move, with their groups
   bool fresh_ = false;                        ///< the Jacobian is of this step
   double factored_ = 0.0;                     ///< step of the matrices at hand [s]
-  double contraction_ = 1.0;                  ///< of the last step
-  bool was_full_ = false;                     ///< the last step took full Newton
+  double contraction_ = 1.0;                  ///< of the last step with matrices of its own
+  int iterations_ = 0;                        ///< that this step took
+  double last_contraction_ = 1.0;             ///< of the last step
+  double extra_ = 0.0;                        ///< iterations that old matrices have cost since
+  int wary_ = 0, wait_ = 0; ///< steps to make with new ones after old ones failed; left of them
+  bool was_full_ = false;   ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
   std::optional<StageError> stage_error_;
   VectorX local_error_, inner_error_; ///< (n_blocks,)
@@ -210,26 +215,46 @@ void Collocation::jacobian(double h, bool extrapolate) {
     e_.jacobian(t_, y_, yp_);
   }
   fresh_ = true;
-  factored_ = 0.0;
+  factored_ = extra_ = 0.0;
+}
+
+/// Do the matrices at hand serve a step h? Until the iterations that they cost beyond those of new
+/// ones are worth a renewal.
+bool Collocation::serves(double h) const {
+  constexpr double same = 1e-9;
+  return factored_ > 0.0 && std::abs(h - factored_) <= same * h && extra_ < newton_->renewal();
 }
 
 /// Simplified Newton from the last polynomial, with the matrices at hand where they serve; if it
 /// fails with new ones, and from a straight line with those of the start.
 bool Collocation::simplified(double h) {
-  const double longest_guess = 3.0; // steps of the last polynomial
+  constexpr double longest_guess = 3.0; // steps of the last polynomial
+  constexpr int most_wary = 15;         // steps
   bool extrapolate = done_ > 0.0 && h <= longest_guess * done_;
-  bool renew = !fresh_ && (contraction_ > 1e-3 || factored_ == 0.0);
+  bool renew =
+      !fresh_ && !(factored_ > 0.0 && last_contraction_ <= 1e-3) && !(serves(h) && wait_ == 0);
   for (;;) {
     if (renew)
       jacobian(h, extrapolate);
-    if (factored_ == h || newton_->factorise(h)) {
+    const bool old = serves(h);
+    if (old || newton_->factorise(h)) {
       factored_ = h;
       start_values(h, extrapolate);
       if (newton_->simplified(t_, h, y_, w_, start_) == NewtonResult::converged) {
-        contraction_ = newton_->contraction;
+        last_contraction_ = newton_->contraction;
+        if (old) {
+          extra_ += std::max(0, newton_->iterations - iterations_);
+          wary_ = 0;
+        } else {
+          wait_ = std::max(0, wait_ - 1);
+          contraction_ = newton_->contraction;
+          iterations_ = newton_->iterations;
+        }
         was_full_ = false;
         return true;
       }
+      if (old)
+        wait_ = wary_ = std::min(2 * wary_ + 1, most_wary);
     }
     if (fresh_ && !extrapolate)
       break;
@@ -526,8 +551,8 @@ void Collocation::remember(Archive& a) {
     use(stages);
   }
   a(rates_, y0_, t0_, done_, slope0_, slope_, h_, reach_, last_h_, last_error_, contraction_,
-    was_full_, since_change_, slack_, *stage_error_, step_error_, local_error_, inner_error_,
-    e_.statistics.last_step, e_.statistics.last_order, guard_);
+    last_contraction_, wary_, wait_, was_full_, since_change_, slack_, *stage_error_, step_error_,
+    local_error_, inner_error_, e_.statistics.last_step, e_.statistics.last_order, guard_);
 }
 
 } // namespace

@@ -12,7 +12,8 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr double bad_pivots = 1e-8;         ///< reciprocal pivot growth that asks for new pivots
+constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth that asks for new pivots
+constexpr double many = 1e5; ///< operations of a factorisation from which on another order is tried
 constexpr double ill_conditioned = 3.7e-11; ///< reciprocal condition that does, where asked for
 
 template <class Scalar> constexpr bool is_real = std::is_same_v<Scalar, double>;
@@ -29,10 +30,12 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
   klu_l_symbolic* symbolic = nullptr;
   klu_l_numeric* numeric = nullptr;
 
+  bool chosen = false; ///< the order of the unknowns
   ~Impl() {
     drop();
     klu_l_free_symbolic(&symbolic, &common);
   }
+  SuiteSparse_long size() const { return static_cast<SuiteSparse_long>(start.size()) - 1; }
   void drop() {
     if constexpr (is_real<Scalar>)
       klu_l_free_numeric(&numeric, &common);
@@ -71,10 +74,56 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
     if (numeric && refactorise() && growth() > bad_pivots && !(careful && ill()))
       return true;
     drop();
+    if (!find_pivots())
+      return false;
+    choose_order();
+    return true;
+  }
+  bool find_pivots() {
     numeric = is_real<Scalar>
                   ? klu_l_factor(start.data(), row.data(), raw(values), symbolic, &common)
                   : klu_zl_factor(start.data(), row.data(), raw(values), symbolic, &common);
     return numeric && common.status == KLU_OK;
+  }
+  double flops() {
+    if constexpr (is_real<Scalar>)
+      klu_l_flops(symbolic, numeric, &common);
+    else
+      klu_zl_flops(symbolic, numeric, &common);
+    return common.flops;
+  }
+  /// The first order is that of a matrix whose rows were matched with its columns, which suits
+  /// chains. Where it fills much: that of the matrix as it is, which suits bodies that the water
+  /// couples, if it takes less work.
+  void choose_order() {
+    if (chosen)
+      return;
+    chosen = true;
+    const double first = flops();
+    if (first < many)
+      return;
+    const klu_l_common usual = common;
+    klu_l_symbolic* const old_symbolic = symbolic;
+    klu_l_numeric* const old_numeric = numeric;
+    common.btf = 0;
+    common.tol = 0.1; // not the small entries of the diagonal that nothing was matched with
+    symbolic = klu_l_analyze(size(), start.data(), row.data(), &common);
+    numeric = nullptr;
+    const bool better = symbolic && find_pivots() && flops() < 0.9 * first;
+    klu_l_symbolic* symbolic_left = better ? old_symbolic : symbolic;
+    klu_l_numeric* numeric_left = better ? old_numeric : numeric;
+    if (numeric_left) {
+      if constexpr (is_real<Scalar>)
+        klu_l_free_numeric(&numeric_left, &common);
+      else
+        klu_zl_free_numeric(&numeric_left, &common);
+    }
+    klu_l_free_symbolic(&symbolic_left, &common);
+    if (!better) {
+      symbolic = old_symbolic;
+      numeric = old_numeric;
+      common = usual;
+    }
   }
 };
 
@@ -92,7 +141,8 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   m.start.assign(column_start.begin(), column_start.end());
   m.row.assign(row.begin(), row.end());
   m.values.resize(row.size());
-  const auto n = static_cast<SuiteSparse_long>(column_start.size()) - 1;
+  const SuiteSparse_long n = m.size();
+  m.chosen = !order.row.empty();
   if (order.row.empty()) {
     m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
   } else {
@@ -128,11 +178,17 @@ template <class Scalar> bool SparseLu<Scalar>::refactorise() {
 
 template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {
   Impl& m = *impl_;
-  const auto n = static_cast<SuiteSparse_long>(m.start.size()) - 1;
   if constexpr (is_real<Scalar>)
-    klu_l_solve(m.symbolic, m.numeric, n, 1, b, &m.common);
+    klu_l_solve(m.symbolic, m.numeric, m.size(), 1, b, &m.common);
   else
-    klu_zl_solve(m.symbolic, m.numeric, n, 1, reinterpret_cast<double*>(b), &m.common);
+    klu_zl_solve(m.symbolic, m.numeric, m.size(), 1, reinterpret_cast<double*>(b), &m.common);
+}
+
+template <class Scalar> typename SparseLu<Scalar>::Work SparseLu<Scalar>::work() const {
+  Impl& m = *impl_;
+  if (!m.numeric)
+    return {};
+  return {m.flops(), 2.0 * static_cast<double>(m.numeric->lnz + m.numeric->unz)};
 }
 
 template class SparseLu<double>;

@@ -46,6 +46,12 @@ public:
   /// Overwrites b (n,) with the solution.
   void solve(Scalar* b);
 
+  /// Operations of a factorisation and of a solution, of numbers of this kind.
+  struct Work {
+    double factorise = 0.0, solve = 0.0;
+  };
+  Work work() const;
+
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -42,6 +42,7 @@ public:
 
   /// See SparseLu.
   Elimination elimination() const { return lu_.elimination(); }
+  typename SparseLu<Scalar>::Work work() const { return lu_.work(); }
 
 private:
   using VectorS = VecX<Scalar>;

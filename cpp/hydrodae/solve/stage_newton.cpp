@@ -27,7 +27,21 @@ bool StageNewton::factorise(double h) {
   bool good = real_->factorise(e_.parts, 1.0 / (rk_.gamma0 * h));
   for (std::size_t p = 0; p < pairs_.size() && good; ++p)
     good = pairs_[p]->factorise(e_.parts, rk_.pairs[p] / h);
+  if (good && renewal_ == 0.0)
+    renewal_ = find_renewal();
   return good;
+}
+
+/// By the operations of the matrix for one stage.
+double StageNewton::find_renewal() const {
+  // Operations, as measured, of a residual and of a Jacobian for each of its entries, and how many
+  // real ones a complex one is worth.
+  constexpr double of_residual = 8.0, of_jacobian = 40.0, complex = 2.0;
+  const SparseLu<double>::Work work = real_->work();
+  const double entries = static_cast<double>(e_.pattern.row.size()),
+               systems = 1.0 + complex * static_cast<double>(pairs_.size());
+  return (systems * work.factorise + of_jacobian * entries) /
+         (systems * work.solve + of_residual * entries * rk_.stages);
 }
 
 void StageNewton::rates(double h, const MatrixX& Z, MatrixX& out) const {

@@ -36,6 +36,9 @@ public:
   /// Solves (J + B / (gamma0 h)) x = x, for the error estimate.
   void solve_real(VectorX& x) { real_->solve(x.data()); }
 
+  /// How many iterations of `simplified` cost as much as a Jacobian and its matrices, roughly.
+  double renewal() const { return renewal_; }
+
   /// Contraction of the last iteration, and how many it took.
   double contraction = 0.0;
   int iterations = 0;
@@ -55,6 +58,7 @@ private:
   double size(const VectorX& w, const MatrixX& dZ) const;
   void make_full();
   bool factorise_full(double t, double h);
+  double find_renewal() const;
   template <class Solve>
   NewtonResult iterate(double t, double h, const VectorX& y0, const VectorX& w, MatrixX& Z,
                        int most, double stalled, Solve&& solve);
@@ -64,6 +68,7 @@ private:
   std::unique_ptr<NewtonMatrix<double>> real_;
   std::vector<std::unique_ptr<NewtonMatrix<std::complex<double>>>> pairs_;
   std::unique_ptr<Full> full_;
+  double renewal_ = 0.0; ///< 0: not known yet
   MatrixX stage_, rate_, residual_, work_;
   VectorX y_, yp_, r_;
   mutable VectorX sums_; ///< scratch of `size`
