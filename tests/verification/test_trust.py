@@ -111,6 +111,85 @@ step = 0.1
 """
 
 
+BAR = """
+[[body]]
+name = "bar"
+motion = "planar"
+mass = 1.0
+center_of_gravity = [{x}, 0.0, {z}]
+inertia = [0.0833333333333, 0.0833333333333, 0.0833333333333]
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "bar"
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+[output]
+step = 0.05
+"""
+HARDENING = """
+[[body]]
+name = "block"
+motion = "surge"
+mass = 1.0
+center_of_gravity = [10.0, 0.0, 0.0]
+initial = {displacement = [1.0, 0.0, 0.0]}
+[[force]]
+name = "spring"
+type = "spring_damper"
+body_a = "ground"
+body_b = "block"
+point_a = [0.0, 0.0, 0.0]
+point_b = [10.0, 0.0, 0.0]
+stiffness = 1.0
+damping = 0.0
+hardening = [0.0, 1.0]
+[output]
+step = 1.0
+"""
+
+
+def known_ratio(text: str, body: str, **solver: Any) -> float | None:
+    """Return the true error over the estimate, or nothing where the run stops."""
+    case = hydrodae.Case(text=text, values={f"solver.{k}": v for k, v in solver.items()})
+    exact = {"solver.method": "explicit_rk", "solver.rtol": 1e-13, "solver.error_guard": 0.0}
+    name = f"bodies/{body}/position"
+    truth = np.asarray(hydrodae.run(case, set=exact)[name])
+    try:
+        results = hydrodae.run(case)
+    except hydrodae.SolverError:
+        return None
+    error = np.abs(np.asarray(results[name]) - truth).max() / np.ptp(truth, axis=0).max()
+    return float(error / results.statistics["estimated_error"])
+
+
+@pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
+@pytest.mark.parametrize("rtol", [1e-5, 1e-6])
+def test_a_bar_beside_upright_stops_or_tells_its_error(rtol: float, method: str) -> None:
+    """Released 1 mrad beside upright: each fall and return doubles errors ten times over."""
+    text = BAR.format(x=0.5 * np.sin(1e-3), z=0.5 * np.cos(1e-3))
+    ratio = known_ratio(text, "bar", end_time=12.0, method=method, rtol=rtol)
+    assert ratio is None or ratio < 10.0
+
+
+@pytest.mark.parametrize("method", ["radau", "explicit_rk"])
+def test_a_wide_swing_is_not_stopped_and_its_error_is_known(method: str) -> None:
+    """2.8 rad from hanging: the growth beside upright comes back in each swing."""
+    text = PENDULUM.format(x=np.sin(2.8), z=-np.cos(2.8))
+    ratio = known_ratio(text, "bob", end_time=40.0, method=method)
+    assert ratio is not None
+    assert 0.1 < ratio < 10.0
+
+
+@pytest.mark.parametrize("rtol", [1e-5, 1e-7])
+def test_slow_growth_of_an_undamped_swing_is_not_lost_in_doubts(rtol: float) -> None:
+    """A hardening spring, 500 periods: errors of the energy put it out of step."""
+    ratio = known_ratio(HARDENING, "block", end_time=2000.0, method="ida", rtol=rtol)
+    assert ratio is not None
+    assert 0.1 < ratio < 30.0  # 400 where looks are as far apart as in the water
+
+
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_errors_are_followed_through_many_impacts(method: str) -> None:
     """A part of the speed that is off puts what bounces off by that part of its way."""

@@ -28,14 +28,24 @@ std::vector<bool> guided_groups(const system::Regime& s) {
   return out;
 }
 
+/// By group: of bodies, none of which floats?
+std::vector<bool> dry_groups(const system::Regime& s) {
+  std::vector<bool> out(static_cast<std::size_t>(s.n_error_groups()), true);
+  std::fill(out.begin() + s.n_groups, out.end(), false); // points
+  for (const system::HydroBody& floating : s.hydro.bodies)
+    if (const int g = s.bodies[static_cast<std::size_t>(floating.body)].group; g >= 0)
+      out[static_cast<std::size_t>(g)] = false;
+  return out;
+}
+
 } // namespace
 
 ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern, double t,
                          const VectorX& y, const VectorX& yp, Error error, Way way, int every)
     : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s, way)),
-      any_smooth_(std::find(smooth_.begin(), smooth_.end(), true) != smooth_.end()), y_(y), yp_(yp),
-      growth_(VectorX::Ones(s.n_error_groups())), fade_(growth_),
-      change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
+      any_smooth_(std::find(smooth_.begin(), smooth_.end(), true) != smooth_.end()),
+      dry_(dry_groups(s)), y_(y), yp_(yp), growth_(VectorX::Ones(s.n_error_groups())),
+      fade_(growth_), change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
       fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {
   begin(std::move(error));
 }

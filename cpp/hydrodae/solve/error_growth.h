@@ -127,6 +127,7 @@ private:
   std::vector<bool> guided_; ///< (n_error_groups,)
   std::vector<bool> smooth_; ///< likewise: see smooth_groups
   bool any_smooth_;
+  std::vector<bool> dry_; ///< likewise: no body of it in the water
   VectorX y_, yp_, growth_, fade_, change_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]

@@ -13,6 +13,10 @@ constexpr double first_substep = 1.0 / 3.0;              // rad of the motion at
 constexpr double much_turned = 0.6, little_turned = 0.3; // of the vector in a substep
 // Part of the vector by which the change of the equations between two looks may alter it.
 constexpr double much_altered = 0.6, little_altered = 0.2;
+// Times by which looks are closer where nothing floats: radiation damps what does, but an undamped
+// swing whose frequency depends on its amplitude gets ever more out of step, and slow growth is not
+// to be lost in doubts.
+constexpr double closer = 3.0;
 constexpr double doubtful_of_altered = 0.15; // growth between looks, of the square of that
 } // namespace
 
@@ -83,17 +87,19 @@ double ErrorGrowth::carry_window(int substeps, const VectorX& unit) {
     flow_.step(e);
   }
   const VectorX size = sizes(e, unit);
-  const auto part = [&](const VectorX& change) {
+  const auto part = [&](const VectorX& change, double of_dry) {
     const VectorX changed = sizes(change, unit);
     double out = 0.0;
     for (Index g = 0; g < size.size(); ++g)
       if (size[g] > 0.0)
-        out = std::max(out, changed[g] / size[g]);
+        out = std::max(out,
+                       (dry_[static_cast<std::size_t>(g)] ? of_dry : 1.0) * changed[g] / size[g]);
     return out;
   };
-  altered_ = substeps * part(flow_.effect(e));
-  look_again(altered_, much_altered, little_altered);
-  return part(e - before);
+  const VectorX effect = flow_.effect(e);
+  altered_ = substeps * part(effect, 1.0);
+  look_again(substeps * part(effect, closer), much_altered, little_altered);
+  return part(e - before, 1.0);
 }
 
 /// The oldest grow and fade with their sum, whose size was `before`, but for the growth that may
