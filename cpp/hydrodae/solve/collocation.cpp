@@ -73,6 +73,7 @@ private:
   void use(int stages);
   void start_values(double h, bool extrapolate);
   void jacobian(double h, bool extrapolate);
+  bool at_once() const { return last_contraction_ <= 1e-3; }
   bool serves(double h) const;
   bool simplified(double h);
   bool full(double h);
@@ -218,11 +219,13 @@ void Collocation::jacobian(double h, bool extrapolate) {
   factored_ = extra_ = 0.0;
 }
 
-/// Do the matrices at hand serve a step h? Until the iterations that they cost beyond those of new
-/// ones are worth a renewal.
+/// Do the matrices at hand serve a step h? Where Newton contracts at once; where they are dear,
+/// until the iterations that they cost beyond those of new ones are worth a renewal.
 bool Collocation::serves(double h) const {
   constexpr double same = 1e-9;
-  return factored_ > 0.0 && std::abs(h - factored_) <= same * h && extra_ < newton_->renewal();
+  constexpr double dear = 4.0; // iterations
+  return factored_ > 0.0 && std::abs(h - factored_) <= same * h &&
+         (at_once() || (newton_->renewal() >= dear && extra_ < newton_->renewal() && wait_ == 0));
 }
 
 /// Simplified Newton from the last polynomial, with the matrices at hand where they serve; if it
@@ -231,13 +234,12 @@ bool Collocation::simplified(double h) {
   constexpr double longest_guess = 3.0; // steps of the last polynomial
   constexpr int most_wary = 15;         // steps
   bool extrapolate = done_ > 0.0 && h <= longest_guess * done_;
-  bool renew =
-      !fresh_ && !(factored_ > 0.0 && last_contraction_ <= 1e-3) && !(serves(h) && wait_ == 0);
+  bool renew = !fresh_ && !(factored_ > 0.0 && at_once()) && !serves(h);
   for (;;) {
     if (renew)
       jacobian(h, extrapolate);
-    const bool old = serves(h);
-    if (old || newton_->factorise(h)) {
+    const bool serving = serves(h), old = serving && !at_once();
+    if (serving || newton_->factorise(h)) {
       factored_ = h;
       start_values(h, extrapolate);
       if (newton_->simplified(t_, h, y_, w_, start_) == NewtonResult::converged) {
