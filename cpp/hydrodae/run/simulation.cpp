@@ -167,7 +167,7 @@ bool Simulation::take_step(double end) {
     const bool event = make_step(end);
     solver_time_ += seconds_since(before);
     choose_quadrature();
-    recorder_->begin(t_, at_);
+    recorder_->begin(t_, inside_);
     at_(t_, y_, yp_);
     if (!take_back(event))
       return event;

@@ -182,6 +182,9 @@ private:
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);
   };
+  system::Recorder::Interpolant inside_ = [this](double t, VectorX& y, VectorX& yp) {
+    integrator_->look_inside(t, y, yp);
+  };
 };
 
 } // namespace hydrodae::run

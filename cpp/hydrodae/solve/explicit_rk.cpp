@@ -43,6 +43,7 @@ public:
     return true;
   }
   static const VectorX& of_bodies(const VectorX&, const VectorX& change) { return change; }
+  static constexpr bool is_of_bodies = true;
   const std::string& jam() const { return saddle_.jam(); }
   static Statistics statistics() { return {}; }
 
@@ -51,6 +52,21 @@ private:
   SaddlePoint saddle_;
 };
 
+/// Do reactions neither do work nor press friction, and are all states rates? Then the powers of
+/// all forces follow from positions, velocities and states.
+bool has_idle_reactions(const system::Regime& s) {
+  return s.switches.empty() &&
+         std::none_of(s.couplers.begin(), s.couplers.end(),
+                      [](const system::CouplerData& c) {
+                        return c.velocity_level || c.drive.moves() || c.drive.rate != 0.0;
+                      }) &&
+         std::none_of(
+             s.elements.begin(), s.elements.end(),
+             [](const system::ElementList& list) { return list.laws->shape.n_reaction > 0; }) &&
+         std::find(s.algebraic.begin() + s.z0, s.algebraic.begin() + s.memory0, true) ==
+             s.algebraic.begin() + s.memory0;
+}
+
 /// In coordinates x of a Space; y are always those of the bodies.
 template <class Space> class ExplicitRk : public Integrator {
 public:
@@ -58,6 +74,7 @@ public:
              const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
+        idle_reactions_(Space::is_of_bodies && has_idle_reactions(system)),
         e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp),
         w_(system.n), k_(n_, 17) {
@@ -75,6 +92,7 @@ public:
   bool restart(double t, const VectorX& y, const VectorX& yp) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
+  void look_inside(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override {
     Statistics all = e_.statistics;
     return all += space_.statistics();
@@ -94,11 +112,13 @@ private:
   bool is_smooth(double h);
   void estimate(double h);
   void extend();
+  void follow_polynomial(double x);
   [[noreturn]] void fail(const std::string& reason);
 
   const Pair& pair_;
   const bool fixed_;
   const double max_step_;
+  const bool idle_reactions_; ///< no multiplier does work, and no unknown is found with them
   Equations e_;
   Space space_;
   const Index n_;
@@ -107,8 +127,9 @@ private:
   VectorX y_, yp_;                                   ///< of the bodies, at the end of the last step
   VectorX x_, xp_, x0_;                              ///< the same in the space, and x at its start
   VectorX stage_, stage_xp_, trial_, trial_xp_, inside_, inside_xp_, w_;
-  MatrixX k_;     ///< rates of the stages, one column each
-  MatrixX dense_; ///< coefficients of the interpolant of order 7
+  MatrixX k_;           ///< rates of the stages, one column each
+  MatrixX dense_;       ///< coefficients of the interpolant of order 7
+  VectorX sum_, slope_; ///< (n_,) scratch
   bool extended_ = false;
   double last_error_ = 1e-4;
   double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
@@ -338,31 +359,56 @@ template <class Space> void ExplicitRk<Space>::extend() {
   extended_ = true;
 }
 
+/// inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
+template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
+  inside_ = x0_;
+  inside_xp_ = xp_;
+  if (pair_.order == 5) {
+    inside_xp_.head(n_).setZero();
+    for (int i = 0; i < 7; ++i) {
+      double weight = 0.0, slope = 0.0, power = 1.0;
+      for (int k = 0; k < 4; ++k, power *= x) {
+        weight += tableaux::rk5_p[4 * i + k] * power * x;
+        slope += tableaux::rk5_p[4 * i + k] * power * (k + 1);
+      }
+      inside_.head(n_) += done_ * weight * k_.col(i);
+      inside_xp_.head(n_) += slope * k_.col(i);
+    }
+    return;
+  }
+  extend();
+  sum_.setZero(n_);
+  slope_.setZero(n_);
+  for (int i = 6; i >= 0; --i) { // nested in x and 1 - x
+    sum_ += dense_.col(i);
+    const double factor = i % 2 == 0 ? x : 1.0 - x;
+    slope_ = factor * slope_ + (i % 2 == 0 ? sum_ : -sum_);
+    sum_ *= factor;
+  }
+  inside_.head(n_) += sum_;
+  inside_xp_.head(n_) = slope_ / done_;
+}
+
+template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y, VectorX& yp) {
+  if (!idle_reactions_ || t >= t_ || done_ == 0.0)
+    return interpolate(t, y, yp);
+  follow_polynomial((t - t0_) / done_);
+  y = y_;
+  yp = yp_;
+  y.head(n_) = inside_.head(n_);
+  yp.head(n_) = inside_xp_.head(n_);
+  for (const system::BodyData& b : e_.system.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
 template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
   if (t >= t_ || done_ == 0.0) {
     y = y_;
     yp = yp_;
     return;
   }
-  const double x = (t - t0_) / done_;
-  inside_ = x0_;
-  inside_xp_ = xp_;
-  if (pair_.order == 5) {
-    for (int i = 0; i < 7; ++i) {
-      double weight = 0.0, power = x;
-      for (int k = 0; k < 4; ++k, power *= x)
-        weight += tableaux::rk5_p[4 * i + k] * power;
-      inside_.head(n_) += done_ * weight * k_.col(i);
-    }
-  } else {
-    extend();
-    VectorX sum = VectorX::Zero(n_);
-    for (int i = 6; i >= 0; --i) {
-      sum += dense_.col(i);
-      sum *= i % 2 == 0 ? x : 1.0 - x;
-    }
-    inside_.head(n_) += sum;
-  }
+  follow_polynomial((t - t0_) / done_);
   if (!space_.rates(t, inside_, inside_xp_) || !space_.leave(t, inside_, inside_xp_, y, yp))
     fail("no finite accelerations inside the step");
   for (const system::BodyData& b : e_.system.bodies)

@@ -42,6 +42,10 @@ public:
   /// read; the rest where the method knows it.
   virtual void interpolate(double t, VectorX& y, VectorX& yp) = 0;
 
+  /// The same where only powers are asked for: multipliers, which do no work, may be those of the
+  /// end of the step.
+  virtual void look_inside(double t, VectorX& y, VectorX& yp) { interpolate(t, y, yp); }
+
   virtual Statistics statistics() const = 0;
 
   /// Estimated error of the last step of a fixed length, block by block (n_blocks,) as block_sizes

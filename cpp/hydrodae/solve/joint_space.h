@@ -22,6 +22,7 @@ public:
   /// Throws ModelError for scenes that cannot be had in joint coordinates.
   explicit JointSpace(Equations& equations);
 
+  static constexpr bool is_of_bodies = false;
   Index size() const { return tree_.n_q + tree_.n_u + s_.n_z; } ///< of x = [q | u | z]
 
   /// x, x' from consistent y, y', whose layout is that of the regime, as after an accepted step; of
