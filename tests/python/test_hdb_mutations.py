@@ -247,3 +247,20 @@ def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):
     wrong = dataclasses.replace(sphere, radiation_damping=damping)
     errors = [f for f in hdb.check(wrong).findings if f.severity == "error"]
     assert any("mostly sphere.heave;" in f.message for f in errors)
+
+
+def test_a_column_that_is_no_phase_is_told(copy):
+    """Phases in other units, or of other coordinates, jump from frequency to frequency."""
+    folder = copy("twospheres_capytaine_legacy")
+    whole = hdb.read(folder)
+    assert not any("jumps" in f.message for f in hdb.check(whole).find("excitation smooth"))
+    heave = next(c for c in whole.coordinates if c.endswith("heave"))
+    turned = whole.diffraction.copy()
+    i = whole.index(heave)[0]
+    total = whole.excitation[:, 0, i]
+    turned[:, 0, i] = np.abs(total) * np.exp(57.3j * 10.0 * np.angle(total))
+    turned[:, 0, i] -= whole.froude_krylov[:, 0, i]
+    told = hdb.check(dataclasses.replace(whole, diffraction=turned)).find("excitation smooth")
+    assert [f.severity for f in told] == ["warning"]
+    assert f"{heave} at heading" in told[0].message
+    assert "jumps" in told[0].message

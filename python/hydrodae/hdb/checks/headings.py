@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hydrodae import _core
 from hydrodae.hdb.checks.band import Band, inside
+from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 
 Array = NDArray[np.float64]
@@ -64,10 +64,7 @@ def heading_findings(database: HydroDatabase, band: Band) -> list[Finding]:
 
 def _misses(db: HydroDatabase, misses: Array, order: NDArray[np.intp]) -> Array:
     """Largest miss of each force over its largest over the headings, (nw, n)."""
-    points = np.array([_phase_point(db, label.rpartition(".")[0]) for label in db.coordinates])
-    along = np.outer(np.cos(db.heading), points[:, 0]) + np.outer(np.sin(db.heading), points[:, 1])
-    k = wavenumber(db.omega, db.water_depth, db.gravity)[:, None, None]
-    smooth = (db.excitation * np.exp(1j * k * along))[:, order]
+    smooth = without_phase(db)[:, order]
     size = np.abs(smooth).max(axis=1)
     turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in db.coordinates])
     largest = np.where(
@@ -77,9 +74,3 @@ def _misses(db: HydroDatabase, misses: Array, order: NDArray[np.intp]) -> Array:
     )
     missed = np.abs(np.einsum("mh,whc->wmc", misses, smooth)).max(axis=1)
     return np.where(size > NONE * largest, missed / np.maximum(size, 1e-300), 0.0)
-
-
-def _phase_point(db: HydroDatabase, body: str) -> Array:
-    held = db.bodies[body]
-    known = held.hydrostatics is not None or held.reference_point is not None
-    return db.phase_point(body) if known else np.zeros(3)
