@@ -13,7 +13,7 @@ from hydrodae.hdb.readers.source import Array, Complex, SourceData, sha256
 from hydrodae.hdb.tables import Body
 from hydrodae.version import version
 
-#: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled, or a factor.
+#: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled.
 GARBLED = 10.0
 #: No water couples two motions by so many times what their own added masses allow.
 EXCHANGED = 2.0
