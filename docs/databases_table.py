@@ -84,7 +84,8 @@ def entries(paths: list[Path]) -> list[Entry]:
 def apart(one: HydroDatabase, other: HydroDatabase) -> list[str]:
     """Differences of A, B, F, A(inf), hydrostatics, diagonal entries, in the band of the other.
 
-    Rms over the frequencies of both, over the rms of the other; the worst coordinate that radiates.
+    Rms over the frequencies of both, over the rms of the other; the median of the coordinates that
+    radiate, and the worst.
     """
     one = one.renamed(dict(zip(one.bodies, other.bodies, strict=True)))
     points = {
@@ -103,7 +104,7 @@ def apart(one: HydroDatabase, other: HydroDatabase) -> list[str]:
     for name in ("added_mass", "radiation_damping"):
         x = np.einsum("wii->wi", CubicSpline(one.omega, getattr(one, name))(w)) * ratio
         y = np.einsum("wii->wi", CubicSpline(part.omega, getattr(part, name))(w))
-        cells.append(_worst(x, y))
+        cells.append(_spread(x, y, labels))
     pair = [
         (i, j)
         for i, a in enumerate(one.heading)
@@ -117,11 +118,12 @@ def apart(one: HydroDatabase, other: HydroDatabase) -> list[str]:
         turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in labels])
         size = np.abs(y).max(axis=0)
         forced = size > 0.02 * np.where(turning, size[turning].max(), size[~turning].max())
-        cells.append(_worst(x[:, forced], y[:, forced]))
+        kept = [c for c, used in zip(labels, forced, strict=True) if used]
+        cells.append(_spread(x[:, forced], y[:, forced], kept))
     else:
         cells.append("-")
     x, y = np.diag(one.added_mass_inf) * ratio, np.diag(part.added_mass_inf)
-    cells.append(f"{np.abs(x / y - 1.0).max():.1%}")
+    cells.append(_median_and_worst(np.abs(x / y - 1.0), labels))
     cells.append(_statics(one, other))
     return cells
 
@@ -143,11 +145,15 @@ def twins(one: HydroDatabase, other: HydroDatabase) -> bool:
     return True
 
 
-def _worst(x: np.ndarray, y: np.ndarray) -> str:
+def _spread(x: np.ndarray, y: np.ndarray, labels: list[str]) -> str:
     if not x.size:
         return "-"
     rest = np.sqrt(np.mean(np.abs(x - y) ** 2, axis=0) / np.mean(np.abs(y) ** 2, axis=0))
-    return f"{rest.max():.1%}"
+    return _median_and_worst(rest, labels)
+
+
+def _median_and_worst(rest: np.ndarray, labels: list[str]) -> str:
+    return f"{np.median(rest):.1%}, {rest.max():.1%} {labels[int(rest.argmax())].split('.')[-1]}"
 
 
 def _statics(one: HydroDatabase, other: HydroDatabase) -> str:

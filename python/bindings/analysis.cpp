@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/hydro/headings.h"
 
 namespace py = pybind11;
 
@@ -56,6 +57,12 @@ void bind_analysis(py::module_& module) {
              "cpp/hydrodae/analysis.h.\nRaises CaseError.");
   module.def("wave_components", &wave_components, py::arg("scene"),
              "Components of all wave systems, (n, 4): frequency, heading, amplitude, phase.");
+  py::class_<hydro::Headings>(module, "Headings", "See cpp/hydrodae/hydro/headings.h.")
+      .def(py::init<VectorX>(), py::arg("heading"))
+      .def("covered", &hydro::Headings::covered, py::arg("heading"))
+      .def("weights", &hydro::Headings::weights, py::arg("heading"))
+      .def("doubt", &hydro::Headings::doubt, py::arg("miss"))
+      .def_property_readonly("misses", &hydro::Headings::misses);
 }
 
 } // namespace hydrodae::bindings

@@ -107,6 +107,20 @@ def catenary(
 def wave_components(scene: Scene) -> NDArray[np.float64]:
     """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
 
+class Headings:
+    """Between the headings (nh,) of a database, ascending [rad]; cpp/hydrodae/hydro/headings.h."""
+
+    def __init__(self, heading: NDArray[np.float64]) -> None: ...
+    def covered(self, heading: float) -> float | None:
+        """The heading turned into the table, None outside of it."""
+    def weights(self, heading: float) -> NDArray[np.float64]:
+        """What each heading of the table counts, (nh,), at a heading from `covered`."""
+    def doubt(self, miss: float) -> float:
+        """Share by which forces between headings may be off, from the largest miss."""
+    @property
+    def misses(self) -> NDArray[np.float64]:
+        """What interpolation without every other heading misses, from the forces (n, nh)."""
+
 def simulate(
     scene: Scene,
     output: str,

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import hydrodae
-from hydrodae import hdb
+from hydrodae import _core, hdb
+from hydrodae.cli import main
 from hydrodae.errors import HydrodaeError
 from hydrodae.frequency import LinearModel
 from hydrodae.hdb.all_round import closed, goes_round
+from hydrodae.hdb.dispersion import wavenumber
 
 CASE = """
 [hydro]
@@ -36,10 +40,11 @@ step = 0.1
 """
 
 
-def ring(degrees) -> hdb.HydroDatabase:
+def ring(degrees, **others) -> hdb.HydroDatabase:
     water = hdb.Water(np.linspace(1.0, 3.0, 4), depth=4.0, heading=np.radians(degrees))
     body = hdb.Cylinder(0.4, 0.5, -0.3)
-    return hdb.cylinders({"buoy": (0.0, 0.0)}, body, water, orders=2, modes=8)[0]
+    places = {"buoy": (0.0, 0.0), **others}
+    return hdb.cylinders(places, body, water, orders=2, modes=8)[0]
 
 
 @pytest.mark.parametrize(
@@ -117,4 +122,103 @@ def test_wide_steps_between_headings_are_told():
     found = hdb.check(ring([-180.0, 0.0])).find("headings")
     assert [f.severity for f in found] == ["warning"]
     assert "none between -180 and 0 deg" in found[0].message
-    assert not hdb.check(ring([0.0, 60.0])).find("headings")
+    assert "0.13 of their largest" in hdb.check(ring([0.0, 60.0])).find("headings")[0].message
+    assert not hdb.check(ring([0.0, 30.0, 60.0])).find("headings")
+    # exact for a body of revolution
+    assert not hdb.check(ring([0.0, 90.0, 180.0, 270.0])).find("headings")
+    pair = hdb.check(ring([0.0, 90.0, 180.0, 270.0], other=(1.0, 0.0)), (2.0, 3.0))
+    assert pair.find("headings")[0].severity == "warning"
+
+
+def misses(degrees, exact: hdb.HydroDatabase) -> np.ndarray:
+    """What interpolation between some headings of the exact table misses, of the largest force."""
+    every = exact.heading
+    rows = [int(np.argmin(np.abs(every - b))) for b in np.radians(degrees)]
+    rule = _core.Headings(every[rows])
+    within = [b for b in every if every[rows[0]] <= b <= every[rows[-1]]]
+    weights = np.array([rule.weights(b) for b in within])
+    smooth = exact.excitation * np.exp(1j * np.einsum("w,hc->whc", waves(exact), along(exact)))
+    found = np.einsum("bh,whc->wbc", weights, smooth[:, rows])
+    here = smooth[:, np.searchsorted(every, within)]
+    size = np.abs(smooth).max(axis=1)
+    used = size.max(axis=0) > 1e-3 * size.max()
+    return np.asarray(np.abs(found - here).max(axis=1)[:, used] / size[:, used])
+
+
+def waves(database: hdb.HydroDatabase) -> np.ndarray:
+    return wavenumber(database.omega, database.water_depth, database.gravity)
+
+
+def along(database: hdb.HydroDatabase) -> np.ndarray:
+    points = np.array([database.phase_point(c.split(".")[0]) for c in database.coordinates])
+    d = np.stack([np.cos(database.heading), np.sin(database.heading)], axis=1)
+    return np.asarray(d @ points[:, :2].T)
+
+
+@pytest.mark.parametrize(
+    "degrees", [np.arange(0, 361, 90), [0, 50, 120, 200, 290, 360], [0, 40, 90], [-180, -90, 30]]
+)
+def test_forces_on_a_body_of_revolution_are_exact_between_any_three_headings(degrees):
+    assert misses(degrees, ring(np.arange(-180, 361, 10))).max() < 1e-9
+
+
+def test_the_doubt_covers_what_is_missed_between_two_bodies():
+    exact = ring(np.arange(0, 361, 5), other=(1.4, 0.5))
+    smooth = exact.excitation * np.exp(1j * np.einsum("w,hc->whc", waves(exact), along(exact)))
+    size = np.abs(smooth).max(axis=1)
+    used = size.max(axis=0) > 1e-3 * size.max()
+    smooth, size = smooth[..., used], size[:, used]
+    for degrees in (
+        *[np.arange(0, 361, step) for step in (15, 30, 45, 60, 90)],
+        *[np.arange(0, 181, step) for step in (15, 30, 45, 60)],
+        np.array([0, 30, 75, 120, 180, 225, 255, 330, 360]),
+    ):
+        rows = np.searchsorted(exact.heading, np.radians(degrees) - 1e-9)
+        rule = _core.Headings(exact.heading[rows])
+        told = np.abs(np.einsum("mh,whc->wmc", rule.misses, smooth[:, rows])).max(axis=1) / size
+        doubts = [rule.doubt(miss) for miss in told.max(axis=1)]
+        missed = misses(degrees, exact).max(axis=1)
+        assert np.all(missed < np.array(doubts) + 1e-4), degrees
+    assert misses(np.arange(0, 361, 15), exact).max() < 1e-4
+    assert misses(np.arange(0, 361, 30), exact).max() < 0.01
+
+
+def test_a_reference_point_far_from_the_body_changes_nothing(tmp_path: Path):
+    near = ring(np.arange(0, 360, 45))
+    case = tmp_path / "case.toml"
+    ways = []
+    for point in ([0.0, 0.0, -0.3], [30.0, -20.0, 0.0]):
+        near.moved_to({"buoy": np.array(point)}).write(tmp_path / "hydro.h5")
+        case.write_text(CASE.replace("[0.0, 0.0, -0.3]", str(point)))
+        linear = LinearModel(case).excitation(np.array([2.5]), np.radians(20.0))[0]
+        results = hydrodae.run(case, set={"wave.swell.heading_deg": 20.0})
+        ways.append((linear, np.ptp(np.asarray(results["bodies/buoy/position"]), axis=0)))
+    exact = ring([20.0]).excitation[:, 0, :2]
+    at = CubicSpline(near.omega, exact, bc_type="natural")(2.5)
+    for linear, _ in ways:
+        np.testing.assert_allclose(linear, at, rtol=1e-6)
+    np.testing.assert_allclose(ways[0][1], ways[1][1], atol=1e-9)
+
+
+def test_check_tells_of_waves_between_wide_headings(tmp_path: Path):
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.replace("period = 3.0", "period = 2.2"))
+    ring([0, 90, 180, 270], other=(1.4, 0.5)).write(tmp_path / "hydro.h5")
+    told = hydrodae.check(case, set={"wave.swell.heading_deg": 40.0})
+    assert re.search(r"'swell' travels between .* 90 deg apart: .* off by [\d.]+ % .*buoy\.", told)
+    assert "travels between" not in hydrodae.check(case, set={"wave.swell.heading_deg": -90.0})
+    ring([0, 90, 180, 270]).write(tmp_path / "hydro.h5")
+    assert "travels between" not in hydrodae.check(case, set={"wave.swell.heading_deg": 40.0})
+    ring([0, 90]).write(tmp_path / "hydro.h5")
+    told = hydrodae.check(case, set={"wave.swell.heading_deg": 40.0})
+    assert re.search(r"looks wrong.*'swell'.* off by 29 %", told, re.DOTALL)
+
+
+@pytest.mark.parametrize("degrees", ["400", "nan", "-361", "east"])
+def test_commands_take_directions_as_cases_do(degrees, capsys):
+    with pytest.raises(SystemExit):
+        main(["rao", "case.toml", f"--heading={degrees}"])
+    assert "expected a direction from -360 to 360 deg" in capsys.readouterr().err
+    command = ["hdb", "array", "--radius=1", "--draft=1", "--at=a=0,0", "--depth=9"]
+    assert main([*command, "--omega=1,2,4", f"--heading-deg=0,{degrees}"]) != 0
+    assert f"--heading-deg '0,{degrees}'" in capsys.readouterr().err

@@ -247,3 +247,43 @@ def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):
     wrong = dataclasses.replace(sphere, radiation_damping=damping)
     errors = [f for f in hdb.check(wrong).findings if f.severity == "error"]
     assert any("mostly sphere.heave;" in f.message for f in errors)
+
+
+def test_a_column_that_is_no_phase_is_told(copy):
+    """Phases in other units, or of other coordinates, jump from frequency to frequency."""
+    folder = copy("twospheres_capytaine_legacy")
+    whole = hdb.read(folder)
+    assert not any("jumps" in f.message for f in hdb.check(whole).find("excitation smooth"))
+    heave = next(c for c in whole.coordinates if c.endswith("heave"))
+    turned = whole.diffraction.copy()
+    i = whole.index(heave)[0]
+    total = whole.excitation[:, 0, i]
+    turned[:, 0, i] = np.abs(total) * np.exp(57.3j * 10.0 * np.angle(total))
+    turned[:, 0, i] -= whole.froude_krylov[:, 0, i]
+    told = hdb.check(dataclasses.replace(whole, diffraction=turned)).find("excitation smooth")
+    assert [f.severity for f in told] == ["warning"]
+    assert f"{heave} at heading" in told[0].message
+    assert "jumps" in told[0].message
+
+
+def test_a_listing_that_is_cut_short_is_refused(copy):
+    path = copy("cylinder_wamit_out") / "cyl.out"
+    text = path.read_text()
+    path.write_text(text[: text.index("Wave period", int(0.7 * len(text)))])
+    with pytest.raises(
+        DatabaseError, match=r"cyl.out: 527 periods .* results of \d+ follow: .* cut"
+    ):
+        read_source(path)
+
+
+def test_halves_of_added_mass_far_apart_are_an_error(copy):
+    """One number of the coupling of surge and pitch, a thousand times too large."""
+    path = copy("cylinder_hams") / "Wamit_format" / "Buoy.1"
+    lines = path.read_text().splitlines()
+    k = next(k for k, line in enumerate(lines) if line.split()[1:3] == ["1", "5"] and k > 900)
+    cells = lines[k].split()
+    lines[k] = "  ".join([*cells[:3], f"{1e6 * float(cells[3]):.6E}", *cells[4:]])
+    path.write_text("\n".join(lines) + "\n")
+    _, report = hdb.import_database(path.parents[1])
+    errors = [f.message for f in report.findings if f.severity == "error"]
+    assert any("asymmetry" in message and "of the diagonal" in message for message in errors)

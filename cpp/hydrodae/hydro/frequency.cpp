@@ -10,8 +10,6 @@ namespace hydrodae::hydro {
 namespace {
 
 constexpr double slack = 1e-9; ///< of frequencies, relative
-/// Of headings [rad]: a device that rests with its bow a hair off its reference feels the same.
-constexpr double aside = 1e-4;
 
 std::vector<double> as_list(const VectorX& values) {
   return {values.data(), values.data() + values.size()};
@@ -24,12 +22,10 @@ double phase_lag(const Database& db, const Vector3& point, double omega, double 
 
 } // namespace
 
-std::optional<double> covered_heading(const Database& database, double heading) {
-  const double low = database.heading[0], high = database.heading[database.heading.size() - 1];
-  const double turned = heading - 2.0 * pi * std::floor((heading - low + aside) / (2.0 * pi));
-  if (turned > high + aside)
-    return std::nullopt;
-  return std::clamp(turned, low, high);
+Vector3 phase_point(const DatabaseBody& body) {
+  const bool floats = body.hydrostatics && body.hydrostatics->displaced_volume > 0.0 &&
+                      body.hydrostatics->center_of_buoyancy.allFinite();
+  return floats ? body.hydrostatics->center_of_buoyancy : body.reference_point;
 }
 
 bool covers_frequency(const Database& database, double omega) {
@@ -39,7 +35,7 @@ bool covers_frequency(const Database& database, double omega) {
 
 Excitation::Excitation(const Database& database, const std::vector<Eigen::MatrixXcd>& table,
                        const std::vector<std::string>& labels)
-    : db_(database) {
+    : db_(database), headings_(database.heading) {
   const std::vector<double> omega = as_list(db_.omega);
   for (const std::string& label : labels) {
     Row row;
@@ -47,7 +43,7 @@ Excitation::Excitation(const Database& database, const std::vector<Eigen::Matrix
     row.known = found != db_.coordinates.end();
     if (row.known) {
       const auto column = static_cast<Eigen::Index>(found - db_.coordinates.begin());
-      row.point = find_body(db_, label.substr(0, label.rfind('.')))->reference_point;
+      row.point = phase_point(*find_body(db_, label.substr(0, label.rfind('.'))));
       for (Eigen::Index h = 0; h < db_.heading.size(); ++h) {
         std::vector<double> real, imaginary;
         for (Eigen::Index w = 0; w < db_.omega.size(); ++w) {
@@ -65,25 +61,20 @@ Excitation::Excitation(const Database& database, const std::vector<Eigen::Matrix
   }
 }
 
+Eigen::MatrixXcd Excitation::smooth(double omega) const {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(db_.heading.size(), std::ssize(rows_));
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t h = 0; h < rows_[r].real.size(); ++h)
+      out(static_cast<Eigen::Index>(h), static_cast<Eigen::Index>(r)) = {
+          rows_[r].real[h](omega)[0], rows_[r].imaginary[h](omega)[0]};
+  return out;
+}
+
 Eigen::VectorXcd Excitation::operator()(double omega, double heading) const {
-  Eigen::VectorXcd force = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(rows_.size()));
-  const std::vector<double> headings = as_list(db_.heading);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
-    if (!row.known)
-      continue;
-    std::vector<double> real, imaginary;
-    for (std::size_t h = 0; h < headings.size(); ++h) {
-      real.push_back(row.real[h](omega)[0]);
-      imaginary.push_back(row.imaginary[h](omega)[0]);
-    }
-    std::complex<double> smooth(real[0], imaginary[0]);
-    if (headings.size() > 1)
-      smooth = {CubicSpline(headings, real)(heading)[0],
-                CubicSpline(headings, imaginary)(heading)[0]};
-    force[static_cast<Eigen::Index>(r)] =
-        smooth * std::polar(1.0, -phase_lag(db_, row.point, omega, heading));
-  }
+  Eigen::VectorXcd force = smooth(omega).transpose() * headings_.weights(heading);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    force[static_cast<Eigen::Index>(r)] *=
+        std::polar(1.0, -phase_lag(db_, rows_[r].point, omega, heading));
   return force;
 }
 

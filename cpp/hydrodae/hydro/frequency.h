@@ -1,25 +1,25 @@
 #pragma once
 /// The tables of the database between their points.
 
-#include <optional>
 #include <vector>
 
 #include "hydrodae/hydro/database.h"
+#include "hydrodae/hydro/headings.h"
 #include "hydrodae/math/spline.h"
 
 namespace hydrodae::hydro {
 
-/// The heading as an angle within the headings of the database (turned by full turns), or nothing
-/// if it lies more than 1e-4 rad outside. A database of one heading covers that one only.
-std::optional<double> covered_heading(const Database& database, double heading);
-
 /// Does the database reach to this frequency [rad/s]?
 bool covers_frequency(const Database& database, double omega);
 
+/// Where the phase of the waves is taken off the forces on a body before these are interpolated:
+/// its centre of buoyancy, or the reference point, which may be far from it, if that is not known.
+Vector3 phase_point(const DatabaseBody& body);
+
 /// Excitation of some coordinates at any frequency and heading inside the tables. The phase at the
-/// body's reference point is taken off, real and imaginary part are interpolated by natural cubic
-/// splines in frequency, then in heading, and the phase is put back: without it the coefficients
-/// are smooth functions of both.
+/// body is taken off, real and imaginary part are interpolated by natural cubic splines in
+/// frequency, then over the headings (headings.h), and the phase is put back: without it the
+/// coefficients are smooth functions of both.
 class Excitation {
 public:
   /// `labels` "<body>.<dof>"; those that are no coordinates of the database get no load. `table`:
@@ -28,11 +28,17 @@ public:
              const std::vector<std::string>& labels);
 
   /// Per metre of amplitude [N/m, N m/m], phase zero at the origin of the world; (n_labels,).
-  /// The frequency must be covered, the heading come from `covered_heading`.
+  /// The frequency must be covered, the heading come from `headings().covered`.
   Eigen::VectorXcd operator()(double omega, double heading) const;
+
+  /// Without the phase, at the headings of the table, (nh, n_labels).
+  Eigen::MatrixXcd smooth(double omega) const;
+
+  const Headings& headings() const { return headings_; }
 
 private:
   const Database& db_;
+  Headings headings_;
   struct Row {
     bool known = false;
     Vector3 point = Vector3::Zero();

@@ -34,13 +34,15 @@ std::vector<Meeting> meetings(const model::Scene& scene, const System& s) {
 }
 
 /// Load on all coordinates of all bodies per metre of amplitude, phase zero at the origin.
-Eigen::VectorXcd meet(const hydro::Database& db, const hydro::Excitation& excitation,
-                      const std::vector<Meeting>& bodies, const sea::Component& c) {
+Eigen::VectorXcd meet(const hydro::Excitation& excitation, const std::vector<Meeting>& bodies,
+                      const sea::Component& c) {
   const bool turned = std::any_of(bodies.begin(), bodies.end(), [](const Meeting& m) {
     return m.yaw != 0.0 || m.point != m.database_point;
   });
-  Eigen::VectorXcd force =
-      excitation(c.omega, *hydro::covered_heading(db, c.heading - bodies.front().yaw));
+  const auto at = [&](double omega, double heading) {
+    return excitation(omega, *excitation.headings().covered(heading));
+  };
+  Eigen::VectorXcd force = at(c.omega, c.heading - bodies.front().yaw);
   if (!turned)
     return force;
   const auto ahead = [](double heading) {
@@ -52,9 +54,7 @@ Eigen::VectorXcd meet(const hydro::Database& db, const hydro::Excitation& excita
     const double lag =
         c.wavenumber * (m.point.dot(ahead(c.heading)) - m.database_point.dot(ahead(heading)));
     const auto row = 6 * static_cast<Eigen::Index>(i);
-    force.segment<6>(row) =
-        std::polar(1.0, -lag) *
-        excitation(c.omega, *hydro::covered_heading(db, heading)).segment<6>(row);
+    force.segment<6>(row) = std::polar(1.0, -lag) * at(c.omega, heading).segment<6>(row);
   }
   return force;
 }
@@ -63,6 +63,7 @@ Eigen::VectorXcd meet(const hydro::Database& db, const hydro::Excitation& excita
 void check_coverage(const hydro::Database& db, const sea::Wave& wave,
                     const std::vector<sea::Component>& components,
                     const std::vector<Meeting>& bodies) {
+  const hydro::Headings headings(db.heading);
   const std::string head = "wave " + in_quotes(wave.name) + ": ", key = "wave." + wave.name;
   for (const sea::Component& c : components) {
     if (!hydro::covers_frequency(db, c.omega))
@@ -72,7 +73,7 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
                            number_text(db.omega[db.omega.size() - 1]) + " rad/s" +
                            (wave.type == "regular" ? "" : "; set 'frequency_range'"));
     const auto covered = [&](const Meeting& m) {
-      return hydro::covered_heading(db, c.heading - m.yaw).has_value();
+      return headings.covered(c.heading - m.yaw).has_value();
     };
     if (std::all_of(bodies.begin(), bodies.end(), covered))
       continue;
@@ -134,13 +135,13 @@ void add_sea(const model::Scene& scene, System& s) {
     const sea::Component& c = all[static_cast<std::size_t>(i)];
     const std::complex<double> elevation = std::polar(c.amplitude, c.phase);
     omega[i] = c.omega;
-    const Eigen::VectorXcd force = elevation * meet(db, excitation, bodies, c);
+    const Eigen::VectorXcd force = elevation * meet(excitation, bodies, c);
     for (int u = 0; u < h.n_moving; ++u)
       coefficients(u, i) = force[6 * h.coordinates[u].hydro_body + h.coordinates[u].component];
     coefficients.col(i).segment(h.n_moving, rows) = force;
     if (split)
       coefficients.col(i).segment(h.n_moving + rows, rows) =
-          elevation * meet(db, *froude_krylov, bodies, c);
+          elevation * meet(*froude_krylov, bodies, c);
     coefficients(last, i) = elevation;
   }
   auto list = excitation_list(s, split);

@@ -47,6 +47,9 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& 
 /// Findings on the height of the waves against their length and the depth.
 std::vector<Finding> look_at_sea(const model::Scene& scene);
 
+/// Findings on waves that travel between the headings of the database.
+std::vector<Finding> look_at_headings(const model::Scene& scene, const System& system);
+
 /// All of them.
 std::vector<Finding> look_over(const model::Scene& scene, const System& system);
 

@@ -7,9 +7,12 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.case import Case, parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
+
+Array = NDArray[np.float64]
 
 
 def given_case(arguments: argparse.Namespace, values: Mapping[str, Any] | None = None) -> Case:
@@ -30,6 +33,31 @@ def parse_numbers(what: str, text: str, count: int) -> list[float]:
     if len(values) != count or not np.all(np.isfinite(values)):
         raise CaseError(f"{what} {text!r}: expected {count} numbers separated by commas")
     return values
+
+
+def heading_deg(text: str) -> float:
+    """Read one direction of travel [deg], -360 to 360, as `type` of an argument."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not abs(value) <= 360.0:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a direction from -360 to 360 deg")
+    return value
+
+
+def parse_headings(option: str, text: str) -> Array:
+    """Read directions of travel A,B,... [deg], -360 to 360 as in cases; returns them in rad.
+
+    Raises
+    ------
+    CaseError
+        One is no number, or outside.
+    """
+    degrees = np.array(parse_numbers(option, text, text.count(",") + 1))
+    if np.any(np.abs(degrees) > 360.0):
+        raise CaseError(f"{option} {text!r}: expected directions between -360 and 360 deg")
+    return np.asarray(np.radians(degrees))
 
 
 def parse_point(option: str, text: str) -> tuple[str, list[float]]:

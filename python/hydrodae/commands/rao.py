@@ -7,6 +7,7 @@ import argparse
 import numpy as np
 
 from hydrodae.case import Case, parse_assignment
+from hydrodae.commands.arguments import heading_deg
 from hydrodae.commands.machine import add_json, of_rao, print_json
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel, without_memory
@@ -25,7 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="periods whose values are printed [s]; default: a few within the database",
     )
     parser.add_argument(
-        "--heading", metavar="DEG", type=float, default=0.0, help="direction of travel, 0 = +x"
+        "--heading",
+        metavar="DEG",
+        type=heading_deg,
+        default=0.0,
+        help="direction of travel, 0 = +x",
     )
     parser.add_argument(
         "--time-domain", action="store_true", help="also run regular waves and compare"

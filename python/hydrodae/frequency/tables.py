@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -9,15 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from hydrodae import _core
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-#: How far outside the headings of a database one may be [rad], as in a run.
-ASIDE = 1e-4
 
 
 class WaterTables:
@@ -103,14 +102,16 @@ class WaterTables:
         along += np.multiply.outer(np.sin(heading), points[:, 1])
         return np.asarray(wavenumber(omega, db.water_depth, db.gravity)[:, None, None] * along)
 
+    def _points(self, of: Callable[[HydroDatabase, str], Array]) -> Array:
+        """A point of the body of each label, (m, 3) [m]."""
+        labels = self._model["hydro_labels"]
+        return np.array([of(self.database, label.rpartition(".")[0]) for label in labels])
+
     @cached_property
     def _smooth_excitation(self) -> CubicSpline:
-        """Excitation over frequency with the phase at the reference points taken off."""
+        """Excitation over frequency with the phase at the bodies taken off."""
         db = self.database
-        points = np.array(
-            [db.reference_point(label.rpartition(".")[0]) for label in self._model["hydro_labels"]]
-        )
-        lag = self._lag(db.omega, db.heading, points)
+        lag = self._lag(db.omega, db.heading, self._points(HydroDatabase.phase_point))
         smooth = db.excitation[:, :, self._labels] * np.exp(1j * lag)
         return CubicSpline(db.omega, smooth, bc_type="natural")
 
@@ -122,7 +123,6 @@ class WaterTables:
         DatabaseError
             A frequency or the heading is outside the database.
         """
-        db = self.database
         self.check_frequencies(w)
         yaws = np.asarray(self._model["hydro_yaws"], dtype=float)
         points = np.asarray(self._model["hydro_points"], dtype=float).reshape(-1, 3)
@@ -130,23 +130,30 @@ class WaterTables:
         force = np.empty((w.size, yaws.size), dtype=complex)
         for yaw in np.unique(yaws):
             mine = yaws == yaw
-            relative = _covered_heading(db, heading - yaw)
-            if db.heading.size > 1:
-                spline = CubicSpline(db.heading, tables[:, :, mine], axis=1, bc_type="natural")
-                force[:, mine] = spline(relative)
-            else:
-                force[:, mine] = tables[:, 0, mine]
+            relative = self._covered(heading - yaw)
+            weights = self._headings.weights(relative)
+            phase = self._lag(w, np.array([relative]), self._places[mine])[:, 0]
+            force[:, mine] = np.einsum("h,whc->wc", weights, tables[:, :, mine])
+            force[:, mine] *= np.exp(-1j * phase)
         force *= np.exp(-1j * self._lag(w, np.array([heading]), points))[:, 0]
         return np.asarray(force @ self._model["hydro_map"])
 
+    @cached_property
+    def _headings(self) -> _core.Headings:
+        return _core.Headings(self.database.heading)
 
-def _covered_heading(db: HydroDatabase, heading: float) -> float:
-    """The heading within those of the database; the small yaw of a device at rest is no matter."""
-    low, high = db.heading[0], db.heading[-1]
-    turned = heading - 2.0 * np.pi * np.floor((heading - low + ASIDE) / (2.0 * np.pi))
-    if turned > high + ASIDE:
-        raise DatabaseError(
-            f"heading {np.degrees(heading):g} deg is outside the headings of the database, "
-            f"{np.degrees(low):g} to {np.degrees(high):g} deg"
-        )
-    return float(np.clip(turned, low, high))
+    @cached_property
+    def _places(self) -> Array:
+        """From the reference points to where the phase is taken off, (m, 3) [m]."""
+        return self._points(HydroDatabase.phase_point) - self._points(HydroDatabase.reference_point)
+
+    def _covered(self, heading: float) -> float:
+        """The heading within those of the database."""
+        covered = self._headings.covered(heading)
+        if covered is None:
+            low, high = np.degrees(self.database.heading[[0, -1]])
+            raise DatabaseError(
+                f"heading {np.degrees(heading):g} deg is outside the headings of the database, "
+                f"{low:g} to {high:g} deg"
+            )
+        return covered

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,17 @@ from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
 
+if TYPE_CHECKING:
+    from hydrodae.memory import ExponentialMemory
+
 #: Weighted error of H outside the band, where frequencies there had to be left out: those beside
 #: them, which share what is wrong, remain.
 OUTSIDE = 0.3
+#: Frequencies above so many times the band may be left out, if so many rows remain.
+ABOVE, LEAST_ROWS = (2.0, 1.2), 12
+#: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
+#: beyond so many times its largest in the tables.
+INERTIA, RINGS = 0.05, 1.5
 
 
 def fit(
@@ -38,7 +46,8 @@ def fit(
     """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
 
     A fit that would be refused is tried again without the frequencies outside the band that break
-    causality or energy (irregular frequencies); its report tells how many (`left_out`).
+    causality or energy (irregular frequencies), and then without those above the band; its report
+    tells how many (`left_out`), its A_inf must be that of the tables, and its H not larger.
 
     Parameters
     ----------
@@ -86,7 +95,7 @@ def fit(
     hydrodae.memory.MemoryFitWarning
         What the fit missed and was accepted; coordinates that do not radiate.
     """
-    from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+    from hydrodae.memory import MemoryFitWarning, fit_memory
     from hydrodae.memory.fit import DEFAULT_BAND
     from hydrodae.memory.verdict import CHECKS, missed
 
@@ -118,12 +127,8 @@ def fit(
         warnings.simplefilter("always", MemoryFitWarning)
         made = fit_memory(database, inputs=moving, name=name, **options)
     refused = refusals(made)
-    bad = doubtful(database.select(moving), band or DEFAULT_BAND) if refused else np.zeros(0, bool)
-    if bad.any():
-        text = (
-            f"{bad.sum()} of {bad.size} frequencies, outside the band, break causality or energy: "
-            f"left out"
-        )
+    judged = band or DEFAULT_BAND
+    for bad, text in ways_out(database.select(moving), judged) if refused else []:
         if progress is not None:
             progress(text)
         options["target_outside"] = OUTSIDE
@@ -131,9 +136,11 @@ def fit(
             warnings.simplefilter("always", MemoryFitWarning)
             again = fit_memory(at(database, ~bad), inputs=moving, name=name, **options)
         left = refusals(again)
-        if len(left) < len(refused):
+        if len(left) < len(refused) and goes_on(again, database):
             report = {**again.report, "left_out": text}
             made, refused, told = replace(again, report=report), left, then
+        if not refused:
+            break
     if refused:
         raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
     for warning in told:
@@ -141,9 +148,58 @@ def fit(
     return replace(database, memory={**database.memory, name: made})
 
 
-def doubtful(database: HydroDatabase, band: tuple[float, float]) -> NDArray[np.bool_]:
-    """Return the frequencies (nw,) outside the band that break causality or energy."""
-    return np.asarray(suspect_rows(database) & ~inside(database.omega, band))
+def ways_out(
+    database: HydroDatabase, band: tuple[float, float]
+) -> list[tuple[NDArray[np.bool_], str]]:
+    """Return frequencies (nw,) that a fit may leave out where it would be refused, and a text.
+
+    First those outside the band that break causality or energy; then also all above twice the band,
+    and all above it but a margin: panels may be too coarse there, and A and B, each smooth, need
+    not belong to each other.
+    """
+    w = database.omega
+    bad = np.asarray(suspect_rows(database) & ~inside(w, band))
+    found = []
+    if bad.any():
+        text = (
+            f"{bad.sum()} of {bad.size} frequencies, outside the band, break causality or energy: "
+            f"left out"
+        )
+        found.append((bad, text))
+    for ratio in ABOVE:
+        gone = bad | (w > ratio * band[1])
+        before = found[-1][0] if found else np.zeros(w.size, bool)
+        if np.array_equal(gone, before) or np.count_nonzero(~gone & (w >= band[0])) < LEAST_ROWS:
+            continue
+        text = (
+            f"{gone.sum()} of {w.size} frequencies, all above {ratio * band[1]:.3g} rad/s and what "
+            f"breaks causality or energy outside the band, do not go with the others: left out"
+        )
+        found.append((gone, text))
+    return found
+
+
+def goes_on(fit: ExponentialMemory, database: HydroDatabase) -> bool:
+    """Tell whether a fit goes to the right limit beyond the frequencies that it matches.
+
+    It is passive, its A_inf is that of the tables within their uncertainty, and |H| nowhere is far
+    beyond what it is at the frequencies of the tables that break no law.
+    """
+    i = database.index(fit.inputs)
+    moving = [fit.outputs.index(label) for label in fit.inputs]
+    own = np.diag(fit.added_mass_inf[moving])
+    off = own - np.diag(database.added_mass_inf)[i]
+    size = np.abs(database.added_mass[:, i, i]).max(axis=0)
+    allowed = np.maximum(INERTIA * size, 3.0 * np.diag(database.added_mass_inf_std)[i])
+    good = ~suspect_rows(database)
+    w = database.omega[good, None]
+    stored = database.radiation_damping[:, i, i][good] + 1j * w * (
+        database.added_mass[:, i, i][good] - own
+    )
+    fine = np.geomspace(database.omega[0], 2.0 * database.omega[-1], 2000)
+    made = np.einsum("wii->wi", fit.transfer(fine)[:, moving])
+    largest = np.abs(stored).max(axis=0)
+    return bool(np.all(np.abs(off) <= allowed) and np.all(np.abs(made) <= RINGS * largest))
 
 
 def at(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:

@@ -210,6 +210,23 @@ class Tables:
             )
         return point
 
+    def phase_point(self, body: str) -> Array:
+        """Where the phase of the waves is taken off the forces before interpolation, (3,) [m].
+
+        The centre of buoyancy; the reference point, which may be far from the body, where that is
+        not known. Likewise in a run.
+
+        Raises
+        ------
+        DatabaseError
+            Unknown body, or neither is known.
+        """
+        co.check_body(body, self.bodies)
+        hs = self.bodies[body].hydrostatics
+        if hs is None or not hs.displaced_volume > 0.0:
+            return self.reference_point(body)
+        return hs.center_of_buoyancy
+
     def radiation_kernel(self, time: ArrayLike, *, extrapolate: bool = False) -> Array:
         """K(t), (nt, n, n) [N/m, N, N m]; see `hydrodae.irf.radiation_kernel`."""
         return irf.radiation_kernel(

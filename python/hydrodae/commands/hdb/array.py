@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydrodae.commands.arguments import parse_numbers
+from hydrodae.commands.arguments import parse_headings, parse_numbers
 from hydrodae.errors import CaseError
 from hydrodae.hdb.coordinates import body_name
 from hydrodae.hdb.cylinder_array import Water, cylinders
@@ -87,11 +87,10 @@ def run(args: argparse.Namespace) -> int:
     low, high, count = parse_numbers("--omega", args.omega, 3)
     if not (0.0 < low < high and count >= 4 and count == int(count)):
         raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
-    degrees = parse_numbers("--heading-deg", args.heading_deg, args.heading_deg.count(",") + 1)
     water = Water(
         omega=np.linspace(low, high, int(count)),
         depth=args.depth,
-        heading=np.radians(degrees),
+        heading=parse_headings("--heading-deg", args.heading_deg),
         rho=args.rho,
         gravity=args.gravity,
     )

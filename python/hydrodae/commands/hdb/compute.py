@@ -10,7 +10,7 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.commands.arguments import parse_numbers, parse_point
+from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
@@ -112,10 +112,9 @@ def run(args: argparse.Namespace) -> int:
     low, high, count = parse_numbers("--omega", args.omega, 3)
     if not (0.0 < low < high and count >= 4 and count == int(count)):
         raise CaseError(f"--omega {args.omega!r}: expected LO,HI,N with 0 < LO < HI and N >= 4")
-    degrees = parse_numbers("--heading-deg", args.heading_deg, args.heading_deg.count(",") + 1)
     settings = bem.Settings(
         omega=np.linspace(low, high, int(count)),
-        heading=np.radians(degrees),
+        heading=parse_headings("--heading-deg", args.heading_deg),
         rho=args.rho,
         gravity=args.gravity,
         water_depth=args.depth,

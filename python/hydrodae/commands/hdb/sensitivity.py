@@ -7,7 +7,7 @@ import argparse
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.commands.arguments import given_case
+from hydrodae.commands.arguments import given_case, heading_deg
 from hydrodae.errors import CaseError
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.output import table, write
@@ -36,7 +36,9 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=[],
         help="of --result rao, such as joints/slide/displacement; may be repeated",
     )
-    parser.add_argument("--heading", metavar="DEG", type=float, default=0.0, help="of --result rao")
+    parser.add_argument(
+        "--heading", metavar="DEG", type=heading_deg, default=0.0, help="of --result rao"
+    )
     parser.add_argument(
         "--states", metavar="N1,N2,...", help="also refit the memory with these numbers of states"
     )

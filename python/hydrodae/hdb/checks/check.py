@@ -15,6 +15,7 @@ from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_ba
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
+from hydrodae.hdb.checks.headings import heading_findings
 from hydrodae.hdb.checks.heave import heave_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
@@ -25,10 +26,6 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import CheckReport, Finding
 from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_time
 from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
-
-#: Widest step between headings that interpolation bears [rad]. Two cylinders of radius a, 1.25
-#: diameters apart: at 90 deg 5 % off for k a = 0.13, 45 % for 1; at 30 deg 0.3 % and 15 %.
-WIDE = np.radians(61.0)
 
 
 def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
@@ -44,14 +41,15 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     Returns
     -------
     CheckReport
-        In the order grid, memory, symmetry, energy, irregular frequencies, causality, spikes, fits,
-        long waves, hulls.
+        In the order grid, headings, memory, symmetry, energy, irregular frequencies, causality,
+        spikes, fits, long waves, hulls.
     """
     judged = band or felt_band(database)
     return CheckReport(
         [
             _judged(database, judged, given=band is not None),
             *_grid(database),
+            *heading_findings(database, judged),
             *_memory(database),
             *_symmetry(database),
             *of_what_moves(
@@ -126,19 +124,6 @@ def _grid(db: HydroDatabase) -> list[Finding]:
                 omega=float(w[b[:, i].argmax()]),
             )
         )
-    if db.heading.size == 1:
-        found.append(
-            Finding("info", "headings", f"one heading only, {np.degrees(db.heading[0]):.4g} deg")
-        )
-    steps = np.diff(np.sort(db.heading))
-    if steps.max(initial=0.0) > WIDE:
-        i = int(steps.argmax())
-        first, second = np.degrees(np.sort(db.heading)[[i, i + 1]])
-        text = (
-            f"none between {first:.4g} and {second:.4g} deg: forces of waves between them are "
-            f"interpolated, some 5 % off in waves longer than the device, by half in shorter ones"
-        )
-        found.append(Finding("warning", "headings", text, value=float(np.degrees(steps[i]))))
     return found
 
 

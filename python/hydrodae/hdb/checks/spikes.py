@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import Band, inside
+from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 
@@ -22,6 +23,11 @@ ALONE = 5.0
 AROUND = 6
 #: Forces below this share of the largest of their kind vanish by symmetry.
 NONE = 1e-3
+#: A force is scrambled if half of its values are off by this share of those around them (0.16 is
+#: the most in tables of five codes), and if it is this share of the largest of its kind.
+SCRAMBLED, COUNTS = 0.4, 0.02
+#: Frequencies in the band that it takes to judge that.
+ENOUGH = 8
 
 
 def spikes(database: HydroDatabase) -> Array:
@@ -55,9 +61,10 @@ def spikes(database: HydroDatabase) -> Array:
 
 def spike_findings(database: HydroDatabase, band: Band) -> list[Finding]:
     """Name the largest spike of the excitation; outside the band it is a note."""
+    scrambled = _scrambled(database, band)
     found = spikes(database)
-    if not found.any():
-        return []
+    if scrambled or not found.any():
+        return scrambled
     judged = found * inside(database.omega, band)[:, None, None]
     severity = "warning" if judged.any() else "info"
     if judged.any():
@@ -71,3 +78,32 @@ def spike_findings(database: HydroDatabase, band: Band) -> list[Finding]:
     )
     value = float(found[at, h, c])
     return [Finding(severity, "excitation smooth", text, value, float(database.omega[at]))]
+
+
+def _scrambled(database: HydroDatabase, band: Band) -> list[Finding]:
+    """Name the force whose values follow no line at all: columns that are no amplitude and phase.
+
+    The phase at the body is taken off first: far from the origin it turns fast.
+    """
+    w, heading = database.omega, database.heading
+    judged = inside(w, band)[1:-1]
+    if judged.sum() < ENOUGH or not heading.size:
+        return []
+    force = without_phase(database)
+    share = ((w[1:-1] - w[:-2]) / (w[2:] - w[:-2]))[:, None, None]
+    off = np.abs(force[1:-1] - (1.0 - share) * force[:-2] - share * force[2:])
+    around = np.abs(np.stack([force[:-2], force[1:-1], force[2:]])).max(axis=0)
+    typical = np.median((off / np.maximum(around, 1e-300))[judged], axis=0)
+    size = np.quantile(np.abs(force), 0.9, axis=0)
+    turning = np.array([c.endswith(("roll", "pitch", "yaw")) for c in database.coordinates])
+    largest = np.where(turning, size[:, turning].max(initial=0), size[:, ~turning].max(initial=0))
+    typical = np.where(size > COUNTS * largest, typical, 0.0)
+    h, c = (int(i) for i in np.unravel_index(typical.argmax(), typical.shape))
+    if typical[h, c] <= SCRAMBLED:
+        return []
+    text = (
+        f"{database.coordinates[c]} at heading {np.degrees(heading[h]):.4g} deg jumps from "
+        f"frequency to frequency, half of its values by more than {typical[h, c]:.2g} of those "
+        f"around them: no amplitude and phase of a force, or far too few frequencies"
+    )
+    return [Finding("warning", "excitation smooth", text, float(typical[h, c]))]

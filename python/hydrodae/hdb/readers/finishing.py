@@ -13,6 +13,8 @@ from hydrodae.hdb.readers.source import Array, Complex, SourceData, sha256
 from hydrodae.hdb.tables import Body
 from hydrodae.version import version
 
+#: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled.
+GARBLED = 10.0
 #: No water couples two motions by so many times what their own added masses allow.
 EXCHANGED = 2.0
 #: Couplings below this share of the largest added mass are noise.
@@ -117,7 +119,7 @@ def asymmetry_finding(data: SourceData) -> None:
         relative = np.abs(table - table.transpose(0, 2, 1)) / scale
         w, i, j = np.unravel_index(relative.argmax(), (data.omega.size, n, n))
         value = float(relative[w, i, j])
-        level = "warning" if value > 0.02 else "info"
+        level = "error" if value > GARBLED else "warning" if value > 0.02 else "info"
         pair = f"{data.coordinates[i]} and {data.coordinates[j]}" if value > 0.02 else ""
         data.findings.append(
             Finding(

@@ -18,6 +18,8 @@ from hydrodae.hdb.readers.text import NUMBER, number, read_lines
 
 Array = NDArray[np.float64]
 
+#: Of the list of periods that POTEN has solved, with the time of day.
+_SOLVED = re.compile(r"\s*(-?\d+\.\d+)\s+\d\d:\d\d:\d\d\b")
 _PERIOD = re.compile(rf"Wave period(?: \(sec\))?\s*=\s*(infinite|zero|{NUMBER})", re.IGNORECASE)
 _HEADING = re.compile(rf"Wave Heading \(deg\)\s*:\s*({NUMBER})", re.IGNORECASE)
 #: Titles of tables of forces, best first: by pressure (.3), by Haskind's relation (.2).
@@ -77,14 +79,18 @@ def read_listing(path: Path) -> Listing:
     Raises
     ------
     DatabaseError
-        No such tables, or a line is not of that form; the message names file and line.
+        No such tables, fewer periods than were solved, or a line is not of that form; the message
+        names file and line.
     """
     radiation, forces = _Rows(), {title: _Rows() for title in _FORCES}
     period, heading, table = np.nan, np.nan, ""
+    solved: set[str] = set()
+    told: set[str] = set()
     for count, line in enumerate(read_lines(path), start=1):
         found = _PERIOD.search(line)
         if found:
             word = found[1].lower()
+            told.add(word)
             period = {"infinite": -1.0, "zero": 0.0}.get(word) or 0.0
             if word not in ("infinite", "zero"):
                 period = number(word)
@@ -93,6 +99,8 @@ def read_listing(path: Path) -> Listing:
             _HEADING.search(line)
         ):
             raise DatabaseError(f"{path}:{count}: not a number: {line.strip()[:60]!r}")
+        elif not told and (row_of := _SOLVED.match(line)):
+            solved.add(row_of[1])
         elif "ADDED-MASS" in line:
             table = "radiation"
         elif any(title in line for title in _FORCES):
@@ -115,6 +123,11 @@ def read_listing(path: Path) -> Listing:
                 forces[table].add(count, row)
     if not radiation.values:
         raise DatabaseError(f"{path}: no tables of added mass in it")
+    if len(solved) > len(told):
+        raise DatabaseError(
+            f"{path}: {len(solved)} periods were solved, results of {len(told)} follow: the file "
+            f"is cut short"
+        )
     best = next((forces[title] for title in _FORCES if forces[title].values), _Rows())
     force = np.array(best.values) if best.values else np.zeros((0, 7))
     return Listing(
