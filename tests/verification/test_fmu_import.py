@@ -356,16 +356,44 @@ def test_a_state_without_end_is_refused(fmi: int, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("rate", "load", "message"),
     [
-        ("m/s", "N", ""),
-        ("m/s", "kN", r"'load' of the FMU is in 'kN' \(kg m s-2 times 1000\), expected 'N'"),
-        ("K", "N", r"'rate' of the FMU is in 'K' \(K\), expected 'm/s', the unit of 'joints/sl"),
-        ("furlong", "N", ""),  # of which the FMU does not say what it is
+        ("K", "N", r"'rate' of the FMU is in 'K' \(K\), which is no unit of 'joints/sl.*in 'm/s'"),
+        ("m/s", "W", r"'load' of the FMU is in 'W' \(kg m2 s-3\), which is no unit of 'forces/p"),
+        ("zero", "N", "'rate' of the FMU is in 'zero' .of factor 0 and offset 0"),
     ],
 )
-def test_units_are_compared(rate: str, load: str, message: str, fmi: int, tmp_path: Path) -> None:
+def test_units_of_something_else_are_refused(
+    rate: str, load: str, message: str, fmi: int, tmp_path: Path
+) -> None:
     write_fmu(tmp_path / "pi.fmu", fmi, with_units(description(fmi), fmi, rate, load))
-    if message:
-        with pytest.raises(CaseError, match=message):
-            hydrodae.run(cart(tmp_path))
-    else:
-        assert hydrodae.run(cart(tmp_path)).end_time == 5.0
+    with pytest.raises(CaseError, match=message):
+        hydrodae.run(cart(tmp_path))
+    with pytest.raises(CaseError, match=message):
+        hydrodae.check(cart(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("rate", "load", "gains", "notes"),
+    [
+        ("m/s", "N", "1.3, 0.7", []),
+        ("mm/s", "kN", "1.3e-6, 0.7e-6", ["1 mm/s = 0.001 m/s", "1 kN = 1000 N"]),
+        ("", "", "1.3, 0.7", []),
+        ("furlong", "N", "1.3, 0.7", ["'furlong', which it does not explain: taken for 'm/s'"]),
+    ],
+)
+def test_units_that_differ_by_a_factor_are_converted(
+    rate: str, load: str, gains: str, notes: list[str], fmi: int, tmp_path: Path
+) -> None:
+    """kN is explained in the FMU, mm/s is not: it is known."""
+    write_fmu(tmp_path / "pi.fmu", fmi, with_units(description(fmi), fmi, rate, load))
+    found = hydrodae.run(cart(tmp_path, FMU.replace("1.3, 0.7", gains)))
+    own = hydrodae.run(Case.from_text(CART.replace("KEYS", OWN)))
+    for name in CHANNELS:
+        scale = float(abs(own[name]).max())
+        np.testing.assert_allclose(found[name], own[name], atol=1e-9 * scale)
+    text = hydrodae.check(cart(tmp_path))
+    told = [note for note in found.notes if "of its FMU" in note]
+    assert len(told) == len(notes)
+    for note, expected in zip(told, notes, strict=True):
+        assert expected in note
+        assert note in text
+        assert note in found.summary()

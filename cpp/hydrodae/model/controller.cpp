@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/core/unit.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
@@ -103,10 +104,11 @@ Fields<Controller> Controller::fields() {
         "tcp", "fmu"}},
       {"inputs", &C::inputs, "-",
        "Channels that it reads, as in the results; of a vector one component: "
-       "\"bodies/float/velocity.z\"."},
+       "\"bodies/float/velocity.z\". In another unit of the same dimension where one stands behind "
+       "the name: \"joints/hinge/angle [deg]\"."},
       {"outputs", &C::outputs, "-",
        "Inputs of the scene that it writes, such as \"forces/pto/load\" (hydrodae check lists "
-       "them).",
+       "them); \"forces/pto/load [kN]\" where it answers in another unit.",
        true},
       {"period", &C::period, "s", "Time T between two sampling instants; the first is the start.",
        true, more_than(0, longest_time)},
@@ -246,9 +248,10 @@ void check_controller(const Scene& scene, const Controller& c) {
   for (std::size_t k = 0; k < c.outputs.size(); ++k)
     for (const Controller& other : scene.controllers)
       for (std::size_t i = 0; i < other.outputs.size(); ++i)
-        if (other.outputs[i] == c.outputs[k] && (&other != &c || i != k))
+        if (signal_of(other.outputs[i]).name == signal_of(c.outputs[k]).name &&
+            (&other != &c || i != k))
           refuse(entry, "outputs",
-                 in_quotes(c.outputs[k]) + " is written twice" +
+                 in_quotes(signal_of(c.outputs[k]).name) + " is written twice" +
                      (&other != &c ? ", by controller " + in_quotes(other.name) + " too" : ""));
   if (c.type == "pid")
     check_pid(entry, c);

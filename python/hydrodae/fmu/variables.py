@@ -156,7 +156,8 @@ def _entry(value: Any, part: str) -> Any:
 def _is_taken(case: Case, name: str) -> bool:
     """Whether a controller of the case writes an input."""
     controllers = case_tables(case).get("controller", [])
-    return any(name in controller.get("outputs", []) for controller in controllers)
+    written = (text for controller in controllers for text in controller.get("outputs", []))
+    return any(text.partition("[")[0].rstrip() == name for text in written)  # "name [unit]"
 
 
 def _filtered(sort: str, names: Iterable[str], patterns: Sequence[str] | None) -> list[str]:
