@@ -237,6 +237,12 @@ bool is_outside(const Controller& controller) {
 void check_controller(const Scene& scene, const Controller& c) {
   const Entry entry{"controller", c.name};
   check_own_keys(scene, entry, c);
+  constexpr double most_samples = 1e9;
+  if (scene.solver.end_time > most_samples * c.period)
+    refuse(entry, "period",
+           "'period' = " + number_text(c.period) + " s takes " +
+               number_text(scene.solver.end_time / c.period) +
+               " samples until the end of the run (solver.end_time); at most 1e9");
   const Arity a = arity(c.type);
   if (c.inputs.size() < a.least_inputs || c.inputs.size() > a.most_inputs)
     refuse(entry, "inputs",
