@@ -28,9 +28,12 @@ using Functions = std::map<std::string, py::function>;
 /// the run, which ends on a SolverError, has come back.
 class PythonLaw final : public control::Law {
 public:
-  PythonLaw(std::string name, const py::function& call, std::exception_ptr& failure)
+  PythonLaw(std::string name, const py::function& call, std::exception_ptr& failure,
+            const control::Terminals& terminals)
       : name_(std::move(name)), call_(call), failure_(failure) {
     guarded(0.0, [&] {
+      if (py::hasattr(call_, "signals"))
+        call_.attr("signals")(named(terminals.inputs), named(terminals.outputs));
       if (py::hasattr(call_, "reset"))
         call_.attr("reset")();
     });
@@ -69,6 +72,14 @@ private:
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: the Python controller " +
                                in_quotes(name_) + " has failed");
     }
+  }
+
+  /// Names and units.
+  static py::list named(const std::vector<control::Terminal>& terminals) {
+    py::list out;
+    for (const control::Terminal& t : terminals)
+      out.append(py::make_tuple(t.name, t.unit));
+    return out;
   }
 
   std::vector<double> state_of(const py::object& told) const {
@@ -124,8 +135,8 @@ public:
     model::Scene out = scene;
     for (model::Controller& c : out.controllers)
       if (const auto found = controllers.find(c.name); found != controllers.end())
-        c.make = [this, name = c.name, call = &found->second](const control::Terminals&) {
-          return std::make_unique<PythonLaw>(name, *call, failure_);
+        c.make = [this, name = c.name, call = &found->second](const control::Terminals& terminals) {
+          return std::make_unique<PythonLaw>(name, *call, failure_, terminals);
         };
     std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
     for (model::Constraint& c : out.constraints)

@@ -275,7 +275,7 @@ def test_objects_that_are_no_controllers() -> None:
     with pytest.raises(CaseError, match=r"'pi' is the class Pi; give an object, Pi\(\)"):
         hydrodae.run(case("python"), controllers={"pi": Pi})
     law = Pi()
-    law.state = lambda: ["x"]  # type: ignore[method-assign, list-item, return-value]
+    law.state = lambda: ["x"]  # type: ignore[method-assign, list-item]
     with pytest.raises(CaseError, match=r"state\(\) of 'pi' must return a list of numbers"):
         Simulation(case("python"), controllers={"pi": law}).state()
 
@@ -313,7 +313,7 @@ def test_cases_that_are_refused(type: str, keys: str, inputs: str, message: str)
 
 
 def test_samples_without_end_are_refused() -> None:
-    with pytest.raises(CaseError, match="'period' = 1e-12 s takes 5e.12 samples until the end of"):
+    with pytest.raises(CaseError, match=r"'period' = 1e-12 s takes 5e.12 samples until the end of"):
         hydrodae.check(case("pid", period=1e-12))
 
 
