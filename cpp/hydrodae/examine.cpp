@@ -247,6 +247,10 @@ void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Chan
   };
   for (const model::Controller& c : scene.controllers) {
     const control::Terminals found = run::find_terminals(c, channels, inputs);
+    std::vector<std::string> units = run::unit_notes(c.name, found);
+    if (c.type == "fmu")
+      for (const std::string& note : cosim::check_fmu(c, found)) // or refuses
+        units.push_back(note);
     out << "  controller " << c.name << " (" << c.type << "): every " << c.period << " s "
         << listed(found.inputs) << " -> " << listed(found.outputs);
     if (c.delay > 0.0)
@@ -254,6 +258,8 @@ void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Chan
     if (c.lag > 0.0)
       out << ", with a lag of " << c.lag << " s";
     out << "\n";
+    for (const std::string& note : units)
+      out << "  note: " << note << "\n";
   }
   std::vector<std::string> names;
   for (const run::Input& input : inputs)
@@ -282,7 +288,6 @@ std::string examine(const model::Scene& scene) {
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(built, pattern));
   advise_joints(out, scene);
-  cosim::check_fmus(scene);
   write_inputs(out, scene, named.channels(), run::find_inputs(s));
   for (const std::string& note : built.notes)
     out << "  note: " << note << "\n";

@@ -218,6 +218,8 @@ private:
       statistics_.notes.push_back(note);
     const std::vector<std::string> limits = system::notes(limits_);
     statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
+    const std::vector<std::string> units = simulation_.unit_notes();
+    statistics_.notes.insert(statistics_.notes.end(), units.begin(), units.end());
     statistics_.mean_power_from = simulation_.recorder().averaged_from();
     for (const system::Recorder::Absorbed& pto : simulation_.recorder().absorbed())
       statistics_.mean_power.emplace_back(pto.name, pto.mean_power);
@@ -230,6 +232,7 @@ private:
     io::Attributes all =
         attributes(statistics_, scene(), simulation_.recorder().relative_balance_error());
     all["beyond_linear_theory"] = lines_of(limits);
+    all["unit_conversions"] = lines_of(units);
     write_methods(simulation_.methods(), all);
     write_impacts(simulation_, *file_);
     file_->close(statistics_.status, message, all);

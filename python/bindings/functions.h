@@ -28,9 +28,12 @@ using Functions = std::map<std::string, py::function>;
 /// the run, which ends on a SolverError, has come back.
 class PythonLaw final : public control::Law {
 public:
-  PythonLaw(std::string name, const py::function& call, std::exception_ptr& failure)
+  PythonLaw(std::string name, const py::function& call, std::exception_ptr& failure,
+            const control::Terminals& terminals)
       : name_(std::move(name)), call_(call), failure_(failure) {
     guarded(0.0, [&] {
+      if (py::hasattr(call_, "signals"))
+        call_.attr("signals")(named(terminals.inputs), named(terminals.outputs));
       if (py::hasattr(call_, "reset"))
         call_.attr("reset")();
     });
@@ -52,7 +55,7 @@ public:
     guarded(0.0, [&] {
       const bool has = py::hasattr(call_, "state") && py::hasattr(call_, "restore");
       if (has && a.saves())
-        values = call_.attr("state")().cast<std::vector<double>>();
+        values = state_of(call_.attr("state")());
       a(values);
       if (has && !a.saves())
         call_.attr("restore")(values);
@@ -71,16 +74,44 @@ private:
     }
   }
 
+  /// Names and units.
+  static py::list named(const std::vector<control::Terminal>& terminals) {
+    py::list out;
+    for (const control::Terminal& t : terminals)
+      out.append(py::make_tuple(t.name, t.unit));
+    return out;
+  }
+
+  std::vector<double> state_of(const py::object& told) const {
+    try {
+      return told.cast<std::vector<double>>();
+    } catch (const py::cast_error&) {
+      throw CaseError("controllers: state() of " + in_quotes(name_) +
+                      " must return a list of numbers, got " + py::repr(told).cast<std::string>());
+    }
+  }
+
   void take(const py::object& answer, std::span<double> out) const {
     try {
-      if (out.size() == 1 && PyNumber_Check(answer.ptr()) != 0) {
+      if (py::isinstance<py::array>(answer)) {
+        const py::array array = answer;
+        if (std::string_view("biuf").find(array.dtype().kind()) != std::string_view::npos &&
+            array.ndim() <= 1 && static_cast<std::size_t>(array.size()) == out.size()) {
+          const auto values =
+              py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+          std::copy_n(values.data(), out.size(), out.begin());
+          return;
+        }
+      } else if (out.size() == 1 && PyNumber_Check(answer.ptr()) != 0) {
         out[0] = py::float_(answer).cast<double>();
         return;
       }
-      const auto values = answer.cast<std::vector<double>>();
-      if (values.size() == out.size()) {
-        std::copy(values.begin(), values.end(), out.begin());
-        return;
+      if (py::isinstance<py::sequence>(answer) && !py::isinstance<py::array>(answer)) {
+        const auto values = answer.cast<std::vector<double>>();
+        if (values.size() == out.size()) {
+          std::copy(values.begin(), values.end(), out.begin());
+          return;
+        }
       }
     } catch (const std::exception&) { // told below
     }
@@ -104,8 +135,8 @@ public:
     model::Scene out = scene;
     for (model::Controller& c : out.controllers)
       if (const auto found = controllers.find(c.name); found != controllers.end())
-        c.make = [this, name = c.name, call = &found->second](const control::Terminals&) {
-          return std::make_unique<PythonLaw>(name, *call, failure_);
+        c.make = [this, name = c.name, call = &found->second](const control::Terminals& terminals) {
+          return std::make_unique<PythonLaw>(name, *call, failure_, terminals);
         };
     std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
     for (model::Constraint& c : out.constraints)

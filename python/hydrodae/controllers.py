@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from hydrodae.errors import CaseError
 from hydrodae.names import check_names
 
 if TYPE_CHECKING:
@@ -41,4 +42,8 @@ def kernel_controllers(
         owner="controller",
         signature="function or object",
     )
+    for name, controller in given.items():
+        if isinstance(controller, type):
+            kind = controller.__name__
+            raise CaseError(f"controllers: '{name}' is the class {kind}; give an object, {kind}()")
     return given

@@ -2394,10 +2394,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2457,10 +2458,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2509,10 +2511,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2559,10 +2562,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2609,10 +2613,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         hold_time : number, s
@@ -2652,10 +2657,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         lag : number, s, default 0
@@ -2700,10 +2706,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2746,10 +2753,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts, optional
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2794,10 +2802,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts, optional
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0
@@ -2858,10 +2867,11 @@ class ControllerTypes(TypedList):
             Name of the controller in the results.
         inputs : text or list of texts, optional
             Channels that it reads, as in the results; of a vector one component:
-            "bodies/float/velocity.z".
+            "bodies/float/velocity.z". In another unit of the same dimension where one stands
+            behind the name: "joints/hinge/angle [deg]".
         outputs : text or list of texts
             Inputs of the scene that it writes, such as "forces/pto/load" (hydrodae check lists
-            them).
+            them); "forces/pto/load [kN]" where it answers in another unit.
         period : number, s
             Time T between two sampling instants; the first is the start. Allowed: > 0.
         delay : number, s, default 0

@@ -102,7 +102,12 @@ class Numbered(_Connection):
         Why the run has ended, if not at its end.
     """
 
-    def __init__(self, connection: socket.socket) -> None:
+    def __init__(
+        self,
+        connection: socket.socket,
+        input_units: Sequence[str] = (),
+        output_units: Sequence[str] = (),
+    ) -> None:
         super().__init__(connection)
         (length,) = struct.unpack("<I", self._receive(4))
         if length > _LONGEST:
@@ -110,7 +115,11 @@ class Numbered(_Connection):
         self.hello: dict[str, Any] = json.loads(self._receive(length))
         if self.hello.get("protocol") != "hydrodae" or self.hello.get("version") != VERSION:
             raise TcpError(f"the other end speaks {self.hello}, not version {VERSION}")
-        said = json.dumps({"protocol": "hydrodae", "version": VERSION}).encode()
+        answer: dict[str, str | int] = {"protocol": "hydrodae", "version": VERSION}
+        for key, units in (("input_units", input_units), ("output_units", output_units)):
+            if units:
+                answer[key] = ", ".join(units)
+        said = json.dumps(answer).encode()
         self._socket.sendall(struct.pack("<I", len(said)) + said)
         self._inputs = struct.Struct(f"<{len(self.hello['inputs'])}d")
         self._outputs = len(self.hello["outputs"])
@@ -201,6 +210,8 @@ def connect(
     *,
     hotint: Sequence[int] | None = None,
     timeout: float = 60.0,
+    input_units: Sequence[str] = (),
+    output_units: Sequence[str] = (),
 ) -> Numbered | Hotint:
     """Connect to a run that listens (``role = "server"``), trying until it does.
 
@@ -212,6 +223,10 @@ def connect(
         Speak the protocol "hotint" with so many inputs and outputs.
     timeout : float
         Longest wait for the run, and for each of its frames, s.
+    input_units, output_units : sequence of str
+        Units of this program, one for each input or output, where they are others than those that
+        the run tells: ``["deg", "deg/s"]``. The run converts them, or refuses units of something
+        else. Protocol "hydrodae" only.
 
     Raises
     ------
@@ -227,7 +242,7 @@ def connect(
             if clock.monotonic() > deadline:
                 raise TcpError(f"nobody listens at {host}:{port}") from None
             clock.sleep(0.02)
-    return _made(connection, hotint)
+    return _made(connection, hotint, input_units, output_units)
 
 
 def listen(
@@ -236,18 +251,27 @@ def listen(
     *,
     hotint: Sequence[int] | None = None,
     timeout: float = 60.0,
+    input_units: Sequence[str] = (),
+    output_units: Sequence[str] = (),
 ) -> Numbered | Hotint:
     """Wait for one run that connects (``role = "client"``); parameters as in `connect`."""
     with socket.create_server((host, port)) as server:
         server.settimeout(timeout)
         connection, _ = server.accept()
     connection.settimeout(timeout)
-    return _made(connection, hotint)
+    return _made(connection, hotint, input_units, output_units)
 
 
-def _made(connection: socket.socket, hotint: Sequence[int] | None) -> Numbered | Hotint:
+def _made(
+    connection: socket.socket,
+    hotint: Sequence[int] | None,
+    input_units: Sequence[str],
+    output_units: Sequence[str],
+) -> Numbered | Hotint:
     if not math.isfinite(connection.gettimeout() or 0.0):
         connection.settimeout(None)
     if hotint is None:
-        return Numbered(connection)
+        return Numbered(connection, input_units, output_units)
+    if input_units or output_units:
+        raise ValueError("the protocol hotint tells no units: give them in the case")
     return Hotint(connection, *hotint)

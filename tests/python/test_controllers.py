@@ -249,11 +249,45 @@ def test_an_exception_ends_the_run_and_comes_back(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("answer", "message"),
-    [((1.0, 2.0), "must return one number"), ("x", "must return one"), (None, "must return one")],
+    [
+        ((1.0, 2.0), "must return one number"),
+        ("x", "must return one"),
+        (None, "must return one"),
+        ({1.0}, "must return one"),  # a set has no order
+        (np.array([[1.0]]), "must return one"),
+        (np.array([1.0 + 0.0j]), "must return one"),
+    ],
 )
 def test_answers_of_another_shape(answer: Any, message: str) -> None:
     with pytest.raises(CaseError, match=message):
         hydrodae.run(case("python"), controllers={"pi": lambda *_: answer})
+
+
+@pytest.mark.parametrize("answer", [np.array([1.0]), np.array(1), [np.float32(1.0)], True])
+def test_one_number_in_any_form(answer: Any) -> None:
+    given = case("python")
+    given.set("solver.end_time", 0.2)
+    results = hydrodae.run(given, controllers={"pi": lambda *_: answer})
+    assert results["controllers/pi/output"].values[-1] == 1.0
+
+
+def test_objects_that_are_no_controllers() -> None:
+    with pytest.raises(CaseError, match=r"'pi' is the class Pi; give an object, Pi\(\)"):
+        hydrodae.run(case("python"), controllers={"pi": Pi})
+    law = Pi()
+    law.state = lambda: ["x"]  # type: ignore[method-assign, list-item]
+    with pytest.raises(CaseError, match=r"state\(\) of 'pi' must return a list of numbers"):
+        Simulation(case("python"), controllers={"pi": law}).state()
+
+
+def test_a_gain_of_the_wrong_sign_ends_the_run_within_a_few_swings() -> None:
+    """Each swing is 12 times as large as the last: 14 s, and 1e6 of the start."""
+    given = case("resistive", "damping = -5.0")
+    given.set("solver.end_time", 60.0)
+    with pytest.raises(SolverError, match="controller 'pi' feeds the motion") as caught:
+        hydrodae.run(given)
+    assert caught.value.results is not None
+    assert caught.value.results.end_time < 20.0
 
 
 def test_an_answer_that_is_no_number() -> None:
@@ -276,6 +310,11 @@ def test_an_answer_that_is_no_number() -> None:
 def test_cases_that_are_refused(type: str, keys: str, inputs: str, message: str) -> None:
     with pytest.raises(CaseError, match=message):
         case(type, keys, inputs)
+
+
+def test_samples_without_end_are_refused() -> None:
+    with pytest.raises(CaseError, match=r"'period' = 1e-12 s takes 5e.12 samples until the end of"):
+        hydrodae.check(case("pid", period=1e-12))
 
 
 def test_names_that_there_are_not() -> None:

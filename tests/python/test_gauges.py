@@ -200,6 +200,7 @@ RECORD = (
         (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nos"', "'nos' is no marker.*'nose'"),
         (REGULAR + '[[gauge]]\nname = "g"\nmarker = "nose"\npoint = [1.0, 2.0]', "give"),
         (REGULAR + '[[gauge]]\nname = "g"\npoint = [1.0, 2.0, 3.0]', r"point' = \[x, y\]"),
+        (REGULAR + '[[gauge]]\nname = "g"\npoint = [0.0, -1e300]', "got -1e.300 m: the phases of"),
         (REGULAR + '[[gauge]]\nname = "g"\nahead = [1.0, -0.5]', "-0.5"),
         (REGULAR + '[[gauge]]\nname = "g"\nahed = [1.0]', "did you mean.*ahead"),
         (REGULAR + 2 * '[[gauge]]\nname = "g"\n', "two gauge entries"),

@@ -70,8 +70,10 @@ def library(folder: Path, fmi: int) -> Path:
 
 
 def with_units(xml: str, fmi: int, rate: str, load: str) -> str:
-    """The description with units: "m/s" and "N" are known, "kN" is a thousand of it."""
+    """The description with units: it explains some, "kN" is a thousand newtons."""
     powers = {"m/s": 'm="1" s="-1"', "N": 'kg="1" m="1" s="-2"', "K": 'K="1"'}
+    powers["W"] = 'kg="1" m="2" s="-3"'
+    powers["zero"] = powers["m/s"] + ' factor="0"'
     powers["kN"] = powers["N"] + ' factor="1000"'
     told = "".join(
         f'<Unit name="{name}"><BaseUnit {base}/></Unit>' for name, base in powers.items()

@@ -259,6 +259,9 @@ def test_a_controller_of_the_case_runs_inside(repository: Path, tmp_path: Path) 
     case = repository / "cases" / "control" / "case.toml"
     path = tmp_path / "float.fmu"
     assert main(["fmu", str(case), "-o", str(path), "--outputs", "joints/*", "controllers/*"]) == 0
+    with pytest.raises(CaseError, match="input 'forces/pto/load' is written by controller 'pi' of"):
+        export(case, path, inputs=[LOAD])
+    assert path.exists()
     results = hydrodae.run(case)
     with Device(path, tmp_path / "float") as device:
         assert LOAD not in device.references  # the controller has it

@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 import hydrodae
 from hydrodae import CaseError, SolverError
 from hydrodae.cli import main
-from hydrodae.control import KnownSea, ModelPredictive, Plant, match
+from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant, match
 
 OMEGA, AMPLITUDE, PERIOD = 1.2, 0.01, 0.1  # rad/s, m: of cases/sphere/control.toml; s
 SLIDE = "joints/guide/displacement"
@@ -39,6 +39,52 @@ damping = 3.0
 [solver]
 end_time = 1.0
 """
+
+
+PYTHON = """[[controller]]
+name = "law"
+type = "python"
+inputs = ["joints/guide/displacement", "joints/guide/displacement_rate"]
+outputs = ["forces/pto/load"]
+period = 0.1
+[solver]
+"""
+NO_WAVES = AutoregressiveForecast()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('displacement"', 'displacement [mm]"', r"in SI units; the case gives .*ement \[mm\], "),
+        ('displacement", ', 'displacement_rate", ', r"displacement_rate \[m/s\], joints/guide/di"),
+        ('"joints/guide/displacement", ', "", "its inputs are the coordinate of joint 'guide'"),
+        (
+            "pto/load",
+            "pto/damping",
+            r"one load in N or N m; the case has forces/pto/damping \[N s/",
+        ),
+    ],
+)
+def test_the_predictive_controller_refuses_other_signals(old: str, new: str, message: str) -> None:
+    plant = Plant(hydrodae.Case.from_text(SPRING), "guide")
+    law = ModelPredictive(plant, NO_WAVES, period=0.1, horizon=5, damping=0.0, weight=1e-3)
+    text = SPRING.replace("[solver]\n", PYTHON).replace(old, new)
+    with pytest.raises(CaseError, match=message):
+        hydrodae.run(hydrodae.Case.from_text(text), controllers={"law": law})
+
+
+def test_a_stroke_that_no_load_can_reach_leaves_the_nearest() -> None:
+    """A spring of 200 N/m under at most 3 N comes to 0.015 m, far below the 5 m asked for."""
+    plant = Plant(hydrodae.Case.from_text(SPRING), "guide")
+    law = ModelPredictive(
+        plant, NO_WAVES, period=0.1, horizon=10, damping=0.0, weight=1e-3, load_limit=3.0,
+        rate_limit=20.0, stroke=(5.0, 6.0),
+    )  # fmt: skip
+    text = SPRING.replace("[solver]\n", PYTHON).replace("end_time = 1.0", "end_time = 3.0")
+    results = hydrodae.run(hydrodae.Case.from_text(text), controllers={"law": law})
+    held = results["controllers/law/output"].to_numpy()
+    assert held.max() == pytest.approx(3.0, rel=1e-3)
+    assert np.diff(held).max() <= 2.0 * (1.0 + 1e-3)
 
 
 @pytest.fixture(scope="module")

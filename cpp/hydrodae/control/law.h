@@ -8,13 +8,16 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
+#include "hydrodae/core/unit.h"
 
 namespace hydrodae::control {
 
 /// One number that a controller reads or writes.
 struct Terminal {
-  std::string name, unit; ///< "joints/slide/displacement_rate", "m/s"
+  std::string name, unit; ///< "joints/slide/displacement_rate", "m/s" or as the case has it, "mm/s"
   double start = 0.0;     ///< of what it writes: the value that holds before its first answer
+  std::string own_unit;   ///< of the scene: that of the channel or input
+  Conversion to_own;      ///< from `unit` to that
 };
 
 /// What a controller is joined to.
@@ -59,6 +62,9 @@ public:
 
   /// The run has gone to another time than that of its last step.
   virtual void restored(double) {}
+
+  /// Which numbers it turns into other units, in words, one each; known once it was sampled.
+  virtual std::vector<std::string> unit_notes() const { return {}; }
 
   /// The run ends: completed, or stopped by the error of this message.
   virtual void finish(const std::string&) {}

@@ -24,26 +24,35 @@ struct Mapping {
   FmuDescription fmu;
   FmuGroups inputs, outputs, parameters;
   std::vector<unsigned> text_parameters;
+  std::vector<Conversion> of_inputs, of_outputs; ///< from its units to those of the terminals
+  std::vector<std::string> unit_notes;
 
   /// @param terminals  what its inputs and outputs are joined to; null: not known yet
   explicit Mapping(const model::Controller& c, const control::Terminals* terminals = nullptr) {
     const char* key = "file";
     const auto find = [&](const char* of, const std::vector<std::string>& names,
-                          const char* causality, FmuGroups& out,
-                          const std::vector<control::Terminal>* joined = nullptr) {
+                          const char* causality, FmuGroups& out) {
       key = of;
       for (std::size_t k = 0; k < names.size(); ++k) {
+        add(fmu.find(names[k], causality), k, out);
+      }
+    };
+    const auto join = [&](const std::vector<std::string>& names, const char* causality,
+                          const std::vector<control::Terminal>& to, std::vector<Conversion>& out) {
+      for (std::size_t k = 0; k < names.size(); ++k) {
         const FmuVariable& v = fmu.find(names[k], causality);
-        if (joined && k < joined->size())
-          v.require_unit((*joined)[k].unit, (*joined)[k].name);
-        add(v, k, out);
+        out.push_back(v.to(to[k].unit, to[k].name));
+        tell(c, v, to[k], out.back());
       }
     };
     try {
       fmu = describe_fmu(c.path);
-      find("fmu_inputs", c.fmu_inputs, "input", inputs, terminals ? &terminals->inputs : nullptr);
-      find("fmu_outputs", c.fmu_outputs, "output", outputs,
-           terminals ? &terminals->outputs : nullptr);
+      find("fmu_inputs", c.fmu_inputs, "input", inputs);
+      if (terminals)
+        join(c.fmu_inputs, "input", terminals->inputs, of_inputs);
+      find("fmu_outputs", c.fmu_outputs, "output", outputs);
+      if (terminals)
+        join(c.fmu_outputs, "output", terminals->outputs, of_outputs);
       find("parameters", c.parameters, "parameter", parameters);
       key = "parameter_values";
       for (const FmuGroup& group : parameters)
@@ -55,6 +64,18 @@ struct Mapping {
     } catch (const CaseError& error) {
       refuse_key(c, key, error.what());
     }
+  }
+
+  /// That its numbers are turned into others, or that nobody knows what its unit is.
+  void tell(const model::Controller& c, const FmuVariable& v, const control::Terminal& to,
+            const Conversion& by) {
+    const std::string head = "controller " + in_quotes(c.name) + ": variable " + in_quotes(v.name) +
+                             " of its FMU is in " + in_quotes(v.unit_name) + ", ";
+    const bool known = v.unit || unit_of(v.unit_name) || v.unit_name == to.unit;
+    if (!by.is_none())
+      unit_notes.push_back(head + equation(v.unit_name, to.unit, by));
+    else if (!v.unit_name.empty() && !known)
+      unit_notes.push_back(head + "which it does not explain: taken for " + in_quotes(to.unit));
   }
 
   /// To the group of its type, as number k of the row.
@@ -102,11 +123,16 @@ public:
       else if (t > t_ && slave_->step(t_, t - t_))
         throw control::Stopped("controller " + in_quotes(name_) + ": its FMU ends the run");
       t_ = t;
-      slave_->set(map_.inputs, in);
+      in_.assign(in.begin(), in.end());
+      for (std::size_t k = 0; k < in_.size(); ++k)
+        in_[k] = map_.of_inputs[k].back(in_[k]);
+      slave_->set(map_.inputs, in_);
       if (!begun_)
         slave_->enter();
       begun_ = true;
       slave_->get(map_.outputs, out);
+      for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = map_.of_outputs[k].of(out[k]);
       for (std::size_t k = 0; k < factors_.size(); ++k)
         out[k] *= factors_[k];
     } catch (const CaseError& error) {
@@ -134,6 +160,8 @@ public:
     }
     begun_ = begun;
   }
+
+  std::vector<std::string> unit_notes() const override { return map_.unit_notes; }
 
   void finish(const std::string&) override {
     if (!begun_)
@@ -176,7 +204,8 @@ private:
   std::string name_;
   std::vector<double> values_, factors_; ///< of the parameters; of the outputs, or none
   std::vector<std::string> texts_;
-  double end_time_; ///< [s]
+  std::vector<double> in_; ///< in the units of the FMU
+  double end_time_;        ///< [s]
   Mapping map_;
   std::optional<UnpackedFmu> files_;
   std::optional<FmuLibrary> library_;
@@ -195,10 +224,9 @@ void join_fmus(model::Scene& scene) {
       };
 }
 
-void check_fmus(const model::Scene& scene) {
-  for (const model::Controller& c : scene.controllers)
-    if (c.type == "fmu")
-      Mapping{c};
+std::vector<std::string> check_fmu(const model::Controller& c,
+                                   const control::Terminals& terminals) {
+  return Mapping(c, &terminals).unit_notes;
 }
 
 void require_fmu_states(const model::Scene& scene) {

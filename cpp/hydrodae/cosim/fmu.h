@@ -1,6 +1,7 @@
 #pragma once
 /// Controllers of a case that are FMUs for co-simulation.
 
+#include "hydrodae/control/law.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae::cosim {
@@ -11,7 +12,10 @@ namespace hydrodae::cosim {
 void join_fmus(model::Scene& scene);
 
 /// The same mistakes, without loading any library. Throws ModelError.
-void check_fmus(const model::Scene& scene);
+/// @param terminals  what its inputs and outputs are joined to
+/// @returns which of its variables are in other units than these, in words
+std::vector<std::string> check_fmu(const model::Controller& controller,
+                                   const control::Terminals& terminals);
 
 /// Throws CaseError where an FMU cannot save its state, so that a run has no checkpoints.
 void require_fmu_states(const model::Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -28,15 +29,15 @@ constexpr const char* platforms[] = {"linux64", "x86_64-linux"}; ///< of FMI 2 a
 
 /// What an FMU says of units: their meanings, and those of its types by their names.
 struct Units {
-  std::map<std::string, FmuUnit> meanings;
+  std::map<std::string, Unit> meanings;
   std::map<std::string, std::string> of_types;
 
   Units(const pugi::xml_node& root, bool two) {
     for (const pugi::xml_node node : root.child("UnitDefinitions").children("Unit"))
       if (const pugi::xml_node base = node.child("BaseUnit")) {
-        FmuUnit unit;
+        Unit unit;
         for (std::size_t k = 0; k < unit.powers.size(); ++k)
-          unit.powers[k] = base.attribute(FmuUnit::bases[k]).as_int();
+          unit.powers[k] = base.attribute(Unit::bases[k]).as_int();
         unit.factor = base.attribute("factor").as_double(1.0);
         unit.offset = base.attribute("offset").as_double(0.0);
         meanings[node.attribute("name").value()] = unit;
@@ -102,12 +103,23 @@ std::string FmuDescription::binaries() const {
   return std::string("binaries/") + platforms[version - 2] + "/";
 }
 
-void FmuVariable::require_unit(const std::string& wanted, const std::string& of) const {
-  const std::optional<FmuUnit> own = unit_of(wanted);
-  if (unit && own && !same_unit(*unit, *own))
+Conversion FmuVariable::to(const std::string& wanted, const std::string& of) const {
+  const std::optional<Unit> own = unit ? unit : unit_of(unit_name), other = unit_of(wanted);
+  const auto refuse = [&](const std::string& meaning) {
     throw CaseError("variable " + in_quotes(name) + " of the FMU is in " + in_quotes(unit_name) +
-                    " (" + unit->text() + "), expected " + in_quotes(wanted) + ", the unit of " +
-                    in_quotes(of));
+                    " (" + meaning + "), which is no unit of " + in_quotes(of) + ", in " +
+                    in_quotes(wanted));
+  };
+  if (!own || !other)
+    return {};
+  if (!std::isfinite(own->factor) || own->factor == 0.0 || !std::isfinite(own->offset))
+    refuse("of factor " + number_text(own->factor) + " and offset " + number_text(own->offset));
+  if (unit_name == "Hz" && wanted.starts_with("rad")) // the same powers, but 2 pi beside each other
+    refuse("turns in a second; rad/s is meant by another name");
+  const std::optional<Conversion> out = conversion(*own, *other);
+  if (!out)
+    refuse(own->text());
+  return *out;
 }
 
 const FmuVariable& FmuDescription::find(const std::string& name, const std::string& causality,

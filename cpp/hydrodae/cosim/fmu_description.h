@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/cosim/fmu_units.h"
+#include "hydrodae/core/unit.h"
 #include "hydrodae/cosim/fmu_values.h"
 
 namespace hydrodae::cosim {
@@ -15,11 +15,12 @@ struct FmuVariable {
   FmuType kind = FmuType::other;
   std::optional<unsigned> reference;
   bool is_array = false;
-  std::string unit_name;       ///< "bar"; empty: it tells none
-  std::optional<FmuUnit> unit; ///< where the FMU says what that is
+  std::string unit_name;    ///< "bar"; empty: it tells none
+  std::optional<Unit> unit; ///< where the FMU says what that is
 
-  /// Throws CaseError where numbers in `unit` of the scene are others in that of the FMU.
-  void require_unit(const std::string& unit, const std::string& of) const;
+  /// From its unit to that of a signal; none where it tells no unit, or one that nobody knows.
+  /// Throws CaseError where they are units of different things.
+  Conversion to(const std::string& unit_of_signal, const std::string& name_of_signal) const;
 };
 
 struct FmuDescription {

@@ -48,8 +48,8 @@ std::string terminals_text(const std::vector<control::Terminal>& terminals) {
 
 class Numbered final : public Protocol {
 public:
-  void greet(Socket& socket, const Subject& subject, const control::Terminals& terminals, double t,
-             double timeout) override {
+  PeerUnits greet(Socket& socket, const Subject& subject, const control::Terminals& terminals,
+                  double t, double timeout) override {
     const auto number = [](double x) {
       char text[40];
       std::snprintf(text, sizeof text, "%.17g", x);
@@ -67,7 +67,7 @@ public:
     std::string bytes(reinterpret_cast<const char*>(&length), sizeof length);
     bytes += hello;
     socket.send(bytes.data(), bytes.size(), timeout);
-    hear(socket, timeout);
+    return hear(socket, timeout);
   }
 
   void exchange(Socket& socket, double t, bool reset, std::span<const double> in,
@@ -118,7 +118,7 @@ private:
   }
 
   /// The answer to the handshake.
-  static void hear(Socket& socket, double timeout) {
+  static PeerUnits hear(Socket& socket, double timeout) {
     std::uint32_t length = 0;
     socket.receive(&length, sizeof length, timeout);
     if (length > longest_text)
@@ -133,6 +133,7 @@ private:
     if (said["version"] != "1")
       throw Error("the other program speaks version " + in_quotes(foreign_text(said["version"])) +
                   " of the protocol; expected 1");
+    return {said["input_units"], said["output_units"]};
   }
 
   [[noreturn]] static void hear_last_words(Socket& socket, const Head& head, double timeout) {
@@ -152,7 +153,9 @@ private:
 
 class Bare final : public Protocol {
 public:
-  void greet(Socket&, const Subject&, const control::Terminals&, double, double) override {}
+  PeerUnits greet(Socket&, const Subject&, const control::Terminals&, double, double) override {
+    return {};
+  }
 
   void exchange(Socket& socket, double t, bool reset, std::span<const double> in,
                 std::span<double> out, double timeout) override {

@@ -18,13 +18,19 @@ struct Subject {
   double period = 0.0, delay = 0.0; ///< [s]
 };
 
+/// Units of the other program, "deg, deg/s"; empty: those that it was told.
+struct PeerUnits {
+  std::string inputs, outputs;
+};
+
 class Protocol {
 public:
   virtual ~Protocol() = default;
 
   /// Before the first exchange. Throws Error.
-  virtual void greet(Socket& socket, const Subject& subject, const control::Terminals& terminals,
-                     double t, double timeout) = 0;
+  /// @returns the units of the other program where it has others than those that it was told
+  virtual PeerUnits greet(Socket& socket, const Subject& subject,
+                          const control::Terminals& terminals, double t, double timeout) = 0;
 
   /// One frame there and one back. Throws Error on anything but an answer, Stopped where the other
   /// program ends the run.

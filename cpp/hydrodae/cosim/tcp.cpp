@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/cosim/foreign_text.h"
 #include "hydrodae/cosim/protocol.h"
 
 namespace hydrodae::cosim {
@@ -35,7 +37,12 @@ public:
       if (!socket_.open())
         meet(t);
       t_ = t;
-      protocol_->exchange(socket_, t, reset_, in, out, timeout_);
+      in_.assign(in.begin(), in.end());
+      for (std::size_t k = 0; k < in_.size(); ++k)
+        in_[k] = of_inputs_[k].back(in_[k]);
+      protocol_->exchange(socket_, t, reset_, in_, out, timeout_);
+      for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = of_outputs_[k].of(out[k]);
       reset_ = false;
     } catch (const Interrupted& error) {
       throw control::Stopped(error.what());
@@ -52,6 +59,8 @@ public:
 
   /// Also at the time of the last exchange, which then is made once more.
   void restored(double) override { reset_ = socket_.open(); }
+
+  std::vector<std::string> unit_notes() const override { return unit_notes_; }
 
   /// The port is free from now on.
   void finish(const std::string& error) override {
@@ -77,7 +86,43 @@ private:
       listener_.emplace(host_, port_);
     socket_ = listener_ ? listener_->accept(connect_timeout_)
                         : Socket::connect(host_, port_, connect_timeout_);
-    protocol_->greet(socket_, subject_, terminals_, t, timeout_);
+    const PeerUnits units = protocol_->greet(socket_, subject_, terminals_, t, timeout_);
+    unit_notes_.clear();
+    of_inputs_ = conversions("input", units.inputs, terminals_.inputs);
+    of_outputs_ = conversions("output", units.outputs, terminals_.outputs);
+  }
+
+  /// From the units that the other program tells, "deg, deg/s", to those of the terminals.
+  std::vector<Conversion> conversions(const std::string& what, const std::string& told,
+                                      const std::vector<control::Terminal>& terminals) {
+    std::vector<Conversion> out(terminals.size());
+    if (told.empty())
+      return out;
+    std::vector<std::string> units;
+    std::istringstream text(told);
+    for (std::string unit; std::getline(text >> std::ws, unit, ',');)
+      units.push_back(unit.substr(0, unit.find_last_not_of(' ') + 1));
+    if (units.size() != out.size())
+      throw Error("the other program tells " + std::to_string(units.size()) + " units of its " +
+                  what + "s (" + in_quotes(foreign_text(told)) + "), expected " +
+                  std::to_string(out.size()));
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const control::Terminal& own = terminals[k];
+      if (units[k] == own.unit)
+        continue;
+      const std::optional<Unit> from = unit_of(units[k]), to = unit_of(own.unit);
+      const auto found = from && to ? conversion(*from, *to) : std::nullopt;
+      if (!found)
+        throw Error("the other program has " + what + " " + std::to_string(k + 1) + " in " +
+                    in_quotes(foreign_text(units[k])) + ", which is no unit of " +
+                    in_quotes(own.name) + ", in " + in_quotes(own.unit));
+      out[k] = *found;
+      if (!found->is_none())
+        unit_notes_.push_back("controller " + in_quotes(subject_.controller) +
+                              ": the other program has " + own.name + " in " + units[k] + ": " +
+                              equation(units[k], own.unit, *found));
+    }
+    return out;
   }
 
   Subject subject_;
@@ -87,9 +132,12 @@ private:
   bool serves_;                      ///< it listens; else it connects
   double timeout_, connect_timeout_; ///< [s]
   std::unique_ptr<Protocol> protocol_;
-  std::optional<Listener> listener_; ///< of a server, until the run ends
-  Socket socket_;                    ///< closed before the first sampling instant
-  double t_ = 0.0;                   ///< of the last exchange [s]
+  std::optional<Listener> listener_;               ///< of a server, until the run ends
+  std::vector<Conversion> of_inputs_, of_outputs_; ///< from its units to those of the terminals
+  std::vector<std::string> unit_notes_;
+  std::vector<double> in_; ///< in its units
+  Socket socket_;          ///< closed before the first sampling instant
+  double t_ = 0.0;         ///< of the last exchange [s]
   bool reset_ = false;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
@@ -32,6 +33,12 @@ void check_gauge(const Scene& scene, const sea::Gauge& gauge) {
     refuse(entry, "", "there is no [[wave]] whose elevation it could tell");
   if (!gauge.point.empty() && gauge.point.size() != 2)
     refuse(entry, "point", "expected 'point' = [x, y], its place [m]");
+  constexpr double far = 1e7; // m; an error of 1e-9 in the phase of waves of 60 m, and ever larger
+  for (const double x : gauge.point)
+    if (std::abs(x) > far)
+      refuse(entry, "point",
+             "expected 'point' within 1e7 m of the origin, got " + number_text(x) +
+                 " m: the phases of waves are lost there");
   if (gauge.marker && !gauge.point.empty())
     refuse(entry, "marker", "give either 'point' or 'marker'");
   if (gauge.marker)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/core/text.h"
+#include "hydrodae/core/unit.h"
 #include "hydrodae/model/check.h"
 
 namespace hydrodae::model {
@@ -103,10 +104,11 @@ Fields<Controller> Controller::fields() {
         "tcp", "fmu"}},
       {"inputs", &C::inputs, "-",
        "Channels that it reads, as in the results; of a vector one component: "
-       "\"bodies/float/velocity.z\"."},
+       "\"bodies/float/velocity.z\". In another unit of the same dimension where one stands behind "
+       "the name: \"joints/hinge/angle [deg]\"."},
       {"outputs", &C::outputs, "-",
        "Inputs of the scene that it writes, such as \"forces/pto/load\" (hydrodae check lists "
-       "them).",
+       "them); \"forces/pto/load [kN]\" where it answers in another unit.",
        true},
       {"period", &C::period, "s", "Time T between two sampling instants; the first is the start.",
        true, more_than(0, longest_time)},
@@ -235,6 +237,12 @@ bool is_outside(const Controller& controller) {
 void check_controller(const Scene& scene, const Controller& c) {
   const Entry entry{"controller", c.name};
   check_own_keys(scene, entry, c);
+  constexpr double most_samples = 1e9;
+  if (scene.solver.end_time > most_samples * c.period)
+    refuse(entry, "period",
+           "'period' = " + number_text(c.period) + " s takes " +
+               number_text(scene.solver.end_time / c.period) +
+               " samples until the end of the run (solver.end_time); at most 1e9");
   const Arity a = arity(c.type);
   if (c.inputs.size() < a.least_inputs || c.inputs.size() > a.most_inputs)
     refuse(entry, "inputs",
@@ -246,9 +254,10 @@ void check_controller(const Scene& scene, const Controller& c) {
   for (std::size_t k = 0; k < c.outputs.size(); ++k)
     for (const Controller& other : scene.controllers)
       for (std::size_t i = 0; i < other.outputs.size(); ++i)
-        if (other.outputs[i] == c.outputs[k] && (&other != &c || i != k))
+        if (signal_of(other.outputs[i]).name == signal_of(c.outputs[k]).name &&
+            (&other != &c || i != k))
           refuse(entry, "outputs",
-                 in_quotes(c.outputs[k]) + " is written twice" +
+                 in_quotes(signal_of(c.outputs[k]).name) + " is written twice" +
                      (&other != &c ? ", by controller " + in_quotes(other.name) + " too" : ""));
   if (c.type == "pid")
     check_pid(entry, c);

@@ -40,14 +40,14 @@ std::unique_ptr<control::Law> make_latching(const model::Controller& c,
                                                              in_quotes(wrong) + " is not " +
                                                              expected);
   };
-  const system::SwitchData* friction = find_friction(regime, c.outputs.front());
+  const system::SwitchData* friction = find_friction(regime, signal_of(c.outputs.front()).name);
   if (!friction)
     refuse("outputs", c.outputs.front(),
            "the 'static' of a dry_friction, by which a latch holds: \"forces/NAME/static\"");
   const system::MotionData& motion = regime.motions[static_cast<std::size_t>(friction->motion)];
   const std::string rate = "joints/" + regime.joints[static_cast<std::size_t>(motion.joint)].name +
                            "/" + motion.name + "_rate";
-  if (c.inputs.front() != rate)
+  if (signal_of(c.inputs.front()).name != rate)
     refuse("inputs", c.inputs.front(), "the rate of the joint that it holds, " + in_quotes(rate));
   return std::make_unique<control::Latching>(
       *c.hold_load, *c.hold_time, c.period,
@@ -101,6 +101,73 @@ const Channel* find_channel(const std::vector<Channel>& channels, const std::str
   return nullptr;
 }
 
+/// A channel or input of the scene, in the unit that stands behind its name or in its own.
+control::Terminal terminal(const SignalName& named, const std::string& own, double start) {
+  control::Terminal out{named.name, named.unit.value_or(own), start, own, {}};
+  if (out.unit == own)
+    return out;
+  const std::optional<Unit> given = unit_of(out.unit), of_scene = unit_of(own);
+  const std::string expected = "; " + in_quotes(named.name) + " is in " + in_quotes(own);
+  if (!given)
+    throw CaseError(in_quotes(out.unit) + " is no unit that is known here" + expected);
+  const auto to_own = of_scene ? conversion(*given, *of_scene) : std::nullopt;
+  if (!to_own)
+    throw CaseError(in_quotes(out.unit) + " is a unit of something else (" + given->text() + ")" +
+                    expected + (of_scene ? " (" + of_scene->text() + ")" : ""));
+  out.to_own = *to_own;
+  out.start = out.to_own.back(start);
+  return out;
+}
+
+/// Are numbers in one unit the same in the other?
+bool same_unit(const std::string& a, const std::string& b) {
+  const std::optional<Unit> one = unit_of(a), other = unit_of(b);
+  if (!one || !other)
+    return a == b;
+  const std::optional<Conversion> between = conversion(*one, *other);
+  return between && between->is_none();
+}
+
+/// The units in which a law of the kernel's own computes: two inputs of one kind, or a coordinate,
+/// its rate and a load in SI units, as its keys are.
+void require_units_of_law(const model::Controller& c, const control::Terminals& t) {
+  const auto refuse = [&](const char* key, const std::string& why) {
+    throw ModelError("controller." + c.name + "." + key,
+                     "controller " + in_quotes(c.name) + ": " + why);
+  };
+  const auto told = [](const control::Terminal& of) {
+    return in_quotes(of.name) + " is in " + in_quotes(of.unit);
+  };
+  if ((c.type == "pid" || c.type == "bang_bang") && t.inputs.size() == 2 &&
+      !same_unit(t.inputs[0].unit, t.inputs[1].unit))
+    refuse("inputs", told(t.inputs[1]) + ", and cannot be the target of " +
+                         in_quotes(t.inputs[0].name) + ", which is in " +
+                         in_quotes(t.inputs[0].unit));
+  const bool reactive = c.type == "reactive", resistive = c.type == "resistive";
+  if (!reactive && !resistive && c.type != "latching")
+    return;
+  for (const auto* terminals : {&t.inputs, &t.outputs})
+    for (const control::Terminal& one : *terminals)
+      if (!one.to_own.is_none())
+        refuse(terminals == &t.inputs ? "inputs" : "outputs",
+               "the keys of a " + c.type + " controller are in SI units; leave '[" + one.unit +
+                   "]' away");
+  if (c.type == "latching")
+    return;
+  const std::string& rate = t.inputs.back().own_unit;
+  if (rate != "m/s" && rate != "rad/s")
+    refuse("inputs", told(t.inputs.back()) + "; a " + c.type +
+                         " controller takes a rate there, in m/s or rad/s");
+  if (reactive && t.inputs[0].own_unit + "/s" != rate)
+    refuse("inputs", told(t.inputs[0]) +
+                         "; a reactive controller takes the coordinate of the rate " +
+                         in_quotes(t.inputs[1].name) + " there, in " +
+                         in_quotes(rate.substr(0, rate.size() - 2)));
+  if (t.outputs[0].own_unit != "N" && t.outputs[0].own_unit != "N m")
+    refuse("outputs",
+           told(t.outputs[0]) + "; a " + c.type + " controller answers with a load, in N or N m");
+}
+
 /// Is an instant reached at t? Those that differ by the rounding of k T or t + delay are one.
 bool reached(double instant, double t) {
   constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
@@ -127,21 +194,39 @@ control::Terminals find_terminals(const model::Controller& controller,
   control::Terminals out;
   std::string key = "inputs";
   try {
-    for (const std::string& name : controller.inputs) {
-      std::size_t column = find_column(channels, name); // or refuses
-      out.inputs.push_back({name, find_channel(channels, name, column)->unit, 0.0});
+    for (const std::string& text : controller.inputs) {
+      const SignalName named = signal_of(text);
+      std::size_t column = find_column(channels, named.name); // or refuses
+      out.inputs.push_back(terminal(named, find_channel(channels, named.name, column)->unit, 0.0));
     }
     key = "outputs";
-    for (const std::string& name : controller.outputs) {
-      const Input& input = input_named(inputs, name);
+    for (const std::string& text : controller.outputs) {
+      const SignalName named = signal_of(text);
+      const Input& input = input_named(inputs, named.name);
       if (controller.lag > 0.0 && !input.lags)
-        throw CaseError("input " + in_quotes(name) + " jumps at events, and cannot follow a 'lag'");
-      out.outputs.push_back({name, input.unit, *input.value});
+        throw CaseError("input " + in_quotes(named.name) +
+                        " jumps at events, and cannot follow a 'lag'");
+      out.outputs.push_back(terminal(named, input.unit, *input.value));
     }
   } catch (const CaseError& error) {
     throw ModelError("controller." + controller.name + "." + key,
                      "controller " + in_quotes(controller.name) + ": " + error.what());
   }
+  require_units_of_law(controller, out);
+  return out;
+}
+
+std::vector<std::string> unit_notes(const std::string& controller, const control::Terminals& t) {
+  std::vector<std::string> out;
+  const auto tell = [&](const control::Terminal& one, const char* how) {
+    if (!one.to_own.is_none())
+      out.push_back("controller " + in_quotes(controller) + how + one.name + " in " + one.unit +
+                    ": " + equation(one.unit, one.own_unit, one.to_own));
+  };
+  for (const control::Terminal& one : t.inputs)
+    tell(one, " reads ");
+  for (const control::Terminal& one : t.outputs)
+    tell(one, " writes ");
   return out;
 }
 
@@ -150,12 +235,12 @@ std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<
   for (const model::Controller& c : scene.controllers)
     for (std::size_t k = 0; k < c.outputs.size(); ++k) {
       const auto written = std::find_if(inputs.begin(), inputs.end(), [&](const Input& input) {
-        return input.name == c.outputs[k];
+        return input.name == signal_of(c.outputs[k]).name;
       });
       out.push_back({"controllers/" + c.name + "/output" +
                          (c.outputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
                      1, written == inputs.end() ? "" : written->unit, "-",
-                     "What the controller holds " + c.outputs[k] + " at."});
+                     "What the controller holds " + signal_of(c.outputs[k]).name + " at."});
     }
   return out;
 }
@@ -170,20 +255,21 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     one.outside = model::is_outside(c);
     control::Terminals terminals = find_terminals(c, channels, inputs);
     terminals.end_time = scene.solver.end_time;
-    for (const std::string& name : c.inputs)
-      one.columns.push_back(find_column(channels, name));
-    for (const std::string& name : c.outputs) {
-      one.inputs.push_back(&input_named(inputs, name));
-      one.out.push_back(*one.inputs.back()->value);
+    for (const control::Terminal& input : terminals.inputs)
+      one.columns.push_back(find_column(channels, input.name));
+    for (const control::Terminal& output : terminals.outputs) {
+      one.inputs.push_back(&input_named(inputs, output.name));
+      one.out.push_back(output.start);
     }
     one.in.resize(one.columns.size());
     one.swings.resize(one.out.size());
     one.law = make_law(c, terminals, regime);
     if (one.law->hears_crossings())
-      one.watch = std::make_unique<RateWatch>(regime, c.inputs.front());
+      one.watch = std::make_unique<RateWatch>(regime, terminals.inputs.front().name);
     if (c.lag > 0.0)
       for (const Input* input : one.inputs)
         input->follow(c.lag);
+    one.terminals = std::move(terminals);
     all_.push_back(std::move(one));
   }
 }
@@ -243,26 +329,28 @@ bool Controllers::act(double t, bool event, std::span<const double> row) {
 /// The k-th instant is k T, without the rounding of a sum.
 void Controllers::One::sample(double t, std::span<const double> row) {
   for (std::size_t k = 0; k < columns.size(); ++k)
-    in[k] = row[columns[k]];
+    in[k] = terminals.inputs[k].to_own.back(row[columns[k]]);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point before = Clock::now();
   law->sample(t, in, out);
   if (cost.calls++ > 0) // the first waits for another program to be there
     cost.time += std::chrono::duration<double>(Clock::now() - before).count();
+  std::vector<double> answer; // in the units of the scene
   for (std::size_t k = 0; k < out.size(); ++k)
     try {
-      check_value(*inputs[k], out[k]);
+      answer.push_back(terminals.outputs[k].to_own.of(out[k]));
+      check_value(*inputs[k], answer[k]);
     } catch (const CaseError& error) {
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
                                in_quotes(name) + ": " + error.what());
     }
-  for (std::size_t k = 0; k < out.size(); ++k)
-    swings[k].add(out[k]);
+  for (std::size_t k = 0; k < answer.size(); ++k)
+    swings[k].add(answer[k]);
   if (reached(next, t))
     ++count;
   const double own = law->next_time(t);
   next = std::isnan(own) ? static_cast<double>(count) * period : own;
-  late.emplace_back(t + delay, out);
+  late.emplace_back(t + delay, std::move(answer));
 }
 
 /// @returns whether an input has another value now
@@ -298,6 +386,14 @@ std::vector<Controllers::Cost> Controllers::costs() const {
   for (const One& one : all_)
     if (one.outside)
       out.push_back(one.cost);
+  return out;
+}
+
+std::vector<std::string> Controllers::unit_notes() const {
+  std::vector<std::string> out;
+  for (const One& one : all_)
+    for (const auto& notes : {run::unit_notes(one.name, one.terminals), one.law->unit_notes()})
+      out.insert(out.end(), notes.begin(), notes.end());
   return out;
 }
 

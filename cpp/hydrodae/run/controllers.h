@@ -25,10 +25,14 @@ std::size_t find_column(const std::vector<Channel>& channels, const std::string&
 /// What each controller holds: columns of the results, which other controllers may read.
 std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs);
 
-/// What a controller reads and writes, by the names that it has. Throws ModelError with the nearest
-/// name where there is no such channel or input.
+/// What a controller reads and writes, by the names that it has and in the units that it is given
+/// there. Throws ModelError with the nearest name where there is no such channel or input, and
+/// where a unit is none of it or not what the law takes.
 control::Terminals find_terminals(const model::Controller& controller,
                                   const std::vector<Channel>& channels, std::vector<Input>& inputs);
+
+/// In words, which of them are in other units than those of the scene.
+std::vector<std::string> unit_notes(const std::string& controller, const control::Terminals& t);
 
 /// Each controller is sampled at 0, T, 2 T, ..., where the steps of the run end; its answers hold
 /// from then on, or after its delay. All that are due at one instant see the same row, before any
@@ -76,6 +80,9 @@ public:
   };
   std::vector<Cost> costs() const;
 
+  /// Which numbers are turned into other units, in words.
+  std::vector<std::string> unit_notes() const;
+
   void restored(double t);
   void finish(const std::string& error);
   void remember(Archive& a);
@@ -90,7 +97,8 @@ private:
     std::vector<Input*> inputs;       ///< that it writes
     double next = 0.0;                ///< sampling instant [s]
     long count = 0;                   ///< of sampling instants
-    std::vector<double> in, out;
+    control::Terminals terminals;
+    std::vector<double> in, out;                             ///< in its own units
     std::vector<SwingWatch> swings;                          ///< of each answer
     std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
     Cost cost;

@@ -96,6 +96,7 @@ public:
   const MethodChoice& methods() const { return methods_; }
   const solve::Switching* switching() const { return switching_.get(); }
   std::vector<Controllers::Cost> controller_costs() const;
+  std::vector<std::string> unit_notes() const; ///< of controllers; complete once they were sampled
   solve::Statistics statistics() const;
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
   long nonzeros() const { return pattern_.nonzeros(); }

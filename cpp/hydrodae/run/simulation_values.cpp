@@ -77,6 +77,10 @@ void Simulation::close(const std::string& error) {
     controllers_->finish(error);
 }
 
+std::vector<std::string> Simulation::unit_notes() const {
+  return controllers_ ? controllers_->unit_notes() : std::vector<std::string>();
+}
+
 std::vector<Controllers::Cost> Simulation::controller_costs() const {
   return controllers_ ? controllers_->costs() : std::vector<Controllers::Cost>();
 }

@@ -48,7 +48,7 @@ public:
   void remember(Archive& a) { a(last_, peak_, peaks_); }
 
 private:
-  static constexpr std::size_t windows[] = {6, 15, 40, 100}, longest = 100; ///< swings
+  static constexpr std::size_t windows[] = {3, 6, 15, 40, 100}, longest = 100; ///< swings
   static constexpr double much = 30.0;
   double last_ = 0.0, peak_ = 0.0;
   std::deque<double> peaks_; ///< largest value of each swing

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,11 +79,16 @@ class ModelPredictive:
         rate_limit: float = math.inf,
         stroke: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:
-        if not (period > 0.0 and horizon > 0 and damping >= 0.0 and weight > 0.0):
-            raise CaseError("model-predictive control: period, horizon, weight > 0, damping >= 0")
-        if not (load_limit > 0.0 and rate_limit > 0.0 and stroke[0] < stroke[1]):
+        if not (horizon > 0 and float(horizon).is_integer()):
+            raise CaseError(f"model-predictive control: horizon must be an integer, got {horizon}")
+        if not (0.0 < period < math.inf and 0.0 <= damping < math.inf and 0.0 < weight < math.inf):
+            raise CaseError("model-predictive control: period and weight > 0, damping >= 0, finite")
+        if not (
+            load_limit > 0.0 and rate_limit > 0.0 and len(stroke) == 2 and stroke[0] < stroke[1]
+        ):
             raise CaseError("model-predictive control: limits must be positive, stroke ascending")
-        self._forecast, self._period, self._horizon = forecast, period, horizon
+        self._forecast, self._period, self._horizon = forecast, period, int(horizon)
+        self._joint = plant.joint.partition("/")[0]
         self._damping, self._weight = damping, weight
         self._rest = plant.rest
         self._rate_limit = rate_limit
@@ -168,6 +174,35 @@ class ModelPredictive:
             polishing=False,
         )
 
+    def signals(
+        self, inputs: Sequence[tuple[str, str]], outputs: Sequence[tuple[str, str]]
+    ) -> None:
+        """Refuse a `[[controller]]` that does not join it to a joint and a load.
+
+        Parameters
+        ----------
+        inputs, outputs : sequence of (str, str)
+            Names and units.
+
+        Raises
+        ------
+        CaseError
+            An input or output is not the one that it needs.
+        """
+        units = [unit for _, unit in inputs]
+        of_joint = all(name.startswith(f"joints/{self._joint}/") for name, _ in inputs)
+        if units not in (["m", "m/s"], ["rad", "rad/s"]) or not of_joint:
+            told = ", ".join(f"{name} [{unit}]" for name, unit in inputs)
+            raise CaseError(
+                f"model-predictive control: its inputs are the coordinate of joint "
+                f"'{self._joint}' and the rate of that, in SI units; the case gives {told}"
+            )
+        if [unit for _, unit in outputs] not in (["N"], ["N m"]):
+            told = ", ".join(f"{name} [{unit}]" for name, unit in outputs)
+            raise CaseError(
+                f"model-predictive control: its output is one load in N or N m; the case has {told}"
+            )
+
     def reset(self) -> None:
         """Begin anew: the device is at rest."""
         self._y = np.zeros(len(self._model[0]))
@@ -240,7 +275,10 @@ class ModelPredictive:
         self._program.warm_start(x=np.zeros(len(linear)), y=np.zeros(len(low)))
         found = self._program.solve(raise_error=False)
         if found.info.status not in ("solved", "solved inaccurate"):
-            raise SolverError(f"model-predictive control: the program is {found.info.status}")
+            raise SolverError(
+                f"model-predictive control: at t = {self._time:g} s the program is "
+                f"{found.info.status}"
+            )
         return np.asarray(found.x[:-1])
 
     def state(self) -> list[float]:

@@ -64,7 +64,7 @@ def choose(
     taken += [
         ("input", name, run.input_units[name], held[name])
         for name in _filtered("input", held, inputs)
-        if not _is_taken(case, name)
+        if not _is_taken(case, name, inputs)
     ]
     taken += [("output", name, units[name], None) for name in _filtered("channel", units, outputs)]
     return [
@@ -153,10 +153,18 @@ def _entry(value: Any, part: str) -> Any:
     return None
 
 
-def _is_taken(case: Case, name: str) -> bool:
-    """Whether a controller of the case writes an input."""
-    controllers = case_tables(case).get("controller", [])
-    return any(name in controller.get("outputs", []) for controller in controllers)
+def _is_taken(case: Case, name: str, asked: Sequence[str] | None) -> bool:
+    """Whether a controller of the case writes an input; refused where it is asked for by name."""
+    for controller in case_tables(case).get("controller", []):
+        written = (text.partition("[")[0].rstrip() for text in controller.get("outputs", []))
+        if name in written:  # "name [unit]"
+            if name in (asked or ()):
+                raise CaseError(
+                    f"input {name!r} is written by controller {controller['name']!r} of the case, "
+                    f"which goes along: it cannot be an input of the FMU, too"
+                )
+            return True
+    return False
 
 
 def _filtered(sort: str, names: Iterable[str], patterns: Sequence[str] | None) -> list[str]:

@@ -168,9 +168,10 @@ class Recording(Mapping[str, "xarray.DataArray"]):
 
     @property
     def notes(self) -> list[str]:
-        """What the assembly found worth telling: redundant rows, bodies moved to close joints."""
-        before = str(self._header.get("notes", ""))
-        return (before + str(self._statistics.get("beyond_linear_theory", ""))).splitlines()
+        """What is worth telling: redundant rows, bodies moved to close joints, units converted."""
+        later = ("beyond_linear_theory", "unit_conversions")  # known when the run has ended
+        texts = [self._header.get("notes", ""), *(self._statistics.get(key, "") for key in later)]
+        return "".join(map(str, texts)).splitlines()
 
     @property
     def impacts(self) -> dict[str, xarray.Dataset]:
