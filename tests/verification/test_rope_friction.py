@@ -304,6 +304,42 @@ def test_at_rest_it_has_run_to_one_tension() -> None:
     stretch = M_1 * G / 5e4 * (-2.0 * DOWN + math.pi * RADIUS)
     height = run["bodies/load/position"].values[:, 2] - DOWN
     assert height == pytest.approx(-stretch, rel=1e-6)
+    assert "friction of ropes ('rope') is left out of the equilibrium" in run.summary()
+
+
+def test_a_stop_struck_turns_the_slip_round() -> None:
+    """The heavier mass falls on a stop and rebounds while the rope slips over the bar; work in =
+    gain + what friction and impacts take, and friction never gives."""
+    text = heaving({"light": (10.0, (-RADIUS, 0.0, DOWN))})
+    text += f"""
+[[body]]
+name = "heavy"
+mass = 25.0
+inertia = [1.0, 1.0, 1.0]
+center_of_gravity = [{RADIUS}, 0.0, {DOWN}]
+[[joint]]
+name = "rail"
+type = "prismatic"
+body_a = "ground"
+body_b = "heavy"
+point = [{RADIUS}, 0.0, {DOWN}]
+axis = [0.0, 0.0, 1.0]
+[[constraint]]
+name = "floor"
+type = "stop"
+joint = "rail"
+lower = -0.3
+restitution = 0.5
+"""
+    keys = "stiffness = 1e5\ndamping = 1e3\npretension = 98.1\nfriction = [0.2]"
+    text += rope('["light", "ground", "heavy"]', keys)
+    runs = [run_text(text, 1.2, method=method, rtol=1e-6) for method in ("radau", "explicit_rk")]
+    for run in runs:
+        assert run["forces/rope/friction_power"].values.max() <= 0.0
+        assert slip(run).min() < -0.1 < 0.5 < slip(run).max()
+        assert float(run.statistics["relative_balance_error"]) < 1e-5
+    places = [run["bodies/light/position"].values[:, 2] for run in runs]
+    assert places[0] == pytest.approx(places[1], abs=1e-4)
 
 
 def test_a_rope_that_rubs_parts_at_its_larger_tension() -> None:
