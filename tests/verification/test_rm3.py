@@ -144,8 +144,8 @@ def test_dynamic_lines_in_an_irregular_sea(rm3_planar: Path) -> None:
     assert tensions == pytest.approx([162.1e3] * 3, rel=5e-3)
     channels = [f"forces/{name}/tension" for name in names] + [SLIDE]
     found, exact = (
-        hydrodae.run(hydrodae.Case(path=case.path, values={"solver.rtol": rtol}))
-        for rtol in (1e-3, 1e-6)
+        hydrodae.run(hydrodae.Case(path=case.path, values=values))
+        for values in ({}, {"solver.rtol": 1e-6})
     )
     for channel in channels:
         true = exact[channel].values

@@ -7,11 +7,10 @@ import math
 import numpy as np
 import pytest
 from tests.verification.blocks import G, heaving, height_of, run_text
+from tests.verification.drums import BOB, DOWN, RADIUS, two_masses
 
 from hydrodae.errors import CaseError
 
-RADIUS = 0.5
-DOWN = -4.0  # the masses, below the axis
 OVER = f"points = [[{-RADIUS}, 0.0, {DOWN}], [0.0, 0.0, 0.0], [{RADIUS}, 0.0, {DOWN}]]\n"
 SHEAVE = (
     f"radii = [0.0, {RADIUS}, 0.0]\naxes = [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]]\n"
@@ -22,10 +21,6 @@ ARC = math.pi * RADIUS
 
 def rope(bodies: str, keys: str) -> str:
     return f'[[force]]\ntype = "rope"\nname = "rope"\nbodies = {bodies}\n{OVER}{SHEAVE}{keys}\n'
-
-
-def two_masses(light: float, heavy: float) -> str:
-    return heaving({"light": (light, (-RADIUS, 0.0, DOWN)), "heavy": (heavy, (RADIUS, 0.0, DOWN))})
 
 
 @pytest.mark.parametrize("method", ["radau", "ida", "explicit_rk"])
@@ -65,17 +60,7 @@ def test_a_block_hangs_in_a_rope_under_its_sheave() -> None:
 
 def test_a_pendulum_that_lays_its_rope_on_a_sheave_keeps_its_energy() -> None:
     """The bob swings about a drum: its rope is laid on and comes off; T bounds what is lost."""
-    text = f"""
-[environment]
-gravity = {G}
-[[body]]
-name = "bob"
-motion = ["surge", "heave"]
-mass = 2.0
-center_of_gravity = [{RADIUS}, 0.0, {DOWN}]
-initial = {{ velocity = [3.0, 0.0, 0.0] }}
-"""
-    text += rope('["ground", "ground", "bob"]', f"stiffness = 1e5\npretension = {2.0 * G}")
+    text = BOB + rope('["ground", "ground", "bob"]', f"stiffness = 1e5\npretension = {2.0 * G}")
     run = run_text(text, 3.0, rtol=1e-9)
     velocity = run["bodies/bob/velocity"].values
     height = run["bodies/bob/position"].values[:, 2]

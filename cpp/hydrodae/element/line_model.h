@@ -11,6 +11,7 @@
 /// w: wet part of the node; d: depth of the node in the bed [m]; the bed never pulls. The end nodes
 /// have no inertia of their own: it is that of half a segment beside that of the body.
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -161,15 +162,24 @@ NodeWater<S> node_water(const LineView<S>& at, const sea::WaveField& sea, double
   out.t = tangent<S>(at, i);
   Vec3<S> x = at.place(i);
   const S height = x[2];
-  const bool below = x[2] < S(-sea.depth);
-  if (below)
-    x[2] = S(-sea.depth);
   const Vec3<S> none = Vec3<S>::Zero();
-  sea::fluid_on_line<S>(sea, t, x, none, 1, &out.fluid, gradient);
-  if (gradient && below)
-    gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
+  if (sea.terms.empty()) {
+    out.fluid = {sea.current.template cast<S>(), none, S(0)};
+    if (gradient)
+      *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
+  } else {
+    const bool below = x[2] < S(-sea.depth);
+    if (below)
+      x[2] = S(-sea.depth);
+    sea::fluid_on_line<S>(sea, t, x, none, 1, &out.fluid, gradient);
+    if (gradient && below)
+      gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
+  }
   const S above = height - out.fluid.elevation;
-  out.line = node.line.radius > 0.0 ? wet_part<S>(node.line, above, out.t[2]) : S(0);
+  const double reach = std::max(node.line.half_length, node.line.radius); // no part is farther off
+  out.line = node.line.radius == 0.0 || above > S(reach) ? S(0)
+             : above < S(-reach)                         ? S(1)
+                                                         : wet_part<S>(node.line, above, out.t[2]);
   out.body = node.body.radius > 0.0 ? wet_part<S>(node.body, above, S(0)) : S(0);
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/element/rubbing.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/solve/balance.h"
 #include "hydrodae/solve/static_step.h"
@@ -113,8 +114,25 @@ bool correct_stops(Regime& s, const VectorX& y) {
   return which != nullptr;
 }
 
+/// Ropes that rub, which an equilibrium takes without their friction.
+std::string rubbing_ropes(const System& s) {
+  std::vector<std::string> names;
+  for (const system::ElementList& list : s.elements)
+    if (const auto* rubs = dynamic_cast<const element::Rubbing*>(list.laws.get());
+        rubs && rubs->may_rub())
+      for (const std::string& name : list.laws->names)
+        names.push_back(in_quotes(name));
+  return joined(names);
+}
+
+constexpr const char* one_tension =
+    " is left out of the equilibrium: they have one tension all along, and weights that friction "
+    "alone holds start from a pose of their own";
+
 /// What a linear model about the equilibrium has to know.
 void note_switches(const Regime& rows, System& s) {
+  if (const std::string ropes = rubbing_ropes(s); !ropes.empty())
+    s.notes.push_back("friction of ropes (" + ropes + ")" + one_tension);
   for (const system::SwitchData& element : s.switches) {
     const std::string& name = s.couplers[static_cast<std::size_t>(element.coupler)].name;
     if (rows.holds(element))
@@ -135,7 +153,17 @@ Rest move_to_equilibrium(System& system) {
   if (!y.segment(s.u0, s.n_u).isZero(0.0))
     throw ModelError("solver.start", "start = \"equilibrium\" is at rest, but the case gives "
                                      "initial velocities");
-  LinearMatrices m = balance(rows, y);
+  LinearMatrices m = [&] {
+    try {
+      return balance(rows, y);
+    } catch (const ModelError& error) {
+      const std::string ropes = rubbing_ropes(system);
+      if (ropes.empty())
+        throw;
+      throw ModelError(error.key,
+                       error.what() + ("; friction of ropes (" + ropes + ")") + one_tension);
+    }
+  }();
   for (std::size_t pass = 0; correct_stops(rows, y); ++pass) {
     if (pass > 4 * s.switches.size())
       throw ModelError("solver.start", "no static equilibrium that all stops agree with");

@@ -67,8 +67,9 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
                : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
   }
   bool is_finite() const {
-    return std::all_of(values.begin(), values.end(),
-                       [](const Scalar& v) { return std::isfinite(std::abs(v)); });
+    return std::all_of(values.begin(), values.end(), [](const Scalar& v) {
+      return std::isfinite(std::real(v)) && std::isfinite(std::imag(v));
+    });
   }
   bool factorise(bool careful) {
     if (numeric && refactorise() && growth() > bad_pivots && !(careful && ill()))

@@ -45,7 +45,8 @@ double StageNewton::find_renewal() const {
 }
 
 void StageNewton::rates(double h, const MatrixX& Z, MatrixX& out) const {
-  out.noalias() = Z * rk_.a_inverse.transpose() / h;
+  out.noalias() = Z.lazyProduct(rk_.a_inverse.transpose()); // of few columns: no blocks
+  out /= h;
 }
 
 bool StageNewton::residuals(double t, double h, const VectorX& y0, const MatrixX& Z) {
@@ -117,7 +118,7 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
   const int most = 7 + rk_.stages;
   return iterate(t, h, y0, w, Z, most, accuracy, [&] {
     // W = (T^-1 x I) dZ decouples: a real system and complex ones, x + i y from the pair's columns.
-    work_.noalias() = residual_ * rk_.T_inverse.transpose();
+    work_.noalias() = residual_.lazyProduct(rk_.T_inverse.transpose());
     int column = 0;
     if (!rk_.real.empty())
       real_->solve(work_.col(column++).data());
@@ -131,7 +132,7 @@ NewtonResult StageNewton::simplified(double t, double h, const VectorX& y0, cons
       }
       column += 2;
     }
-    residual_.noalias() = work_ * rk_.T.transpose();
+    residual_.noalias() = work_.lazyProduct(rk_.T.transpose());
     return true;
   });
 }
