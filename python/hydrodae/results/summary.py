@@ -56,7 +56,11 @@ def _cost(results: Recording) -> str:
     parts = [f"{int(known[key])} {word}" for key, word in names.items() if known.get(key)]
     if "wall_time" in known:
         wall = float(known["wall_time"])
-        speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""
+        speed = (
+            f" ({results.end_time / wall:,.0f} times real time)"
+            if min(wall, results.end_time) > 0
+            else ""
+        )
         parts.append(f"wall time {wall:.3g} s{speed}")
     return ", ".join(parts)
 
