@@ -207,7 +207,7 @@ def _extrema(results: Recording, name: str) -> str:
         return "no samples"
     factor, unit = displayed(str(channel.attrs.get("unit", "")))
     low, high = (
-        f"{factor * values[i]:8.3f} {unit} at {results.time[i]:.2f} s"
+        f"{factor * values[i]:z8.3f} {unit} at {results.time[i]:.2f} s"
         for i in (int(np.argmin(values)), int(np.argmax(values)))
     )
     return f"{low}  to {high}"
