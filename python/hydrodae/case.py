@@ -164,6 +164,18 @@ class Case:
         """End of the run, s."""
         return self._scene.end_time
 
+    @property
+    def unsampled(self) -> str:
+        """What the samples of a run will miss at its end; empty if nothing."""
+        end, step = self.end_time, self._scene.output_step
+        rest = math.fmod(end, step)
+        if min(rest, step - rest) <= 1e-6 * step:
+            return ""
+        return (
+            f"output.step = {step:g} s: the last sample is at {end - rest:g} s, "
+            f"the end at {end:g} s"
+        )
+
     def summary(self) -> str:
         """Return the scene as a short tree: bodies, joints, forces, solver."""
         return self._scene.summary()

@@ -253,6 +253,8 @@ class _PrintVersion(argparse.Action):
 def _complain(error: BaseException, code: int) -> int:
     """One block on stderr: what went wrong, and which file keeps the results."""
     message = str(error) or "interrupted"
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        message = f"{error.filename}: {error.strerror}"
     results = getattr(error, "results", None)
     if results is not None:
         message += f"\n  results up to t = {results.end_time:g} s are in {results.path}"

@@ -129,6 +129,7 @@ class Kernel:
             body_names=["base", "flap1", "flap2"],
             joint_names=["hinge1", "hinge2"],
             end_time=10.0,
+            output_step=1.0,
             python_drives=[],
             python_forces=[],
             python_controllers=[],

@@ -23,7 +23,7 @@ class Block:
 
 def pages(repository: Path) -> list[Path]:
     """All pages: of the README, the documentation, the cases and the starters."""
-    found = [repository / "README.md", *(repository / "docs").glob("*.md")]
+    found = [repository / "README.md", *(repository / "docs").glob("**/*.md")]
     found += (repository / "cases").glob("**/README.md")
     return [*found, repository / "python" / "hydrodae" / "starters" / "README.md"]
 

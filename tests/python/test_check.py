@@ -47,3 +47,11 @@ def test_still_water_excites_what_the_start_disturbs(repository: Path) -> None:
     case = repository / "cases" / "sphere" / "decay.toml"
     (line,) = never_excited(case, {**SPHERE, "body.sphere.motion": "planar"})
     assert line.startswith("never excited: surge, pitch of body 'sphere'")
+
+
+@pytest.mark.parametrize(("step", "last"), [(0.1, None), (3.0, 9.0), (50.0, 0.0)])
+def test_an_end_without_a_sample_is_told(repository: Path, step: float, last: float | None) -> None:
+    case = repository / "cases" / "benchmarks" / "simple_pendulum.toml"
+    told = hydrodae.check(case, set={"solver.end_time": 10.0, "output.step": step})
+    assert ("the end at 10 s" in told) == (last is not None)
+    assert last is None or f"the last sample is at {last:g} s" in told

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import io
+import os
 import re
 
 import pytest
@@ -93,6 +95,17 @@ def test_interruption_is_exit_code_4(kernel, case_file, tmp_path, capsys, monkey
     assert capsys.readouterr().err == (
         f"hydrodae: stopped at t = 3 s of 10 s\n  results up to t = 3 s are in {output}\n"
     )
+
+
+def test_a_file_that_cannot_be_written_is_named(results_file, capsys, monkeypatch):
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "run.png")
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda *_, **__: throw(full))
+    assert cli.main(["plot", str(results_file)]) == 2
+    assert capsys.readouterr().err == f"hydrodae: run.png: {full.strerror}\n"
+
+
+def throw(error: BaseException) -> None:
+    raise error
 
 
 def test_our_own_bugs_are_not_hidden(kernel, case_file, monkeypatch):

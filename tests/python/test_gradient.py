@@ -357,6 +357,7 @@ def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
     study.write_text(STUDY.replace("METHOD", method))
     output = study.with_suffix(".nc")
     found = hydrodae.optimise(study, output, set={"wave": REGULAR})
+    assert text(found).startswith("converged: ")
     case = Case(path=buoy, values={"wave": REGULAR, DAMPING: 0.0})
     w = 2.0 * np.pi / 7.0
     best = abs(LinearModel(case).dynamic_stiffness_at(np.array([w]))[0, 0, 0]) / w

@@ -100,6 +100,15 @@ def test_summary_has_cost_and_extrema_in_degrees(results_file):
     assert lines[-1].startswith("  energy balance: error at most ")
 
 
+def test_summary_has_no_negative_zero(results_writer):
+    path = results_writer()
+    with h5py.File(path, "a") as file:
+        file["joints/hinge1/angle"][...] = -1e-9
+    (line,) = [text for text in Results.read(path).summary().splitlines() if "hinge1" in text]
+    assert " 0.000 deg" in line
+    assert "-0" not in line
+
+
 def test_summary_names_the_mean_power_of_each_take_off(results_file):
     with h5py.File(results_file, "a") as file:
         solver = file["solver"].attrs

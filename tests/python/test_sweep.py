@@ -138,7 +138,9 @@ def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
     [
         ("", "nothing varies"),
         ("[gird]\n", "did you mean 'grid'"),
-        ('[grid]\n"body.float.mas" = [1.0]\n', "mass"),
+        ('[grid]\n"body.float.mas" = [1.0]\n', r"toml: body\.float\.mas: .*mass"),
+        ("[grid]\na = [1, 2.0, 1.0]\n", "'a': 1.0 stands there twice"),
+        (f"[grid]\na = {{ from = 1, to = {10**400}, count = 2 }}\n", "numbers 'from' and 'to'"),
         ("[list]\na = [1]\nb = [1, 2]\n", "all need as many"),
         ("[grid]\na = [1]\n[list]\na = [1]\n", "two tables"),
         ('[grid]\na = [1]\n[result.x]\nchannel = "c"\nstatistic = "men"\n', "did you mean 'mean'"),

@@ -19,6 +19,7 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.viewer import ViewError, browser, shapes
+from hydrodae.viewer.framing import Frame, camera_of
 from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.stage import Body, Sea
 
@@ -261,6 +262,11 @@ def test_samples_are_chosen_and_thinned_out(results):
     assert "one of 2 samples is drawn: every 0.2 s" in stage.notes
     with pytest.raises(CaseError, match=r"no samples between 5 and 6 s"):
         hydrodae.view(results, first=5.0, last=6.0)
+
+
+def test_a_scene_without_far_lines_has_the_camera_of_all():
+    frame = Frame(np.zeros(3), np.ones(3), 1.0, 1.0, 2.2, 2.2)
+    assert camera_of("all", frame) == camera_of("oblique", frame)
 
 
 @pytest.mark.parametrize(

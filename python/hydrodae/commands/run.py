@@ -92,5 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
     with ProgressLine(case.title) as progress:
         results = simulate.run(case, output, progress=progress, **how)
     print(results.summary())
+    if case.unsampled:
+        print(f"  note: {case.unsampled}")
     print(f"  results in {output}")
     return 0

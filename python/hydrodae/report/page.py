@@ -23,9 +23,9 @@ table { border-collapse: collapse; margin: .6rem 0; display: block; overflow-x: 
 td, th { padding: .2rem .7rem; border-bottom: 1px solid #eee; text-align: left;
   vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; font-size: 13px; }
+pre { background: #f6f6f6; padding: .8rem; white-space: pre-wrap; overflow-wrap: anywhere;
+  font-size: 13px; }
 img { max-width: 100%; } .failed { color: #b00020; font-weight: 600; }
-@media print { details > pre { white-space: pre-wrap; } }
 """
 
 

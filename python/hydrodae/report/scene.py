@@ -106,7 +106,7 @@ def sketch(tables: Tables) -> Figure:
 
 def _words(value: Any) -> str:
     return (
-        ", ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in value)
+        ", ".join(f"{x:zg}" if isinstance(x, float) else str(x) for x in value)
         if isinstance(value, list)
         else str(value)
     )

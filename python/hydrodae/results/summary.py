@@ -56,7 +56,11 @@ def _cost(results: Recording) -> str:
     parts = [f"{int(known[key])} {word}" for key, word in names.items() if known.get(key)]
     if "wall_time" in known:
         wall = float(known["wall_time"])
-        speed = f" ({results.end_time / wall:,.0f} times real time)" if wall > 0 else ""
+        speed = (
+            f" ({results.end_time / wall:,.0f} times real time)"
+            if min(wall, results.end_time) > 0
+            else ""
+        )
         parts.append(f"wall time {wall:.3g} s{speed}")
     return ", ".join(parts)
 
@@ -203,7 +207,7 @@ def _extrema(results: Recording, name: str) -> str:
         return "no samples"
     factor, unit = displayed(str(channel.attrs.get("unit", "")))
     low, high = (
-        f"{factor * values[i]:8.3f} {unit} at {results.time[i]:.2f} s"
+        f"{factor * values[i]:z8.3f} {unit} at {results.time[i]:.2f} s"
         for i in (int(np.argmin(values)), int(np.argmax(values)))
     )
     return f"{low}  to {high}"

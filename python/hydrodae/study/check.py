@@ -44,7 +44,10 @@ def check(
     CaseError
         The case, a drive or a force cannot be used, or its joints cannot be closed near the start.
     """
-    text = read_case(case, set).examine(drives, forces)
+    examined = read_case(case, set)
+    text = examined.examine(drives, forces)
+    if examined.unsampled:
+        text += f"  look at: {examined.unsampled}\n"
     return text if every_line else grouped(text)
 
 

@@ -88,7 +88,7 @@ class Equilibrium:
         lines = ["  moorings"]
         for hold in self.moorings:
             read = ", ".join(
-                f"{name} {value + 0.0:.1f} {unit}" for name, (value, unit) in hold.readings.items()
+                f"{name} {value:z.1f} {unit}" for name, (value, unit) in hold.readings.items()
             )
             lines.append(f"    {hold.name:16} {read or hold.type}")
         held = [b for b in self.offsets if any(b in hold.held for hold in self.moorings)]
@@ -100,7 +100,7 @@ class Equilibrium:
             load = self.stiffness.load_of(body)
             lines.append(f"    {body:16} {_numbers(load[:3], 1)};  {_numbers(load[3:], 1)}")
             lines += [
-                "      " + " ".join(f"{value + 0.0:12.4g}" for value in row)
+                "      " + " ".join(f"{value:z12.4g}" for value in row)
                 for row in self.stiffness.of(body)
             ]
         if self.modes:
@@ -146,4 +146,4 @@ def equilibrium(case: CaseLike, *, set: Mapping[str, Any] | None = None) -> Equi
 
 
 def _numbers(values: object, digits: int) -> str:
-    return ", ".join(f"{v + 0.0:.{digits}f}" for v in np.round(np.asarray(values), digits))
+    return ", ".join(f"{v:z.{digits}f}" for v in np.round(np.asarray(values), digits))

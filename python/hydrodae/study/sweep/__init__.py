@@ -6,10 +6,11 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.cluster import run_points_on
 from hydrodae.study.sweep.journal import Journal
-from hydrodae.study.sweep.plan import RUNG, point_key, read_study
+from hydrodae.study.sweep.plan import RUNG, Study, point_key, read_study
 from hydrodae.study.sweep.pool import run_points
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, dataset, text, texts_of, write
@@ -68,9 +69,7 @@ def sweep(
     plan = read_study(study)
     case = open_case(plan.case, set or {}, plan.rungs)
     target = claim(output)
-    case.with_values(
-        {k: v for k, v in plan.points[0].items() if k != RUNG}
-    )  # a wrong key is told before anything runs
+    _check_keys(plan, case)
     record = target.with_name(target.stem + ".runs.jsonl")
     with Journal(record, plan.identity(case)) as journal:
         left = [p for p in plan.points if point_key(p) not in journal.rows]
@@ -90,3 +89,13 @@ def sweep(
         results = dataset(plan, journal.rows, attributes)
     write(target, results)
     return results
+
+
+def _check_keys(plan: Study, case: Case) -> None:
+    """A wrong key is told before anything runs, and as one of the study."""
+    try:
+        case.with_values({k: v for k, v in plan.points[0].items() if k != RUNG})
+    except CaseError as error:
+        said = str(error).removeprefix("--set ")
+        of_study = any(said.startswith(f"{key}:") for key in plan.points[0])
+        raise CaseError(f"{plan.path}: {said}" if of_study else str(error)) from None

@@ -97,15 +97,25 @@ def optimise(
     with Journal(record, problem.identity(objective.case)) as journal:
         path = _Path(problem, objective, journal, progress)
         found = path.run()
-    dataset = _dataset(problem, path.rows, objective.case, str(found.message))
+    dataset = _dataset(problem, path.rows, objective.case, _ending(found.message))
     write(target, dataset)
     best = path.rows[int(dataset["best"])]
     point = best["point"]
     keys = values_of(objective.parameters, list(point.values()))
     return Optimum(
         point, keys, best["value"], best["unit"], len(path.rows),
-        sum(row["calls"] for row in path.rows), str(found.message), dataset,
+        sum(row["calls"] for row in path.rows), _ending(found.message), dataset,
     )  # fmt: skip
+
+
+def _ending(message: str) -> str:
+    """Why scipy ended the search, in plain words where it has none."""
+    words = {
+        "CONVERGENCE: RELATIVE": "converged: the value changes by less than the tolerance",
+        "CONVERGENCE: NORM": "converged: no slope is left within the bounds",
+        "Optimization terminated": "converged: the value changes by less than the tolerance",
+    }
+    return next((plain for start, plain in words.items() if message.startswith(start)), message)
 
 
 def _objective(problem: Problem, case: Case) -> Objective:
@@ -228,7 +238,7 @@ def text(found: Optimum) -> str:
     names = [name for name in found.dataset.data_vars if found.dataset[name].dims]
     first = float(found.dataset[names[0]][0])
     work = f"{found.evaluations} evaluations, {found.calls} linearisations or runs of the case"
-    lines = [f"{found.message}: {work}"]
+    lines = [f"{found.message}; {work}"]
     lines.append(f"{names[0]} = {found.value:.6g} {found.unit} (at the start {first:.6g})")
     lines += [f"  {name} = {value:.6g}" for name, value in found.values.items()]
     return "\n".join(lines)

@@ -7,6 +7,7 @@ import difflib
 import itertools
 import json
 import math
+import sys
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -59,6 +60,8 @@ def read_points(file: Path, given: Mapping[str, Any]) -> tuple[list[Point], dict
         Nothing varies, too much does, or a table is wrong.
     """
     grid = _lists(file, "grid", given.get("grid", {}))
+    for key, values in grid.items():
+        _check_once(file, key, values)
     _check_number(file, math.prod(len(values) for values in grid.values()))
     kinds = [
         [dict(zip(grid, values, strict=True)) for values in itertools.product(*grid.values())],
@@ -81,6 +84,16 @@ def read_points(file: Path, given: Mapping[str, Any]) -> tuple[list[Point], dict
     return points, grid if alone else {}
 
 
+def _check_once(file: Path, key: str, values: Sequence[Any]) -> None:
+    """A run that counts twice narrows intervals; of two equal labels one is never found."""
+    seen = set()
+    for value in values:
+        label = value if is_number(value) else json.dumps(value)
+        if label in seen:
+            raise CaseError(f"{file}: [grid] {key!r}: {value} stands there twice")
+        seen.add(label)
+
+
 def _check_number(file: Path, points: int) -> None:
     if points > MOST_POINTS:
         raise CaseError(f"{file}: {points} points; at most {MOST_POINTS} in one study")
@@ -88,7 +101,9 @@ def _check_number(file: Path, points: int) -> None:
 
 def is_number(value: Any) -> bool:
     """Whether a value of TOML is a number, and finite."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) <= sys.float_info.max  # math.isfinite fails on integers beyond floats
 
 
 def _is_count(value: Any) -> bool:
