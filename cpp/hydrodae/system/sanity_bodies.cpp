@@ -137,7 +137,8 @@ void judge_balance(const System& s, const FloatingGroup& group, std::vector<Find
     text += "so it rests " + rounded_text(std::abs(up) / (group.stiffness + group.mooring), 4) +
             " m " + (up > 0.0 ? "above" : "below") + " the pose of the database";
   else
-    text += std::string("and nothing restores its heave: it ") + (up > 0.0 ? "rises" : "sinks");
+    text += up > 0.0 ? "and nothing restores its heave: it rises"
+                     : "and nothing restores its heave: it sinks";
   out.push_back({std::abs(part) > (group.stiffness > 0.0 ? too_much : 1e-3), text + unit});
 }
 
