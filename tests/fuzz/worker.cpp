@@ -31,6 +31,7 @@ namespace {
 using hydrodae::ExitCode;
 
 constexpr double run_seconds = 0.2; ///< processor time after which a run is interrupted
+constexpr double patience = 0.2;    ///< for programs that do not call [s]
 constexpr long hang_seconds = 30;   ///< processor time after which an input counts as a hang
 
 struct Answer {
@@ -74,7 +75,9 @@ hydrodae::app::Arguments arguments_of(const std::string& folder, const std::stri
   return hydrodae::app::parse(static_cast<int>(argv.size()), argv.data());
 }
 
-Answer run(const hydrodae::model::Scene& scene, const std::string& results) {
+Answer run(hydrodae::model::Scene scene, const std::string& results) {
+  for (hydrodae::model::Controller& c : scene.controllers) // nobody is at the other end
+    c.connect_timeout = std::min(c.connect_timeout, patience);
   const double start = processor_seconds();
   const auto statistics = hydrodae::simulate(
       scene, results, [&](double, double) { return processor_seconds() - start < run_seconds; });
