@@ -185,6 +185,7 @@ class Simulation:
         Raises
         ------
         CaseError
-            There is no such input, or the value is not finite, or negative where it may not be.
+            There is no such input, or a controller of the case writes it, or the value is not
+            finite, or negative where it may not be.
         """
         self._stepper.write(name, float(value))

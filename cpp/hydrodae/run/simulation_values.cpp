@@ -2,6 +2,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/core/unit.h"
 #include "hydrodae/run/simulation.h"
 
 namespace hydrodae::run {
@@ -51,6 +52,11 @@ std::span<const double> Simulation::read(const std::string& channel) {
 
 void Simulation::write(const std::string& input, double value) {
   Input& target = input_named(inputs_, input);
+  for (const model::Controller& c : scene_.controllers)
+    for (const std::string& output : c.outputs)
+      if (signal_of(output).name == target.name)
+        throw CaseError("input " + in_quotes(input) + " is what controller " + in_quotes(c.name) +
+                        " of the case writes; expected one that no controller holds");
   check_value(target, value);
   if (target.set(t_, value))
     written_ = true;
