@@ -13,7 +13,9 @@ namespace hydrodae::solve {
 namespace {
 
 constexpr double bad_pivots = 1e-8; ///< reciprocal pivot growth that asks for new pivots
-constexpr double many = 1e5; ///< operations of a factorisation from which on another order is tried
+// Operations of a factorisation, and of them for each unknown, from which on another order is
+// tried.
+constexpr double many = 1e5, many_each = 1e3;
 constexpr double ill_conditioned = 3.7e-11; ///< reciprocal condition that does, where asked for
 
 template <class Scalar> constexpr bool is_real = std::is_same_v<Scalar, double>;
@@ -101,7 +103,7 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
       return;
     chosen = true;
     const double first = flops();
-    if (first < many)
+    if (first < std::max(many, many_each * static_cast<double>(size()))) // chains fill little
       return;
     const klu_l_common usual = common;
     klu_l_symbolic* const old_symbolic = symbolic;
