@@ -47,7 +47,10 @@ void OrderedFile::read(haddr_t address, std::size_t size, unsigned char* out) co
       break;
     done += static_cast<std::size_t>(n);
   }
-  for (const auto& [start, block] : pending_) {
+  const haddr_t before =
+      std::min<haddr_t>(address, longest_); // a block that reaches in may begin there
+  for (auto next = pending_.lower_bound(address - before); next != pending_.end(); ++next) {
+    const auto& [start, block] = *next;
     if (start >= address + size)
       break;
     const haddr_t first = std::max(start, address),
@@ -75,6 +78,7 @@ void OrderedFile::write(H5FD_mem_t type, haddr_t address, std::size_t size,
       return;
     }
   }
+  longest_ = std::max(longest_, size);
   pending_.insert_or_assign(address, Block{type, {data, data + size}});
 }
 

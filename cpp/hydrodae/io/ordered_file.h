@@ -75,6 +75,7 @@ private:
   std::function<void()> observer_;
   int descriptor_ = -1;
   Blocks pending_;                      ///< by address
+  std::size_t longest_ = 0;             ///< of the blocks so far
   std::unordered_set<haddr_t> on_disk_; ///< addresses of metadata that were committed
   haddr_t end_of_space_ = 0;            ///< of what HDF5 has allocated
   haddr_t committed_ = 0;               ///< the same by the superblock on disk
