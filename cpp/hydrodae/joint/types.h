@@ -170,8 +170,9 @@ inline std::vector<std::string> motion_names(const JointType& type) {
   std::array<int, 2> count{};
   for (const FreeMotion& motion : type.motions) {
     const int k = ++count[motion.is_angle() ? 0 : 1];
-    names.push_back((motion.is_angle() ? "angle" : "displacement") +
-                    (k > 1 ? "_" + std::to_string(k) : std::string()));
+    std::string& name = names.emplace_back(motion.is_angle() ? "angle" : "displacement");
+    if (k > 1)
+      name.append("_").append(std::to_string(k));
   }
   return names;
 }

@@ -83,7 +83,7 @@ private:
   void accept(double h);
   void find_inner_error(double h);
   void between_ends(double x, VectorX& y) const;
-  void choose_order(double error);
+  void choose_order(double error, bool cut);
   const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
   void evaluate(double x, VectorX& y) const;
   static void evaluate(const system::Regime& s, const RungeKutta& rk, const VectorX& start,
@@ -416,15 +416,16 @@ void Collocation::accept(double h) {
 
 /// More stages where Newton contracts at once (Hairer and Wanner 1999), fewer where for long Newton
 /// limits the step and the error, here of the last step, does not: two stages change it about 300
-/// times.
-void Collocation::choose_order(double error) {
+/// times. A step that was cut, by waves or an end, needs no more stages, and fewer where the error
+/// leaves room.
+void Collocation::choose_order(double error, bool cut) {
   constexpr double up = 0.02, down = 0.1, little = 1e-3;
   if (!chooses_order_ || was_full_)
     return;
   ++since_change_;
-  slack_ = contraction_ >= down && error <= little ? slack_ + 1 : 0;
+  slack_ = (contraction_ >= down || cut) && error <= little ? slack_ + 1 : 0;
   const int stages = newton_->rk().stages;
-  if (contraction_ <= up && stages < most_stages && since_change_ >= 10)
+  if (contraction_ <= up && stages < most_stages && since_change_ >= 10 && !cut)
     use(stages + 2);
   else if (slack_ >= 20 && stages > fewest) // passing a singular pose takes fewer steps
     use(stages - 2);
@@ -503,7 +504,7 @@ double Collocation::step(double end, double bound) {
       h_ = h;
     if (h == left) // a step that was cut says nothing against longer ones
       h_ = std::max(h_, wanted);
-    choose_order(err);
+    choose_order(err, h < wanted);
     guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
     return t_;
   }

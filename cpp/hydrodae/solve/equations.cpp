@@ -80,6 +80,11 @@ bool Equations::residual(double t, const VectorX& y, const VectorX& yp, VectorX&
   return std::isfinite(r.sum());
 }
 
+bool Equations::constraint_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r) {
+  system::constraint_residual<double>(system, workspace_, t, y.data(), yp.data(), r.data());
+  return std::isfinite(r.segment(system.lambda0, system.sigma0 - system.lambda0).sum());
+}
+
 bool Equations::solve_algebraic(double t, VectorX& y) {
   return system::solve_algebraic(system, jacobian_workspace_, t, y);
 }

@@ -195,8 +195,10 @@ double ErrorGrowth::between_rough(Index g, double level) {
   return level;
 }
 
+bool ErrorGrowth::is_rough(Index g) const { return change_[g] > rough; }
+
 void ErrorGrowth::fade(Index g, double factor) {
-  if (change_[g] > rough)
+  if (is_rough(g))
     error_.piled[g] *= factor;
 }
 

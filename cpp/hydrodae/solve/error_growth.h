@@ -80,6 +80,10 @@ public:
   /// By how much E has faded for good between these looks (n_error_groups,): 1 where nothing damps.
   const VectorX& fade() const { return fade_; }
 
+  /// Did the equations of a group change so much between these looks that its vector tells neither
+  /// growth nor fading?
+  bool is_rough(Index group) const;
+
   /// Fades E where the equations changed too much between these looks to tell.
   void fade(Index group, double factor);
 

@@ -61,8 +61,7 @@ public:
   virtual const VectorX& inner_error() const { return local_error(); }
 
   /// Largest part of the next step between two times at which it asks for the loads, its ends among
-  /// them; 1 where steps are to be short beside waves whatever that is: fixed steps, and explicit
-  /// ones, whose estimated errors are a thousand times too large in long steps.
+  /// them; 1 of fixed steps, which are to be short beside waves whatever that is.
   virtual double gap() const { return 1.0; }
 
   /// Nodes that a quadrature over one step needs to be as exact as the method.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "hydrodae/core/error.h"
@@ -29,6 +30,8 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
   klu_l_common common{};
   std::vector<SuiteSparse_long> start, row;
   std::vector<Scalar> values;
+  std::vector<Scalar> scaled; ///< the same, row by row times `factor`
+  std::vector<double> factor; ///< powers of two, which leave no rounding errors
   klu_l_symbolic* symbolic = nullptr;
   klu_l_numeric* numeric = nullptr;
 
@@ -46,9 +49,9 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
   }
   double growth() {
     const int ok = is_real<Scalar>
-                       ? static_cast<int>(klu_l_rgrowth(start.data(), row.data(), raw(values),
+                       ? static_cast<int>(klu_l_rgrowth(start.data(), row.data(), raw(scaled),
                                                         symbolic, numeric, &common))
-                       : static_cast<int>(klu_zl_rgrowth(start.data(), row.data(), raw(values),
+                       : static_cast<int>(klu_zl_rgrowth(start.data(), row.data(), raw(scaled),
                                                          symbolic, numeric, &common));
     return ok ? common.rgrowth : 0.0;
   }
@@ -58,34 +61,59 @@ template <class Scalar> struct SparseLu<Scalar>::Impl {
       klu_l_rcond(symbolic, numeric, &common);
       if (common.rcond >= ill_conditioned)
         return false;
-      klu_l_condest(start.data(), raw(values), symbolic, numeric, &common);
+      klu_l_condest(start.data(), raw(scaled), symbolic, numeric, &common);
       return !(common.condest <= 1.0 / ill_conditioned);
     }
     return false;
   }
-  bool refactorise() {
-    return is_real<Scalar>
-               ? klu_l_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common)
-               : klu_zl_refactor(start.data(), row.data(), raw(values), symbolic, numeric, &common);
+  /// Rows by the largest entry that they had when pivots were last looked for: a division by the
+  /// largest of each new matrix would take longer than all else but the factorisation.
+  void find_scale() {
+    std::vector<double> largest(static_cast<std::size_t>(size()), 0.0);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      double& of_row = largest[static_cast<std::size_t>(row[k])];
+      of_row = std::max(of_row, std::abs(values[k]));
+    }
+    factor.resize(largest.size());
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      factor[i] = largest[i] > 0.0 ? std::exp2(-std::round(std::log2(largest[i]))) : 1.0;
   }
-  bool is_finite() const {
-    return std::all_of(values.begin(), values.end(), [](const Scalar& v) {
-      return std::isfinite(std::real(v)) && std::isfinite(std::imag(v));
-    });
+  /// False where a value is not finite.
+  bool scale() {
+    constexpr double largest = std::numeric_limits<double>::max();
+    int bad = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      scaled[k] = factor[static_cast<std::size_t>(row[k])] * values[k];
+      bad |= static_cast<int>(!(std::abs(std::real(values[k])) <= largest)) |
+             static_cast<int>(!(std::abs(std::imag(values[k])) <= largest));
+    }
+    return bad == 0;
+  }
+  bool refactorise() {
+    if (!scale())
+      return false;
+    return is_real<Scalar>
+               ? klu_l_refactor(start.data(), row.data(), raw(scaled), symbolic, numeric, &common)
+               : klu_zl_refactor(start.data(), row.data(), raw(scaled), symbolic, numeric, &common);
   }
   bool factorise(bool careful) {
-    if (numeric && refactorise() && growth() > bad_pivots && !(careful && ill()))
-      return true;
+    if (numeric) {
+      if (careful)
+        find_scale();
+      if (refactorise() && growth() > bad_pivots && !(careful && ill()))
+        return true;
+    }
     drop();
-    if (!find_pivots())
+    find_scale();
+    if (!scale() || !find_pivots())
       return false;
     choose_order();
     return true;
   }
   bool find_pivots() {
     numeric = is_real<Scalar>
-                  ? klu_l_factor(start.data(), row.data(), raw(values), symbolic, &common)
-                  : klu_zl_factor(start.data(), row.data(), raw(values), symbolic, &common);
+                  ? klu_l_factor(start.data(), row.data(), raw(scaled), symbolic, &common)
+                  : klu_zl_factor(start.data(), row.data(), raw(scaled), symbolic, &common);
     return numeric && common.status == KLU_OK;
   }
   double flops() {
@@ -141,9 +169,11 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   Impl& m = *impl_;
   klu_l_defaults(&m.common);
   m.common.ordering = 0; // AMD: COLAMD fills more on these patterns
+  m.common.scale = 0;    // see Impl::find_scale
   m.start.assign(column_start.begin(), column_start.end());
   m.row.assign(row.begin(), row.end());
   m.values.resize(row.size());
+  m.scaled.resize(row.size());
   const SuiteSparse_long n = m.size();
   m.chosen = !order.row.empty();
   if (order.row.empty()) {
@@ -172,15 +202,17 @@ template <class Scalar> SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = defaul
 template <class Scalar> std::vector<Scalar>& SparseLu<Scalar>::values() { return impl_->values; }
 
 template <class Scalar> bool SparseLu<Scalar>::factorise(bool careful) {
-  return impl_->is_finite() && impl_->factorise(careful);
+  return impl_->factorise(careful);
 }
 
 template <class Scalar> bool SparseLu<Scalar>::refactorise() {
-  return impl_->numeric && impl_->is_finite() && impl_->refactorise();
+  return impl_->numeric && impl_->refactorise();
 }
 
 template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {
   Impl& m = *impl_;
+  for (std::size_t i = 0; i < m.factor.size(); ++i)
+    b[i] *= m.factor[i];
   if constexpr (is_real<Scalar>)
     klu_l_solve(m.symbolic, m.numeric, m.size(), 1, b, &m.common);
   else

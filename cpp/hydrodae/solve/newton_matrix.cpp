@@ -54,21 +54,37 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_slots(const system::Patt
   });
 }
 
+/// x y, of complex numbers without a look at whether they are finite.
+double product(double x, double y) { return x * y; }
+std::complex<double> product(const std::complex<double>& x, const std::complex<double>& y) {
+  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
+}
+
 /// D^-1 in place: z / (alpha - a), or of the pair with
 ///   D = [[alpha - a, b], [-b, alpha - a]].
 template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z) const {
+  for (Index c = 0; c < z.cols(); ++c) {
+    Scalar* const column = z.col(c).data();
+    std::size_t k = 0;
+    for (const HydroData::Block& block : s_.hydro.blocks) {
+      const auto& [own, other] = inverse_[k++];
+      const Scalar x = column[block.state];
+      column[block.state] = product(own, x);
+      if (!block.pair)
+        continue;
+      const Scalar y = column[block.state + 1];
+      column[block.state] -= product(other, y);
+      column[block.state + 1] = product(other, x) + product(own, y);
+    }
+  }
+}
+
+/// D^-1 = [[own, -other], [other, own]] of each block.
+template <class Scalar> void NewtonMatrix<Scalar>::invert() {
+  inverse_.clear();
   for (const HydroData::Block& block : s_.hydro.blocks) {
-    const Scalar d = alpha_ - block.a;
-    if (!block.pair) {
-      z.row(block.state) /= d;
-      continue;
-    }
-    const Scalar b(block.b), size = d * d + b * b;
-    for (Index c = 0; c < z.cols(); ++c) {
-      const Scalar x = z(block.state, c), y = z(block.state + 1, c);
-      z(block.state, c) = (d * x - b * y) / size;
-      z(block.state + 1, c) = (b * x + d * y) / size;
-    }
+    const Scalar d = alpha_ - block.a, b(block.pair ? block.b : 0.0), size = d * d + b * b;
+    inverse_.push_back({d / size, b / size});
   }
 }
 
@@ -76,6 +92,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::find_transfer(Scalar alpha) {
   if (known_ && alpha == alpha_)
     return;
   alpha_ = alpha;
+  invert();
   driven_ = input_.template cast<Scalar>();
   divide(driven_);
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -131,7 +148,16 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const A
 template <class Scalar>
 void NewtonMatrix<Scalar>::subtract_memory_loads(const VectorS& z, Scalar* b) {
   const HydroData& h = s_.hydro;
-  U_.noalias() = h.output.template cast<Scalar>() * z;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    U_.noalias() = h.output * z;
+  } else { // two real products: C is real
+    part_ = z.real();
+    load_.noalias() = h.output * part_;
+    U_.real() = load_;
+    part_ = z.imag();
+    load_.noalias() = h.output * part_;
+    U_.imag() = load_;
+  }
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -169,8 +195,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
       if (hb.moving[c] >= 0)
         U_[hb.moving[c]] = velocity[c];
   }
-  for (const HydroData::Input& in : h.inputs)
-    z_(in.state, 0) += in.value * U_[in.coordinate];
+  h.add_input<Scalar>(1.0, U_.data(), z_.data());
   divide(z_);
   r_z = z_;
 }

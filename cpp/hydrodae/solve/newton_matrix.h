@@ -51,6 +51,7 @@ private:
   void find_slots(const system::Pattern& pattern);
   void find_transfer(Scalar alpha);
   void add_memory();
+  void invert();
   void divide(Eigen::Ref<MatrixS> z) const;
 
   const system::Regime& s_;
@@ -66,6 +67,12 @@ private:
   MatrixS z_;          ///< (n_states, 1) scratch
   VectorS w_;          ///< (n_states,) scratch
   VectorS U_;          ///< (n_moving,) scratch
+  VectorX part_;       ///< (n_states,) scratch
+  VectorX load_;       ///< (n_moving,) scratch
+  struct Inverse {
+    Scalar own, other;
+  };
+  std::vector<Inverse> inverse_; ///< D^-1, block by block
 };
 
 /// `pattern` without the radiation memory: what a NewtonMatrix is made of.

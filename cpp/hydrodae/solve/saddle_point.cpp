@@ -232,7 +232,7 @@ bool SaddlePoint::project(double t, VectorX& y) {
     return true;
   double before = HUGE_VAL;
   for (int i = 0; i < projections; ++i) {
-    if (!e_.residual(t, y, yp0_, residual_))
+    if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     rhs_.setZero();
     double gap = 0.0;
@@ -254,14 +254,14 @@ bool SaddlePoint::project(double t, VectorX& y) {
     system::retract(s_, x_.head(s_.n_u), y);
   }
   for (int i = 0; i < 2; ++i) { // the matrix is of a pose a little off: twice
-    if (!e_.residual(t, y, yp0_, residual_))
+    if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     rhs_.setZero();
     rhs_.tail(s_.n_lambda) = -residual_.segment(s_.lambda0, s_.n_lambda);
     solve(x_);
     y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
   }
-  if (!e_.residual(t, y, yp0_, residual_))
+  if (!e_.constraint_residual(t, y, yp0_, residual_))
     return false;
   for (Index i = s_.lambda0; i < s_.mu0; ++i)
     if (std::abs(residual_[i]) >

@@ -36,7 +36,7 @@ double Trust::remembered(Energy& e, double phase, const system::Recorder::Balanc
     return 0.0;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
   damped_[e.group] = std::max(damped_[e.group], damped);
-  return std::max(growth_->fade()[e.group], damped);
+  return growth_->is_rough(e.group) ? damped : std::max(growth_->fade()[e.group], damped);
 }
 
 /// Kinetic energy of a body that moves as its tolerance expects: less tells nothing.

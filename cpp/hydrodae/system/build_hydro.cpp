@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <tuple>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -72,6 +73,28 @@ void note_uncovered(const model::Scene& scene, const std::vector<std::string>& o
         s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
 }
 
+/// The entries of B_r column by column, in runs that few zeros interrupt: sums over them are those
+/// of whole vectors.
+void find_runs(HydroData& h) {
+  constexpr int most_zeros = 3;
+  std::vector<HydroData::Input> inputs = h.inputs;
+  std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.coordinate, a.state) < std::tie(b.coordinate, b.state);
+  });
+  std::vector<double> values;
+  for (const HydroData::Input& in : inputs) {
+    const bool goes_on = !h.runs.empty() && h.runs.back().coordinate == in.coordinate &&
+                         in.state - h.runs.back().state - h.runs.back().count <= most_zeros;
+    if (!goes_on)
+      h.runs.push_back({in.coordinate, in.state, static_cast<Index>(values.size()), 0});
+    HydroData::Run& run = h.runs.back();
+    run.count = in.state - run.state + 1;
+    values.resize(static_cast<std::size_t>(run.first + run.count));
+    values.back() = in.value;
+  }
+  h.run_values = Eigen::Map<const VectorX>(values.data(), static_cast<Index>(values.size()));
+}
+
 /// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
 /// that nothing drives are left out.
 void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& s) {
@@ -101,6 +124,7 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, System& 
     for (int n = 0; n < (pair ? 2 : 1); ++n)
       column.push_back(k);
   }
+  find_runs(h);
   h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
   for (std::size_t i = 0; i < h.bodies.size(); ++i)
     for (int c = 0; c < 6; ++c) {

@@ -1,7 +1,9 @@
 #pragma once
 /// Added mass and radiation of all bodies in the water, on all rungs.
 
+#include <complex>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "hydrodae/element/hydro_axes.h"
@@ -61,6 +63,29 @@ struct HydroData {
     double value = 0.0;
   };
   std::vector<Input> inputs;
+  struct Run { ///< successive entries of a column of B_r, a few zeros among them
+    int coordinate = 0, state = 0;
+    Index first = 0, count = 0; ///< in `run_values`
+  };
+  std::vector<Run> runs; ///< all of `inputs`
+  VectorX run_values;
+
+  /// z += factor B_r U, from U (n_moving,) to z (n_states,).
+  template <class S> void add_input(double factor, const S* U, S* z) const {
+    for (const Run& run : runs) {
+      const S u = S(factor) * U[run.coordinate];
+      if constexpr (std::is_same_v<S, double>) {
+        Eigen::Map<VectorX>(z + run.state, run.count) +=
+            u * run_values.segment(run.first, run.count);
+      } else if constexpr (std::is_same_v<S, std::complex<double>>) {
+        for (Index k = 0; k < run.count; ++k)
+          z[run.state + k] += run_values[run.first + k] * u;
+      } else {
+        for (Index k = 0; k < run.count; ++k)
+          z[run.state + k] += S(run_values[run.first + k]) * u;
+      }
+    }
+  }
 
   bool radiates() const { return n_states > 0 || damped || !convolution.empty(); }
 };

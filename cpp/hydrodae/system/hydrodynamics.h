@@ -97,8 +97,7 @@ void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y
       r[k] = z_dot[k] - S(b.a) * z[k];
     }
   }
-  for (const HydroData::Input& in : h.inputs)
-    r[in.state] -= S(in.value) * ws.U[in.coordinate];
+  h.add_input<S>(-1.0, ws.U.data(), r);
 }
 
 } // namespace hydrodae::system

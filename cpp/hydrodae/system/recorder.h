@@ -135,6 +135,8 @@ private:
   void fill_energy(double*& out, const std::vector<double>& work);
   double balance(const std::vector<double>& work);
   void balance_mechanisms();
+  void find_shared();
+  void share_dissipation(std::vector<double>& given) const;
   void take_turns();
   std::vector<double> powers() const;
 
@@ -152,7 +154,13 @@ private:
   Turns turns_;                             ///< there
   std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
-  double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
+  struct Shared { ///< an element between bodies of several mechanisms that may dissipate
+    std::vector<std::size_t> loads; ///< of the observation
+    std::vector<int> mechanisms;
+  };
+  std::vector<Shared> shared_;
+  std::vector<double> masses_; ///< of each mechanism's bodies [kg]
+  double energy0_ = 0.0;       ///< kinetic energies at the start [J]
   Whole whole_;
   Before before_;
   Quadrature rule_;

@@ -138,12 +138,12 @@ void body_rows(const Regime& s, const Workspace<S>& ws, const S* y, const S* yp,
   }
 }
 
-/// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
+/// The rows of lambda and mu alone; the loads of the reactions, and the weights, into `ws`.
 template <class S>
-void residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
+void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
+                         S* residual) {
   unpack<S>(s, y, yp, ws.bodies);
   ws.time = t;
-  ws.past = past_at(s, t);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     ws.loads[i].setZero();
     ws.loads[i][2] = S(-s.bodies[i].mass * s.gravity);
@@ -151,6 +151,13 @@ void residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* 
   }
   add_joints<S>(s, ws, y, residual);
   add_couplers<S>(s, ws, t, y, residual);
+}
+
+/// F(t, y, y') into `residual`; arrays of length system.n. No allocation.
+template <class S>
+void residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp, S* residual) {
+  constraint_residual<S>(s, ws, t, y, yp, residual);
+  ws.past = past_at(s, t);
   for_each_list(s, [&](const auto& list) { add_loads<S>(s, list, ws, y, yp, residual); });
   body_rows<S>(s, ws, y, yp, residual);
 }
