@@ -225,12 +225,12 @@ def test_a_wide_swing_is_not_stopped_and_its_error_is_known(method: str) -> None
     assert 0.1 < ratio < 10.0
 
 
-@pytest.mark.parametrize("rtol", [1e-5, 1e-7])
+@pytest.mark.parametrize("rtol", [1e-6, 1e-7])
 def test_slow_growth_of_an_undamped_swing_is_not_lost_in_doubts(rtol: float) -> None:
     """A hardening spring, 500 periods: errors of the energy put it out of step."""
     ratio = known_ratio(HARDENING, "block", end_time=2000.0, method="ida", rtol=rtol)
     assert ratio is not None
-    assert 0.1 < ratio < 30.0  # 400 where looks are as far apart as in the water
+    assert 0.1 < ratio < 5.0  # 47 where the work of the spring counts as spent
 
 
 def test_what_ropes_damp_between_mechanisms_is_forgotten() -> None:

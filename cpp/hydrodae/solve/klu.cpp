@@ -169,7 +169,7 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   Impl& m = *impl_;
   klu_l_defaults(&m.common);
   m.common.ordering = 0; // AMD: COLAMD fills more on these patterns
-  m.common.scale = 0;    // see Impl::find_scale
+  m.common.scale = -1;   // see Impl::find_scale
   m.start.assign(column_start.begin(), column_start.end());
   m.row.assign(row.begin(), row.end());
   m.values.resize(row.size());

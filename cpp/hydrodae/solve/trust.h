@@ -66,7 +66,7 @@ private:
   double lasting(Index group, double now);
   void take_energy(double t, const system::Recorder& recorder);
   struct Energy;
-  bool tells_less(const system::Recorder::Balance& balance) const;
+  bool tells_less(const Energy& energy) const;
   double remembered(Energy& energy, double phase, const system::Recorder::Balance& now);
   void find_guided();
   void take_inner(double t, const VectorX& errors);
@@ -100,7 +100,8 @@ private:
     double late = 0.0;    ///< phase that this has cost [rad]
     double kinetic = 0.0; ///< its mean over some swings [J]
     double given = 0.0;   ///< that dampers had taken at the last look [J]
-    void remember(Archive& a) { a(struck, seen, missing, late, kinetic, given); }
+    double spent = 0.0;   ///< that they took in the last swings [J]
+    void remember(Archive& a) { a(struck, seen, missing, late, kinetic, given, spent); }
   };
   std::vector<Energy> energies_;
   double looked_ = 0.0; ///< time of the last look [s]

@@ -17,9 +17,10 @@ double out_of_step(double change) { return std::max(0.25 * change, 0.8 * change 
 
 /// Where dampers and the like work the balance has the errors of their sums of work in it, and
 /// errors that keep their signs tell more. What is conservative keeps its energy longer than these
-/// keep their phase.
-bool Trust::tells_less(const system::Recorder::Balance& b) const {
-  return way_ == ErrorGrowth::Way::with_signs && b.spends;
+/// keep their phase: springs, which give back what they take, spend nothing after the first swings.
+bool Trust::tells_less(const Energy& e) const {
+  constexpr double little = 1e-2; // of 4 K, in the swings remembered
+  return way_ == ErrorGrowth::Way::with_signs && e.spent > 4.0 * little * e.kinetic;
 }
 
 /// How much of what is missing a mechanism remembers until the next look. Conservative ones forget
@@ -27,12 +28,13 @@ bool Trust::tells_less(const system::Recorder::Balance& b) const {
 /// is carried along tells, too, if only where it turns little from look to look. What drives guide
 /// altogether carries none.
 double Trust::remembered(Energy& e, double phase, const system::Recorder::Balance& now) {
-  constexpr double held = 10.0; // radians of the motion
+  constexpr double held = 10.0, held_of_spent = 20.0; // radians of the motion
   const double weight = std::exp(-phase / held);
   e.kinetic = e.kinetic > 0.0 ? weight * e.kinetic + (1.0 - weight) * now.now : now.now;
   const double taken = now.given - e.given;
   e.given = now.given;
-  if (e.guided || tells_less(now))
+  e.spent = std::exp(-phase / held_of_spent) * e.spent + taken;
+  if (e.guided || tells_less(e))
     return 0.0;
   const double damped = taken > 0.0 ? std::exp(-taken / std::max(4.0 * e.kinetic, 1e-300)) : 1.0;
   damped_[e.group] = std::max(damped_[e.group], damped);
@@ -65,7 +67,9 @@ void Trust::take_energy(double t, const system::Recorder& recorder) {
                  kept = remembered(e, phase, b);
     e.missing = kept * e.missing + b.error - e.seen;
     e.seen = b.error;
-    if (e.guided || tells_less(b) || !(kinetic > 0.0))
+    if (e.guided || tells_less(e))
+      e.late = 0.0;
+    if (e.guided || tells_less(e) || !(kinetic > 0.0))
       continue;
     const double part = std::abs(e.missing) / (2.0 * kinetic);
     const double change = growth_->change()[e.group];
