@@ -94,6 +94,8 @@ def test_uncoupled_copies_move_as_one_device_alone(
     alone = hydrodae.run(arrays.place(device(single), {"u2": UNITS["u2"]}, single))
     for name in ("bodies/u2_float/position", "joints/u2_hinge/angle"):
         assert together[name].values == pytest.approx(alone[name].values, abs=1e-6)
+    sizes = [run.statistics["nonzeros"] for run in (together, alone)]
+    assert sizes[0] == len(UNITS) * sizes[1]  # a matrix in blocks, one for each unit
     array_database.write(tmp_path / "hydro.h5")
     coupled = hydrodae.run(arrays.place(device(tmp_path), UNITS, tmp_path))
     angle = "joints/u2_hinge/angle"
