@@ -29,12 +29,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae import arrays, hdb
 from hydrodae.memory import ExponentialMemory
 from hydrodae.plot import save
 
+Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "4n3la"))
 
@@ -61,7 +63,9 @@ def water(count: int) -> hdb.HydroDatabase:
     return hdb.cylinders(places, node, WATER, orders=2, modes=60)[0]
 
 
-def with_bank(database: hdb.HydroDatabase, groups: list[list[str]]) -> hdb.HydroDatabase:
+def with_bank(
+    database: hdb.HydroDatabase, groups: list[list[str]], bank: Array = BANK
+) -> hdb.HydroDatabase:
     """Give each group of coordinates a memory of resonators, H = sum G (s + d)/((s + d)^2 + w^2).
 
     G = 2 d B(w) is positive semidefinite, hence Re H(i w) too; d is half the distance of the w.
@@ -71,7 +75,7 @@ def with_bank(database: hdb.HydroDatabase, groups: list[list[str]]) -> hdb.Hydro
     poles, rows = [], []
     for group in groups:
         at = np.array([i for i in database.index(group) if scale[i] > 1e-9 * scale.max()])
-        for w, d in zip(BANK, 0.5 * np.gradient(BANK), strict=True):
+        for w, d in zip(bank, 0.5 * np.gradient(bank), strict=True):
             nearest = int(np.abs(database.omega - w).argmin())
             damping = database.radiation_damping[nearest][np.ix_(at, at)]
             values, vectors = np.linalg.eigh(damping / np.outer(scale[at], scale[at]))
@@ -85,7 +89,7 @@ def with_bank(database: hdb.HydroDatabase, groups: list[list[str]]) -> hdb.Hydro
     memory = ExponentialMemory(
         "bank", label, label, np.array(poles), inlet, 2.0 * inlet.T, database.added_mass_inf
     )
-    lowest = memory.passivity(float(BANK[-1]), 500)
+    lowest = memory.passivity(float(bank[-1]), 500)
     report = {"n_states": memory.n_states, "passive": lowest.relative > -1e-9}
     return replace(database, memory={"bank": replace(memory, report=report)})
 
