@@ -86,8 +86,9 @@ def with_bank(
                     poles.append(complex(-d, w))
                     rows.append(row)
     inlet = np.array(rows)
+    outlet = np.asarray(2.0 * inlet.T, dtype=complex)
     memory = ExponentialMemory(
-        "bank", label, label, np.array(poles), inlet, 2.0 * inlet.T, database.added_mass_inf
+        "bank", label, label, np.array(poles), inlet, outlet, database.added_mass_inf
     )
     lowest = memory.passivity(float(bank[-1]), 500)
     report = {"n_states": memory.n_states, "passive": lowest.relative > -1e-9}
@@ -244,7 +245,7 @@ def main() -> None:
                 place = Path(folder) / way.replace(", ", "_") / str(count)
                 place.mkdir(parents=True)
                 bodies, states = write(tables, count, joined, limited, place)
-                command = [sys.executable, __file__, "--one", place / "case.toml"]
+                command = [sys.executable, __file__, "--one", str(place / "case.toml")]
                 options = ["--end", f"{given.end}", "--repeats", f"{given.repeats}"]
                 done = subprocess.run(
                     [*command, *options], check=True, capture_output=True, text=True
