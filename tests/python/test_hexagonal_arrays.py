@@ -30,8 +30,8 @@ def test_water_is_passive_and_joins_what_it_should(
     assert fit.passivity().relative > -1e-9
     far = fit.transfer(np.array([2.0]))[0, :6, 6:12]
     assert bool(np.all(far == 0.0)) is limited
-    results = hydrodae.run(tmp_path / "case.toml", set={"solver.end_time": 0.2})
-    assert results.statistics["estimated_error"] < 1e-3
+    report = str(hydrodae.check(tmp_path / "case.toml"))
+    assert f"mobility: {5 * 6 - 4 * 3} degrees of freedom left by 12" in report
 
 
 def test_arms_join_all_units_to_a_tree() -> None:
