@@ -7,7 +7,7 @@ the results (`bodies/u3_flap`) and in the database (`hydro = "u3_flap"`).
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -57,10 +57,14 @@ def hexagonal(count: int, spacing: float) -> dict[str, tuple[float, float]]:
     Raises
     ------
     CaseError
-        A count or a spacing that is not > 0.
+        A count that is no integer > 0, or a spacing that is not > 0 and finite.
     """
-    if count < 1 or not spacing > 0.0:
-        raise CaseError(f"hexagonal: {count} units {spacing:g} m apart: expected both > 0")
+    whole = isinstance(count, int | np.integer)
+    if not whole or count < 1 or not 0.0 < _number(spacing) < np.inf:
+        raise CaseError(
+            f"hexagonal: {count!r} units {spacing!r} m apart: expected an integer > 0 and a "
+            "finite number > 0"
+        )
     rings = int(np.ceil(np.sqrt(count)))
     grid = [(a, b) for a in range(-rings, rings + 1) for b in range(-rings, rings + 1)]
     points = [(a + 0.5 * b, b * np.sqrt(0.75)) for a, b in grid]
@@ -92,22 +96,18 @@ def place(
     Raises
     ------
     CaseError
-        A name that cannot stand before those of bodies, a shift that is not two numbers, or no
-        units.
+        A name that cannot stand before those of bodies, a shift that is not two finite numbers,
+        two units at one place, or no units.
     """
+    offsets = _placed_units(units)
     tables = tomllib.loads(device.to_toml())
     tables.pop("title", None)
-    if not units:
-        raise CaseError("an array needs at least one unit")
     array = Scene(title or f"{len(units)} x {device.title}", directory=directory)
     own = {str(e["name"]) for table in OF_UNITS for e in tables.get(table, []) if "name" in e}
     for table in (t for t in tables if t not in OF_UNITS):
         for entry in _entries(tables[table]):
             _add(array, table, entry)
-    for unit, shift in units.items():
-        offset = np.asarray(shift, dtype=float)
-        if body_name(unit) != unit or offset.shape != (2,):
-            raise CaseError(f"unit {unit!r}: expected letters, digits, _ and -, and a shift x, y")
+    for unit, offset in offsets.items():
         for table in (t for t in OF_UNITS if t in tables):
             for entry in tables[table]:
                 if table == "gauge" and "marker" not in entry:
@@ -115,6 +115,53 @@ def place(
                 keys = {key: _moved(key, value, unit, own, offset) for key, value in entry.items()}
                 _add(array, table, keys)
     return array
+
+
+def _number(value: Any) -> float:
+    """Return it as a number, nan where it is none."""
+    return float(value) if isinstance(value, int | float | np.number) else float("nan")
+
+
+def _places(places: Mapping[str, ArrayLike], what: str) -> dict[str, Array]:
+    """Places in plan by their names, checked."""
+    if not isinstance(places, Mapping) or not places:
+        raise CaseError(f"an array needs at least one {what}: expected a dict of name: (x, y)")
+    found: dict[str, Array] = {}
+    for name, place in places.items():
+        try:
+            at = np.asarray(place, dtype=float)
+        except (TypeError, ValueError):
+            at = np.empty(0)
+        if at.shape != (2,) or not np.all(np.isfinite(at)):
+            raise CaseError(f"{what} {name!r}: expected x, y [m], got {place!r}")
+        found[name] = at
+    return found
+
+
+def _placed_units(units: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Shifts of the units by their names, all checked."""
+    found = _places(units, "unit")
+    _check_names(found)
+    names = list(found)
+    for i, name in enumerate(names):
+        for other in names[:i]:
+            if np.array_equal(found[other], found[name]):
+                raise CaseError(f"units {other!r} and {name!r} are at the same place")
+    return found
+
+
+def _check_names(units: Iterable[str]) -> None:
+    """Refuse names of units that cannot stand before those of bodies."""
+    names = list(units)
+    for name in names:
+        if not isinstance(name, str) or body_name(name) != name:
+            raise CaseError(f"unit {name!r}: expected a name of letters, digits, _ and -")
+        for other in names:
+            if isinstance(other, str) and name.startswith(f"{other}_"):
+                raise CaseError(
+                    f"unit {name!r} begins with the name of unit {other!r}: whose would the body "
+                    f"'{name}_...' be?"
+                )
 
 
 def _entries(table: Any) -> list[dict[str, Any]]:
@@ -137,14 +184,20 @@ def _moved(key: str, value: Any, unit: str, own: set[str], offset: Array) -> Any
         return f"{unit}_{value}" if key == "hydro" or value in own else value
     if key in CHANNELS:
         names = value if isinstance(value, list) else [value]
-        return [
-            "/".join(f"{unit}_{part}" if part in own else part for part in name.split("/"))
-            for name in names
-        ]
+        return [_moved_channel(name, unit, own) for name in names]
     if key in PLACES:
         places = np.asarray(value, dtype=float)  # of a gauge in plan
         return (places + np.array([*offset, 0.0])[: places.shape[-1]]).tolist()
     return value
+
+
+def _moved_channel(channel: str, unit: str, own: set[str]) -> str:
+    """Channel of the copy: "joints/hinge/angle", "energy/work/pto"; other parts are no names."""
+    parts = channel.split("/")
+    at = 2 if parts[:2] == ["energy", "work"] else 1
+    if len(parts) > at and parts[at] in own:
+        parts[at] = f"{unit}_{parts[at]}"
+    return "/".join(parts)
 
 
 @dataclass(frozen=True)
@@ -199,15 +252,20 @@ def limit(
     Raises
     ------
     DatabaseError
-        Neither or both are given, or a body belongs to no unit.
+        Neither or both are given, a radius that is not >= 0, or a body belongs to no unit.
+    CaseError
+        Names of units of which one begins with another.
     """
     if (radius is None) == (units is None):
         raise DatabaseError("limit: give either a radius or units")
+    if radius is not None and not _number(radius) >= 0.0:
+        raise DatabaseError(f"limit: radius {radius!r}: expected a number >= 0 [m]")
     names = list(database.bodies)
     if radius is not None:
         points = np.array([database.reference_point(name)[:2] for name in names])
         near = np.linalg.norm(points[:, None] - points[None, :], axis=2) <= radius
     else:
+        _check_names(units or {})
         owner = np.array([_unit_of(name, list(units or {})) for name in names])
         near = owner[:, None] == owner
     bodies = [names.index(label.rpartition(".")[0]) for label in database.coordinates]
@@ -259,12 +317,15 @@ def places_of(
         Places of the bodies of one device [m].
     units : dict of (x, y)
         As in `place`.
+
+    Raises
+    ------
+    CaseError
+        As `place`.
     """
+    offsets, own = _placed_units(units), _places(bodies, "body")
     return {
-        f"{unit}_{body}": (
-            float(np.asarray(at, float)[0] + np.asarray(shift, float)[0]),
-            float(np.asarray(at, float)[1] + np.asarray(shift, float)[1]),
-        )
-        for unit, shift in units.items()
-        for body, at in bodies.items()
+        f"{unit}_{body}": (float(at[0] + shift[0]), float(at[1] + shift[1]))
+        for unit, shift in offsets.items()
+        for body, at in own.items()
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -79,6 +80,20 @@ def test_gauges_of_copies_stand_beside_them(tmp_path: Path) -> None:
     assert "point" not in gauges["u2_on"]
 
 
+def test_only_names_of_channels_are_copied(tmp_path: Path) -> None:
+    """A joint may be called as what it tells."""
+    one = hydrodae.Scene("arm", directory=tmp_path)
+    one.body("angle_rate", mass=1.0, center_of_gravity=[0, 0, 0], inertia=[1, 1, 1])
+    one.joint.revolute("angle", body_a="ground", body_b="angle_rate", point=[0, 0, 1],
+                       axis=[0, 1, 0])  # fmt: skip
+    one.controller.pid("brake", inputs=["joints/angle/angle_rate"], outputs=["sea/elevation"],
+                       period=0.1)  # fmt: skip
+    found = tomllib.loads(arrays.place(one, {"u": (0, 0)}, tmp_path).to_toml())
+    (brake,) = found["controller"]
+    assert brake["inputs"] == ["joints/u_angle/angle_rate"]
+    assert brake["outputs"] == ["sea/elevation"]
+
+
 def test_uncoupled_copies_move_as_one_device_alone(
     tmp_path: Path, array_database: hdb.HydroDatabase
 ) -> None:
@@ -94,6 +109,8 @@ def test_uncoupled_copies_move_as_one_device_alone(
     alone = hydrodae.run(arrays.place(device(single), {"u2": UNITS["u2"]}, single))
     for name in ("bodies/u2_float/position", "joints/u2_hinge/angle"):
         assert together[name].values == pytest.approx(alone[name].values, abs=1e-6)
+    sizes = [run.statistics["nonzeros"] for run in (together, alone)]
+    assert sizes[0] == len(UNITS) * sizes[1]  # a matrix in blocks, one for each unit
     array_database.write(tmp_path / "hydro.h5")
     coupled = hydrodae.run(arrays.place(device(tmp_path), UNITS, tmp_path))
     angle = "joints/u2_hinge/angle"
@@ -138,11 +155,29 @@ def test_every_name_and_place_of_the_tables_is_known() -> None:
 def test_impossible_arrays_are_refused(tmp_path: Path, array_database: hdb.HydroDatabase) -> None:
     with pytest.raises(CaseError, match="at least one unit"):
         arrays.place(device(tmp_path), {}, tmp_path)
-    with pytest.raises(CaseError, match=r"'a\.b'"):
-        arrays.place(device(tmp_path), {"a.b": (0, 0)}, tmp_path)
+    wrong: list[tuple[Any, str]] = [
+        ({"a.b": (0, 0)}, r"unit 'a\.b'"),
+        ({1: (0, 0)}, "unit 1: expected a name"),
+        ([(0, 0)], "expected a dict"),
+        ({"a": (0, np.nan)}, r"unit 'a': expected x, y \[m\]"),
+        ({"a": ("here", 0)}, "unit 'a': expected x, y"),
+        ({"a": (0, 0, 1)}, "unit 'a': expected x, y"),
+        ({"a": (0, 0), "b": (0, 0)}, "'a' and 'b' are at the same place"),
+        ({"a": (0, 0), "a_b": (1, 0)}, "'a_b' begins with the name of unit 'a'"),
+    ]
+    for units, message in wrong:
+        with pytest.raises(CaseError, match=message):
+            arrays.place(device(tmp_path), units, tmp_path)
+        with pytest.raises(CaseError, match=message):
+            arrays.places_of({"float": (0, 0)}, units)
+    for radius in (-1.0, np.nan):  # all uncoupled, bodies from themselves too
+        with pytest.raises(DatabaseError, match="expected a number >= 0"):
+            arrays.limit(array_database, radius=radius)
     with pytest.raises(DatabaseError, match="belongs to none of the units"):
         arrays.limit(array_database, units={"x": (0, 0)})
     with pytest.raises(DatabaseError, match="either a radius or units"):
         arrays.limit(array_database)
-    with pytest.raises(CaseError, match="expected both > 0"):
-        arrays.hexagonal(0, 1.0)
+    grids: list[tuple[Any, Any]] = [(0, 1.0), (2.5, 1.0), (3, np.inf), (3, "far")]
+    for count, spacing in grids:
+        with pytest.raises(CaseError, match="expected an integer > 0 and a finite number > 0"):
+            arrays.hexagonal(count, spacing)

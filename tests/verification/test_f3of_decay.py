@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from tests.verification import cummins, reduced_flaps
 
 import hydrodae
-from hydrodae.hdb import read
+from hydrodae.hdb import HydroDatabase, read
 from hydrodae.post import turning_points
 
 
@@ -35,9 +36,7 @@ def mean_period(time: np.ndarray, x: np.ndarray, cycles: int = 5) -> float:
     return float(np.diff(falls[: cycles + 1]).mean())
 
 
-def linear_model(path: Path) -> cummins.CumminsModel:
-    """Linear Cummins model of tests/verification/cummins.py on the case's own database."""
-    db = read(path)
+def bodies_of(db: HydroDatabase) -> dict[str, cummins.Body]:
     bodies = {}
     for name in ("base", "flap1", "flap2"):
         hydrostatics = db.bodies[name].hydrostatics
@@ -49,7 +48,13 @@ def linear_model(path: Path) -> cummins.CumminsModel:
             hydrostatics.displaced_volume,
             db.hydrostatic_stiffness(name),
         )
-    return cummins.f3of_dt3(db, bodies)
+    return bodies
+
+
+def linear_model(path: Path) -> cummins.CumminsModel:
+    """Linear Cummins model of tests/verification/cummins.py on the case's own database."""
+    db = read(path)
+    return cummins.f3of_dt3(db, bodies_of(db))
 
 
 @pytest.fixture(scope="module")
@@ -188,6 +193,36 @@ def test_locked_flaps_follow_the_base(surge_decay: hydrodae.Results) -> None:
         np.testing.assert_allclose(
             surge_decay[f"bodies/{flap}/rotation"].values[:, 1], pitch, atol=1e-6
         )
+
+
+@pytest.mark.parametrize(("name", "release"), [
+    ("surge_decay", [0.05, 0.0, 0.0]), ("pitch_decay", [0.0, 0.0, np.radians(0.1)]),
+])  # fmt: skip
+def test_small_releases_of_the_locked_device_match_linear_theory(
+    repository: Path, database: Path, name: str, release: list[float]
+) -> None:
+    """DT1 and DT2, a hundredth of their releases: surge, heave and pitch over 50 s."""
+    db = read(database)
+    model = cummins.f3of_dt1(db, bodies_of(db))
+    surge, _, pitch = release
+    values: dict[str, Any] = {"solver.end_time": 50.0, "solver.rtol": 1e-7, "output.step": 0.5}
+    for body, x in (("base", None), ("flap1", -12.5), ("flap2", 12.5)):
+        arm = np.zeros(2) if x is None else np.array([x, 3.5])  # from the base's centre
+        turned = np.array([[np.cos(pitch), np.sin(pitch)], [-np.sin(pitch), np.cos(pitch)]]) @ arm
+        dx, dz = turned - arm
+        values[f"body.{body}.initial.displacement"] = [surge + dx, 0.0, dz]
+        values[f"body.{body}.initial.rotation_deg"] = [0.0, np.degrees(pitch), 0.0]
+    results = hydrodae.run(repository / "cases" / "f3of" / f"{name}.toml", set=values)
+    lift = sum(
+        (cummins.RHO * body.displaced_volume - body.mass) * cummins.GRAVITY
+        for body in bodies_of(db).values()
+    )
+    rest = np.linalg.solve(model.stiffness, [0.0, lift, 0.0])
+    exact = model.free_decay(np.array(release) - rest, results.time) + rest
+    position = results["bodies/base/position"].values
+    seen = (position[:, 0], position[:, 2] + 9.0, results["bodies/base/rotation"].values[:, 1])
+    for ours, theirs in zip(seen, exact.T, strict=True):
+        assert cummins.nrms(ours, theirs) <= 0.01
 
 
 @pytest.mark.parametrize(("rtol", "drift"), [(1e-8, 2e-4), (1e-10, 1e-6)])

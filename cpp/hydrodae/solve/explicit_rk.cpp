@@ -36,6 +36,10 @@ public:
   void follow() {}
   bool rates(double t, VectorX& x, VectorX& xp) { return saddle_.accelerations(t, x, xp); }
   bool project(double t, VectorX& x) { return saddle_.project(t, x); }
+  bool close(double, VectorX& x, const VectorX&) {
+    saddle_.close(x);
+    return true;
+  }
   void accept(double t, const VectorX& x, const VectorX& xp) { e_.accept(t, x, xp); }
   static bool leave(double, const VectorX& x, const VectorX& xp, VectorX& y, VectorX& yp) {
     y = x;
@@ -419,7 +423,9 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
     return;
   }
   follow_polynomial((t - t0_) / done_);
-  if (!space_.rates(t, inside_, inside_xp_) || !space_.leave(t, inside_, inside_xp_, y, yp))
+  // The polynomial misses the joints by its error, which `close` takes out of them.
+  if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
+      !space_.leave(t, inside_, inside_xp_, y, yp))
     fail("no finite accelerations inside the step");
   for (const system::BodyData& b : e_.system.bodies)
     if (b.rotation == system::BodyData::Rotation::free)

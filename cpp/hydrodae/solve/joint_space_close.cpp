@@ -126,4 +126,13 @@ bool JointSpace::project(double t, VectorX& x) {
   return residual() && are_rows_at_rest(y_.segment(s_.u0, s_.n_u)) && x.allFinite();
 }
 
+bool JointSpace::close(double t, VectorX& x, VectorX& xp) {
+  if (m_ == 0)
+    return true;
+  const VectorX before = x;
+  if (!project(t, x))
+    x = before;
+  return rates(t, x, xp);
+}
+
 } // namespace hydrodae::solve

@@ -17,6 +17,7 @@ constexpr double converged = 1e-13; ///< residual, relative to the right-hand si
 constexpr double much_left = 1e-6;  ///< likewise: more than regularisation leaves
 constexpr int projections = 8;
 constexpr double closed = 1e-13; ///< gaps in units of their scale
+constexpr double longest = 1e4;  ///< way that closes a gap, relative to the gap
 constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
 
 template <class Vector> double largest(const Vector& v) {
@@ -223,6 +224,29 @@ SaddlePoint::Strike SaddlePoint::strike(double t, VectorX& y, const VectorX& rat
   return out;
 }
 
+/// rhs_ = [0; -g] from the residual at hand; the largest gap in units of its scale.
+double SaddlePoint::gaps() {
+  rhs_.setZero();
+  double gap = 0.0;
+  system::for_each_row(s_, [&](const system::Row& row, bool velocity_level) {
+    if (!s_.holds(row) || velocity_level)
+      return;
+    const Index lambda = s_.lambda(row), mu = s_.mu(row);
+    rhs_[lambda - s_.lambda0 + s_.n_u] = -residual_[mu];
+    gap = std::max(gap, std::abs(residual_[mu]) / s_.row_scale[mu]);
+  });
+  return gap;
+}
+
+void SaddlePoint::close(VectorX& y) {
+  if (s_.n_lambda == 0 || gaps() <= closed)
+    return;
+  const double gap = largest(rhs_);
+  solve(x_);
+  if (largest(x_.head(s_.n_u)) <= longest * gap)
+    system::retract(s_, x_.head(s_.n_u), y);
+}
+
 bool SaddlePoint::project(double t, VectorX& y) {
   for (const system::BodyData& b : s_.bodies)
     if (b.rotation == system::BodyData::Rotation::free)
@@ -234,15 +258,7 @@ bool SaddlePoint::project(double t, VectorX& y) {
   for (int i = 0; i < projections; ++i) {
     if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
-    rhs_.setZero();
-    double gap = 0.0;
-    system::for_each_row(s_, [&](const system::Row& row, bool velocity_level) {
-      if (!s_.holds(row) || velocity_level)
-        return;
-      const Index lambda = s_.lambda(row), mu = s_.mu(row);
-      rhs_[lambda - s_.lambda0 + s_.n_u] = -residual_[mu];
-      gap = std::max(gap, std::abs(residual_[mu]) / s_.row_scale[mu]);
-    });
+    const double gap = gaps();
     if (gap <= closed || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
       break;
     if (i > 1 && gap > 2.0 * before)

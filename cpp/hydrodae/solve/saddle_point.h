@@ -61,10 +61,16 @@ public:
   /// matrix of the last `accelerations`. False when it does not converge.
   bool project(double t, VectorX& y);
 
+  /// Moves q of the last `accelerations`, which misses the constraints by a little, onto them to
+  /// first order and in the same metric; u and reactions stay. In a singular pose, where a small
+  /// gap would take a long way, q stays too.
+  void close(VectorX& y);
+
 private:
   struct Pressed;
   bool press(double t, const VectorX& y, VectorX& yp);
   bool factorise();
+  double gaps();
   void solve(VectorX& x);
   void multiply(const VectorX& x, VectorX& out) const;
 

@@ -22,6 +22,15 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
   return block;
 }
 
+/// Whether the water lets the motion of j load i by A, B or a convolution. Constant data: the same
+/// pairs at every call. Far bodies of an array may be uncoupled.
+inline bool is_coupled(const HydroData& h, const HydroBody& i, const HydroBody& j) {
+  if (i.body == j.body || !h.convolution.empty())
+    return true;
+  return !hydro_block(h.added_mass, i, j).isZero(0.0) ||
+         (h.damped && !hydro_block(h.damping, i, j).isZero(0.0));
+}
+
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
@@ -73,7 +82,7 @@ void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const V
     velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
   for (const HydroBody& j : s.hydro.bodies)
-    if (j.moves)
+    if (j.moves && is_coupled(s.hydro, i, j))
       hydro_pair(i, j, d.L, d.Q);
   if constexpr (memory)
     memory_columns(i, d.L);
@@ -121,7 +130,7 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
 template <class Sink> void Assembly<Sink>::hydro_masses() {
   for (const HydroBody& i : s.hydro.bodies)
     for (const HydroBody& j : s.hydro.bodies) {
-      if (!i.moves || !j.moves)
+      if (!i.moves || !j.moves || !is_coupled(s.hydro, i, j))
         continue;
       Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
       if (!s.hydro.convolution.empty() && ws.state.past)
