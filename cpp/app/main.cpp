@@ -88,9 +88,12 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& note : statistics.notes)
       std::cerr << "note: " << note << '\n';
-  std::printf("%s at t = %.6g s: %ld steps in %.3g s, estimated error %.1g of the motion, ",
-              statistics.status.c_str(), statistics.end_time, statistics.steps,
-              statistics.wall_time, statistics.estimated_error);
+  std::printf("%s at t = %.6g s: %ld steps in %.3g s, ", statistics.status.c_str(),
+              statistics.end_time, statistics.steps, statistics.wall_time);
+  if (statistics.at_rest)
+    std::printf("at rest, ");
+  else
+    std::printf("estimated error %.1g of the motion, ", statistics.estimated_error);
   if (statistics.verified_error >= 0.0)
     std::printf("verified %.1g, ", statistics.verified_error);
   std::printf("results in %s\n", arguments.output.c_str());

@@ -21,7 +21,8 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
           {"notes", lines_of(notes)}};
 }
 
-io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, double balance_error) {
+io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
+                          const run::Simulation& done) {
   io::Attributes out{{"steps", std::int64_t{s.steps}},
                      {"residual_calls", std::int64_t{s.residual_calls}},
                      {"jacobian_calls", std::int64_t{s.jacobian_calls}},
@@ -35,7 +36,9 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene, dou
                      {"solver_time", s.solver_time},
                      {"wall_time", s.wall_time},
                      {"end_time", s.end_time},
-                     {"relative_balance_error", balance_error},
+                     {"relative_balance_error", done.relative_balance_error()},
+                     {"energy_scale", done.energy_scale()},
+                     {"at_rest", std::int64_t{s.at_rest}},
                      {"estimated_error", s.estimated_error},
                      {"estimated_error_of", s.estimated_error_of},
                      {"estimated_error_time", s.estimated_error_time},

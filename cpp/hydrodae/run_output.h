@@ -18,7 +18,7 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
 
 /// Those that are known at the end.
 io::Attributes attributes(const RunStatistics& statistics, const model::Scene& scene,
-                          double balance_error);
+                          const run::Simulation& done);
 
 /// Which methods made the steps from when on, and why: a line each of `methods`, `method_from` [s]
 /// and `method_reason`; the last of them as `method_in_use`.

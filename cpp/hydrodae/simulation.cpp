@@ -210,6 +210,7 @@ private:
     statistics_.estimated_error = estimate.error;
     statistics_.estimated_error_of = estimate.block;
     statistics_.estimated_error_time = estimate.time;
+    statistics_.at_rest = simulation_.at_rest();
   }
 
   void close(const std::string& message) {
@@ -229,8 +230,7 @@ private:
            cost.calls > 1 ? cost.time / static_cast<double>(cost.calls - 1) : 0.0});
     if (!file_)
       return;
-    io::Attributes all =
-        attributes(statistics_, scene(), simulation_.recorder().relative_balance_error());
+    io::Attributes all = attributes(statistics_, scene(), simulation_);
     all["beyond_linear_theory"] = lines_of(limits);
     all["unit_conversions"] = lines_of(units);
     write_methods(simulation_.methods(), all);

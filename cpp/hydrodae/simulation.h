@@ -34,6 +34,7 @@ struct RunStatistics {
   double estimated_error = 0.0;      ///< of the motion, relative to its size [-]; see solve::Trust
   std::string estimated_error_of;    ///< the body that is off most
   double estimated_error_time = 0.0; ///< when [s]
+  bool at_rest = false;              ///< nothing has moved by more than rounding
   double verified_error = -1.0;      ///< against a more exact run, likewise; < 0: not verified
   std::string verified_error_of;
   double verified_error_time = 0.0;

@@ -63,9 +63,10 @@ py::dict as_dict(const RunStatistics& s) {
       "end_time"_a = s.end_time, "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time,
       "wall_time"_a = s.wall_time, "estimated_error"_a = s.estimated_error,
       "estimated_error_of"_a = s.estimated_error_of,
-      "estimated_error_time"_a = s.estimated_error_time, "verified_error"_a = s.verified_error,
-      "verified_error_of"_a = s.verified_error_of, "verified_error_time"_a = s.verified_error_time,
-      "unknowns"_a = s.unknowns, "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
+      "estimated_error_time"_a = s.estimated_error_time, "at_rest"_a = s.at_rest,
+      "verified_error"_a = s.verified_error, "verified_error_of"_a = s.verified_error_of,
+      "verified_error_time"_a = s.verified_error_time, "unknowns"_a = s.unknowns,
+      "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,

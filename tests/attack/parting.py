@@ -136,7 +136,8 @@ def rope_bundle(
                    LENGTH + r[1], r[3], r[2]) for k, r in enumerate(ropes)]  # fmt: skip
     start = {"displacement": [0.0, 0.0, -x], "velocity": [0.0, 0.0, -v]}
     tables = case([body("load", "heave", mass, **start)], end, forces=forces, samples=300)
-    scene = Scene("", f"{mass:g} kg on {len(ropes)} ropes that part", tables, 1.0,
+    size = max(1.0, 2.0 * GRAVITY / bundle.fastest**2)  # how far soft ropes give way
+    scene = Scene("", f"{mass:g} kg on {len(ropes)} ropes that part", tables, size,
                   1.0 / bundle.fastest, "DOP853 with events", bundle.truth(x, v),
                   position("load", 2))  # fmt: skip
     return beside(scene, kind)

@@ -169,8 +169,9 @@ def falling_nut(pitch: float, end: float, kind: str | None = None) -> Scene:
                   joints=[joint("screw", "screw", "ground", "nut", axis=Z,
                                 pitch=pitch)])  # fmt: skip
     way = 0.5 * fall * end**2
+    tau = min(end, 1.0 / (k * fall * end))  # its fastest rate is that at which it turns at the end
     scene = Scene(
-        "", f"a nut on a screw of {pitch:g} m a turn", tables, k * way, end, "closed form",
+        "", f"a nut on a screw of {pitch:g} m a turn", tables, k * way, tau, "closed form",
         lambda t: np.column_stack([-0.5 * fall * t**2 * k]), channel("joints/screw/angle"),
         unit="rad",
     )  # fmt: skip

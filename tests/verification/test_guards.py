@@ -104,6 +104,51 @@ def test_stiff_springs_that_hardly_move_do_not_stop_an_implicit_method(method: s
     )
 
 
+def test_an_error_that_shows_after_the_last_looks_ends_the_run() -> None:
+    """Runs of few fixed steps end before three looks have seen what piles up."""
+    case = hydrodae.Case.from_text(OSCILLATOR)
+    values = {"solver.method": "generalized_alpha", "solver.step": 0.1, "solver.step_guard": 0.0}
+    assert hydrodae.run(case, set={**values, "solver.end_time": 3.0}).status == "completed"
+    with pytest.raises(hydrodae.SolverError, match=r"'mass' off by .* at the end of the run"):
+        hydrodae.run(case, set={**values, "solver.end_time": 10.0})
+
+
+TOP = """
+title = "An upright top that spins by 123 rad/s, and leans by 0.002 rad"
+[[body]]
+name = "top"
+mass = 1.0
+center_of_gravity = [0.0002, 0.0, 0.0999998]
+principal_axes_deg = [0.0, 0.114591559, 0.0]
+inertia = [0.004, 0.004, 0.002]
+initial.angular_velocity = [0.246, 0.0, 122.999754]
+[[joint]]
+name = "tip"
+type = "spherical"
+body_a = "ground"
+body_b = "top"
+point = [0.0, 0.0, 0.0]
+[solver]
+end_time = 3.0
+[output]
+step = 0.05
+"""
+
+
+@pytest.mark.parametrize("method", ["lobatto_iiic", "gauss"])
+def test_errors_of_fixed_steps_follow_the_turns_within_them(method: str) -> None:
+    """Stages with normalised quaternions hide the coefficient that tells of them."""
+    case = hydrodae.Case.from_text(TOP)
+    keys: dict[str, Any] = {"solver.method": method, "solver.order": 6, "solver.step_guard": 0.0}
+    keys["solver.error_guard"] = 0.0
+    long, short = (hydrodae.run(case, set={**keys, "solver.step": h}) for h in (0.012, 0.003))
+    places = [run["bodies/top/position"].values[:, :2] for run in (long, short)]
+    true = np.linalg.norm(places[0] - places[1], axis=1).max()
+    moved = np.linalg.norm(places[1] - places[1][0], axis=1).max()
+    assert true > 1e-4 * moved
+    assert float(long.statistics["estimated_error"]) > 0.05 * true / moved
+
+
 def test_estimated_errors_fade_so_that_long_runs_in_water_go_on() -> None:
     values = {"solver.method": "generalized_alpha", "solver.step": 0.2, "solver.end_time": 400.0}
     assert hydrodae.run(FLAPS, set=values).end_time == 400.0

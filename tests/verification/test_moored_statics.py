@@ -15,6 +15,7 @@ from hydrodae.mooring.stiffness import mooring_stiffness
 
 Array = NDArray[np.float64]
 LENGTH, WEIGHT, EA = 400.0, 1200.0, 5e7
+G = 9.80665
 
 
 def reach(
@@ -256,3 +257,45 @@ def test_a_line_with_a_float_sags_on_both_sides(x: float, z: float) -> None:
 def test_a_part_that_sags_to_the_bed_is_no_line() -> None:
     with pytest.raises(hydrodae.CaseError, match="down on the seabed"):
         hydrodae.catenary(60.0, 5.0, (40.0, 60.0), (WEIGHT,) * 2, (EA,) * 2, loads=[-6e4])
+
+
+HANGING = """
+[[body]]
+name = "load"
+motion = "point"
+mass = 1.0
+center_of_gravity = [3.0, 5.0, -10.0]
+[[force]]
+type = "mooring_matrix"
+name = "soft"
+body = "load"
+stiffness = [0.5, 0.5, 0.5, 0.0, 0.0, 0.0]
+[[force]]
+type = "constant_load"
+name = "wind"
+body = "load"
+force = [0.0, 0.3, 0.0]
+[[force]]
+type = "rope"
+name = "rope"
+bodies = ["ground", "load"]
+points = [[3.0, 5.0, -5.0], [3.0, 5.0, -10.0]]
+length = 4.9
+stiffness = {stiffness}
+[solver]
+end_time = 1.0
+"""
+
+
+def test_soft_springs_hold_beside_a_rope_that_hardly_gives() -> None:
+    """Pivots below 1e-12 of the largest were those of directions that nothing holds."""
+    pose = hydrodae.equilibrium(hydrodae.Case.from_text(HANGING.format(stiffness=2e13)))
+    aside, below = pose.offsets["load"][1:]
+    assert math.hypot(aside, 5.0 - below) == pytest.approx(4.9, abs=1e-6)
+    assert aside == pytest.approx(0.3 / (G / 4.9 + 0.5), rel=0.02)
+
+
+def test_a_rope_whose_rounding_is_a_load_is_told() -> None:
+    case = hydrodae.Case.from_text(HANGING.format(stiffness=5e17))
+    with pytest.raises(hydrodae.CaseError, match=r"heave of body 'load' .* rounding in the last"):
+        hydrodae.equilibrium(case)

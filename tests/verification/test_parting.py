@@ -163,3 +163,29 @@ def test_a_rope_that_breaks_needs_to_know_at_what_load(tmp_path: Path) -> None:
     text = dropped("rope", "breaks = true").replace("breaking_load", "#")
     with pytest.raises(CaseError, match="needs its 'breaking_load'"):
         run_text(text, 0.1)
+
+
+@pytest.mark.parametrize(
+    "solver",
+    [
+        {"method": "gauss", "order": 2},
+        {"method": "gauss", "order": 4},
+        {"method": "lobatto_iiic", "order": 4},
+    ],
+    ids=str,
+)
+def test_fixed_steps_end_where_a_damped_rope_parts_at_its_first_pull(
+    solver: dict[str, object],
+) -> None:
+    """It bears 100 N and its damper would take 200 N at once: the mass falls on as if alone."""
+    text = heaving({"load": (MASS, (0.0, 0.0, 0.0))}) + (
+        '[[force]]\nname = "rope"\ntype = "rope"\nbodies = ["ground", "load"]\n'
+        f"points = [[0.0, 0.0, {LENGTH}], [0.0, 0.0, 0.0]]\nstiffness = {EA}\n"
+        f"length = {LENGTH + 0.1}\ndamping = {150.0 * LENGTH}\n"
+        "breaking_load = 100.0\nbreaks = true\n"
+    )
+    case = hydrodae.Case.from_text(text + "[solver]\nend_time = 0.4\n[output]\nstep = 0.02\n")
+    values = {f"solver.{key}": value for key, value in {**solver, "step": 0.0077}.items()}
+    run = hydrodae.run(case, set=values)
+    assert run["forces/rope/parted_at"].values[-1] == pytest.approx(math.sqrt(0.2 / G), abs=2e-4)
+    assert height_of(run, "load")[-1] == pytest.approx(-0.5 * G * 0.4**2, rel=5e-3)

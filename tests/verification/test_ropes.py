@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -186,3 +187,20 @@ def test_a_rope_that_holds_a_body_at_two_points_reports_its_load() -> None:
     load = run["forces/rope/plate/force"].values
     assert load[:, 2] == pytest.approx(up, rel=1e-9, abs=1e-9)
     assert np.abs(load[:, :2]).max() < 1e-9
+
+
+def test_the_summary_tells_of_next_to_no_motion_and_of_none() -> None:
+    """The balance is relative to the energy exchanged, not to the kinetic energy of a creep."""
+    text = heaving({"load": (100.0, (0.0, 0.0, 0.0))}) + (
+        '[[force]]\nname = "rope"\ntype = "rope"\nbodies = ["ground", "load"]\n'
+        "points = [[0.0, 0.0, 10.0], [0.0, 0.0, 0.0]]\nstiffness = 1e5\ndamping = 1e12\n"
+    )
+    creeping = run_text(text + "length = 9.999\n", 10.0, method="auto", rtol=1e-6)
+    assert 0.0 < float(creeping.statistics["relative_balance_error"]) < 1e-3
+    assert float(creeping.statistics["energy_scale"]) < 1e-2
+    found = re.search(r"error at most (\S+) of \S+ J exchanged", creeping.summary())
+    assert found
+    assert float(found[1]) < 1e-3
+    resting = run_text(text + f"length = {10.0 / (1.0 + G * 1e-3)}\n", 10.0, rtol=1e-6)
+    assert "at rest: nothing has moved" in resting.summary()
+    assert "estimated error" not in resting.summary()

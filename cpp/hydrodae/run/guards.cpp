@@ -94,6 +94,7 @@ public:
     judges_.trust.restart(judges_.pattern, step.end, step.y, step.yp);
   }
   void remember(Archive& a) override { judges_.trust.remember(a); }
+  void finish(const Step& step) override { judges_.trust.finish(step.end); }
 
 private:
   Judges judges_;

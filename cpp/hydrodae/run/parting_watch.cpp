@@ -48,19 +48,43 @@ double PartingWatch::largest_ratio(double t, const VectorX& y) {
 
 std::optional<double> PartingWatch::locate(double t0, double t1, int nodes,
                                            const system::Recorder::Interpolant& at) {
-  return first_beyond(t0, t1, nodes, [&](double t) {
+  constexpr double just = 1e-9, little = 0.5; // of the step, of what is borne
+  sudden_.clear();
+  const auto beyond = first_beyond(t0, t1, nodes, [&](double t) {
     at(t, y_, yp_);
     return largest_ratio(t, y_) - 1.0;
   });
+  if (!beyond)
+    return beyond;
+  const double before = std::max(t0, *beyond - just * (t1 - t0));
+  at(before, y_, yp_);
+  if (largest_ratio(before, y_) > little)
+    return beyond;
+  at(*beyond, y_, yp_);
+  find_sudden(*beyond, y_);
+  return before;
+}
+
+void PartingWatch::find_sudden(double t, const VectorX& y) {
+  visit(t, y,
+        [&](const View::List& list, std::size_t law, const element::Overload& now, const double*) {
+          if (now.ratio >= 1.0)
+            sudden_.push_back({list.index, law, now.place});
+        });
 }
 
 void PartingWatch::part(double t, const VectorX& y) {
-  visit(t, y, [&](const View::List&, std::size_t, const element::Overload& now, double* parted) {
-    if (now.ratio < 1.0)
-      return;
-    parted[0] = now.place;
-    parted[1] = t;
-  });
+  visit(t, y,
+        [&](const View::List& list, std::size_t law, const element::Overload& now, double* parted) {
+          const auto due = std::find_if(sudden_.begin(), sudden_.end(), [&](const Sudden& s) {
+            return s.list == list.index && s.law == law;
+          });
+          if (now.ratio < 1.0 && due == sudden_.end())
+            return;
+          parted[0] = due == sudden_.end() ? now.place : due->place;
+          parted[1] = t;
+        });
+  sudden_.clear();
 }
 
 void PartingWatch::remember(Archive& a) {

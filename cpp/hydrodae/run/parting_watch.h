@@ -18,7 +18,8 @@ public:
   /// what it bears at the start, y.
   static std::unique_ptr<PartingWatch> make(system::Regime& regime, const VectorX& y);
 
-  /// The first parting in (t0, t1] of an accepted step, if any.
+  /// The first parting in (t0, t1] of an accepted step, if any; of what parts as its load begins,
+  /// a damper's, just before, so that nothing of that load is in the step.
   /// @param nodes  parts of the step at whose ends it is looked for
   std::optional<double> locate(double t0, double t1, int nodes,
                                const system::Recorder::Interpolant& at);
@@ -34,10 +35,16 @@ private:
       : s_(regime), view_(regime, &element::Parting::may_part) {}
   template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
   double largest_ratio(double t, const VectorX& y);
+  void find_sudden(double t, const VectorX& y);
 
   system::Regime& s_;
   View view_;
   VectorX y_, yp_;
+  struct Sudden {
+    std::size_t list, law;
+    double place;
+  };
+  std::vector<Sudden> sudden_; ///< what parts as its load begins, at the event found last
 };
 
 } // namespace hydrodae::run

@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/energy_guard.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/joint_tree.h"
 #include "hydrodae/system/mechanisms.h"
@@ -186,7 +187,9 @@ bool Simulation::make_step(double end) {
       at_(t_, y_start_, yp_start_);
     bound_ = find_bound();
     try {
-      t_ = integrator_->step(end, bound_);
+      // Fixed steps keep their length whatever is known ahead, but end at an event that was found.
+      t_ = integrator_->step(std::min(end, scene_.solver.step > 0.0 ? event_near_ : INFINITY),
+                             bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
       const SolverError told(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));
@@ -219,8 +222,10 @@ double Simulation::find_bound() {
   return std::min(limit.time, event_near_);
 }
 
-/// Is a time in the middle of the last step, where the polynomial through the stages of radau is of
-/// a lower order than the end, so that each event would leave its error?
+/// Is a time in the middle of the last step, where the polynomial through the stages of radau, or
+/// what fixed steps have, is of a lower order than the end, so that each event would leave its
+/// error? A load that begins with the event, as of a rope that is caught and parts, has changed the
+/// stages, too.
 bool Simulation::inside_of_step(double t) const {
   const double least = step_edge * (t_ - step_start_);
   return approaches_events_ && t - step_start_ > least && t_ - t > least;
@@ -297,6 +302,15 @@ void Simulation::finish() {
   const Step step{step_start_, t_, false, y_, yp_, *integrator_, *recorder_};
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->finish(step);
+}
+
+double Simulation::relative_balance_error() const {
+  const double exchanged = recorder_->largest_energy();
+  return exchanged > 0.0 ? recorder_->relative_balance_error() * exchanged / energy_scale() : 0.0;
+}
+
+double Simulation::energy_scale() const {
+  return std::max(recorder_->largest_energy(), solve::EnergyGuard(regime_, options_).counts());
 }
 
 } // namespace hydrodae::run

@@ -102,6 +102,10 @@ public:
   long nonzeros() const { return pattern_.nonzeros(); }
   long events() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
   solve::Trust::Estimate estimate() const { return trust_->estimate(); }
+  bool at_rest() const { return trust_->at_rest(); }
+  double relative_balance_error() const; ///< the largest so far, of `energy_scale` [-]
+  /// Energy exchanged so far, no less than that of errors within the tolerance [J].
+  double energy_scale() const;
   std::vector<std::string> scale_notes() const { return scale_->notes(); }
 
 private:

@@ -20,7 +20,7 @@ void Simulation::choose_method() {
 /// Whatever depends on the method is that of the one at work.
 void Simulation::use_method() {
   options_.method = methods_.method();
-  approaches_events_ = options_.method == "radau" && options_.step == 0.0;
+  approaches_events_ = options_.method == "radau" || options_.step > 0.0;
   if (poses_)
     poses_->use(options_.method);
   if (trust_)

@@ -23,6 +23,7 @@ using system::Regime;
 
 constexpr double longest = 3.0; ///< largest step, in length scales
 constexpr int most_steps = 200, most_creeping_steps = 1000;
+constexpr int most_idle_steps = 40; ///< of Newton's, that bring no better balance
 
 /// Gaps of all rows at position level, in the order of lambda; the others 0.
 VectorX gaps_of(const Regime& s, const VectorX& r) {
@@ -107,9 +108,12 @@ struct Balance {
   LinearMatrices m;
   VectorX gaps;
   double force_error = INFINITY, gap_error = INFINITY; ///< of weights and lengths
-  std::string trouble;                                 ///< why there are none; empty: there are
+  double rounding = 0.0; ///< of the forces, of weights, by that of the positions
+  std::string trouble;   ///< why there are none; empty: there are
 
-  bool holds() const { return force_error <= balanced && gap_error <= balanced; }
+  bool holds() const {
+    return force_error <= std::max(balanced, rounding) && gap_error <= balanced;
+  }
   double error() const { return std::hypot(force_error, gap_error); }
 };
 
@@ -140,6 +144,7 @@ public:
     out.m = linear_matrices(s_, pattern_, y);
     out.gaps = gaps_of(s_, residual_);
     out.force_error = out.m.forces.cwiseQuotient(weights_).cwiseAbs().maxCoeff();
+    out.rounding = rounding(out.m, y).cwiseQuotient(weights_).maxCoeff();
     out.gap_error = s_.n_lambda > 0 ? out.gaps.cwiseQuotient(sizes_).cwiseAbs().maxCoeff() : 0.0;
     return out;
   }
@@ -171,14 +176,46 @@ public:
     return length;
   }
 
-  /// Newton's method; the balance that it found, or where it ended.
+  /// Newton's method; the balance that it found, or where it ended, far from it or idle: without a
+  /// better one in many steps, none of which was cut.
   Balance newton(VectorX& y) {
-    for (int k = 0;; ++k) {
+    constexpr double better = 0.9;
+    double best = INFINITY;
+    for (int k = 0, idle = 0;; ++k) {
       Balance now = at(y);
-      if (!now.trouble.empty() || now.holds() || k == most_steps ||
-          std::isinf(step(now, INFINITY, y)))
+      if (now.error() < better * best) {
+        best = now.error();
+        idle = 0;
+      }
+      if (!now.trouble.empty() || now.holds() || k == most_steps || idle == most_idle_steps)
         return now;
+      const double length = step(now, INFINITY, y);
+      if (std::isinf(length))
+        return now;
+      idle = length > longest ? 0 : idle + 1;
     }
+  }
+
+  /// Throws ModelError where the rounding of positions alone, that of a body's place or turn in its
+  /// last digit, changes a load by a part of the weights that counts.
+  void refuse_rounding(const VectorX& start) {
+    constexpr double counts = 1e-3;
+    VectorX y = start;
+    const Balance now = at(y);
+    if (!now.trouble.empty() || now.rounding <= counts)
+      return;
+    Index worst = 0;
+    const VectorX change = rounding(now.m, y);
+    change.cwiseQuotient(weights_).maxCoeff(&worst);
+    const CoordinateName name = coordinate_name(s_, worst);
+    throw ModelError(
+        "solver.start",
+        "no static equilibrium can be found: " + name.text +
+            " is held so stiffly that rounding in the last digit of the positions changes its load "
+            "by " +
+            rounded_text(change[worst]) + " " + name.unit + ", where " +
+            rounded_text(weights_[worst]) + " " + name.unit +
+            " is the weight; lower the largest stiffness there, or put a joint in its place");
   }
 
   /// Creeps to the static pose, with pseudo-times that grow where steps go well and are not cut.
@@ -213,6 +250,16 @@ public:
   }
 
 private:
+  /// What rounding of the positions makes of each load [N, N m] (n_u,).
+  VectorX rounding(const LinearMatrices& m, const VectorX& y) const {
+    constexpr double last_digit = 2.2e-16;
+    VectorX place = VectorX::Ones(s_.n_u);
+    for (const BodyData& b : s_.bodies)
+      for (int k = 0; k < b.n_translations; ++k)
+        place[b.u0 - s_.u0 + k] = std::abs(y[b.q0 + k]);
+    return last_digit * (m.stiffness.cwiseAbs() * place);
+  }
+
   const Regime& s_;
   const system::Pattern pattern_;
   const VectorX scale_, sizes_, weights_, units_;
@@ -237,6 +284,7 @@ void refuse_motion(const Regime& s, const VectorX& y) {
 
 LinearMatrices balance(const Regime& s, VectorX& y) {
   Search search(s);
+  search.refuse_rounding(y);
   const VectorX start = y;
   Balance found = search.newton(y);
   if (!found.holds()) {

@@ -28,6 +28,9 @@ public:
   /// is not allowed even at a singular pose, and less than half of what is missing now.
   bool lies_in_last_step(const system::Recorder& recorder) const;
 
+  /// Energy below which an exchange tells nothing: that of errors within the tolerance [J].
+  double counts() const { return least(-1); }
+
   /// The same at the end of the run, with next to no energy too little to tell.
   void finish(double t, const system::Recorder& recorder) const;
 

@@ -1,5 +1,7 @@
 #include "hydrodae/solve/static_step.h"
 
+#include <algorithm>
+
 #include "hydrodae/math/dense.h"
 #include "hydrodae/solve/klu.h"
 
@@ -26,11 +28,18 @@ SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
   return lu;
 }
 
+/// Pivots below this part of the largest are those of directions that nothing holds: next to a
+/// spring much stiffer than weights over lengths, what is soft still holds, down to rounding.
+double rank_threshold(const MatrixX& A) {
+  constexpr double usual = 1e-12, soft = 1e-9, rounding = 1e-14;
+  return std::clamp(soft / std::max(A.cwiseAbs().maxCoeff(), soft), rounding, usual);
+}
+
 } // namespace
 
 VectorX smallest_solution(const MatrixX& A, const VectorX& b, Index n_u) {
   if (b.size() <= most_dense)
-    return minimum_norm(A, b, 1e-12);
+    return minimum_norm(A, b, rank_threshold(A));
   constexpr double shift = 1e-9, enough = 1e-13;
   constexpr int passes = 5;
   SparseLu<double> lu = shifted(A, n_u, shift);

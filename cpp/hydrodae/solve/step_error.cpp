@@ -113,6 +113,26 @@ StageError::StageError(const RungeKutta& rk)
     of_stages_ *= static_cast<double>(d + k) / k; // (2 d)! / (d!)^2 in all
 }
 
+/// A unit quaternion that turns by w h swings by w h / 2, and what is seen in axes that turn, by
+/// w h. Its rate tells so, where v_d tells too little, as stages that are normalised may have
+/// hardly any (Lobatto IIIC): v_p of a block from v_(d-1), along which is the error in `along`.
+double StageError::of_turn(const system::Regime& s, const system::Block& block, const VectorX& next,
+                           const MatrixX& rates, double h, VectorX& along) const {
+  if (block.body < 0)
+    return 0.0;
+  const system::BodyData& b = s.bodies[static_cast<std::size_t>(block.body)];
+  if (b.rotation != system::BodyData::Rotation::free)
+    return 0.0;
+  const Index p = b.q0 + b.n_translations, w = b.u0 + b.n_translations;
+  const double half = h * rates.block(p, 0, 4, rates.cols()).colwise().norm().maxCoeff();
+  double missed = 2.0 * next.segment<4>(p).norm();
+  for (int k = degree_; k <= order_; ++k)
+    missed *= half / (2.0 * (2 * k - 1));
+  along.segment<4>(p) = next.segment<4>(p);
+  along.segment<3>(w) = std::pow(2.0, order_ - degree_ + 1) * next.segment<3>(w);
+  return missed;
+}
+
 /// v_(d+1) of blocks whose v_d changed much more than it did in the steps before, else 0.
 VectorX StageError::find_kinks(const system::Regime& s, const VectorX& v) {
   constexpr double memory = 0.8, much = 5.0;
@@ -152,7 +172,7 @@ VectorX StageError::operator()(const system::Regime& s, double h, const VectorX&
     take_pattern(s, change, sizes);
     return sizes;
   }
-  const VectorX top = block_sizes(s, v), next = block_sizes(s, coefficient(0));
+  const VectorX below = coefficient(0), top = block_sizes(s, v), next = block_sizes(s, below);
   const VectorX kinks = find_kinks(s, v);
   const double fade = std::exp(-h / time_scale);
   if (highest_.size() != top.size()) {
@@ -161,16 +181,24 @@ VectorX StageError::operator()(const system::Regime& s, double h, const VectorX&
   }
   highest_ = fade * highest_ + top;
   below_ = fade * below_ + next;
-  VectorX errors(top.size()), along = v;
+  VectorX errors(top.size()), along = v, turning = v;
   for (Index i = 0; i < errors.size(); ++i) {
     const double ratio = highest_[i] < below_[i] ? highest_[i] / below_[i] : 1.0;
     const double turn = 2.0 * (2 * degree_ - 1) * ratio; // w h
     double missed = top[i], amplitude = 2.0 * top[i] / turn;
     for (int k = degree_ + 1; k <= order_; ++k)
       missed *= turn / (2.0 * (2 * k - 1));
+    const system::Block& block = s.blocks[static_cast<std::size_t>(i)];
+    if (const double turned = of_turn(s, block, below, moving, h, turning); turned > missed) {
+      missed = turned;
+      amplitude = HUGE_VAL;
+      for_each_segment(s, block, [&](Index first, Index length) {
+        along.segment(first, length) = turning.segment(first, length);
+      });
+    }
     if (kinks[i] > missed) { // along the change: v_d itself may be gone with the load
       missed = kinks[i];
-      for_each_segment(s, s.blocks[static_cast<std::size_t>(i)], [&](Index first, Index length) {
+      for_each_segment(s, block, [&](Index first, Index length) {
         along.segment(first, length) = change_.segment(first, length);
       });
     }

@@ -50,6 +50,8 @@ public:
 
 private:
   VectorX find_kinks(const system::Regime& system, const VectorX& v);
+  double of_turn(const system::Regime& system, const system::Block& block, const VectorX& next,
+                 const MatrixX& rates, double h, VectorX& along) const;
   void take_pattern(const system::Regime& system, const VectorX& v, const VectorX& errors);
 
   VectorX pattern_, at_stages_;

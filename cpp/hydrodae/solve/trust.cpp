@@ -48,7 +48,7 @@ Trust::Trust(const system::Regime& s, const system::Pattern& pattern,
       allowed_(options.error_guard), least_(least_error(options)), unit_(VectorX::Ones(s.lambda0)),
       reached_(VectorX::Zero(s.n_error_groups())), fastest_(reached_), largest_(reached_),
       when_(reached_), piled_(MatrixX::Zero(reached_.size(), 3)), missing_(reached_),
-      rates_(reached_), displaced_(reached_), start_(y.head(s.lambda0)),
+      most_missing_(reached_), rates_(reached_), displaced_(reached_), start_(y.head(s.lambda0)),
       energies_(static_cast<std::size_t>(std::max(s.n_mechanisms, 1))) {
   for (const system::BodyData& b : s.bodies)
     if (b.mechanism >= 0 && b.group >= 0)
@@ -189,7 +189,6 @@ double Trust::lasting(Index group, double now) {
 }
 
 void Trust::look(double t, const system::Recorder& recorder) {
-  constexpr double seen = 1e-2, seen_of_smooth = 1e-6;
   missing_.setZero();
   take_energy(t, recorder);
   looked_ = t;
@@ -197,19 +196,40 @@ void Trust::look(double t, const system::Recorder& recorder) {
   for (Index g = 0; g < reached_.size(); ++g) {
     const double piled = lasting(g, e.piled[g]), off = std::max(piled, missing_[g]);
     take(g, t, off);
+    most_missing_[g] = std::max(most_missing_[g], missing_[g]);
     const double whole = size(g);
     const double most = allowed_ * whole / doubt_;
-    // Growth alone, of next to nothing, may be that of looks too far apart.
-    const bool grown =
-        piled > most && e.plain[g] > (growth_->is_smooth(g) ? seen_of_smooth : seen) * most;
-    if (allowed_ > 0.0 && (grown || missing_[g] > most))
-      throw SolverError(
-          t, "stopped at t = " + number_text(t) + " s: the errors of the steps so far have put " +
-                 in_quotes(worst_of(g)) + " off by about " + rounded_text(off / whole) +
-                 " of the motion, give or take a factor of " + number_text(doubt_) +
-                 ", which may be more than " + number_text(allowed_) +
-                 " (solver.error_guard; 0: no guard): from here on the motion is not to be "
-                 "trusted; a smaller tolerance or step carries it further");
+    if (allowed_ > 0.0 && ((piled > most && has_steps(g, most)) || missing_[g] > most))
+      fail(t, g, off / whole,
+           ": from here on the motion is not to be trusted; a smaller tolerance or step carries it "
+           "further");
+  }
+}
+
+/// Growth alone, of next to nothing, may be that of looks too far apart: is enough of the error
+/// that of the steps themselves?
+bool Trust::has_steps(Index group, double most) const {
+  constexpr double seen = 1e-2, seen_of_smooth = 1e-6;
+  return growth_->error().plain[group] > (growth_->is_smooth(group) ? seen_of_smooth : seen) * most;
+}
+
+void Trust::fail(double t, Index group, double off, const std::string& then) const {
+  throw SolverError(t, "stopped at t = " + number_text(t) +
+                           " s: the errors of the steps so far have put " +
+                           in_quotes(worst_of(group)) + " off by about " + rounded_text(off) +
+                           " of the motion, give or take a factor of " + number_text(doubt_) +
+                           ", which may be more than " + number_text(allowed_) +
+                           " (solver.error_guard; 0: no guard)" + then);
+}
+
+/// During the run the motion is what start and loads let expect, and what is gone in the next looks
+/// does not count; at its end the motion is what it was, and the error what it is.
+void Trust::finish(double t) const {
+  for (Index g = 0; g < reached_.size() && allowed_ > 0.0; ++g) {
+    const double whole = moved(g), most = allowed_ * whole / doubt_,
+                 off = std::max(largest_[g], piled_now(g));
+    if ((off > most && has_steps(g, most)) || most_missing_[g] > most)
+      fail(t, g, off / whole, " at the end of the run: a smaller tolerance or step may do");
   }
 }
 
@@ -229,25 +249,40 @@ void Trust::restart(const system::Pattern& pattern, double t, const VectorX& y, 
 }
 
 void Trust::remember(Archive& a) {
-  a(*growth_, unit_, reached_, fastest_, largest_, when_, missing_, damped_, rates_, displaced_,
-    energies_, looked_, least_, exact_, piled_);
+  a(*growth_, unit_, reached_, fastest_, largest_, when_, missing_, most_missing_, damped_, rates_,
+    displaced_, energies_, looked_, least_, exact_, piled_);
+}
+
+/// What a group has moved by [levers or rad].
+double Trust::moved(Index group) const {
+  constexpr double at_rest = 0.01; // of the motion expected: what moves less has none of its own
+  return std::max({reached_[group], at_rest * expected(group), 1e-300});
+}
+
+/// What has piled up in a group, with the errors since the last look.
+double Trust::piled_now(Index group) const {
+  const ErrorGrowth::Error& e = growth_->error();
+  double now = e.piled[group] + e.added[group];
+  for (Index i = 0; i < s_.lambda0; ++i)
+    if (s_.error_group[static_cast<std::size_t>(i)] == group && s_.is_motion(i) &&
+        !growth_->is_guided(group))
+      now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
+  return now;
+}
+
+bool Trust::at_rest() const {
+  constexpr double none = 1e-10; // levers or rad
+  return reached_.size() > 0 && reached_.maxCoeff() < none;
 }
 
 Trust::Estimate Trust::estimate() const {
-  constexpr double at_rest = 0.01; // of the motion expected: what moves less has none of its own
-  const ErrorGrowth::Error& e = growth_->error();
   Estimate out;
   for (Index g = 0; g < reached_.size(); ++g) {
-    double now = e.piled[g] + e.added[g];
-    for (Index i = 0; i < s_.lambda0; ++i)
-      if (s_.error_group[static_cast<std::size_t>(i)] == g && s_.is_motion(i) &&
-          !growth_->is_guided(g))
-        now += std::abs(e.fresh[i] - e.gathered[i]) / unit_[i];
     // Tolerances are made for the motion that was expected; the estimate is told of what was
     // reached. An error as large as the motion: beyond, growth says no more.
-    const double hoped = expected(g), whole = std::max({reached_[g], at_rest * hoped, 1e-300}),
+    const double hoped = expected(g), whole = moved(g),
                  left = least_ * std::max(hoped / whole, 1.0),
-                 error = std::min(std::max({largest_[g] / whole, now / whole, left}), 1.0);
+                 error = std::min(std::max({largest_[g] / whole, piled_now(g) / whole, left}), 1.0);
     if (error > out.error)
       out = {error, worst_of(g), when_[g]};
   }

@@ -32,6 +32,10 @@ public:
   void accept(double t, Integrator& integrator, const VectorX& reached, const VectorX& y,
               bool event, const system::Recorder& recorder);
 
+  /// Throws SolverError when the error may have been above `error_guard` of what moved in the whole
+  /// run, which ends at t.
+  void finish(double t) const;
+
   /// From the next `restart` on the steps are those of another method.
   void use(const model::SolverOptions& options);
 
@@ -53,6 +57,9 @@ public:
   };
   Estimate estimate() const;
 
+  /// Has nothing moved by more than rounding? Then an error relative to the motion tells nothing.
+  bool at_rest() const;
+
   /// To be restored after `restart` with the same rows.
   void remember(Archive& a);
 
@@ -60,6 +67,10 @@ private:
   double least(int mechanism) const;
   double size(Index group) const;
   double expected(Index group) const;
+  double moved(Index group) const;
+  double piled_now(Index group) const;
+  bool has_steps(Index group, double most) const;
+  [[noreturn]] void fail(double t, Index group, double off, const std::string& then) const;
   void measure(const VectorX& y, const VectorX& reached);
   void measure_points(const system::Block& block, const VectorX& y);
   void look(double t, const system::Recorder& recorder);
@@ -87,6 +98,7 @@ private:
   VectorX largest_, when_; ///< by group: of the error in levers or rad, time [s]
   MatrixX piled_;          ///< by group: the error piled up, at the last three looks
   VectorX missing_;        ///< by group: what the missing energy has put off, now
+  VectorX most_missing_;   ///< the most of it so far
   VectorX damped_;         ///< by group: what dampers leave of an error since the last look
   VectorX rates_;          ///< by group: of the motion [1/s]
   VectorX displaced_;      ///< by group: largest displacement so far [levers]

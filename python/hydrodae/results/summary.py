@@ -82,6 +82,8 @@ def _methods(results: Recording) -> list[str]:
 def _errors(results: Recording) -> list[str]:
     """Lines on how far the motion can be trusted."""
     known, lines = results.statistics, []
+    if known.get("at_rest"):
+        return []
     for key, word in (("estimated_error", "estimated"), ("verified_error", "verified")):
         if key in known and known.get(f"{key}_of"):
             lines.append(
@@ -214,7 +216,14 @@ def _extrema(results: Recording, name: str) -> str:
 
 
 def _energy_balance(results: Recording) -> str:
-    """Largest error of the energy balance against the largest kinetic energy, fluid included."""
+    """Largest error of the energy balance against the largest energy exchanged."""
+    known = results.statistics
+    if known.get("at_rest"):
+        return "at rest: nothing has moved by more than rounding"
+    if "relative_balance_error" in known and "energy_scale" in known:
+        share, scale = (float(known[k]) for k in ("relative_balance_error", "energy_scale"))
+        return f"energy balance: error at most {share:.1e} of {scale:.3g} J exchanged"
+    # a file of an earlier version, or one cut short
     if "energy/balance_error" not in results or "energy/kinetic" not in results:
         return ""
     error = np.abs(results["energy/balance_error"].to_numpy())
