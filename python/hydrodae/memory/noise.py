@@ -47,7 +47,7 @@ def noise(problem: Problem, added_mass: Array, band: tuple[float, float]) -> flo
         middle = window[:, order // 2]
         part = (weight[middle] * left)[inside[middle]]
         # windows whose middle is in the band; the first of the table have none
-        share = np.count_nonzero(inside) / max(1, np.count_nonzero(inside[middle]))
+        share = float(inside.sum()) / max(1.0, float(inside[middle].sum()))
         if part.size:
             found.append(float(np.linalg.norm(part)) * np.sqrt(share) / size)
     return min(found) if len(found) > 1 else 0.0

@@ -69,8 +69,7 @@ def read_listing(path: Path) -> SourceData:
     DatabaseError
         A table is missing or wrong; the message names the line.
     """
-    text = read_text(path)
-    lines = text.splitlines()
+    lines = read_text(path).expandtabs(2).splitlines()
     pages = pages_of_structures(lines)
     if not pages:
         raise DatabaseError(f"{path}: no page FOR STRUCTURE n in it")
