@@ -82,7 +82,7 @@ def test_noise_in_the_band_widens_the_target_and_is_told(right):
     report = hdb.fit(noisy, "buoy.heave", band=BAND).memory["default"].report
     assert report["passive"]
     assert "noise" in report["noisy"]
-    assert report["weighted_error_band"] < 2.0 * report["noise"] < 0.02
+    assert report["weighted_error_band"] < 3.0 * report["noise"] < 0.01
     # a target that is asked for is held
     with pytest.raises(DatabaseError, match="misses its target"):
         hdb.fit(noisy, "buoy.heave", band=BAND, target=4.5e-4)

@@ -181,7 +181,7 @@ def without_lone_rows(
     DatabaseError
         They are too many in the band.
     """
-    bad = lone_rows(database.select(moving)).any(axis=(1, 2))
+    bad = np.asarray(lone_rows(database.select(moving)).any(axis=(1, 2)))
     if not bad.any():
         return database, ""
     w, judged = database.omega, inside(database.omega, band)

@@ -33,7 +33,7 @@ DEFAULT_BAND = (0.04, 1.0)
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
 
-NOISE_TIMES, NOISE_MOST = 2.0, 0.01
+NOISE_TIMES, NOISE_MOST = 3.0, 0.01
 """A fit is as near as the noise of the tables lets it where its weighted error in the band is not
 above so many times that noise, and not above so much."""
 

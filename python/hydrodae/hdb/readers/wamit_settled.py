@@ -157,7 +157,7 @@ def _heave(rows: Array, force: Array | None) -> Array:
     found = np.array(
         [[first, b, known[first, i]] for first, i, b in own[:, [0, 1, 4]] if (first, i) in known]
     ).reshape(-1, 3)
-    return found[found[:, 2] > LIFTS * found[:, 2].max(initial=0.0)]
+    return np.asarray(found[found[:, 2] > LIFTS * found[:, 2].max(initial=0.0)])
 
 
 def _apart(stem: Path, heave: Array, option: int, constants: tuple[float, float, float]) -> float:
