@@ -1,4 +1,4 @@
-"""Fits of tables that are wrong above the band: the motion is that of the right tables."""
+"""Fits of tables with noise, coarse panels above the band, or single wrong frequencies."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.checks.lone import lone_findings
 from hydrodae.hdb.prepare import goes_on, ways_out
+from hydrodae.memory.data import least_damping, with_zero
+from hydrodae.memory.modes import Problem
+from hydrodae.memory.noise import noise as noise_of
 
 BAND = (0.2, 1.0)
 
@@ -66,3 +71,76 @@ def test_nothing_in_the_band_is_left_out(right):
     assert ways
     for gone, text in ways:
         assert not np.any(gone & (w >= BAND[0]) & (w <= BAND[1])), text
+
+
+def test_noise_in_the_band_widens_the_target_and_is_told(right):
+    i = right.index("buoy.heave")[0]
+    a = right.added_mass.copy()
+    noise = np.random.default_rng(5).standard_normal(right.omega.size)
+    a[:, i, i] *= 1.0 + 3e-4 * noise
+    noisy = dataclasses.replace(right, added_mass=a)
+    report = hdb.fit(noisy, "buoy.heave", band=BAND).memory["default"].report
+    assert report["passive"]
+    assert "noise" in report["noisy"]
+    assert report["weighted_error_band"] < 3.0 * report["noise"] < 0.01
+    # a target that is asked for is held
+    with pytest.raises(DatabaseError, match="misses its target"):
+        hdb.fit(noisy, "buoy.heave", band=BAND, target=4.5e-4)
+
+
+def test_one_wrong_frequency_is_told_and_left_out(right):
+    i, w = right.index("buoy.heave")[0], right.omega
+    assert lone_findings(right, BAND) == []
+    for table, factor in (("radiation_damping", 2.0), ("added_mass", 1.1)):
+        wrong = getattr(right, table).copy()
+        wrong[12, i, i] *= factor
+        garbled = dataclasses.replace(right, **{table: wrong})
+        (finding,) = lone_findings(garbled, BAND)
+        assert finding.severity == "warning"
+        assert finding.omega == pytest.approx(w[12])
+
+    fit = hdb.fit(garbled, "buoy.heave", band=BAND).memory["default"]
+    assert f"{w[12]:.4g} rad/s" in fit.report["left_out"]
+    a_inf = fit.added_mass_inf[0, 0]
+    known = right.radiation_damping[:, i, i] + 1j * w * (right.added_mass[:, i, i] - a_inf)
+    off = np.abs(fit.transfer(w)[:, 0, 0] - known)
+    assert off[12] < 0.01 * np.abs(known[12])
+
+
+def test_many_wrong_frequencies_are_refused(right):
+    i = right.index("buoy.heave")[0]
+    a = right.added_mass.copy()
+    a[[4, 11], i, i] *= 1.2
+    with pytest.raises(DatabaseError, match="off the curve through their neighbours"):
+        hdb.fit(dataclasses.replace(right, added_mass=a), "buoy.heave", band=BAND)
+
+
+def test_a_narrow_resonance_is_no_wrong_frequency(right):
+    # a causal mode narrower than the step, whose A goes with its B
+    i, w = right.index("buoy.heave")[0], right.omega
+    a, b = right.added_mass.copy(), right.radiation_damping.copy()
+    p = complex(-0.02, w[20])
+    h = 0.02 * b[:, i, i].max() * (1.0 / (1j * w - p) + 1.0 / (1j * w - p.conjugate()))
+    b[:, i, i] += h.real
+    a[:, i, i] += h.imag / w
+    assert lone_findings(dataclasses.replace(right, added_mass=a, radiation_damping=b), BAND) == []
+
+
+def test_noise_of_a_table_is_what_was_added():
+    omega = np.linspace(0.1, 3.0, 60)
+    smooth = 1.0 / (1j * omega + 0.5) + 2j * omega
+    rows = np.zeros(1, dtype=int)
+
+    def problem(value):
+        samples = with_zero(omega, value[:, None], np.ones((omega.size, 1)))
+        return Problem(samples, rows, rows, 1, omega, least_damping(omega))
+
+    mass = np.array([2.0])
+    assert noise_of(problem(smooth), mass, (0.3, 2.0)) < 1e-5
+    rng = np.random.default_rng(2)
+    white = 1e-3 * (rng.standard_normal(60) + 1j * rng.standard_normal(60))
+    inside = (omega >= 0.3) & (omega <= 2.0)
+    size = np.linalg.norm((smooth - 2j * omega)[inside])
+    expected = np.sqrt(2.0 * inside.sum()) * 1e-3 / size
+    found = noise_of(problem(smooth + white), mass, (0.3, 2.0))
+    assert found == pytest.approx(expected, rel=0.3)

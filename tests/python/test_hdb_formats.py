@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
+
 import numpy as np
 import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.reading import read_source
@@ -134,6 +137,17 @@ def test_the_listing_of_aqwa_tells_froude_krylov_apart(reference):
     )
 
 
+def test_a_listing_of_aqwa_that_is_cut_short_is_told(reference, tmp_path):
+    lines = (reference / "hdb" / "cylinder_aqwa" / "cylinder.LIS").read_text().splitlines()
+    path = tmp_path / "cylinder.LIS"
+    for count, severities in ((8300, ["error"]), (len(lines) - 4, ["warning"]), (len(lines), [])):
+        path.write_text("\n".join(lines[:count]))
+        data = read_source(path)
+        ends = [f for f in data.findings if f.check == "end of listing"]
+        assert [f.severity for f in ends] == severities
+        assert (data.added_mass_inf is None) == (severities == ["error"])
+
+
 def test_aqwa_counts_its_phase_from_the_centre_of_gravity(reference):
     # at (0, 2, -1) in waves along y: the crest passes there k y / w later than at the origin
     box = hdb.read(reference / "hdb" / "boxes_aqwa")
@@ -191,6 +205,34 @@ def test_hams_has_its_water_in_the_control_file(reference):
     assert np.angle(data.excitation[0, 0, surge]) == pytest.approx(np.pi / 2, abs=0.02)
     waterplane = data.excitation[0, 0, heave].real / (data.rho * data.gravity)
     assert 0.8 * np.pi < waterplane < np.pi
+
+
+def test_all_that_hams_tables_leave_out_is_asked_for_at_once(reference, tmp_path):
+    for path in (reference / "hdb" / "cylinder_hams" / "Wamit_format").iterdir():
+        shutil.copy(path, tmp_path)
+    with pytest.raises(DatabaseError, match=r"--depth 70.*--origin Buoy=x,y,z.*--rho.*--gravity"):
+        read_source(tmp_path)
+
+
+@pytest.mark.parametrize("option", [1, 2, 3, 4])
+def test_heave_tells_the_first_column_of_tables_that_end_early(reference, tmp_path, option):
+    folder = reference / "hdb" / "cylinder_hams" / "Wamit_format"
+    known = read_source(folder)
+    for suffix in (".1", ".3"):
+        lines = []
+        for words in map(str.split, (folder / f"Buoy{suffix}").read_text().splitlines()):
+            if float(words[0]) <= 2.4 or (words[2] if suffix == ".3" else words[1]) != "3":
+                continue
+            w = 2.0 * np.pi / float(words[0])
+            k = wavenumber(w, known.water_depth, known.gravity)
+            first = {1: float(words[0]), 2: w, 3: w**2 / known.gravity, 4: float(k)}[option]
+            lines.append(" ".join([f"{first:.6E}", *words[1:]]))
+        (tmp_path / f"bare{suffix}").write_text("\n".join(lines))
+    data = read_source(tmp_path, depth=known.water_depth, gravity=known.gravity)
+    np.testing.assert_allclose(data.omega, known.omega[: data.omega.size], rtol=1e-4)
+    (told,) = [f.message for f in data.findings if "first column" in f.message]
+    assert f"(IPEROUT {option})" in told
+    assert (option == 1) != ("damping and force of heave" in told)
 
 
 def test_a_listing_of_wamit_repeats_no_frequency(reference):

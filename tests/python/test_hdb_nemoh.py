@@ -105,6 +105,19 @@ def test_subset_and_order_of_degrees_of_freedom(tmp_path):
     assert "body1.surge" in report.find("coordinates")[0].message
 
 
+@pytest.mark.parametrize("stated", ["inf", "Infinite", "1e10"])
+def test_words_for_deep_water(tmp_path, stated):
+    written = NemohFolder().write(tmp_path / "f")
+    lines = (written / "Nemoh.cal").read_text().splitlines()
+    lines[3] = stated
+    (written / "Nemoh.cal").write_text("\n".join(lines))
+    assert np.isinf(hdb.read(written).water_depth)
+    lines[3] = "-1."
+    (written / "Nemoh.cal").write_text("\n".join(lines))
+    with pytest.raises(DatabaseError, match=r"Nemoh\.cal:4: .*0 for infinitely deep"):
+        hdb.read(written)
+
+
 def test_names_come_from_windows_paths_and_quotes(tmp_path):
     folder = NemohFolder(bodies=3)
     folder.mesh = ["mesh\\float.dat", '"My spar.dat"', "float.dat"]

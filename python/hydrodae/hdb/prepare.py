@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.band import felt_band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.checks.lone import MOST, lone_rows
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.scales import scaled_damping_eigenvalues
 
 if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
 OUTSIDE = 0.3
 #: Frequencies above so many times the band may be left out, if so many rows remain.
 ABOVE, LEAST_ROWS = (2.0, 1.2), 12
+#: Eigenvalue of B below that of the largest, near the band, which no passive fit goes with.
+NEGATIVE = -1e-3
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
 #: beyond so many times its largest in the tables.
 INERTIA, RINGS = 0.05, 1.5
@@ -48,6 +53,9 @@ def fit(
     A fit that would be refused is tried again without the frequencies outside the band that break
     causality or energy (irregular frequencies), and then without those above the band; its report
     tells how many (`left_out`), its A_inf must be that of the tables, and its H not larger.
+    Single frequencies off the curve through their neighbours are left out before, and told.
+    Where no target is given and noise of the tables keeps every fit from the usual one, a fit as
+    near as that noise is taken (`hydrodae.memory.noise`); its report says so (`noisy`).
 
     Parameters
     ----------
@@ -123,29 +131,81 @@ def fit(
     def refusals(trial: ExponentialMemory) -> dict[str, str]:
         return {key: text for key, text in missed(trial.report).items() if key not in allowed}
 
+    judged = band or DEFAULT_BAND
+    tables, garbled = without_lone_rows(database, moving, judged)
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", MemoryFitWarning)
-        made = fit_memory(database, inputs=moving, name=name, **options)
-    refused = refusals(made)
-    judged = band or DEFAULT_BAND
-    for bad, text in ways_out(database.select(moving), judged) if refused else []:
+        made = fit_memory(tables, inputs=moving, name=name, **options)
+    if garbled:
+        made = replace(made, report={**made.report, "left_out": garbled})
+    refused, near = refusals(made), None
+    if list(refused) == ["target"] and target is None and made.report.get("as_near_as_noise"):
+        near = made, told
+    for bad, text in ways_out(tables.select(moving), judged) if refused else []:
         if progress is not None:
             progress(text)
         options["target_outside"] = OUTSIDE
         with warnings.catch_warnings(record=True) as then:
             warnings.simplefilter("always", MemoryFitWarning)
-            again = fit_memory(at(database, ~bad), inputs=moving, name=name, **options)
+            again = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
         left = refusals(again)
-        if len(left) < len(refused) and goes_on(again, database):
-            report = {**again.report, "left_out": text}
-            made, refused, told = replace(again, report=report), left, then
+        if not goes_on(again, tables):
+            continue
+        text = "; ".join(part for part in (garbled, text) if part)
+        again = replace(again, report={**again.report, "left_out": text})
+        noisy = list(left) == ["target"] and target is None
+        if noisy and near is None and again.report.get("as_near_as_noise"):
+            near = again, then
+        if len(left) < len(refused):
+            made, refused, told = again, left, then
         if not refused:
             break
+    if refused and near is not None:
+        made, told, refused = _as_noise(near[0]), [], {}
     if refused:
         raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
     for warning in told:
         warnings.warn(warning.message, stacklevel=2)
     return replace(database, memory={**database.memory, name: made})
+
+
+def without_lone_rows(
+    database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]
+) -> tuple[HydroDatabase, str]:
+    """Return the tables without garbled frequencies (`hydrodae.hdb.checks.lone`), and a text.
+
+    A fit would follow each by a narrow mode that rings.
+
+    Raises
+    ------
+    DatabaseError
+        They are too many in the band.
+    """
+    bad = np.asarray(lone_rows(database.select(moving)).any(axis=(1, 2)))
+    if not bad.any():
+        return database, ""
+    w, judged = database.omega, inside(database.omega, band)
+    where = ", ".join(f"{x:.4g}" for x in w[bad][:6]) + (" ..." if bad.sum() > 6 else "")
+    text = (
+        f"{bad.sum()} of {bad.size} frequencies ({where} rad/s) off the curve through their "
+        f"neighbours"
+    )
+    if np.count_nonzero(bad & judged) > max(1.0, MOST * np.count_nonzero(judged)):
+        raise DatabaseError(
+            f"memory fit: {text}: more than {MOST:.0%} of those in the band; what wrote the tables "
+            f"failed there: compute them again"
+        )
+    return at(database, ~bad), f"{text}: left out"
+
+
+def _as_noise(fit: ExponentialMemory) -> ExponentialMemory:
+    """Return a fit that misses its target by the noise of the tables only, and says so."""
+    error, noise = fit.report["weighted_error_band"], fit.report["noise"]
+    text = (
+        f"the tables carry noise of {noise:.1e} of H in the band (weighted), which keeps fits from "
+        f"the usual target {fit.report['target']:g}: reached {error:.1e}"
+    )
+    return replace(fit, report={**fit.report, "noisy": text, "target_met": True})
 
 
 def ways_out(
@@ -158,7 +218,13 @@ def ways_out(
     not belong to each other.
     """
     w = database.omega
-    bad = np.asarray(suspect_rows(database) & ~inside(w, band))
+    bad = suspect_rows(database)
+    near = w <= ABOVE[0] * band[1]
+    if near.sum() >= LEAST_ROWS:
+        gives = np.zeros(w.size, bool)
+        gives[near] = scaled_damping_eigenvalues(at(database, near)) < NEGATIVE
+        bad = bad | binary_dilation(gives)
+    bad = np.asarray(bad & ~inside(w, band))
     found = []
     if bad.any():
         text = (

@@ -17,6 +17,9 @@ from hydrodae.hdb.readers.kinds import others, resolve
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
 from hydrodae.hdb.readers.wamit import read_wamit
 
+#: Depths beyond [m] stand for infinitely deep water.
+DEEPEST = 12e3
+
 
 def read_source(
     source: str | Path,
@@ -98,6 +101,10 @@ def _check_tables(path: Path, data: SourceData) -> None:
         if table is not None:
             table[~(np.abs(table) < LARGEST)] = np.nan  # such rows are dropped, and told
     settle_headings(data)
+    if DEEPEST < data.water_depth < np.inf:
+        text = f"no sea is {data.water_depth:g} m deep: taken as infinitely deep water"
+        data.findings.append(Finding("info", "assumption", text))
+        data.water_depth = np.inf
     limit = data.added_mass_inf
     if limit is not None and not np.all(np.abs(limit) < LARGEST):
         data.added_mass_inf = None

@@ -52,8 +52,7 @@ def fit_summary(fit: ExponentialMemory) -> str:
             parts[-1] += f" in {band[0]:.3g}..{band[1]:.3g} rad/s"
     if "passive" in report:
         parts.append("passive" if report["passive"] else "NOT passive")
-    if "left_out" in report:
-        parts.append(str(report["left_out"]))
+    parts += [str(report[key]) for key in ("left_out", "noisy") if key in report]
     return "; ".join(parts)
 
 

@@ -18,6 +18,7 @@ from hydrodae.memory.data import ImpedanceData, RadiationData
 from hydrodae.memory.goal import Goal, Progress, stored_quality
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
+from hydrodae.memory.noise import noise
 from hydrodae.memory.search import GroupFit
 from hydrodae.memory.vector_fitting import Array
 from hydrodae.memory.verdict import PASSIVE_LIMIT, missed
@@ -31,6 +32,10 @@ DEFAULT_BAND = (0.04, 1.0)
 
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
+
+NOISE_TIMES, NOISE_MOST = 3.0, 0.01
+"""A fit is as near as the noise of the tables lets it where its weighted error in the band is not
+above so many times that noise, and not above so much."""
 
 
 class MemoryFitWarning(UserWarning):
@@ -105,7 +110,9 @@ def fit_memory(
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
         h_zero, data_min_eig_relative, target_met, band, weights, method, dropped_inputs (no
         radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling,
-        symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it).
+        symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it),
+        noise (of the tables in the band, as the weighted errors, `hydrodae.memory.noise`),
+        as_near_as_noise (the target is met, or missed by no more than that explains).
 
     Raises
     ------
@@ -153,6 +160,7 @@ def fit_memory(
     ]
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
+    report |= _noise(fits, goal)
     report |= _symmetry(inputs, groups, made)
     _warn(name, report)
     return replace(memory, report=report)
@@ -246,6 +254,22 @@ def _report(
         "groups": "; ".join(", ".join(labels[i] for i in group) for group in groups),
         "neglected_coupling": neglected,
     }
+
+
+def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
+    """Tell the noise of the tables in the band, and whether the fit misses its target by that only.
+
+    No fit of few states is nearer to the tables than their noise is to a smooth function.
+    """
+    found = [noise(fit.problem, fit.modes.added_mass, goal.band) for fit in fits]
+    if goal.uniform is not None:
+        return {"noise": max(found)}
+    widened = [min(max(goal.target, NOISE_TIMES * each), NOISE_MOST) for each in found]
+    met = all(
+        replace(goal, target=max(goal.target, wide)).met(fit.quality)
+        for wide, fit in zip(widened, fits, strict=True)
+    )
+    return {"noise": max(found), "as_near_as_noise": met}
 
 
 def _symmetry(

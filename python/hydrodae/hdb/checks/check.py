@@ -19,6 +19,7 @@ from hydrodae.hdb.checks.headings import heading_findings
 from hydrodae.hdb.checks.heave import heave_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
+from hydrodae.hdb.checks.lone import lone_findings
 from hydrodae.hdb.checks.longwave import long_wave_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
@@ -41,8 +42,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     Returns
     -------
     CheckReport
-        In the order grid, headings, memory, symmetry, energy, irregular frequencies, causality,
-        spikes, fits, long waves, hulls.
+        In the order grid, headings, memory, symmetry, energy, irregular frequencies, garbled rows,
+        causality, spikes, fits, long waves, hulls.
     """
     judged = band or felt_band(database)
     return CheckReport(
@@ -55,6 +56,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *of_what_moves(
                 database, lambda db: [*_energy(db, judged), *irregular_findings(db, judged)]
             ),
+            *lone_findings(database, judged),
             *energy_findings(database, judged),
             *heave_findings(database),
             *_causality(database),

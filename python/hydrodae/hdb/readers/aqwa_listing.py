@@ -36,6 +36,8 @@ from hydrodae.hdb.readers.text import NUMBER, number, read_text
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+#: What AQWA writes last, and within how many lines of the end.
+_END, END_LINES = re.compile(r"FINISH\s+(DATE|TIME)|Total elapsed time", re.IGNORECASE), 60
 _FORCES = {
     "diffraction": "DIFFRACTION FORCES-VARIATION WITH WAVE PERIOD/FREQUENCY",
     "froude_krylov": "FROUDE KRYLOV FORCES-VARIATION WITH WAVE PERIOD/FREQUENCY",
@@ -67,8 +69,7 @@ def read_listing(path: Path) -> SourceData:
     DatabaseError
         A table is missing or wrong; the message names the line.
     """
-    text = read_text(path)
-    lines = text.splitlines()
+    lines = read_text(path).expandtabs(2).splitlines()
     pages = pages_of_structures(lines)
     if not pages:
         raise DatabaseError(f"{path}: no page FOR STRUCTURE n in it")
@@ -94,6 +95,11 @@ def read_listing(path: Path) -> SourceData:
     limits = (unit * a, unit * b, None if a_inf is None else unit * a_inf)
     names = structure_names(path, len(structures))
     data = aqwa_data(path, names, omega, limits, heading, centers, (rho, gravity, depth))
+    if not any(_END.search(line) for line in lines[-END_LINES:]):
+        lost = a_inf is None  # the last page but that line
+        text = f"{path.name} has no line FINISH DATE at its end: it is cut short"
+        text += "; added mass at infinite frequency and headings may be lost" if lost else ""
+        data.findings.append(Finding("error" if lost else "warning", "end of listing", text))
     if not coupled:
         text = "no tables of interaction (H/I): each structure is taken to radiate alone"
         data.findings.append(Finding("warning", "coordinates", text))

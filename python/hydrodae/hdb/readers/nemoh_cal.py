@@ -6,6 +6,7 @@ Nemoh 3 and the programs that write the same format, and are often stale.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path, PureWindowsPath
 
@@ -99,6 +100,24 @@ class _Lines:
             raise self.fail(f"expected {least} number(s), {meaning}, got {text.strip()!r}")
         return values
 
+    def positive(self, meaning: str) -> float:
+        """Leading number of the next line, > 0."""
+        value = self.numbers(meaning, 1)[0]
+        if value <= 0.0:
+            raise self.fail(f"{meaning} {value:g}: expected a number > 0")
+        return value
+
+    def depth(self) -> float:
+        """Water depth of the next line; 0, or a word that begins with `inf`, is infinite."""
+        at = self.at
+        if re.match(r"\s*\+?inf", self.next("the water depth"), re.IGNORECASE):
+            return np.inf
+        self.at = at
+        value = self.numbers("the water depth", 1)[0]
+        if value < 0.0:
+            raise self.fail(f"the water depth {value:g} m: expected > 0, or 0 for infinitely deep")
+        return value if value > 0.0 else np.inf
+
     def count(self, meaning: str) -> int:
         return self.whole(self.numbers(meaning, 1)[0], meaning)
 
@@ -124,12 +143,9 @@ def read_cal(path: Path) -> NemohCal:
     """
     lines = _Lines(path)
     lines.next("the title")
-    rho = lines.numbers("the water density", 1)[0]
-    gravity = lines.numbers("gravity", 1)[0]
-    depth = lines.numbers("the water depth", 1)[0]
+    rho, gravity = lines.positive("the water density"), lines.positive("gravity")
+    depth = lines.depth()
     x, y = lines.numbers("XEFF YEFF", 2)[:2]
-    if rho <= 0.0 or gravity <= 0.0 or depth < 0.0:
-        raise DatabaseError(f"{path}: density {rho:g}, gravity {gravity:g}, depth {depth:g}")
     lines.next("the title of the bodies")
     count = lines.count("the number of bodies")
     if count == 0:
@@ -142,7 +158,7 @@ def read_cal(path: Path) -> NemohCal:
     return NemohCal(
         rho=rho,
         gravity=gravity,
-        depth=depth if depth > 0.0 else np.inf,
+        depth=depth,
         origin=(x, y),
         bodies=bodies,
         omega=omega,

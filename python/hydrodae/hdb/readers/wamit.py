@@ -86,7 +86,8 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         findings.append(Finding("info", "excitation", text))
     else:
         rows, lines = tables.read_rows(radiation, 4, 5, "period, I, J, A [, B]")
-        option = first_column(stem, control, rows, (length, depth, gravity), findings)
+        constants = (length, depth, gravity)
+        option = first_column(stem, control, rows, constants, lambda: _waves(stem), findings)
     every = np.unique(rows[:, 1:3])
     modes, names, coordinates = _modes(radiation, rows, control, stem, findings)
     rows, lines = _of_modes(rows, lines, (1, 2), modes)
@@ -172,6 +173,12 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length, every)
     return data
+
+
+def _waves(stem: Path) -> Array | None:
+    """Lines (m, 7) of the exciting forces of a run, or None."""
+    path = beside(stem, ".3") or beside(stem, ".2")
+    return None if path is None else tables.read_rows(path, 7, 7, FORCE_ROW)[0]
 
 
 def _modes(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from hydrodae import infinity
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.causality import causal_line
+from hydrodae.hdb.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, Water
 from hydrodae.hdb.readers.wamit_control import Control
@@ -20,6 +22,10 @@ Array = NDArray[np.float64]
 COLUMNS = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 #: Correlation of A with what B implies that is no chance.
 CLEAR = 0.98
+#: Factors between damping and force of heave within which they agree, and that nothing explains.
+NEAR, FAR = 1.4, 2.0
+#: Share of the largest |F_3|^2 beyond which waves are long, and fewest values that tell.
+LIFTS, ROWS = 0.1, 3
 
 
 def settled(
@@ -39,6 +45,7 @@ def settled(
         raise DatabaseError(
             f"{stem}: the water depth is in {stem.name}.pot or .out, or in ControlFile.in of HAMS: "
             f"there is none; state it (depth=, --depth 70, or --depth inf)"
+            f"{_also(stem, control, water)}"
         )
     assumed = []
     rho = control.rho if water.density is None else water.density
@@ -59,18 +66,40 @@ def settled(
     return float(rho), float(depth), float(gravity), float(length)
 
 
+def _also(stem: Path, control: Control, water: Water) -> str:
+    """Name what else no file says, so that nothing is asked for one by one."""
+    wanted = []
+    if not control.points:
+        name = control.names[0] if control.names else stem.name
+        wanted.append(
+            f"about which point moments are (--origin {name}=x,y,z; of several bodies body1=...)"
+        )
+    taken = [
+        f"{what} {usual:g} ({option})"
+        for what, known, given, usual, option in (
+            ("density", control.rho, water.density, SEA_WATER, "--rho"),
+            ("gravity", control.gravity, water.gravity, USUAL_GRAVITY, "--gravity"),
+        )
+        if known is None and given is None
+    ]
+    text = f"; nor does a file say {', '.join(wanted)}" if wanted else ""
+    return text + (f"; taken unless you state another: {', '.join(taken)}" if taken else "")
+
+
 def first_column(
     stem: Path,
     control: Control,
     rows: Array,
     constants: tuple[float, float, float],
+    force: Callable[[], Array | None],
     findings: list[Finding],
 ) -> int:
     """IPEROUT: what the first column of the tables holds.
 
     Without a `.cfg` that says it, the diagonal entries of A and B tell, which belong to each other
-    (`hydrodae.hdb.causality`) by one of the four meanings only; tables too short for that hold
-    periods, as WAMIT writes unless told otherwise.
+    (`hydrodae.hdb.causality`) by one of the four meanings only. Where the tables are too short for
+    that, or end before B falls, damping and force of heave do, which Haskind's relation joins at
+    every frequency. Else the tables hold periods, as WAMIT writes unless told otherwise.
 
     Parameters
     ----------
@@ -80,24 +109,70 @@ def first_column(
         Lines of the `.1` file.
     constants : tuple of float
         Length scale, depth, gravity [m, m, m/s2].
+    force : function
+        Returns the lines (m, 7) of the exciting forces, or None.
     findings : list of Finding
         Told there.
     """
     if control.first_column is not None:
         return control.first_column
     fits = [_fit(stem, rows, option, constants) for option in COLUMNS]
-    best = int(np.argmax(fits))
-    if fits[0] > CLEAR or fits[best] <= CLEAR:
+    known = max(fits) > CLEAR
+    best, law = 0, "A and B"
+    if known and fits[0] <= CLEAR:
+        best = int(np.argmax(fits))
+    if not known or best != 0:  # several wrong ones may look causal; heave tells one from another
+        heave = _heave(rows, force())
+        apart = [_apart(stem, heave, option, constants) for option in COLUMNS]
+        right = int(np.argmin(apart))
+        doubt = np.log(FAR) if best == 0 else apart[right] + np.log(NEAR)
+        if apart[right] < np.log(NEAR) and apart[best] > doubt:
+            best, law = right, "damping and force of heave"
+    if best == 0:
         text = f"no {stem.name}.cfg: first column taken as the period (IPEROUT 1)"
         findings.append(Finding("info", "assumption", text))
         return 1
     option = list(COLUMNS)[best]
     text = (
         f"no {stem.name}.cfg: first column taken as the {COLUMNS[option]} (IPEROUT {option}), by "
-        f"which A and B agree; a line IPEROUT={option} in {stem.name}.cfg confirms it"
+        f"which {law} agree; a line IPEROUT={option} in {stem.name}.cfg confirms it"
     )
     findings.append(Finding("warning", "assumption", text))
     return option
+
+
+def _heave(rows: Array, force: Array | None) -> Array:
+    """First column, B'_33 and the mean of |F'_3|^2 over the headings of long waves, (m, 3).
+
+    Of all bodies; long are those that lift by much, which they do from all sides alike.
+    """
+    if force is None:
+        return np.zeros((0, 3))
+    lifts = force[(force[:, 0] > 0.0) & (force[:, 2] % 6 == 3) & (np.abs(force[:, 3]) < LARGEST)]
+    pairs, place = np.unique(lifts[:, [0, 2]], axis=0, return_inverse=True)
+    count = np.bincount(place.ravel(), minlength=len(pairs))
+    mean = np.bincount(place.ravel(), lifts[:, 3] ** 2, len(pairs)) / np.maximum(count, 1)
+    known = {(first, mode): value for (first, mode), value in zip(pairs, mean, strict=True)}
+    own = rows[(rows[:, 1] == rows[:, 2]) & (rows[:, 4] > 0.0) & (rows[:, 4] < LARGEST)]
+    found = np.array(
+        [[first, b, known[first, i]] for first, i, b in own[:, [0, 1, 4]] if (first, i) in known]
+    ).reshape(-1, 3)
+    return np.asarray(found[found[:, 2] > LIFTS * found[:, 2].max(initial=0.0)])
+
+
+def _apart(stem: Path, heave: Array, option: int, constants: tuple[float, float, float]) -> float:
+    """Typical |log| of the damping of heave over what its force implies, if the column means that.
+
+    B_33 = k / (4 rho g c_g) |F_3|^2; of tables over rho w L^3 and rho g L^2 it is
+    B'_33 = k g L |F'_3|^2 / (4 w c_g). Infinite where nothing tells.
+    """
+    if len(heave) < ROWS:
+        return np.inf
+    length, depth, gravity = constants
+    omega = to_omega(stem, heave[:, 0], option, *constants)
+    k, speed = wavenumber(omega, depth, gravity), group_velocity(omega, depth, gravity)
+    implied = k * gravity * length * heave[:, 2] / (4.0 * omega * speed)
+    return float(np.median(np.abs(np.log(implied / heave[:, 1]))))
 
 
 def _fit(stem: Path, rows: Array, option: int, constants: tuple[float, float, float]) -> float:
