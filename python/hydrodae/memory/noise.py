@@ -50,4 +50,4 @@ def noise(problem: Problem, added_mass: Array, band: tuple[float, float]) -> flo
         share = float(inside.sum()) / max(1.0, float(inside[middle].sum()))
         if part.size:
             found.append(float(np.linalg.norm(part)) * np.sqrt(share) / size)
-    return min(found) if len(found) > 1 else 0.0
+    return float(min(found)) if len(found) > 1 else 0.0
