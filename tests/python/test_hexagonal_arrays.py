@@ -9,7 +9,7 @@ import pytest
 from tests.benchmark import hexagonal_arrays
 
 import hydrodae
-from hydrodae import hdb
+from hydrodae import arrays, hdb
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_water_is_passive_and_joins_what_it_should(
 
 
 def test_arms_join_all_units_to_a_tree() -> None:
-    units = hexagonal_arrays.arrays.hexagonal(19, 3.0)
+    units = arrays.hexagonal(19, 3.0)
     arms = hexagonal_arrays.joints(units)
     reached = {"u1_buoy"}
     for inner, outer in arms.values():
