@@ -305,6 +305,11 @@ def test_at_rest_it_has_run_to_one_tension() -> None:
     height = run["bodies/load/position"].values[:, 2] - DOWN
     assert height == pytest.approx(-stretch, rel=1e-6)
     assert "friction of ropes ('rope') is left out of the equilibrium" in run.summary()
+    E = math.exp(0.3 * math.pi)
+    assert run["forces/rope/grip"].values == pytest.approx(E, rel=1e-6)
+    rest = hydrodae.equilibrium(hydrodae.Case.from_text(text))
+    assert rest.bands["rope"] == pytest.approx((M_1 * G / E, M_1 * G * E), rel=1e-6)
+    assert f"friction holds {M_1 * G / E:.1f} to {M_1 * G * E:.1f} N at one end" in str(rest)
 
 
 def test_a_stop_struck_turns_the_slip_round() -> None:

@@ -81,7 +81,10 @@ public:
         {"wrap", "rad", "Angles of wrap on the points between the ends.", first.base.n_points - 2},
         {"tensions", "N", "Tensions of the parts between places with friction.", n + 1},
         {"slip", "m/s", "Speed of the rope over the places with friction, to its last point.", n},
-        {"friction_power", "W", "Power of friction along the rope, never above 0."}};
+        {"friction_power", "W", "Power of friction along the rope, never above 0."},
+        {"grip", "-",
+         "Ratio of the tensions at both ends up to which friction alone can hold them apart: the "
+         "product of exp(mu phi) of the places."}};
     std::vector<double> in;
     for (const Rope& rope : ropes) {
       for (const auto& end : rope.ends())
@@ -141,7 +144,7 @@ public:
       v.fill(0.0);
       if (rough_)
         m.slips(t, in, states_of(in), held, now, v.data());
-      double power = 0.0, largest = 0.0;
+      double power = 0.0, largest = 0.0, grip = 1.0;
       for (int j = 0; j <= n; ++j)
         largest = std::max(largest, now.parts[j].tension);
       *values++ = largest;
@@ -155,8 +158,11 @@ public:
         const double slip = way * std::max(0.0, way * v[p]); // within the step that ends it
         power += (now.parts[p].tension - now.parts[p + 1].tension) * slip;
         *values++ = slip;
+        if (now.places[p].touched)
+          grip *= now.places[p].grip;
       }
       *values++ = std::min(0.0, power);
+      *values++ = grip;
     }
   }
 

@@ -132,7 +132,9 @@ constexpr const char* one_tension =
 /// What a linear model about the equilibrium has to know.
 void note_switches(const Regime& rows, System& s) {
   if (const std::string ropes = rubbing_ropes(s); !ropes.empty())
-    s.notes.push_back("friction of ropes (" + ropes + ")" + one_tension);
+    s.notes.push_back("friction of ropes (" + ropes + ")" + one_tension +
+                      "; rest is possible in a band about it, up to the ratio 'grip' of the "
+                      "tensions at both ends");
   for (const system::SwitchData& element : s.switches) {
     const std::string& name = s.couplers[static_cast<std::size_t>(element.coupler)].name;
     if (rows.holds(element))

@@ -62,6 +62,21 @@ class Equilibrium:
             for name, (value, _) in hold.readings.items()
         }
 
+    @property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Of ropes with friction: least and greatest tension at one end with which they rest [N].
+
+        That at the other end is the tension of the equilibrium, T, which is one all along as if
+        nothing rubbed. Friction holds any other between T / grip and grip T, with the product grip
+        of the exp(mu phi) of the points and sheaves that the rope lies on (Euler, Eytelwein).
+        """
+        return {
+            hold.name: (T / grip, T * grip)
+            for hold in self.moorings
+            if hold.type == "rope" and "grip" in hold.readings
+            for T, grip in [(hold.readings["tension"][0], hold.readings["grip"][0])]
+        }
+
     def __str__(self) -> str:
         lines = [self.title]
         lines.append("  offsets from the reference pose: x, y, z [m]; rotation vector [deg]")
@@ -91,6 +106,12 @@ class Equilibrium:
                 f"{name} {value:z.1f} {unit}" for name, (value, unit) in hold.readings.items()
             )
             lines.append(f"    {hold.name:16} {read or hold.type}")
+            if hold.name in self.bands:
+                least, most = self.bands[hold.name]
+                lines.append(
+                    f"    {'':16} friction holds {least:.1f} to {most:.1f} N at one end against "
+                    "that tension at the other"
+                )
         held = [b for b in self.offsets if any(b in hold.held for hold in self.moorings)]
         lines.append(
             "  load of the moorings on a body, about its centre of gravity [N; N m], and their "
