@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import sys
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.readers import formats
 from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.reading import read_source
@@ -324,3 +327,30 @@ def test_orcaflex_in_kilograms_and_newtons(reference, tmp_path):
         np.testing.assert_allclose(getattr(tonnes, name), 1e3 * getattr(kilograms, name))
     with pytest.raises(DatabaseError, match=r"units ft kg N: expected SI, or m, te, kN"):
         hdb.read(in_units("ft", "kg", "N"))
+
+
+def test_a_reader_is_a_module_and_its_name(tmp_path, monkeypatch):
+    made_up = ModuleType(f"{formats.__package__}.made_up")
+    asked = []
+
+    def find(path):
+        paths = [path] if path.is_file() else sorted(path.iterdir())
+        return next((p for p in paths if p.suffix == ".made"), None)
+
+    def read(path):
+        asked.append(path)
+        raise DatabaseError("cut short")
+
+    vars(made_up)["FORMAT"] = formats.Format(".made of nobody", find, read)
+    monkeypatch.setitem(sys.modules, made_up.__name__, made_up)
+    monkeypatch.setattr(formats, "READERS", (*formats.READERS, "made_up"))
+    with pytest.raises(DatabaseError, match=r"no database in it.*, \.made of nobody"):
+        hdb.read(tmp_path)
+    file = tmp_path / "run" / "buoy.made"
+    file.parent.mkdir()
+    file.write_text("")
+    for source in (file, file.parent, tmp_path):
+        assert resolve(source) == (file, "made_up")
+        with pytest.raises(DatabaseError, match=r"buoy\.made: cut short"):
+            hdb.read(source)
+    assert asked == [file] * 3

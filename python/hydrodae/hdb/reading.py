@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,10 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.bemio import read_bemio
 from hydrodae.hdb.readers.finishing import finish
+from hydrodae.hdb.readers.formats import formats
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
 from hydrodae.hdb.readers.kinds import others, resolve
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
-from hydrodae.hdb.readers.wamit import read_wamit
 
 #: Depths beyond [m] stand for infinitely deep water.
 DEEPEST = 12e3
@@ -47,11 +46,11 @@ def read_source(
     water = Water(rho, depth, gravity)
     try:
         with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are told below
-            data = _reader(path, what, water)(path)
+            data = _read(path, what, water)
         _check_tables(path, data)
     except DatabaseError as error:
         raise _naming(path, error) from None
-    if what != "wamit":
+    if what not in formats() or not formats()[what].takes_water:
         _check_water(path, data, water)
     left = others(Path(source), what)
     if left:
@@ -67,23 +66,20 @@ def _naming(path: Path, error: DatabaseError) -> DatabaseError:
     return error if named else DatabaseError(f"{path}: {text}")
 
 
-def _reader(path: Path, what: str, water: Water) -> Callable[[Path], SourceData]:
-    """Return what reads a kind of source."""
-    if what == "wamit":
-        return lambda file: read_wamit(file, water)
+def _read(path: Path, what: str, water: Water) -> SourceData:
+    """Read a kind of source."""
+    if what in formats():
+        format = formats()[what]
+        return format.read(path, water) if format.takes_water else format.read(path)
     if what == "nemoh":
         from hydrodae.hdb.readers.nemoh import read_nemoh as reader
     elif what == "bemio":
-        return read_bemio
+        return read_bemio(path)
     elif what == "capytaine":
         from hydrodae.hdb.readers.capytaine import read_capytaine as reader
-    elif what == "aqwa":
-        from hydrodae.hdb.readers.aqwa import read_aqwa as reader
-    elif what == "orcawave":
-        from hydrodae.hdb.readers.orcawave import read_orcawave as reader
     else:
         raise DatabaseError(f"{path}: a finished hydro.h5, not a source")
-    return reader
+    return reader(path)
 
 
 def _check_tables(path: Path, data: SourceData) -> None:

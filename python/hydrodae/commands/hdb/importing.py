@@ -18,6 +18,7 @@ from hydrodae.commands.hdb.options import (
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.readers.formats import expected_files
 from hydrodae.memory.verdict import CHECKS
 from hydrodae.study.band import working_band
 
@@ -30,15 +31,14 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "import",
         help="read files of Nemoh, Capytaine, WAMIT, AQWA ..., check them, write hydro.h5",
         description="Read the files of a boundary-element code (Nemoh, Capytaine, WAMIT, HAMS, "
-        "AQWA, OrcaWave, BEMIO), print what was assumed and what the checks found, and write "
+        "AQWA, OrcaWave, BEMIO ...), print what was assumed and what the checks found, and write "
         "hydro.h5. Nothing is written if a check finds an error in the band that the device feels: "
         "that of --band, or of --case, or what the excitation tells.",
     )
     add.add_argument(
         "source",
         metavar="SOURCE",
-        help="folder of a run, or Nemoh.cal, Capytaine .nc, WAMIT .1 or .out, AQWA .AH1 or .LIS, "
-        "OrcaWave .yml, BEMIO .h5",
+        help=f"folder of a run, or Nemoh.cal, .nc of Capytaine, .h5 of BEMIO, {expected_files()}",
     )
     add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
     add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")

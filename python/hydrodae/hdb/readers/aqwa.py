@@ -24,6 +24,7 @@ from hydrodae.hdb.readers.aqwa_common import (
     unit_of_mass,
 )
 from hydrodae.hdb.readers.aqwa_listing import read_listing
+from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import number, read_lines
 
@@ -200,3 +201,6 @@ def _is_number(word: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+FORMAT = Format(".AH1 or .LIS of AQWA", aqwa_file, read_aqwa)

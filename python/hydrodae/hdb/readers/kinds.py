@@ -10,12 +10,10 @@ from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb import files
 from hydrodae.hdb.coordinates import nearest
-from hydrodae.hdb.readers.aqwa import aqwa_file
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
+from hydrodae.hdb.readers.formats import expected_files, formats
 from hydrodae.hdb.readers.nemoh_hydrostatics import find
-from hydrodae.hdb.readers.orcawave import orcawave_file
-from hydrodae.hdb.readers.wamit import wamit_stem
 
 
 def resolve(source: str | Path) -> tuple[Path, str]:
@@ -31,7 +29,7 @@ def resolve(source: str | Path) -> tuple[Path, str]:
     path : Path
         The source itself, or the one file of a folder that is meant.
     kind : str
-        "hydro", "nemoh", "capytaine", "bemio", "wamit", "aqwa" or "orcawave".
+        "hydro", "nemoh", "capytaine", "bemio" or the name of one of the `formats`.
 
     Raises
     ------
@@ -55,14 +53,10 @@ def _folder(path: Path) -> tuple[Path, str]:
     if find(path, "Nemoh.cal") is not None:
         if find(path, "RadiationCoefficients.tec") is not None or not _tables(path):
             return path, "nemoh"
-    if wamit_stem(path) is not None:
-        return path, "wamit"
-    listing = aqwa_file(path)
-    if listing is not None:
-        return listing, "aqwa"
-    vessels = orcawave_file(path)
-    if vessels is not None:
-        return vessels, "orcawave"
+    for name, format in formats().items():
+        found = format.find(path)
+        if found is not None:
+            return found, name
     inside = _tables(path)
     if len(inside) == 1:
         return resolve(inside[0])
@@ -89,16 +83,16 @@ def _folder(path: Path) -> tuple[Path, str]:
         raise DatabaseError(unread)
     raise DatabaseError(
         f"{path}: no database in it; expected Nemoh.cal, a .nc of Capytaine, a .h5 of BEMIO, "
-        f".1 or .out of WAMIT, .AH1 or .LIS of AQWA, or a .yml with OrcaWave's results"
+        f"{expected_files()}"
     )
 
 
 def _holds_one(path: Path) -> bool:
     """Tell whether a folder itself holds a database."""
-    if wamit_stem(path) is not None or _tables(path):
+    if _tables(path):
         return True
     try:
-        return aqwa_file(path) is not None or orcawave_file(path) is not None
+        return any(format.find(path) is not None for format in formats().values())
     except DatabaseError:  # several of a kind
         return True
 
@@ -107,15 +101,14 @@ def others(source: Path, what: str) -> list[str]:
     """Names of the databases of other kinds than `what` beside each other in a folder."""
     if not source.is_dir():
         return []
-    stem = wamit_stem(source)
-    names = {} if stem is None else {"wamit": [f"{stem.name}.1 or .out"]}
-    for kind_of, search in (("aqwa", aqwa_file), ("orcawave", orcawave_file)):
+    names = {}
+    for kind_of, format in formats().items():
         try:
-            found = search(source)
+            found = format.find(source)
         except DatabaseError:  # several of a kind
             continue
         if found is not None:
-            names[kind_of] = [found.name]
+            names[kind_of] = [found.name if found.is_file() else format.files]
     if what != "bemio":
         names["capytaine"] = [p.name for p in _tables(source)]
     return [name for kind_of, listed in names.items() if kind_of != what for name in listed]
@@ -144,18 +137,15 @@ def _file(path: Path) -> str:
                 return "bemio"
             holds = ", ".join(sorted(f)[:6]) or "nothing"
         raise DatabaseError(f"{path}: an HDF5 file of another kind (it holds {holds})")
-    if wamit_stem(path) is not None:
-        return "wamit"
-    if aqwa_file(path) is not None:
-        return "aqwa"
-    if orcawave_file(path) is not None:
-        return "orcawave"
+    for name, format in formats().items():
+        if format.find(path) is not None:
+            return name
     unread = foreign(path)
     if unread is not None:
         raise DatabaseError(unread)
     raise DatabaseError(
-        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, a WAMIT .1 or .out, "
-        f"an AQWA .AH1 or .LIS, an OrcaWave .yml or a hydro.h5 of hydrodae"
+        f"{path}: not a Nemoh folder, a netCDF file of Capytaine, a BEMIO .h5, "
+        f"{expected_files()} or a hydro.h5 of hydrodae"
     )
 
 

@@ -20,6 +20,7 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.foreign import CONVERTER
+from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
@@ -275,3 +276,6 @@ class _Vessel:
             raise DatabaseError(f"{self.path}: {self.name}: DisplacedVolume: expected a number")
         center = self._vector(self.draught, "CentreOfBuoyancy")
         return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)
+
+
+FORMAT = Format(".yml with OrcaWave's results", orcawave_file, read_orcawave)

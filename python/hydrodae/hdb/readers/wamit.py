@@ -16,6 +16,7 @@ from hydrodae.hdb.coordinates import DOFS, unique_names
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
+from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
@@ -296,3 +297,8 @@ def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -
     axes = (np.zeros(1), modes, modes)
     table = tables.scatter(path, flat, lines, (0, 1, 2), axes, rows[:, 2])
     return np.asarray(np.real(table)[0])
+
+
+FORMAT = Format(
+    ".1 or .out of WAMIT", lambda path: path if wamit_stem(path) else None, read_wamit, True
+)
