@@ -145,3 +145,9 @@ def test_models_that_a_case_uses() -> None:
     assert told["power take-offs"] == "pto_hydraulic"
     assert told["waves"] == "still water"
     assert told["motion"] == "time domain, method ida"
+
+
+def test_forces_that_are_new_count_by_how_their_type_begins() -> None:
+    told = dict(rungs({"force": [{"type": "pto_new"}, {"type": "friction_new"}]}))
+    assert (told["power take-offs"], told["friction"]) == ("pto_new", "friction_new")
+    assert told["moorings and ropes"] == "none"

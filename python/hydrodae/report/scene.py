@@ -55,26 +55,19 @@ def rungs(tables: Tables) -> Iterator[tuple[str, str]]:
         waves = sorted({str(wave.get("type", "")) for wave in tables.get("wave", [])})
         yield "waves", ", ".join(waves) or "still water"
     for effect, kinds in _LADDERS.items():
-        used = [name for name in dict.fromkeys(forces) if name in kinds]
+        used = [name for name in dict.fromkeys(forces) if name.startswith(kinds)]
         if effect == "drag" and tables.get("morison"):
             used.append("morison")
         yield effect, ", ".join(used) or "none"
     yield "motion", f"time domain, method {tables.get('solver', {}).get('method', 'auto')}"
 
 
+#: How the types of forces begin that have an effect.
 _LADDERS = {
-    "power take-offs": (
-        "pto_linear",
-        "pto_general",
-        "pto_lagged",
-        "pto_hydraulic",
-        "pto_rotary",
-        "python_load",
-        "library_load",
-    ),
+    "power take-offs": ("pto_", "python_load", "library_load"),
     "moorings and ropes": ("mooring_matrix", "spring_damper", "rope", "catenary", "line"),
     "drag": ("viscous_damping",),
-    "friction": ("friction_stribeck", "friction_lugre", "dry_friction"),
+    "friction": ("friction_", "dry_friction"),
     "end stops": ("end_stop",),
 }
 

@@ -15,8 +15,8 @@ from hydrodae.viewer.sea import make_sea, seabed
 from hydrodae.viewer.source import Run, Source
 from hydrodae.viewer.stage import Joint, Stage
 
-#: Forces that take power, or are controlled: their joint is marked.
-DRIVES = ("pto_linear", "pto_lagged", "pto_hydraulic", "pto_general", "pto_rotary")
+#: How the types of forces that take power begin: their joint is marked.
+DRIVES = "pto_"
 #: Most samples that a page holds; a longer run is thinned out.
 MOST_SAMPLES = 4000
 
@@ -87,7 +87,7 @@ def _thin_out(source: Source, step: float | None) -> list[str]:
 
 
 def _joints(tables: Mapping[str, Any]) -> list[Joint]:
-    driven = {f.get("joint") for f in tables.get("force", []) if f["type"] in DRIVES}
+    driven = {f.get("joint") for f in tables.get("force", []) if f["type"].startswith(DRIVES)}
     found = []
     for joint in tables.get("joint", []):
         if joint["type"] in ("distance", "telescope"):
