@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <queue>
 #include <random>
@@ -26,21 +25,34 @@ struct Freedom {
   bool advances = false;
 };
 
-const Freedom* freedom_of(const joint::JointType& type) {
+/// Told by its rows: a slide along each axis of marker A that no row spans, and the turns that its
+/// pairs of axes leave; nothing: it is none of the kinds that can be a link.
+std::optional<Freedom> freedom_of(const joint::JointType& type) {
   using joint::X, joint::Y, joint::Z;
-  static const std::map<std::string_view, Freedom> table = {
-      {"spherical", {Turn::ball, {}, false}},
-      {"revolute", {Turn::about_axis, {}, false}},
-      {"prismatic", {Turn::none, {Z}, false}},
-      {"fixed", {Turn::none, {}, false}},
-      {"universal", {Turn::crossed, {}, false}},
-      {"cylindrical", {Turn::about_axis, {Z}, false}},
-      {"planar", {Turn::about_axis, {X, Y}, false}},
-      {"sliding", {Turn::ball, {Z}, false}},
-      {"screw", {Turn::about_axis, {}, true}},
+  using Kind = joint::BasicRow::Kind;
+  if (type.rows.empty() || type.has_row(Kind::distance) || type.has_row(Kind::across))
+    return std::nullopt;
+  const auto has = [&](Kind kind, int i, int j) {
+    return std::any_of(type.rows.begin(), type.rows.end(), [&](const joint::BasicRow& row) {
+      return row.kind == kind && row.i == i && row.j == j;
+    });
   };
-  const auto it = table.find(type.name);
-  return it == table.end() ? nullptr : &it->second;
+  Freedom out;
+  out.advances = type.has_row(Kind::screw);
+  for (const int axis : {X, Y, Z})
+    if (!has(Kind::span, axis, 0) && !(out.advances && axis == Z))
+      out.slides.push_back(axis);
+  const auto held = std::count_if(type.rows.begin(), type.rows.end(),
+                                  [](const auto& row) { return row.kind == Kind::perp; });
+  if (held == 0)
+    out.turn = Turn::ball;
+  else if (held == 1 && has(Kind::perp, X, Y))
+    out.turn = Turn::crossed;
+  else if (held == 2 && has(Kind::perp, X, Z) && has(Kind::perp, Y, Z))
+    out.turn = Turn::about_axis;
+  else if (held != 3)
+    return std::nullopt;
+  return out;
 }
 
 void count(TreeLink& l) {
@@ -78,7 +90,7 @@ void lock(const BodyData& child, const Matrix3& axes, TreeLink& l) {
 /// A joint as a link of `child`, whatever the poses; nothing: it is none of the kinds that can be.
 std::optional<TreeLink> link_through(const System& s, int joint, int child, int parent) {
   const JointData& j = s.joints[static_cast<std::size_t>(joint)];
-  const Freedom* freedom = freedom_of(*j.type);
+  const std::optional<Freedom> freedom = freedom_of(*j.type);
   if (!freedom)
     return std::nullopt;
   TreeLink l;
