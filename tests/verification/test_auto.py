@@ -109,11 +109,12 @@ def test_a_stiff_scene_that_explicit_steps_cannot_pass(tmp_path: Path) -> None:
 
 
 def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> None:
-    """At a singular pose; the motion is the right one, and the summary says what happened."""
-    scene = ATTACK["hard_beside_4"]
-    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path, rtol=1e-5).reason
-    assert outcome(scene, "auto", tmp_path, rtol=1e-5).outcome == PASS
-    results = hydrodae.run(scene.case({"method": "auto", "rtol": 1e-5}, tmp_path))
+    """Over a stroke: what has been at rest has exchanged no energy that an error could be compared
+    with. The motion is the right one, and the summary says what happened."""
+    scene = suite.all_scenes((301,))["table_stroke_s301"]
+    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path).reason
+    assert outcome(scene, "auto", tmp_path).outcome == PASS
+    results = hydrodae.run(scene.case({"method": "auto"}, tmp_path))
     assert str(results.statistics["methods"]).split() == ["explicit_rk", "radau"]
     start, since = map(float, str(results.statistics["method_from"]).split())
     assert start == 0.0 < since < results.end_time
@@ -121,13 +122,6 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     line = next(row for row in results.summary().splitlines() if "method auto" in row)
     assert f"explicit_rk (nothing is stiff), radau from t = {since:.9g} s because" in line
     assert "energy balance" in line
-
-
-def test_a_step_over_a_stroke_is_made_by_another_method(tmp_path: Path) -> None:
-    """What has been at rest has exchanged no energy that an error could be compared with."""
-    scene = suite.all_scenes((301,))["table_stroke_s301"]
-    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path).reason
-    assert outcome(scene, "auto", tmp_path).outcome == PASS
 
 
 def labouring() -> Simulation:
@@ -189,7 +183,7 @@ def test_what_went_wrong_over_many_steps_is_not_tried_again(tmp_path: Path) -> N
     told = []
     for method in ("auto", "radau"):
         with pytest.raises(hydrodae.SolverError, match="error_guard") as caught:
-            hydrodae.run(MAP["long_pendulum"].case({"rtol": 1e-3, "method": method}, tmp_path))
+            hydrodae.run(MAP["long_pendulum"].case({"rtol": 2e-3, "method": method}, tmp_path))
         told.append(str(caught.value))
         assert caught.value.results is not None
         assert caught.value.results.statistics["method_in_use"] == "radau"

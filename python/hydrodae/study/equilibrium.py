@@ -127,9 +127,9 @@ class Equilibrium:
         if self.modes:
             lines.append("  natural periods [s], and what moves most")
         for mode in self.modes:
-            most = max(mode.shape, key=lambda name: abs(mode.shape[name]))
+            mover = max(mode.shape, key=lambda name: abs(mode.shape[name]))
             beyond = ", beyond the frequencies of the database" if mode.extrapolated else ""
-            lines.append(f"    {mode.period:10.3f}  {most}{beyond}")
+            lines.append(f"    {mode.period:10.3f}  {mover}{beyond}")
         return lines
 
 
