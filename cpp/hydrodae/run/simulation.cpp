@@ -28,9 +28,6 @@ const std::vector<Channel> solver_channels = {
     {"solver/step", 1, "s", "-", "Length of the step that holds this sample."},
     {"solver/order", 1, "-", "-", "Order of that step."}};
 
-/// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
-constexpr double step_edge = 0.02;
-
 } // namespace
 
 Simulation::Start Simulation::begin(const model::Scene& scene) {
@@ -205,41 +202,6 @@ bool Simulation::make_step(double end) {
     }
     approach(*event);
   }
-}
-
-/// No step may pass over what is known ahead of time, nor over an event that was found.
-double Simulation::find_bound() {
-  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns(), integrator_->gap());
-  if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
-    event_near_ = INFINITY;
-  const double step = scene_.solver.step;
-  constexpr double too_long = 4.0;
-  if (step > too_long * (limit.time - t_))
-    throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: the step of " +
-                              number_text(step) + " s is too long for " + *limit.by +
-                              ", which may be passed over; " + rounded_text(limit.time - t_) +
-                              " s may do");
-  return std::min(limit.time, event_near_);
-}
-
-/// Is a time in the middle of the last step, where the polynomial through the stages of radau, or
-/// what fixed steps have, is of a lower order than the end, so that each event would leave its
-/// error? A load that begins with the event, as of a rope that is caught and parts, has changed the
-/// stages, too.
-bool Simulation::inside_of_step(double t) const {
-  const double least = step_edge * (t_ - step_start_);
-  return approaches_events_ && t - step_start_ > least && t_ - t > least;
-}
-
-/// Takes the last step back, and lets the next ones end at the event.
-void Simulation::approach(double event) {
-  before_start_ += integrator_->statistics();
-  t_ = step_start_;
-  event_near_ = event;
-  follow_turns();
-  y_ = y_start_;
-  yp_ = yp_start_;
-  make_integrator();
 }
 
 /// Goes on from an event, or with other inputs, by the rows and loads that hold from now on.

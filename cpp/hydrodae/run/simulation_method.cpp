@@ -1,12 +1,22 @@
 /// Which method makes the steps of a Simulation, how another takes over, and what cuts steps short.
 
 #include <algorithm>
+#include <cmath>
 
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/run/simulation.h"
 #include "hydrodae/solve/runge_kutta.h"
 #include "hydrodae/solve/stiffness.h"
 
 namespace hydrodae::run {
+
+namespace {
+
+/// Part of a step at its ends where the polynomial through the stages of radau is nearly exact.
+constexpr double step_edge = 0.02;
+
+} // namespace
 
 /// By the start, where the method is "auto".
 void Simulation::choose_method() {
@@ -95,6 +105,41 @@ std::optional<double> Simulation::locate() {
     if (const auto event = switching_->locate(step_start_, first.value_or(t_), nodes, at_))
       return event;
   return first;
+}
+
+/// No step may pass over what is known ahead of time, nor over an event that was found.
+double Simulation::find_bound() {
+  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns(), integrator_->gap());
+  if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
+    event_near_ = INFINITY;
+  const double step = scene_.solver.step;
+  constexpr double too_long = 4.0;
+  if (step > too_long * (limit.time - t_))
+    throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: the step of " +
+                              number_text(step) + " s is too long for " + *limit.by +
+                              ", which may be passed over; " + rounded_text(limit.time - t_) +
+                              " s may do");
+  return std::min(limit.time, event_near_);
+}
+
+/// Is a time in the middle of the last step, where the polynomial through the stages of radau, or
+/// what fixed steps have, is of a lower order than the end, so that each event would leave its
+/// error? A load that begins with the event, as of a rope that is caught and parts, has changed the
+/// stages, too.
+bool Simulation::inside_of_step(double t) const {
+  const double least = step_edge * (t_ - step_start_);
+  return approaches_events_ && t - step_start_ > least && t_ - t > least;
+}
+
+/// Takes the last step back, and lets the next ones end at the event.
+void Simulation::approach(double event) {
+  before_start_ += integrator_->statistics();
+  t_ = step_start_;
+  event_near_ = event;
+  follow_turns();
+  y_ = y_start_;
+  yp_ = yp_start_;
+  make_integrator();
 }
 
 /// Steps that end where something made them end tell nothing of the method.
