@@ -42,7 +42,7 @@ private:
   VectorX y_, yp_;
   struct Sudden {
     std::size_t list, law;
-    double place;
+    int place;
   };
   std::vector<Sudden> sudden_; ///< what parts as its load begins, at the event found last
 };

@@ -29,7 +29,7 @@ SparseLu<double> shifted(const MatrixX& A, Index n_u, double d) {
 }
 
 /// Pivots below this part of the largest are those of directions that nothing holds: next to a
-/// spring much stiffer than weights over lengths, what is soft still holds, down to rounded.
+/// spring much stiffer than weights over lengths, what is soft still holds, down to rounding.
 double rank_threshold(const MatrixX& A) {
   constexpr double usual = 1e-12, soft = 1e-9, rounded = 1e-14;
   return std::clamp(soft / std::max(A.cwiseAbs().maxCoeff(), soft), rounded, usual);
