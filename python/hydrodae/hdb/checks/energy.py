@@ -159,7 +159,7 @@ def _circle(db: HydroDatabase) -> Array | None:
     """Weights (nh,) [rad] of the integral over all directions; None if the headings leave gaps."""
     # each direction once: a full turn closes headings that go all round
     order = np.argsort(db.heading)
-    order = order[db.heading[order] < db.heading.min() + 2.0 * np.pi - 1e-6]
+    order = order[db.heading[order] - db.heading.min() < 2.0 * np.pi - 1e-6]
     beta = db.heading[order]
     steps = np.diff(np.r_[beta, beta[0] + 2.0 * np.pi])
     if beta.size >= 4 and steps.max() <= LARGEST_STEP and steps.min() > 1e-6:
