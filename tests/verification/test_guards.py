@@ -113,6 +113,15 @@ def test_an_error_that_shows_after_the_last_looks_ends_the_run() -> None:
         hydrodae.run(case, set={**values, "solver.end_time": 10.0})
 
 
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
+def test_what_stays_at_rest_is_not_off_by_a_part_of_its_motion(rtol: float) -> None:
+    """A weight on a spring, which rounding alone moves by 4e-14 m."""
+    fixed = ROOT / "cases" / "tank_section" / "fixed.toml"
+    results = hydrodae.run(fixed, set={"solver.rtol": rtol, "solver.end_time": 60.0})
+    assert results.status == "completed"
+    assert results.statistics["at_rest"] == 1
+
+
 TOP = """
 title = "An upright top that spins by 123 rad/s, and leans by 0.002 rad"
 [[body]]

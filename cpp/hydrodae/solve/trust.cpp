@@ -226,8 +226,10 @@ void Trust::fail(double t, Index group, double off, const std::string& then) con
 /// does not count; at its end the motion is what it was, and the error what it is.
 void Trust::finish(double t) const {
   for (Index g = 0; g < reached_.size() && allowed_ > 0.0; ++g) {
-    const double whole = moved(g), most = allowed_ * whole / doubt_,
-                 off = std::max(largest_[g], piled_now(g));
+    const double whole = moved(g), most = allowed_ * whole / doubt_;
+    if (reached_[g] < whole) // next to no motion that could be off
+      continue;
+    const double off = std::max(largest_[g], piled_now(g));
     if ((off > most && has_steps(g, most)) || most_missing_[g] > most)
       fail(t, g, off / whole, " at the end of the run: a smaller tolerance or step may do");
   }
