@@ -25,6 +25,7 @@ from tests.attack import (  # noqa: F401  the modules register their families
     ptos,
     rest,
     scales,
+    snaps,
     starts,
     turns,
     waves,

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.attack import suite
+from tests.attack.family import FAMILIES
 
 import hydrodae
 from hydrodae.cli import main
 from hydrodae.study.stability import Method
-from hydrodae.study.stability.grid import PASS, run_cell
+from hydrodae.study.stability.grid import PASS, STOPPED, run_cell
 
 SCENES = suite.all_scenes()
 PENDULUM = """
@@ -250,6 +251,38 @@ def test_errors_are_followed_through_many_impacts(method: str) -> None:
     difference = np.abs(results["bodies/bob/position"] - exact["bodies/bob/position"])
     error = float(difference.max()) / np.sin(np.deg2rad(20.0))
     assert error / 10.0 < results.statistics["estimated_error"] < 50.0 * error + 1e-5
+
+
+@pytest.mark.parametrize(
+    ("family", "seed", "method"),
+    [
+        ("slack_pair", 100, Method("radau", {"rtol": 1e-6})),
+        ("slack_pair", 103, Method("explicit_rk", {"rtol": 1e-6})),
+        ("knocking_pair", 101, Method("explicit_rk", {"rtol": 1e-6})),
+        ("knocking_pair", 105, Method("ida", {"rtol": 1e-6})),
+        ("knocking_pair", 105, Method("lobatto_iiic", {"order": 6}, 10.0)),
+    ],
+    ids=lambda value: value.name if isinstance(value, Method) else str(value),
+)
+def test_growth_at_the_kinks_of_forces_is_seen(
+    family: str, seed: int, method: Method, tmp_path: Path
+) -> None:
+    """Ropes snap, masses knock: the run stops, or its estimate tells the error."""
+    cell = run_cell(FAMILIES[family].drawn(seed), method, tmp_path, 30.0)
+    assert cell.outcome in (PASS, STOPPED), cell.reason
+    if cell.outcome == PASS:
+        known = suite.ratio(cell)
+        assert known is not None
+        assert known < 10.0
+
+
+def test_a_float_that_topples_tells_its_error(tmp_path: Path) -> None:
+    """A squeezed spring holds the sphere upright where steps of radau are 2 rad of the wave."""
+    scene = FAMILIES["bistable_float"].make(
+        height=0.917, period=7.502, length=5.94, squeeze=1.2947, stiff=5.1, end=200.0
+    )
+    cell = run_cell(scene, Method("radau", {"rtol": 1e-3}), tmp_path, 30.0)
+    assert cell.outcome == STOPPED, cell
 
 
 def test_a_run_stops_where_it_has_lost_step_with_the_truth() -> None:

@@ -9,7 +9,6 @@
 namespace hydrodae::solve {
 
 namespace {
-constexpr int most_bins = 32;
 constexpr double rough = 0.5; ///< change of the equations from which on growth is not believed
 // Growth per radian of the motion that may come of looks far apart; chaotic motions have 0.2 to 1.
 constexpr double doubtful = 0.15;
@@ -44,17 +43,18 @@ ErrorGrowth::ErrorGrowth(const system::Regime& s, const system::Pattern& pattern
                          const VectorX& y, const VectorX& yp, Error error, Way way, int every)
     : s_(s), flow_(s, pattern, t, y, yp), guided_(guided_groups(s)), smooth_(smooth_groups(s, way)),
       any_smooth_(std::find(smooth_.begin(), smooth_.end(), true) != smooth_.end()),
+      kinks_(kinks(s, way)),
+      any_kinks_(std::find(kinks_.begin(), kinks_.end(), true) != kinks_.end()),
       dry_(dry_groups(s)), y_(y), yp_(yp), growth_(VectorX::Ones(s.n_error_groups())),
-      fade_(growth_), change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
-      fewest_(std::max(1, every / 4)), most_(4 * every), every_(every), bin_start_(t) {
+      fade_(growth_), suspected_(VectorX::Zero(s.n_error_groups())),
+      change_(VectorX::Zero(s.n_error_groups())), since_(t), window_(t), way_(way),
+      fewest_(std::max(1, every / 4)), most_(4 * every), every_(every) {
   begin(std::move(error));
 }
 
 void ErrorGrowth::begin(Error error) {
   const bool with_signs = way_ == Way::with_signs;
   error_ = std::move(error);
-  if (with_signs)
-    bins_.setZero(s_.lambda0, most_bins);
   if (error_.vector.size() == 0) {
     error_.vector = error_.middle = error_.old = error_.fresh = error_.gathered =
         VectorX::Zero(s_.lambda0);
@@ -138,7 +138,10 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
       else if (!is_smooth(g))
         follow(g, rate[g] * (t - since_));
       else if (!closely)
-        grow(g, std::log(std::clamp(growth_[g], 1e-12, 1e6)), rate[g] * (t - since_));
+        grow(g, std::log(std::clamp(growth_[g], 1e-12, 1e6)),
+             doubt_of(g, rate[g] * (t - since_), INFINITY));
+    for (Index g = 0; g < s_.n_error_groups(); ++g)
+      suspect(g, 0.0);
   }
   error_.added += sizes(error_.fresh - error_.gathered, unit);
   error_.added.array() *= shown.array();
@@ -150,7 +153,7 @@ bool ErrorGrowth::add(double t, const VectorX& step_error, const VectorX& unit, 
   error_.gathered.setZero();
   window_ = t;
   error_.added.setZero();
-  error_.vector += error_.fresh;
+  take_in(error_.fresh, unit, error_.vector);
   error_.fresh.setZero();
   since_ = t;
   steps_ = 0;

@@ -3,15 +3,16 @@
 /// equations linearised about the motion, and added. In two ways:
 ///
 /// With their signs (Skeel, Math. Comput. 46 (1986) 577), for methods that know them and make many
-/// steps in a radian: a vector e <- Phi e + d, third of a radian by third of a radian. Over
-/// thousands of periods it would have to keep its phase, so errors of more than two windows of some
-/// swings ago count by their size, which grows and fades as their sum does.
+/// steps in a radian: a vector e <- Phi e + d, from look to look, and by halves of that down to
+/// single steps where the equations change much, as where a rope snaps. Over thousands of periods
+/// it would have to keep its phase, so errors of more than two windows of some swings ago count by
+/// their size, which grows and fades as their sum does.
 ///
 /// By size, group by group of bodies and line by line: E <- g E + |d|, where g comes of the size of
-/// a vector carried from look to look. Between looks swings are followed roughly: growth counts as
-/// far as it exceeds the doubtful (Page's cumulative sums, Biometrika 41 (1954) 100), and what was
-/// not believed of it is taken off from the next fading, lest a size that goes up and down seems to
-/// fade.
+/// a vector carried from look to look. Where the equations change much between looks it is carried
+/// step by step, and inside of steps once growth has been seen. Growth counts as far as it exceeds
+/// the doubtful (Page's cumulative sums, Biometrika 41 (1954) 100), and what was not believed of it
+/// is taken off from the next fading, lest a size that goes up and down seems to fade.
 
 #include <functional>
 
@@ -95,26 +96,52 @@ public:
   /// errors of its steps are gone once the constraints take part.
   bool is_guided(Index group) const { return guided_[static_cast<std::size_t>(group)]; }
 
-  /// Is a group dry, and nothing in it whose derivatives may jump inside a step?
+  /// Can looks at every step follow the errors of a group? See smooth_groups.
   bool is_smooth(Index group) const { return smooth_[static_cast<std::size_t>(group)]; }
+
+  /// Does no body of a group float?
+  bool is_dry(Index group) const { return dry_[static_cast<std::size_t>(group)]; }
 
   void remember(Archive& a) {
     a(error_, flow_, growth_, fade_, change_, since_, window_, every_, steps_, pieces_, n_pieces_,
-      bins_, bin_, bin_start_, substep_);
+      substep_, suspected_, fine_);
   }
 
 private:
+  static std::vector<bool> kinks(const system::Regime& system, Way way);
   static std::vector<bool> smooth_groups(const system::Regime& system, Way way);
   void begin(Error error);
   bool add_with_signs(double t, const VectorX& step_error, const VectorX& unit, const VectorX& rate,
                       const VectorX& motion, bool last, const Interpolant& at);
-  void carry_with_signs(double t, const VectorX& unit);
-  double carry_window(int substeps, const VectorX& unit);
+  struct Piece { ///< of a step since the last look: its end, and the error of the step if it ends
+    double time = 0.0;
+    VectorX y, yp, error;
+    void remember(Archive& a) { a(time, y, yp, error); }
+  };
+  void take_in(const VectorX& fresh, const VectorX& unit, VectorX& vector) const;
+  struct Closely { ///< what a closer look knows
+    const VectorX &unit, &rate, &motion;
+    VectorX total;  ///< sizes of the errors of all steps (n_error_groups,)
+    VectorX vector; ///< of the run, as far as it is carried (lambda0,)
+    std::vector<bool> lost;
+  };
+  void follow_pieces(std::size_t first, std::size_t n, Closely& now);
+  void expect_substep(const VectorX& rate);
+  void take_turn(double substep, double turned);
+  void keep_piece(double t, const VectorX& error, const Interpolant& at);
+  void add_plain(const VectorX& unit);
+  void carry_with_signs(const VectorX& unit);
+  double carry_pieces(std::size_t first, std::size_t n, const VectorX& unit);
+  bool carry_piece(const Piece& piece, const VectorX& unit, VectorX& vector);
+  double carry_window(std::size_t first, std::size_t n, double start, double substep,
+                      const VectorX& unit);
   bool carry(double t, const VectorX& rate, VectorX& fresh);
   bool is_doubtful(const VectorX& moved) const;
   void look_closely(const VectorX& unit, const VectorX& rate, const VectorX& motion,
                     VectorX vector);
-  void grow(Index group, double seen, double phase);
+  void grow(Index group, double seen, double doubt);
+  double doubt_of(Index group, double phase, double altered) const;
+  void suspect(Index group, double seen);
   void look_again(double change, double much, double little);
   void take_old(const VectorX& unit, const VectorX& before);
   void limit(VectorX& vector, const VectorX& unit, const VectorX& most, double part) const;
@@ -131,26 +158,22 @@ private:
   std::vector<bool> guided_; ///< (n_error_groups,)
   std::vector<bool> smooth_; ///< likewise: see smooth_groups
   bool any_smooth_;
+  std::vector<bool> kinks_; ///< likewise: smooth, and its forces may jump
+  bool any_kinks_;
   std::vector<bool> dry_; ///< likewise: no body of it in the water
-  VectorX y_, yp_, growth_, fade_, change_;
+  VectorX y_, yp_, growth_, fade_;
+  VectorX suspected_; ///< `level` with growth over pieces too long to tell (n_error_groups,)
+  VectorX change_;
   double since_ = 0.0; ///< time up to which the error was carried [s]
   double window_;      ///< time up to which errors were added in size [s]
   Way way_;
   bool fine_ = false; ///< growth has been seen: looks inside of steps
   int fewest_, most_, every_, steps_ = 0;
-  struct Piece { ///< of a step since the last look: its end, and the error that comes there
-    double time = 0.0;
-    VectorX y, yp, error;
-    void remember(Archive& a) { a(time, y, yp, error); }
-  };
-  std::vector<Piece> pieces_; ///< the first n_pieces_ of them are in use; none with signs
+  std::vector<Piece> pieces_; ///< the first n_pieces_ of them are in use
   std::size_t n_pieces_ = 0;
   LinearFlow::Look last_look_;
-  MatrixX bins_;           ///< errors of the steps since the last look, in order (lambda0, bins)
-  int bin_ = 0;            ///< the last of them in use
-  double bin_start_ = 0.0; ///< [s]
-  double substep_ = 0.0;   ///< length of a bin [s]; 0: not known yet
-  double altered_ = 0.0;   ///< part of the vector that the change of the equations has altered
+  double substep_ = 0.0; ///< in which the vector turns by half a radian at most [s]; 0: not known
+  double doubt_ = 0.0;   ///< ln of the growth since the last look that may come of its distance
 };
 
 } // namespace hydrodae::solve

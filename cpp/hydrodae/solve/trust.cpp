@@ -207,10 +207,14 @@ void Trust::look(double t, const system::Recorder& recorder) {
 }
 
 /// Growth alone, of next to nothing, may be that of looks too far apart: is enough of the error
-/// that of the steps themselves?
+/// that of the steps themselves, or growth followed, or so large with its signs that it is beyond
+/// doubt?
 bool Trust::has_steps(Index group, double most) const {
-  constexpr double seen = 1e-2, seen_of_smooth = 1e-6;
-  return growth_->error().plain[group] > (growth_->is_smooth(group) ? seen_of_smooth : seen) * most;
+  constexpr double seen = 1e-2, seen_of_followed = 1e-6, beyond_doubt = 4.0;
+  const ErrorGrowth::Error& e = growth_->error();
+  const bool followed =
+      growth_->is_smooth(group) || (e.with_signs && e.piled[group] > beyond_doubt * most);
+  return e.plain[group] > (followed ? seen_of_followed : seen) * most;
 }
 
 void Trust::fail(double t, Index group, double off, const std::string& then) const {
