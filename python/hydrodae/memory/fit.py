@@ -269,7 +269,7 @@ def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
         replace(goal, target=max(goal.target, wide)).met(fit.quality)
         for wide, fit in zip(widened, fits, strict=True)
     )
-    return {"noise": max(found), "as_near_as_noise": met}
+    return {"noise": max(found), "as_near_as_noise": met, "steady": max(f.quality.steady for f in fits)}
 
 
 def _symmetry(

@@ -34,7 +34,8 @@ def hull_findings(database: HydroDatabase) -> list[Finding]:
     list of Finding
         An error for a buoyancy centre above the water or in the ground and for a waterplane of
         negative area, and where the mesh has three times the volume or a third of it; warnings for
-        negative moments of the waterplane and other differences from the mesh (not looked at where a part of it is dry).
+        negative moments of the waterplane and other differences from the mesh (not looked at where
+        a part of it is dry).
     """
     found = []
     for name, body in database.bodies.items():
