@@ -31,6 +31,8 @@ EXACT_TAIL = 1e-4
 #: Power n of B ~ w^-n beyond a table, where the table does not tell a larger one: that of a
 #: wall-sided body, whose waves have the amplitude 2 U/w of a wave maker moved with velocity U.
 WAVE_MAKER = 3.0
+#: Damping at the end over its largest from which the tail beyond may be twice what is taken.
+UNFINISHED = 0.9
 #: Least uncertainty of a table of panels, over the value: two codes agree no better.
 LEAST = 1e-3
 
@@ -54,9 +56,10 @@ def added_mass_inf(
         table tells if that is more. Where the last points follow a power law to 1e-4 the table is
         trusted everywhere: least squares over w > 0.3 w_max (`hydrodae.irf.added_mass_inf`).
     uncertainty : (...) array
-        Sum of what the tail beyond the table contributes, of the largest distance to the
-        estimates in other windows and by least squares, of the scatter within the window, and of
-        the gap below the first frequency.
+        Sum of what the tail beyond the table contributes (twice that where the damping still rises
+        at its end), of the largest distance to the estimates in other windows and by least squares,
+        of the scatter within the window and half of that of the least squares (at most that
+        distance once more), and of the gap below the first frequency.
 
     Notes
     -----
@@ -78,7 +81,10 @@ def added_mass_inf(
     windows = np.max([np.abs(m - value) for m in middle], axis=0, initial=0.0)
     value = value - beyond
     known = squares.reshape(-1)
-    doubt = np.abs(beyond) + np.maximum(windows, np.abs(known - value)) + spread
+    rises = np.abs(flat_b[-1]) > UNFINISHED * np.abs(flat_b).max(axis=0)
+    doubt = np.abs(beyond) * np.where(rises, 2.0, 1.0)
+    apart = np.maximum(windows, np.abs(known - value))
+    doubt += apart + np.minimum(0.5 * scatter.reshape(-1), apart) + spread
     doubt += _gap(w, flat_b, w[low]) + LEAST * np.abs(value)
     exact = _exact(w, flat_b, tail)
     value = np.where(exact, known, value)

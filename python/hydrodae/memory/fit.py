@@ -269,7 +269,8 @@ def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
         replace(goal, target=max(goal.target, wide)).met(fit.quality)
         for wide, fit in zip(widened, fits, strict=True)
     )
-    return {"noise": max(found), "as_near_as_noise": met, "steady": max(f.quality.steady for f in fits)}
+    steady = max(fit.quality.steady for fit in fits)
+    return {"noise": max(found), "as_near_as_noise": met, "steady": steady}
 
 
 def _symmetry(
