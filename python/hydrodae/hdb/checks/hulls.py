@@ -97,5 +97,5 @@ def _of_mesh(name: str, statics: Hydrostatics, panels: Array, point: Array) -> l
         return []
     text = f"{name}: {text}: hydrostatics of another body, or a garbled number"
     severity = "warning" if LEAST_SHARE < share < LARGEST_SHARE else "error"
-    off = abs(share * max(parts, 1.0) - 1.0)
-    return [Finding(severity, "hydrostatics of the mesh", text, off)]
+    wrong = abs(float(share) * max(parts, 1.0) - 1.0)
+    return [Finding(severity, "hydrostatics of the mesh", text, wrong)]

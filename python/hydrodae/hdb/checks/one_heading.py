@@ -41,8 +41,8 @@ POSITIVE = 0.8
 #: Factors that neither the shape nor bodies beside it explain: 24 tables of six codes are within
 #: 0.51 and 1.31. `ALL`: all motions of a kind, of one body, are off by so much; `ONE`: one of them.
 DOUBTFUL, ALL, ONE = 2.0, 2.5, 10.0
-#: Between walls the ratio follows k to the power 1 within this.
-WALLS = 0.2
+#: Between walls the ratio of all motions follows k to the power 1 within this.
+WALLS = 0.06
 
 
 def one_heading_findings(database: HydroDatabase) -> list[Finding]:
@@ -70,7 +70,7 @@ def one_heading_findings(database: HydroDatabase) -> list[Finding]:
     every = max(alike, key=lambda c: abs(off[c]))
     worst = max(off, key=lambda c: abs(off[c]))
     if abs(off[every]) > np.log(ALL):
-        label, severity = every, "warning" if every in tank else "error"
+        label, severity = every, "warning" if tank == set(off) else "error"
     elif abs(off[worst]) > np.log(DOUBTFUL):
         label, severity = worst, "error" if abs(off[worst]) > np.log(ONE) else "warning"
     else:

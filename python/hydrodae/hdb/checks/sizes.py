@@ -1,6 +1,6 @@
 r"""Sizes of A, B, F and the hull against each other: tables in other units, garbled hydrostatics.
 
-All bodies together, in waves longer than they are and than the distances between them:
+Bodies near each other together, others one by one, in waves longer than they and their distances:
 
     F_1 = i k g (rho V D + A_11),   of which the diffraction is i k g A_11,
     B_33 = k / (4 rho g c_g) (rho g A_w - w^2 (rho V + A_33))^2,
@@ -13,6 +13,8 @@ radius of gyration of its added mass) carries up to 55 rho R^3, a thin disc.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +40,8 @@ LEAST_MASS, LARGEST_MASS = 0.3, 100.0
 LEAST_VOLUME = 0.005
 #: Largest radius of gyration over the cube root of the volume: 7 for a pole 100 times its diameter.
 GYRATION = 20.0
+#: Distance from the middle over the width of a body from which bodies count one by one.
+APART = 3.0
 #: Inertia over stiffness up to which a body follows the waves.
 FOLLOWS = 0.5
 UNITS = "another unit, density, or a garbled number"
@@ -55,21 +59,33 @@ def size_findings(database: HydroDatabase) -> list[Finding]:
     list of Finding
         Errors only; what cannot be told (no headings, hydrostatics or long waves) is left out.
     """
-    found = [_of_force(database), *_of_hulls(database), _of_damping(database)]
-    return [f for f in found if f is not None]
+    bodies = list(database.bodies)
+    # bodies far from each other are alone in long waves, those near move together
+    apart = _extent(database, bodies) > APART * _width(database)
+    found = _of_hulls(database)
+    for names in [[name] for name in bodies] if apart else [bodies]:
+        found += [f for f in (_of_force(database, names), _of_damping(database, names)) if f]
+    return found
 
 
-def _together(db: HydroDatabase, dof: int) -> NDArray[np.intp]:
-    """Return the indices of one motion of all bodies; none unless all have it."""
-    at = [i for i, label in enumerate(db.coordinates) if split_label(label)[1] == dof]
-    return np.array(at if len(at) == len(db.bodies) else [], dtype=np.intp)
+def _width(db: HydroDatabase) -> float:
+    """Cube root of the volume of the largest body [m]; 0 where none is known."""
+    volumes = [b.hydrostatics.displaced_volume for b in db.bodies.values() if b.hydrostatics]
+    return float(np.cbrt(max(volumes, default=0.0)))
 
 
-def _extent(db: HydroDatabase) -> float:
-    """Largest distance of a body from the middle of all [m]; infinite where that is not known."""
+def _together(db: HydroDatabase, names: Sequence[str], dof: int) -> NDArray[np.intp]:
+    """Return the indices of one motion of some bodies; none unless all have it."""
+    split = [split_label(label) for label in db.coordinates]
+    at = [i for i, (name, own) in enumerate(split) if name in names and own == dof]
+    return np.array(at if len(at) == len(names) else [], dtype=np.intp)
+
+
+def _extent(db: HydroDatabase, names: Sequence[str]) -> float:
+    """Largest distance of a body from the middle of some [m]; infinite where that is not known."""
     points = [
         body.hydrostatics.center_of_buoyancy if body.hydrostatics else body.reference_point
-        for body in db.bodies.values()
+        for body in (db.bodies[name] for name in names)
     ]
     known = np.array([p for p in points if p is not None])
     if len(points) == 1:
@@ -79,21 +95,21 @@ def _extent(db: HydroDatabase) -> float:
     return float(np.hypot(*(known - known.mean(axis=0))[:, :2].T).max())
 
 
-def _of_force(db: HydroDatabase) -> Finding | None:
+def _of_force(db: HydroDatabase, names: Sequence[str]) -> Finding | None:
     """Added mass against the horizontal force, or its diffraction, of long waves."""
     if not db.heading.size:
         return None
     k = wavenumber(db.omega, db.water_depth, db.gravity)
     seen: list[tuple[float, str]] = []
     for dof, along in ((0, np.cos(db.heading)), (1, np.sin(db.heading))):
-        i, h = _together(db, dof), int(np.abs(along).argmax())
+        i, h = _together(db, names, dof), int(np.abs(along).argmax())
         if not i.size or abs(along[h]) < 0.7:
             continue
         added = db.added_mass[:, i][:, :, i].sum(axis=(1, 2))
         unit = k * db.gravity * abs(along[h])
         whole = np.abs(db.excitation[:, h, i].sum(axis=1)) / unit
         lengths = [np.cbrt(np.median(np.abs(m)[:3]) / db.rho) for m in (whole, added)]
-        long = (k * min(lengths) < LONG) & (k * _extent(db) < LONG)
+        long = (k * min(lengths) < LONG) & (k * _extent(db, names) < LONG)
         if np.count_nonzero(long) < FEWEST or not np.all(whole[long] > 0.0):
             continue
         what, low, high = "the whole force", *FORCE
@@ -172,11 +188,12 @@ def _gyration(db: HydroDatabase, at: dict[int, int]) -> float:
     return float(np.sqrt(max(rest, 0.0) / max(a[0, 0], a[1, 1])))
 
 
-def _of_damping(db: HydroDatabase) -> Finding | None:
-    """Damping of all bodies together against that of their hulls."""
-    known = [b.hydrostatics for b in db.bodies.values() if b.hydrostatics is not None]
+def _of_damping(db: HydroDatabase, names: Sequence[str]) -> Finding | None:
+    """Damping of bodies together against that of their hulls."""
+    held = standing(db)
+    known = [s for s in (db.bodies[name].hydrostatics for name in names) if s is not None]
     volume = sum(s.displaced_volume for s in known)
-    if len(known) < len(db.bodies) or volume <= 0.0:
+    if len(known) < len(names) or volume <= 0.0:
         return None
     height = sum(s.displaced_volume * float(s.center_of_buoyancy[2]) for s in known) / volume
     area = sum(s.waterplane_area for s in known)
@@ -187,13 +204,14 @@ def _of_damping(db: HydroDatabase) -> Finding | None:
     if np.isfinite(db.water_depth):
         deep = np.minimum(k * db.water_depth, 300.0)
         decay = np.cosh(np.maximum(deep + k * height, 0.0)) / np.cosh(deep)
-    long = (k * np.cbrt(volume) < LONGER) & (k * _extent(db) < 1.0)
-    clean = long & clean_rows(db, standing(db))
+    long = (k * np.cbrt(volume) < LONGER) & (k * _extent(db, names) < 1.0)
+    clean = long & clean_rows(db, held)
     long = clean if np.count_nonzero(clean) >= FEWEST else long
     seen: list[tuple[float, str]] = []
+    walls = True
     for dof, name in enumerate(("surge", "sway", "heave")):
-        i = _together(db, dof)
-        if not i.size or (dof == 2 and (area <= 0.0 or standing(db))):
+        i = _together(db, names, dof)
+        if not i.size or (dof == 2 and (area <= 0.0 or any(name in held for name in names))):
             continue
         added = db.added_mass[:, i][:, :, i].sum(axis=(1, 2))
         b = db.radiation_damping[:, i][:, :, i].sum(axis=(1, 2))
@@ -211,10 +229,10 @@ def _of_damping(db: HydroDatabase) -> Finding | None:
         if np.count_nonzero(used) < FEWEST:
             continue
         implied = factor * force**2 * (2.0 if dof == 2 else 1.0)
-        if not between_walls(k[used], implied[used] / b[used]):
-            seen.append((float(np.median(implied[used] / b[used])), name))
+        walls &= between_walls(k[used], implied[used] / b[used])
+        seen.append((float(np.median(implied[used] / b[used])), name))
     wrong = [pair for pair in seen if not 1.0 / DAMPING < pair[0] < DAMPING]
-    if not wrong:
+    if not wrong or walls:
         return None
     ratio, name = max(wrong, key=lambda pair: abs(np.log(pair[0])))
     text = f"displacement and waterplane imply {ratio:.3g} times the B of long waves in {name}"
