@@ -83,6 +83,12 @@ def one_heading_findings(database: HydroDatabase) -> list[Finding]:
     return [Finding(severity, "damping from one heading", text, ratio)]
 
 
+def in_a_tank(database: HydroDatabase) -> bool:
+    """Tell whether damping and forces of all motions are those between walls."""
+    off, tank = _logs(database)
+    return bool(off) and tank == set(off)
+
+
 def clean_rows(db: HydroDatabase, held: Sequence[str]) -> NDArray[np.bool_]:
     """Tell which frequencies (nw,) keep causality and energy, bodies on the ground left out."""
     moving = [c for c in db.coordinates if split_label(c)[0] not in held]

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
-from hydrodae.hdb.checks.one_heading import between_walls, clean_rows
+from hydrodae.hdb.checks.one_heading import clean_rows, in_a_tank
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import group_velocity, wavenumber
@@ -208,7 +208,6 @@ def _of_damping(db: HydroDatabase, names: Sequence[str]) -> Finding | None:
     clean = long & clean_rows(db, held)
     long = clean if np.count_nonzero(clean) >= FEWEST else long
     seen: list[tuple[float, str]] = []
-    walls = True
     for dof, name in enumerate(("surge", "sway", "heave")):
         i = _together(db, names, dof)
         if not i.size or (dof == 2 and (area <= 0.0 or any(name in held for name in names))):
@@ -229,10 +228,9 @@ def _of_damping(db: HydroDatabase, names: Sequence[str]) -> Finding | None:
         if np.count_nonzero(used) < FEWEST:
             continue
         implied = factor * force**2 * (2.0 if dof == 2 else 1.0)
-        walls &= between_walls(k[used], implied[used] / b[used])
         seen.append((float(np.median(implied[used] / b[used])), name))
     wrong = [pair for pair in seen if not 1.0 / DAMPING < pair[0] < DAMPING]
-    if not wrong or walls:
+    if not wrong or in_a_tank(db):
         return None
     ratio, name = max(wrong, key=lambda pair: abs(np.log(pair[0])))
     text = f"displacement and waterplane imply {ratio:.3g} times the B of long waves in {name}"
