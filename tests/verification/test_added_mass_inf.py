@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydrodae import hdb
+from hydrodae import hdb, infinity
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.reading import read_source
 
@@ -73,3 +73,20 @@ def test_panels_that_fail_at_high_frequencies_do_not_spoil_it(reference, name):
         error = abs(database.added_mass_inf[i, i] - truth)
         assert error < 0.06 * truth, label
         assert error < database.added_mass_inf_std[i, i], label
+
+
+def test_a_smooth_tail_that_begins_early_is_not_trusted():
+    """A large cylinder whose B still is at 0.6 of its peak at the end of the table."""
+    island = hdb.Cylinder(45.0, 30.0, -20.0)
+
+    def table(last, count):
+        water = hdb.Water(np.linspace(0.03, last, count), depth=300.0, rho=1025.0)
+        return hdb.cylinders({"island": (0.0, 0.0)}, island, water, orders=2, modes=20)[0]
+
+    short, whole = table(0.9, 35), table(2.5, 90)
+    truth = np.diag(whole.added_mass_inf)[:3]
+    i = np.arange(3)
+    tables = short.added_mass[:, i, i], short.radiation_damping[:, i, i]
+    value, doubt = infinity.added_mass_inf(short.omega, *tables)
+    assert np.all(np.abs(value - truth) < doubt)
+    assert doubt[0] > 0.02 * truth[0]
