@@ -41,6 +41,8 @@ POSITIVE = 0.8
 #: Factors that neither the shape nor bodies beside it explain: 24 tables of six codes are within
 #: 0.51 and 1.31. `ALL`: all motions of a kind, of one body, are off by so much; `ONE`: one of them.
 DOUBTFUL, ALL, ONE = 2.0, 2.5, 10.0
+#: Power of k beyond which the ratio is one of noise, not of units.
+NOISE = 1.5
 #: Between walls the ratio of all motions follows k to the power 1 within this.
 WALLS = 0.06
 
@@ -95,11 +97,10 @@ def clean_rows(db: HydroDatabase, held: Sequence[str]) -> NDArray[np.bool_]:
     return ~suspect_rows(db.select(moving) if held and moving else db)
 
 
-def between_walls(k: Array, ratio: Array) -> bool:
-    """Tell whether a ratio follows k (least squares of the logarithms)."""
+def power_of(k: Array, ratio: Array) -> float:
+    """Power of k that a ratio follows (least squares of the logarithms)."""
     x = np.log(k) - np.log(k).mean()
-    power = float((x * np.log(ratio)).sum() / max((x**2).sum(), 1e-12))
-    return abs(power - 1.0) < WALLS
+    return float((x * np.log(ratio)).sum() / max((x**2).sum(), 1e-12))
 
 
 def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
@@ -134,8 +135,11 @@ def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
         if np.count_nonzero(used) < FEWEST:
             continue
         implied = factor * force**2 * (2.0 if dof == 2 else 1.0 / share[h])
+        power = power_of(k[used], implied[used] / b[used])
+        if abs(power) > NOISE:
+            continue
         found[label] = float(np.log(np.median(implied[used] / b[used])))
-        if between_walls(k[used], implied[used] / b[used]):
+        if abs(power - 1.0) < WALLS:
             tank.add(label)
     return found, tank
 
