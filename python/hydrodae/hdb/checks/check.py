@@ -209,6 +209,7 @@ def _negative(db: HydroDatabase) -> list[Finding]:
         for i in range(diagonal.shape[1])
         if -diagonal[:, i].min() > 2.0 * abs(diagonal[:, i].max())
         and np.any(-diagonal[:, i] > floor[:, i])
+        and np.mean(diagonal[:, i] < 0.0) > 0.5  # else a spike: irregular frequencies
     ]
     if not wrong:
         return []
