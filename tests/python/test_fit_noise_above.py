@@ -12,6 +12,8 @@ from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.lone import lone_findings
 from hydrodae.hdb.prepare import goes_on, ways_out
 from hydrodae.memory.data import least_damping, with_zero
+from hydrodae.memory.fit import _near as as_near
+from hydrodae.memory.goal import Goal, Quality
 from hydrodae.memory.modes import Problem
 from hydrodae.memory.noise import noise as noise_of
 
@@ -144,3 +146,57 @@ def test_noise_of_a_table_is_what_was_added():
     expected = np.sqrt(2.0 * inside.sum()) * 1e-3 / size
     found = noise_of(problem(smooth + white), mass, (0.3, 2.0))
     assert found == pytest.approx(expected, rel=0.3)
+
+
+def test_equal_devices_far_apart_are_fitted_once(right):
+    one = right.select(["buoy.heave"])
+    double = np.eye(2)
+
+    def pair(table):
+        return table * double if table.ndim == 3 else table * double[0]
+
+    b = one.bodies["buoy"]
+    two = dataclasses.replace(
+        one,
+        coordinates=("u1.heave", "u2.heave"),
+        bodies={name: dataclasses.replace(b, name=name) for name in ("u1", "u2")},
+        added_mass=pair(one.added_mass),
+        radiation_damping=pair(one.radiation_damping),
+        added_mass_inf=one.added_mass_inf * double,
+        added_mass_inf_std=one.added_mass_inf_std * double,
+        froude_krylov=np.repeat(one.froude_krylov, 2, axis=2),
+        diffraction=np.repeat(one.diffraction, 2, axis=2),
+    )
+    told: list[str] = []
+    fit = hdb.fit(two, "all", band=BAND, progress=told.append).memory["default"]
+    assert sum("its fit" in text for text in told) == 1
+    assert fit.report["passive"]
+    h = fit.transfer(right.omega)
+    assert np.allclose(h[:, 0, 0], h[:, 1, 1])
+    assert np.abs(h[:, 0, 1]).max() == 0.0
+    # one that is larger by 1 % is fitted by itself
+    larger = np.diag([1.0, 1.01])
+    other = dataclasses.replace(
+        two,
+        added_mass=two.added_mass * larger,
+        radiation_damping=two.radiation_damping * larger,
+        added_mass_inf=two.added_mass_inf * larger,
+    )
+    told.clear()
+    hdb.fit(other, "all", band=BAND, progress=told.append)
+    assert not any("its fit" in text for text in told)
+
+
+def test_a_misfit_that_neighbours_share_is_no_noise():
+    goal = Goal(BAND, 500.0, 4.5e-4, 0.15, None)
+    near = Quality(5e-3, 5e-3, 5e-3, 0.1, 5e-3, 2e-3)
+    assert as_near(near, 2e-3, goal)
+    assert not as_near(dataclasses.replace(near, steady=4.9e-3), 2e-3, goal)
+    assert not as_near(near, 1e-3, goal)  # five times the noise
+    assert not as_near(dataclasses.replace(near, weighted_band=0.02), 1e-2, goal)
+    # no panels are surer of H than that
+    assert as_near(dataclasses.replace(near, weighted_band=1.9e-3), 0.0, goal)
+    assert not as_near(dataclasses.replace(near, weighted_band=2.1e-3), 0.0, goal)
+    assert not as_near(
+        dataclasses.replace(near, weighted_band=1e-3, weighted_outside=0.2), 0.0, goal
+    )

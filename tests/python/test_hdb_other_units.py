@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hydrodae import hdb
-from hydrodae.hdb.checks.heave import heave_findings
 from hydrodae.hdb.checks.longwave import long_wave_findings
+from hydrodae.hdb.checks.one_heading import one_heading_findings
+from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.units import unit_findings
+
+ROOT = Path(__file__).parents[2]
+#: A flat hull, and a hull below the water: without waves nothing tells.
+UNTOLD = ((0.1, "displaced_volume"), (1e-3, "waterplane_area"))
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +29,8 @@ def pair() -> hdb.HydroDatabase:
 
 def errors(database: hdb.HydroDatabase) -> dict[str, str]:
     found = [
-        *heave_findings(database),
+        *one_heading_findings(database),
+        *size_findings(database),
         *unit_findings(database),
         *long_wave_findings(database),
     ]
@@ -45,8 +52,101 @@ def scaled(db: hdb.HydroDatabase, tables: float, forces: float) -> hdb.HydroData
 @pytest.mark.parametrize(("tables", "forces"), [(1e-3, 1.0), (1.0, 1e-3), (1000.0, 1.0)])
 def test_tonnes_and_kilonewtons(pair, tables, forces):
     assert errors(scaled(pair, 1.0, 1.0)) == {}
-    found = errors(scaled(pair, tables, forces))["damping from heave force"]
+    found = errors(scaled(pair, tables, forces))["damping from one heading"]
     assert "in long waves implies" in found
+
+
+def hull(db: hdb.HydroDatabase, **factors: float) -> hdb.HydroDatabase:
+    """Hydrostatics with some of their fields multiplied."""
+    bodies = {}
+    for name, body in db.bodies.items():
+        assert body.hydrostatics is not None
+        changed = {key: f * getattr(body.hydrostatics, key) for key, f in factors.items()}
+        statics = dataclasses.replace(body.hydrostatics, **changed)
+        bodies[name] = dataclasses.replace(body, hydrostatics=statics)
+    return dataclasses.replace(db, bodies=bodies)
+
+
+def without_waves(db: hdb.HydroDatabase, rows: slice = slice(None)) -> hdb.HydroDatabase:
+    """The same without excitation, at some of the frequencies."""
+    none = np.zeros((db.omega[rows].size, 0, len(db.coordinates)), complex)
+    names = ("omega", "added_mass", "radiation_damping")
+    kept = {name: getattr(db, name)[rows] for name in names}
+    return dataclasses.replace(
+        db, heading=np.zeros(0), froude_krylov=none, diffraction=none, **kept
+    )
+
+
+def test_added_mass_against_the_force(pair):
+    for rows in (slice(0, 12), slice(None)):  # the first end before the damping falls
+        part = without_waves(pair, rows)
+        assert errors(part) == {}
+    few = dataclasses.replace(
+        without_waves(pair, slice(0, 12)),
+        heading=pair.heading,
+        froude_krylov=pair.froude_krylov[:12],
+        diffraction=pair.diffraction[:12],
+    )
+    for split in (True, False):
+        both = (
+            few
+            if split
+            else dataclasses.replace(
+                few,
+                froude_krylov=np.zeros_like(few.diffraction),
+                diffraction=few.excitation,
+                excitation_split=False,
+            )
+        )
+        assert errors(both) == {}
+        for factor in (1000.0, 10.0, 1e-3):
+            wrong = dataclasses.replace(both, added_mass=factor * both.added_mass)
+            assert "added mass from force" in errors(wrong)
+
+
+def test_sizes_against_the_hull(pair):
+    dry = without_waves(pair)
+    for factor in (1000.0, 9.81, 0.1, 1e-3):
+        for fields in (("displaced_volume",), ("waterplane_area",)):
+            if (factor, *fields) in UNTOLD:
+                continue
+            wrong = hull(dry, **dict.fromkeys(fields, factor))
+            assert set(errors(wrong)) & {"size of the hull", "damping from hull"}, (factor, fields)
+        wrong = dataclasses.replace(
+            dry,
+            added_mass=factor * dry.added_mass,
+            added_mass_inf=factor * dry.added_mass_inf,
+            radiation_damping=factor * dry.radiation_damping,
+        )
+        assert "damping from hull" in errors(wrong)
+
+
+def test_a_table_that_ends_early_tells_another_unit_of_damping(pair):
+    early = without_waves(pair, slice(0, 20))
+    bodies = {n: dataclasses.replace(b, hydrostatics=None) for n, b in pair.bodies.items()}
+    early = dataclasses.replace(early, bodies=bodies)
+    assert errors(early) == {}
+    wrong = dataclasses.replace(early, radiation_damping=early.radiation_damping / 9.81)
+    assert "times as large" in errors(wrong)["units of frequency"]
+
+
+def test_a_length_scale_of_millimetres(pair):
+    lengths = np.where([c.endswith(("roll", "pitch", "yaw")) for c in pair.coordinates], 1e3, 1.0)
+    tables = 1e9 * np.outer(lengths, lengths)
+    wrong = dataclasses.replace(
+        scaled(pair, 1.0, 1.0),
+        added_mass=tables * pair.added_mass,
+        added_mass_inf=tables * pair.added_mass_inf,
+        radiation_damping=tables * pair.radiation_damping,
+        froude_krylov=1e6 * lengths * pair.froude_krylov,
+        diffraction=1e6 * lengths * pair.diffraction,
+    )
+    assert "damping from one heading" in errors(wrong)
+
+
+def test_waves_between_walls_are_no_unit():
+    section = hdb.read(ROOT / "cases" / "tank_section" / "hydro.h5")
+    assert errors(section) == {}
 
 
 def test_other_frequencies(pair):
@@ -71,4 +171,4 @@ def test_headings_in_another_unit(pair):
     assert "heading" in errors(turned)
     # the command's checks hold these
     told = {f.check for f in hdb.check(scaled(turned, 1e-3, 1.0)).of("error")}
-    assert told >= {"heading", "damping from heave force"}
+    assert told >= {"heading", "damping from one heading"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydrodae import hdb
+from hydrodae import hdb, infinity
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.reading import read_source
 
@@ -73,3 +73,14 @@ def test_panels_that_fail_at_high_frequencies_do_not_spoil_it(reference, name):
         error = abs(database.added_mass_inf[i, i] - truth)
         assert error < 0.06 * truth, label
         assert error < database.added_mass_inf_std[i, i], label
+
+
+@pytest.mark.parametrize("last", [2.0, 3.0, 4.0, 6.0, 9.0])
+def test_a_smooth_tail_is_trusted_as_far_as_it_is_right(last):
+    """One mode, H = s/((s - p)(s - p*)): its tail is smooth, and no power law before it is over."""
+    omega, pole = np.linspace(0.03, last, 60), -1.0 + 0.6j
+    s = 1j * omega
+    h = s / ((s - pole) * (s - np.conj(pole)))
+    value, doubt = infinity.added_mass_inf(omega, 1.0 + h.imag / omega, h.real)
+    assert abs(value - 1.0) < doubt
+    assert doubt < 0.04

@@ -54,8 +54,9 @@ def fit(
     causality or energy (irregular frequencies), and then without those above the band; its report
     tells how many (`left_out`), its A_inf must be that of the tables, and its H not larger.
     Single frequencies off the curve through their neighbours are left out before, and told.
-    Where no target is given and noise of the tables keeps every fit from the usual one, a fit as
-    near as that noise is taken (`hydrodae.memory.noise`); its report says so (`noisy`).
+    Where no target is given and no fit reaches the usual one, a fit as near as the noise of the
+    tables is taken (`hydrodae.memory.noise`), or one within 2e-3, which panels are no surer of; its
+    report says so (`noisy`).
 
     Parameters
     ----------
@@ -138,9 +139,10 @@ def fit(
         made = fit_memory(tables, inputs=moving, name=name, **options)
     if garbled:
         made = replace(made, report={**made.report, "left_out": garbled})
-    refused, near = refusals(made), None
+    refused = refusals(made)
+    near: ExponentialMemory | None = None
     if list(refused) == ["target"] and target is None and made.report.get("as_near_as_noise"):
-        near = made, told
+        near = made
     for bad, text in ways_out(tables.select(moving), judged) if refused else []:
         if progress is not None:
             progress(text)
@@ -154,14 +156,14 @@ def fit(
         text = "; ".join(part for part in (garbled, text) if part)
         again = replace(again, report={**again.report, "left_out": text})
         noisy = list(left) == ["target"] and target is None
-        if noisy and near is None and again.report.get("as_near_as_noise"):
-            near = again, then
+        if noisy and again.report.get("as_near_as_noise") and _nearer(again, near):
+            near = again
         if len(left) < len(refused):
             made, refused, told = again, left, then
         if not refused:
             break
     if refused and near is not None:
-        made, told, refused = _as_noise(near[0]), [], {}
+        made, told, refused = _as_noise(near), [], {}
     if refused:
         raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
     for warning in told:
@@ -198,12 +200,18 @@ def without_lone_rows(
     return at(database, ~bad), f"{text}: left out"
 
 
+def _nearer(fit: ExponentialMemory, other: ExponentialMemory | None) -> bool:
+    """Tell whether a fit is nearer to its tables in the band than another, if there is one."""
+    key = "weighted_error_band"
+    return other is None or bool(fit.report[key] < other.report[key])
+
+
 def _as_noise(fit: ExponentialMemory) -> ExponentialMemory:
     """Return a fit that misses its target by the noise of the tables only, and says so."""
     error, noise = fit.report["weighted_error_band"], fit.report["noise"]
     text = (
-        f"the tables carry noise of {noise:.1e} of H in the band (weighted), which keeps fits from "
-        f"the usual target {fit.report['target']:g}: reached {error:.1e}"
+        f"the tables carry noise of {noise:.1e} of H in the band (weighted); no fit reaches the "
+        f"usual target {fit.report['target']:g}, this one {error:.1e}"
     )
     return replace(fit, report={**fit.report, "noisy": text, "target_met": True})
 

@@ -13,9 +13,9 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.memory import data as prepare
 from hydrodae.memory.assemble import assemble
-from hydrodae.memory.blocks import FittedGroup, fit_group, sizes
+from hydrodae.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
 from hydrodae.memory.data import ImpedanceData, RadiationData
-from hydrodae.memory.goal import Goal, Progress, stored_quality
+from hydrodae.memory.goal import Goal, Progress, Quality, measure, stored_quality
 from hydrodae.memory.model import ExponentialMemory
 from hydrodae.memory.modes import IntArray
 from hydrodae.memory.noise import noise
@@ -33,9 +33,12 @@ DEFAULT_BAND = (0.04, 1.0)
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
 
-NOISE_TIMES, NOISE_MOST = 3.0, 0.01
+NOISE_TIMES, NOISE_STEADY, NOISE_MOST = 3.0, 1.5, 0.01
 """A fit is as near as the noise of the tables lets it where its weighted error in the band is not
-above so many times that noise, and not above so much."""
+above so many times that noise, its running mean over neighbouring frequencies (a misfit they share
+is no noise) not above so many times, and the error not above so much."""
+PANELS = 2e-3
+"""Weighted error in the band that no table of panels is surer of, noise or none."""
 
 
 class MemoryFitWarning(UserWarning):
@@ -112,7 +115,7 @@ def fit_memory(
         radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling,
         symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it),
         noise (of the tables in the band, as the weighted errors, `hydrodae.memory.noise`),
-        as_near_as_noise (the target is met, or missed by no more than that explains).
+        as_near_as_noise (the target is met, or missed by no more than that or panels explain).
 
     Raises
     ------
@@ -173,15 +176,40 @@ def _fit_groups(
     goal: Goal,
     say: Progress,
 ) -> list[FittedGroup]:
-    """Fit the groups one after the other; states that one leaves go to the next."""
+    """Fit the groups one after the other; states that one leaves go to the next.
+
+    Groups whose tables are those of one before (equal devices that do not radiate into each other)
+    take its fit.
+    """
     made: list[FittedGroup] = []
     left, rest = goal.max_states, sum(group.size for group in groups)
     for group in groups:
         cap = None if left is None else max(2, left * group.size // rest)
-        made.append(fit_group(data, group, labels, goal, cap, say))
+        before = zip(groups, made, strict=False)
+        found = next((fit for own, fit in before if _alike(data, own, fit, group, goal)), None)
+        if found is not None and (cap is None or found.fit.modes.n_states <= cap):
+            say(f"{labels[group[0]]} and {group.size - 1} more: tables of a group before, its fit")
+            made.append(found)
+        else:
+            made.append(fit_group(data, group, labels, goal, cap, say))
         left = None if left is None else left - made[-1].fit.modes.n_states
         rest -= group.size
     return made
+
+
+def _alike(
+    data: ImpedanceData, own: IntArray, made: FittedGroup, group: IntArray, goal: Goal
+) -> bool:
+    """Tell whether the tables of another group are those of a fitted one, as symmetric ones are."""
+    if group.size != own.size:
+        return False
+    scale = made.scale * made.scale[:, None]
+    off = (data.stored[:, group[:, None], group] - data.stored[:, own[:, None], own]) / scale
+    problem = made.fit.problem
+    lost = measure(
+        off[:, problem.rows, problem.columns], made.fit.modes.added_mass, problem, goal.band
+    )
+    return goal.met(lost, SYMMETRIC)
 
 
 def _checked_band(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:
@@ -264,12 +292,16 @@ def _noise(fits: Sequence[GroupFit], goal: Goal) -> dict[str, Any]:
     found = [noise(fit.problem, fit.modes.added_mass, goal.band) for fit in fits]
     if goal.uniform is not None:
         return {"noise": max(found)}
-    widened = [min(max(goal.target, NOISE_TIMES * each), NOISE_MOST) for each in found]
-    met = all(
-        replace(goal, target=max(goal.target, wide)).met(fit.quality)
-        for wide, fit in zip(widened, fits, strict=True)
-    )
-    return {"noise": max(found), "as_near_as_noise": met}
+    near = all(_near(fit.quality, each, goal) for each, fit in zip(found, fits, strict=True))
+    return {"noise": max(found), "as_near_as_noise": near}
+
+
+def _near(found: Quality, noise: float, goal: Goal) -> bool:
+    """Tell whether a fit meets its goal, or misses it by no more than the tables are sure of."""
+    most = min(NOISE_TIMES * noise, NOISE_MOST)
+    if found.steady > max(NOISE_STEADY * noise, goal.target):
+        most = 0.0
+    return replace(goal, target=max(goal.target, most, PANELS)).met(found)
 
 
 def _symmetry(

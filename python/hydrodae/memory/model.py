@@ -7,6 +7,8 @@ from typing import Any
 
 import h5py
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
 from hydrodae.errors import DatabaseError
 from hydrodae.memory.passivity import Passivity, frequency_grid
@@ -113,12 +115,43 @@ class ExponentialMemory:
             Uniform points up to 1.5 times the largest pole; more are set around each pole, and the
             lowest minima are refined twice.
         """
+        seen: dict[bytes, tuple[float, float, float]] = {}
+        for part in self._parts():
+            key = b"".join(x.tobytes() for x in (part.poles, part.input_matrix, part.output_matrix))
+            if key not in seen:  # equal devices have equal parts
+                seen[key] = part._lowest(highest, points)
+        largest = max((found[1] for found in seen.values()), default=0.0)
+        lowest, _, at = min(seen.values(), default=(0.0, 0.0, 0.0))
+        if largest <= 0.0:
+            return Passivity(0.0 if largest == 0.0 else -1.0, 0.0)
+        return Passivity(lowest / largest, at)
+
+    def _parts(self) -> list[ExponentialMemory]:
+        """Return the loads on the inputs apart by what no mode joins; inputs without modes not."""
+        joined = (self.input_matrix != 0.0).astype(float)
+        count, label = connected_components(csr_array(joined.T @ joined), directed=False)
+        parts = []
+        for number in range(count):
+            pick = np.flatnonzero(label == number)
+            own = np.flatnonzero(joined[:, pick].any(axis=1))
+            if not own.size:
+                continue
+            names = tuple(self.inputs[i] for i in pick)
+            rows = np.array([self.outputs.index(name) for name in names])
+            square = np.zeros((pick.size, pick.size))
+            matrices = self.input_matrix[np.ix_(own, pick)], self.output_matrix[np.ix_(rows, own)]
+            parts.append(
+                ExponentialMemory(self.name, names, names, self.poles[own], *matrices, square)
+            )
+        return parts
+
+    def _lowest(self, highest: float, points: int) -> tuple[float, float, float]:
+        """Return the smallest and the largest eigenvalue, and where the former is [rad/s]."""
         omega = frequency_grid(self.poles, highest, points)
         scale = self._scale(omega)
         values = self._eigenvalues(omega, scale)
         largest = float(values.max())
-        if largest <= 0.0:
-            return Passivity(0.0 if largest == 0.0 else -1.0, 0.0)
+        lowest, at = float(values[:, 0].min()), float(omega[int(values[:, 0].argmin())])
         for _ in range(2):
             low = values[:, 0]
             inner = np.argsort(low[1:-1])[:20] + 1
@@ -126,8 +159,9 @@ class ExponentialMemory:
             omega = np.unique(np.concatenate(between))
             values = self._eigenvalues(omega, scale)
             best = int(np.argmin(values[:, 0]))
-            lowest, at = float(min(low.min(), values[best, 0])), float(omega[best])
-        return Passivity(lowest / largest, at)
+            if values[best, 0] < lowest:
+                lowest, at = float(values[best, 0]), float(omega[best])
+        return lowest, largest, at
 
     def _scale(self, omega: Array) -> Array:
         """Return the roots of the largest fitted damping of each input; 1 where there is none."""

@@ -16,11 +16,12 @@ from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
 from hydrodae.hdb.checks.headings import heading_findings
-from hydrodae.hdb.checks.heave import heave_findings
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.lone import lone_findings
 from hydrodae.hdb.checks.longwave import long_wave_findings
+from hydrodae.hdb.checks.one_heading import one_heading_findings
+from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
@@ -58,7 +59,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             ),
             *lone_findings(database, judged),
             *energy_findings(database, judged),
-            *heave_findings(database),
+            *([] if _negative(database) else one_heading_findings(database)),
+            *size_findings(database),
             *_causality(database),
             *unit_findings(database),
             *spike_findings(database, judged),
@@ -207,6 +209,7 @@ def _negative(db: HydroDatabase) -> list[Finding]:
         for i in range(diagonal.shape[1])
         if -diagonal[:, i].min() > 2.0 * abs(diagonal[:, i].max())
         and np.any(-diagonal[:, i] > floor[:, i])
+        and np.mean(diagonal[:, i] < 0.0) > 0.5  # else a spike: irregular frequencies
     ]
     if not wrong:
         return []

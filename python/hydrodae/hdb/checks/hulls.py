@@ -14,6 +14,8 @@ from hydrodae.hdb.mesh_statics import mesh_statics
 Array = NDArray[np.float64]
 #: Flat panels enclose some per cent less than a curved hull.
 ALIKE = 0.1
+#: Volumes of the mesh, or of a quarter of it, over that of the body that are another unit.
+LEAST_SHARE, LARGEST_SHARE = 0.08, 3.0
 #: What rounding leaves of areas and moments, over the length V^(1/3) to their power.
 ROUNDING = 1e-2
 #: Centres of buoyancy of floating bodies lie within so many V^(1/3): a spar's at 2.
@@ -31,8 +33,9 @@ def hull_findings(database: HydroDatabase) -> list[Finding]:
     -------
     list of Finding
         An error for a buoyancy centre above the water or in the ground and for a waterplane of
-        negative area; warnings for negative moments of the waterplane and where the mesh has
-        another volume or buoyancy centre (not looked at where a part of it is dry).
+        negative area, and where the mesh has three times the volume or a third of it; warnings for
+        negative moments of the waterplane and other differences from the mesh (not looked at where
+        a part of it is dry).
     """
     found = []
     for name, body in database.bodies.items():
@@ -93,6 +96,6 @@ def _of_mesh(name: str, statics: Hydrostatics, panels: Array, point: Array) -> l
     else:
         return []
     text = f"{name}: {text}: hydrostatics of another body, or a garbled number"
-    return [
-        Finding("warning", "hydrostatics of the mesh", text, abs(share * max(parts, 1.0) - 1.0))
-    ]
+    severity = "warning" if LEAST_SHARE < share < LARGEST_SHARE else "error"
+    wrong = abs(float(share) * max(parts, 1.0) - 1.0)
+    return [Finding(severity, "hydrostatics of the mesh", text, wrong)]

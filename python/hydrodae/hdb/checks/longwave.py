@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydrodae.hdb.checks.band import Band
+from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
@@ -180,13 +181,14 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
         db.rho * hs.displaced_volume + _total_mass(db, body, "heave", wave.row)
     )
     area = max(hs.waterplane_area, 0.0)
-    if k33 < 2.0 * inertia or wave.k * np.sqrt(area) > 0.5:
+    # the area may be what is wrong: the force, and the size of the added mass, tell long waves, too
+    if max(k33, abs(force)) < 2.0 * inertia or wave.k * min(np.sqrt(area), _size(db, body)) > 0.5:
         return []
     # the water's vertical acceleration falls towards the keel, in shallow water to nothing
     keel = 2.0 * float(hs.center_of_buoyancy[2])
     least = k33 - inertia
     most = k33 - inertia * _vertical_decay(wave.k, keel, db.water_depth)
-    error = abs(force - np.clip(force.real, least, most)) / k33
+    error = float(abs(force - np.clip(force.real, least, most)) / max(k33, 1e-9 * abs(force)))
     return [
         Finding(
             "error" if error > 0.15 else "warning" if error > 0.05 else "info",
@@ -197,6 +199,15 @@ def _heave(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
             wave.omega,
         )
     ]
+
+
+def _size(db: HydroDatabase, body: Body) -> float:
+    """Width of a body [m], on the large side, from its added masses of translation."""
+    split = [split_label(c) for c in db.coordinates]
+    moved = [i for i, (name, dof) in enumerate(split) if name == body.name and dof < 3]
+    if not moved:
+        return np.inf
+    return float(3.0 * np.cbrt(np.abs(db.added_mass_inf[moved, moved]).max() / db.rho))
 
 
 def _vertical_decay(k: float, z: float, depth: float) -> float:
@@ -214,7 +225,8 @@ def _displacement(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     if hs is None or force is None:
         return []
     depth, z = db.water_depth, float(hs.center_of_buoyancy[2])
-    if wave.k * max(abs(z) * 2.0, np.sqrt(max(hs.waterplane_area, 0.0))) > 0.3:
+    wide = min(np.sqrt(max(hs.waterplane_area, 0.0)), _size(db, body))
+    if wave.k * max(abs(z) * 2.0, wide) > 0.3:
         return []
     added = 0.0 if split else _total_mass(db, body, dof, wave.row)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.causality import causal_line
+from hydrodae.hdb.causality import causal_line, causal_slope
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.scales import scales
@@ -13,6 +13,8 @@ from hydrodae.hdb.scales import scales
 Array = NDArray[np.float64]
 #: Correlation that a line must have, and factor that is no longer noise.
 CORRELATION, FACTOR = 0.98, 2.0
+#: Standard error of a slope over it, and the slope that no noise makes, where the tail is free.
+SURE, GROSS = 0.05, 4.0
 TURN = 2.0 * np.pi
 
 
@@ -33,7 +35,12 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
         text = "A and B fit each other if the frequencies [rad/s] are periods [s], or the reverse"
         return [Finding("error", "units of frequency", text)]
     if clear.sum() < max(2, 0.4 * slope.size):
-        return []
+        # tables that end before B falls, or of one coordinate
+        slope, error = causal_slope(db.omega, a, b)
+        clear = error < SURE * np.abs(slope)
+        wrong = clear & ((np.abs(slope) > GROSS) | (np.abs(slope) < 1.0 / GROSS))
+        if not wrong.any() or wrong.sum() < 0.6 * used.size:
+            return []
     factor = float(np.median(slope[clear]))
     if 1.0 / FACTOR < factor < FACTOR:
         return []

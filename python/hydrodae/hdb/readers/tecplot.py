@@ -118,8 +118,13 @@ def to_omega(path: Path, header: str, first: Array) -> Array:
     DatabaseError
         Unknown variable, or values that are not > 0.
     """
-    if np.any(first <= 0.0) or not np.all(np.isfinite(first)):
-        raise DatabaseError(f"{path}: the first column (frequency) must be > 0")
+    wrong = ~((first > 0.0) & np.isfinite(first))
+    if wrong.any():
+        row = int(wrong.argmax())
+        raise DatabaseError(
+            f"{path}: the first column (frequency) must be > 0, but is {first[row]:g} in row "
+            f"{row + 1} of its first table"
+        )
     found = _VARIABLE.search(header)
     unit = found[2].strip().lower() if found else "rad/s"
     if unit == "rad/s":
