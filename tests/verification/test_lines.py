@@ -206,7 +206,17 @@ def test_what_goes_in_is_stored_or_spent() -> None:
     assert spent[-1] > 0.05 * size
     assert given == pytest.approx(stored - stored[0] + spent, abs=2e-3 * size)
     for part in ("damping", "seabed"):
-        assert run[f"forces/line/power_{part}"].values.min() > -1e-6 * size
+        power = run[f"forces/line/power_{part}"].values
+        assert power.min() >= -1e-12 * power.max()
+
+
+def test_the_damping_of_the_seabed_carries_nothing_at_rest() -> None:
+    text = WATER + DRIVEN.replace("PERIOD", "8.0")
+    loads = [
+        at_rest(text + line(chain(20, f"seabed_damping = {c}")), "forces/line/tension")
+        for c in (0.0, 1e7)
+    ]
+    np.testing.assert_allclose(loads[0], loads[1], rtol=1e-12)
 
 
 def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:
