@@ -206,7 +206,17 @@ def test_what_goes_in_is_stored_or_spent() -> None:
     assert spent[-1] > 0.05 * size
     assert given == pytest.approx(stored - stored[0] + spent, abs=2e-3 * size)
     for part in ("damping", "seabed"):
-        assert run[f"forces/line/power_{part}"].values.min() > -1e-6 * size
+        power = run[f"forces/line/power_{part}"].values
+        assert power.min() >= -1e-12 * power.max()
+
+
+def test_the_damping_of_the_seabed_carries_nothing_at_rest() -> None:
+    text = WATER + DRIVEN.replace("PERIOD", "8.0")
+    loads = [
+        at_rest(text + line(chain(20, f"seabed_damping = {c}")), "forces/line/tension")
+        for c in (0.0, 1e7)
+    ]
+    np.testing.assert_allclose(loads[0], loads[1], rtol=1e-12)
 
 
 def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:
@@ -289,9 +299,12 @@ stiffness = [5e7]
     assert heave[0] == pytest.approx(heave[1], abs=0.01)
 
 
-def orcaflex(reference: Path, depth: int, motion: str) -> tuple[np.ndarray, np.ndarray]:
+def orcaflex(
+    reference: Path, depth: int, motion: str, solver: str = "rtol = 1e-3", segments: int = 0
+) -> tuple[np.ndarray, np.ndarray]:
     """Computed and OrcaFlex's tension at the fairlead [kN], from t = 0 every 0.1 s."""
     anchor, length, n = {50: (400, 410, 164), 200: (700, 760, 76), 600: (1500, 1700, 170)}[depth]
+    n = segments or n
     folder = reference / "lines"
     with (folder / f"orcaflex_motion_ZZP1_{motion}.csv").open() as file:
         rows = [[float(x) for x in row] for row in list(csv.reader(file))[1:]]
@@ -323,7 +336,7 @@ drive = {{ time = {times}, values = {heave} }}
         f"contact_diameter = [{3.35 * 0.14!r}]\nseabed_stiffness = 1e5\nseabed_damping = 1e4\n"
         "seabed_friction = 0.5"
     )
-    run = hydrodae.run(case(text, "end_time = 29.9\nrtol = 1e-3", 0.1))
+    run = hydrodae.run(case(text, f"end_time = 29.9\n{solver}", 0.1))
     with (folder / f"orcaflex_WD{depth:04d}_ZZP1_{motion}.csv").open() as file:
         theirs = np.array([float(row[3]) for row in list(csv.reader(file))[1:]])
     ours = run["forces/line/tension"].values[100:] / 1e3
@@ -334,7 +347,7 @@ drive = {{ time = {times}, values = {heave} }}
 @pytest.mark.parametrize(
     ("depth", "motion", "bar"),
     [
-        (50, "A1", 0.075),
+        pytest.param(50, "A1", 0.075, marks=pytest.mark.slow),
         (50, "A2", 0.028),
         (200, "A1", 0.036),
         (200, "A2", 0.037),
@@ -357,6 +370,30 @@ def test_tensions_of_orcaflex(reference: Path, depth: int, motion: str, bar: flo
     assert np.abs(difference).max() < bar * np.ptp(theirs)
     means = np.convolve(difference, np.full(3, 1.0 / 3.0), "valid")
     assert np.abs(means).max() < 0.05 * np.ptp(theirs)
+
+
+ORCAFLEX_STEP, ORCAFLEX_RADIUS = 0.1, 0.4
+
+
+def test_the_smallest_tension_of_orcaflex_in_its_own_steps(reference: Path) -> None:
+    """Within 5 % of the range with their segments and their generalised alpha of fixed steps.
+
+    That these are 0.1 s long, with a spectral radius of 0.4, shows in the fairlead that they
+    record: it is where the table is at t - alpha_f h, alpha_f = radius / (1 + radius), which is
+    where the method takes forces.
+    """
+    with (reference / "lines" / "orcaflex_WD0050_ZZP1_A1.csv").open() as file:
+        rows = np.array([[float(x) for x in row[:3]] for row in list(csv.reader(file))[1:]])
+    late = ORCAFLEX_RADIUS / (1.0 + ORCAFLEX_RADIUS) * ORCAFLEX_STEP
+    moved = 2.0 * np.sin(0.2 * math.pi * (rows[:, 0] - late))
+    np.testing.assert_allclose(rows[:, 2], moved, atol=1e-3)  # two roundings to the millimetre
+    solver = (
+        f'method = "generalized_alpha"\nstep = {ORCAFLEX_STEP}\n'
+        f"spectral_radius = {ORCAFLEX_RADIUS}\nrtol = 1e-2"
+    )
+    ours, theirs = orcaflex(reference, 50, "A1", solver, 41)
+    assert ours.mean() == pytest.approx(theirs.mean(), rel=1e-3)
+    assert np.abs(ours - theirs).max() < 0.046 * np.ptp(theirs)
 
 
 def test_a_jumper_with_bending_hangs_as_that_of_lowe_and_langley() -> None:
@@ -391,27 +428,39 @@ def jumper(water: str, keys: str, end: float, n: int = 68, deeper: float = 0.0) 
 def beside_lowe_and_langley(
     run: hydrodae.Results, reference: Path, number: int, start: float
 ) -> tuple[float, float]:
-    """Largest difference of the tension at the top [kN], as it is and of theirs 0.08 s later."""
+    """Largest difference of the tension at the top [kN]: as it is, and at the best shift of time
+    by up to 0.1 s, a step of their table, which is read off a printed graph."""
     path = reference / "lines" / f"lowe_langley_case{number}.csv"
     theirs = np.loadtxt(path, delimiter=",", skiprows=1)
     theirs = theirs[theirs[:, 0] + start <= run.time[-1] - 0.1]
     ours = run["forces/line/tension"].values / 1e3
-    early, late = (
+    differences = [
         float(np.abs(np.interp(theirs[:, 0] + start + by, run.time, ours) - theirs[:, 1]).max())
-        for by in (0.0, 0.08)
-    )
-    return early, late
+        for by in np.arange(-0.1, 0.101, 0.02)
+    ]
+    return differences[5], min(differences)
 
 
 @pytest.mark.parametrize(
-    ("number", "coordinate", "deeper", "n", "bar"),
-    [(1, "surge", 20.0, 68, 0.5), (2, "sway", 20.0, 68, 0.5), (3, "heave", 0.0, 136, 0.7)],
+    ("number", "coordinate", "deeper", "n", "bar", "shifted_bar"),
+    [
+        (1, "surge", 20.0, 68, 0.5, 0.27),
+        (2, "sway", 20.0, 68, 0.5, 0.23),
+        (3, "heave", 0.0, 136, 0.7, 0.46),
+    ],
 )
 def test_a_jumper_whose_top_moves_of_lowe_and_langley(
-    reference: Path, number: int, coordinate: str, deeper: float, n: int, bar: float
+    reference: Path,
+    number: int,
+    coordinate: str,
+    deeper: float,
+    n: int,
+    bar: float,
+    shifted_bar: float,
 ) -> None:
     """10 m in 27 s [kN], of 11, 5 and 21 kN from least to most. Up and down, the top of 5 m comes
-    out of the water and dips in again: there it takes twice their segments."""
+    out of the water and dips in again: there it takes twice their segments. All three graphs agree
+    best if they are taken to be 0.1 s early."""
     moves = (
         f'[[body]]\nname = "top"\nmotion = ["{coordinate}"]\nmass = 1e6\n'
         f"center_of_gravity = [0.0, 0.0, {-5.0 - deeper}]\n"
@@ -419,15 +468,17 @@ def test_a_jumper_whose_top_moves_of_lowe_and_langley(
         f'coordinate = "{coordinate}"\ndrive = {{ amplitude = 10.0, period = 27.0, ramp = 27.0 }}\n'
     )
     run = jumper(moves, 'body_b = "top"\n', 27.0 + 30.0, n, deeper)
-    assert beside_lowe_and_langley(run, reference, number, 27.0)[0] < bar
+    found, shifted = beside_lowe_and_langley(run, reference, number, 27.0)
+    assert found < bar
+    assert shifted < shifted_bar
 
 
 @pytest.mark.parametrize(
-    ("number", "heading", "phase", "ramp", "bar", "later"),
+    ("number", "heading", "phase", "ramp", "bar", "shifted_bar"),
     [
-        (4, 0.0, 230.0, 10.0, 0.45, 1.0),
-        (5, 45.0, 165.0, 20.0, 0.99, 0.47),
-        (6, 90.0, 0.0, 10.0, 0.41, 1.0),
+        (4, 0.0, 230.0, 10.0, 0.45, 0.45),
+        (5, 45.0, 165.0, 20.0, 0.99, 0.46),
+        (6, 90.0, 0.0, 10.0, 0.41, 0.41),
     ],
 )
 def test_a_jumper_in_waves_of_lowe_and_langley(
@@ -437,14 +488,14 @@ def test_a_jumper_in_waves_of_lowe_and_langley(
     phase: float,
     ramp: float,
     bar: float,
-    later: float,
+    shifted_bar: float,
 ) -> None:
     """Tension at the top in regular waves of 5 m [kN], of 12 kN from least to most.
 
     Theirs is under water throughout, though its top is where the troughs are: here all is 4 m
-    deeper, in waves that move the water as much there. They grow over one or two periods. Theirs
-    at 45 degrees is 0.08 s early. Without the pressure of the waves along the line the range would
-    be half of that.
+    deeper, in waves that move the water as much there. They grow over one or two periods. Their
+    phases were chosen in steps of 5 degrees, 0.14 s, to fit the graphs. Without the pressure of
+    the waves along the line the range would be half of that.
     """
     deeper, k = 4.0, (2.0 * math.pi / 10.0) ** 2 / 9.807
     height = 10.0 * math.cosh(k * (100.0 + deeper)) / math.cosh(k * 100.0)
@@ -455,7 +506,7 @@ def test_a_jumper_in_waves_of_lowe_and_langley(
     run = jumper(waves + IDLE, "", ramp + 30.0, deeper=deeper)
     found, shifted = beside_lowe_and_langley(run, reference, number, ramp)
     assert found < bar
-    assert shifted < later
+    assert shifted < shifted_bar
 
 
 def test_lines_that_make_no_sense_are_refused() -> None:

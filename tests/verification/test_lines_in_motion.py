@@ -48,6 +48,7 @@ def test_measured_tension_of_a_chain_whose_top_runs_round_a_circle(reference: Pa
     """Slack to taut once a turn, with touchdown; rms over the range, at the best phase.
 
     Coefficients of the experiment's authors, for the diameter of the steel; links 3.35 bars wide.
+    MoorDyn 2.7.2 with as many segments, its load on the fairlead taken in the same way: 2.70 %.
     """
     measured = np.loadtxt(
         reference / "chain_tension" / "tension_3.5s.csv", delimiter=",", skiprows=1
@@ -65,9 +66,9 @@ def test_measured_tension_of_a_chain_whose_top_runs_round_a_circle(reference: Pa
     times = measured[:, 0] + 2.0 * PERIOD
     errors = [
         float(np.sqrt(np.mean((np.interp(times + late, run.time, tension) - measured[:, 1]) ** 2)))
-        for late in np.arange(0.0, PERIOD, 0.01)
+        for late in np.arange(2.9, 3.0, 0.001)
     ]
-    assert min(errors) < 0.027 * np.ptp(measured[:, 1])
+    assert min(errors) < 0.0261 * np.ptp(measured[:, 1])
     assert tension[run.time > 2.0 * PERIOD].max() == pytest.approx(measured[:, 1].max(), rel=0.01)
 
 

@@ -143,6 +143,7 @@ def test_dynamic_lines_in_an_irregular_sea(rm3_planar: Path) -> None:
     tensions = [rest.tensions[f"forces/{name}/tension"] for name in names]
     assert tensions == pytest.approx([162.1e3] * 3, rel=5e-3)
     channels = [f"forces/{name}/tension" for name in names] + [SLIDE]
+    assert "rtol = 1e-4" in case.text
     found, exact = (
         hydrodae.run(hydrodae.Case(path=case.path, values=values))
         for values in ({}, {"solver.rtol": 1e-6})

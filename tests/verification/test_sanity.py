@@ -431,3 +431,22 @@ moment = [0.0, {moment}, 0.0]
     text = flap(repository, more=load.format(moment=stiffness)).examine()
     assert "at rest in still water body 'flap' is at" in text
     assert "at rest in still water" not in flap(repository).examine()
+
+
+@pytest.mark.parametrize(
+    ("keys", "complaint"),
+    [
+        ('type = "rope"\nstiffness = 1e3\nlength = 2.0', "5 times its unstretched length, 2 m"),
+        ('type = "rope"\nstiffness = 1e3\nlength = 4.0', ""),
+        ('type = "rope"\nstiffness = 100.0\npretension = 1e3', "10 times its stiffness EA, 100 N"),
+        ('type = "catenary"\nstiffness = [1e3]\nweight = [1.0]\nlength = [1.0]', "10 times its"),
+        ('type = "line"\nstiffness = [1e3]\nmass = [1.0]\nlength = [1.0]', "10 times its"),
+    ],
+)
+def test_ropes_stretched_beyond_rubber(keys: str, complaint: str) -> None:
+    places = 'body_b = "pole"\npoint_a = [0, 0, -12]\npoint_b = [0, 0, -2]\n'
+    if "rope" in keys:
+        places = 'bodies = ["ground", "pole"]\npoints = [[0, 0, -12], [0, 0, -2]]\n'
+    found = complaints(pole(depth=12.0, more=f'[[force]]\nname = "tether"\n{places}{keys}'))
+    assert len(found) == (1 if complaint else 0)
+    assert all(complaint in text and "force 'tether'" in text for text in found)

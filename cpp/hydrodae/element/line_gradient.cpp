@@ -76,7 +76,7 @@ void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const V
   const Plus<double> s = plus<double>(m.bed + node.axis_height - x[2], node.bed_width);
   if (!(s.value > 0.0))
     return;
-  const Plus<double> down = plus<double>(-v[2], slip_speed);
+  const Plus<double> down = down_rate<double>(-v[2]);
   const double k = node.bed_stiffness, c = node.bed_damping;
   by_x(2, 2) -= k * s.slope + c * s.curvature * down.value;
   by_v(2, 2) -= c * s.slope * down.slope;

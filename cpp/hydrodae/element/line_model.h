@@ -6,7 +6,7 @@
 ///   T       = EA s(strain) + C strain' s'(strain)       s: max(0, .), smooth; none where slack
 ///   F_water = w (Morison's force), along and across t_i = (x_i+1 - x_i-1) / |.|    (morison.h)
 ///   F_bend  = -grad sum_i EI / l_i (1 - e_i-1/2 . e_i+1/2)
-///   F_bed   = (k s(d) + c s'(d) s(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
+///   F_bed   = (k s(d) + c s'(d) p(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
 ///
 /// w: wet part of the node; d: depth of the node in the bed [m]; the bed never pulls. The end nodes
 /// have no inertia of their own: it is that of half a segment beside that of the body.
@@ -199,6 +199,15 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
   return f;
 }
 
+/// p(v) of the damping of the bed, v downwards: v beyond v_s, none on the way up or at rest, so
+/// that it only takes energy. Twice differentiable.
+template <class S> Plus<S> down_rate(const S& v) {
+  if (!(v > S(0)))
+    return {S(0), S(0), S(0)};
+  const S y = v * v / S(slip_speed * slip_speed), part = y / (S(1) + y);
+  return {v * part, part * (S(3) - S(2) * part), S(0)};
+}
+
 template <class S>
 Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, const Vec3<S>& v) {
   using std::sqrt;
@@ -206,7 +215,7 @@ Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, co
   const Plus<S> s = plus<S>(S(m.bed + node.axis_height) - x[2], node.bed_width);
   if (!(s.value > S(0)))
     return f;
-  const S down = plus<S>(S(-v[2]), slip_speed).value;
+  const S down = down_rate<S>(S(-v[2])).value;
   const S drag = S(-node.friction * node.bed_stiffness) * s.value /
                  sqrt(v[0] * v[0] + v[1] * v[1] + S(slip_speed * slip_speed));
   f << drag * v[0], drag * v[1],

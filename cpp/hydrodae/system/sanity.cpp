@@ -1,9 +1,10 @@
-/// Places and coordinates of the mechanism, and all findings together.
+/// Places and coordinates of the mechanism, lengths of ropes, and all findings together.
 
 #include "hydrodae/system/sanity.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -206,6 +207,46 @@ void judge_stops(const model::Scene& scene, const System& s, std::vector<Finding
   }
 }
 
+constexpr double overstretched = 2.0; ///< strain beyond that of any rope, rubber cords among them
+
+/// Ropes and lines of which the ends are much farther apart than they are long.
+void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
+  const auto judge = [&](const auto& force, double chord, double length, double stiffness) {
+    const double strain =
+        force.pretension ? *force.pretension / stiffness : (chord - length) / length;
+    if (!(strain > overstretched))
+      return;
+    out.push_back(
+        {true, "force " + in_quotes(force.name) +
+                   (force.pretension
+                        ? ": its pretension, " + rounded_text(*force.pretension, 3) + " N, is " +
+                              rounded_text(strain, 3) + " times its stiffness EA, " +
+                              rounded_text(stiffness, 3)
+                        : ": its points are " + rounded_text(chord, 3) +
+                              " m apart in the reference pose, " + rounded_text(chord / length, 3) +
+                              " times its unstretched length, " + rounded_text(length, 3)) +
+                   (force.pretension ? " N" : " m")});
+  };
+  const auto judge_line = [&](const auto& line) {
+    judge(line, (line.point_b - line.point_a).norm(),
+          std::accumulate(line.length.begin(), line.length.end(), 0.0),
+          *std::min_element(line.stiffness.begin(), line.stiffness.end()));
+  };
+  for (const element::Rope& rope : std::get<std::vector<element::Rope>>(scene.forces)) {
+    double chord = 0.0;
+    for (std::size_t i = 1; i < rope.points.size(); ++i)
+      chord += (rope.points[i] - rope.points[i - 1]).norm();
+    const double length =
+        !rope.winch_length.empty() ? rope.winch_length.front() : rope.length.value_or(chord);
+    judge(rope, chord, length, rope.stiffness);
+  }
+  for (const auto& line : std::get<std::vector<element::CatenaryLine>>(scene.forces))
+    judge_line(line);
+  for (const element::Line& line : std::get<std::vector<element::Line>>(scene.forces))
+    if (!line.free_end)
+      judge_line(line);
+}
+
 } // namespace
 
 std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& s) {
@@ -214,6 +255,7 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& 
   judge_depth(scene, out);
   judge_forces(Regime(s), out);
   judge_stops(scene, s, out);
+  judge_stretch(scene, out);
   return out;
 }
 

@@ -41,7 +41,7 @@ std::string describe(const System& system, const FloatingGroup& group);
 std::vector<Finding> look_at_bodies(const model::Scene& scene, const System& system);
 
 /// Findings on places and coordinates: joints far from their bodies, points below the sea bed,
-/// forces along motions that are locked, starts beyond stops.
+/// forces along motions that are locked, starts beyond stops, ropes stretched to several lengths.
 std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& system);
 
 /// Findings on the height of the waves against their length and the depth.
