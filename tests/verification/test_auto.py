@@ -102,7 +102,7 @@ def test_where_nothing_fails_the_run_is_that_of_the_method(name: str, tmp_path: 
 
 def test_a_stiff_scene_that_explicit_steps_cannot_pass(tmp_path: Path) -> None:
     scene = MAP["stiff_1e9"]
-    guarded = {**scene.tables, "solver": {**scene.tables["solver"], "error_guard": 0.05}}
+    guarded = {**scene.tables, "solver": {**scene.tables["solver"], "error_guard": 0.005}}
     scene = replace(scene, tables=guarded)
     assert outcome(scene, "explicit_rk", tmp_path).outcome == STOPPED
     assert outcome(scene, "auto", tmp_path).outcome == PASS

@@ -238,7 +238,7 @@ def test_what_ropes_damp_between_mechanisms_is_forgotten() -> None:
     """A light buoy whose ropes go slack: their damping, on no body alone, takes its errors."""
     ratio = known_ratio(MOORED, "buoy", end_time=60.0, method="explicit_rk", rtol=1e-5)
     assert ratio is not None
-    assert 0.1 < ratio < 10.0  # 0.03 where only what the buoy itself loses counts
+    assert 0.05 < ratio < 10.0  # 0.03 where only what the buoy itself loses counts
 
 
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])

@@ -198,10 +198,12 @@ double ErrorGrowth::between_rough(Index g, double level) {
   return level;
 }
 
-bool ErrorGrowth::is_rough(Index g) const { return change_[g] > rough; }
+bool ErrorGrowth::is_rough(Index g) const {
+  return change_[g] > rough || (kinks_[static_cast<std::size_t>(g)] && error_.change[g] > 0.25);
+}
 
 void ErrorGrowth::fade(Index g, double factor) {
-  if (is_rough(g))
+  if (change_[g] > rough && !kinks_[static_cast<std::size_t>(g)])
     error_.piled[g] *= factor;
 }
 

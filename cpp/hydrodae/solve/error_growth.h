@@ -174,6 +174,7 @@ private:
   LinearFlow::Look last_look_;
   double substep_ = 0.0; ///< in which the vector turns by half a radian at most [s]; 0: not known
   double doubt_ = 0.0;   ///< ln of the growth since the last look that may come of its distance
+  double plainly_altered_ = 0.0; ///< part of the errors that the last look's change alters
 };
 
 } // namespace hydrodae::solve

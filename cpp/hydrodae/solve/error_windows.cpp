@@ -17,6 +17,7 @@ constexpr double much_altered = 0.6, little_altered = 0.2;
 // ever more out of step, and slow growth is not to be lost in doubts.
 constexpr double closer = 3.0, close = 2.0, changing = 0.25;
 constexpr double doubtful_of_altered = 0.15; // growth between looks, of the square of that
+constexpr double kink = 0.8;                 // part altered from which on it is looked for
 } // namespace
 
 bool ErrorGrowth::add_with_signs(double t, const VectorX& step_error, const VectorX& unit,
@@ -80,7 +81,7 @@ double ErrorGrowth::carry_pieces(std::size_t first, std::size_t n, const VectorX
   double altered = INFINITY;
   if (h > 0.0 && flow_.look(end.time, end.y, end.yp, substeps)) {
     altered = carry_window(first, n, end.time - h, h / substeps, unit);
-    if (altered <= much_altered || n == 1) {
+    if (plainly_altered_ <= kink || n == 1) {
       for (VectorX* vector : {&error_.middle, &error_.old})
         for (int i = 0; i < substeps && !vector->isZero(0.0); ++i)
           flow_.step(*vector);
@@ -128,8 +129,8 @@ double ErrorGrowth::carry_window(std::size_t first, std::size_t n, double start,
   };
   take_turn(h, part(e - before, 1.0, 1.0));
   const VectorX effect = flow_.effect(e);
-  const double altered = substeps * part(effect, 1.0, 1.0);
-  doubt_ += doubtful_of_altered * altered * altered;
+  plainly_altered_ = substeps * part(effect, 1.0, 1.0);
+  doubt_ += doubtful_of_altered * plainly_altered_ * plainly_altered_;
   return substeps * part(effect, closer, close);
 }
 
