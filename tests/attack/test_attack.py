@@ -30,7 +30,8 @@ SAMPLE = (
     "gears_1", "torsion_spring_2", "wheel_on_a_swing_1", "pushed_pendulum_1", "radial_start_2",
     "drive_from_rest_2", "crank_alone_1", "start_at_floor_3", "flipped_sphere_1",
     "flipped_sphere_2", "flipped_sphere_3", "band_that_feeds_1", "falsely_passive_1",
-    "slack_pair_2", "bistable_float_1", "sound_sphere_2", "misaligned_door_1", "misaligned_door_4", "submerged_pendulum_1",
+    "slack_pair_2", "bistable_float_1",
+    "sound_sphere_2", "misaligned_door_1", "misaligned_door_4", "submerged_pendulum_1",
     "submerged_pendulum_3", "compliant_stop_1", "pressed_incline_3", "timed_impact_2", "pi_block_2",
     "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3",
 )  # fmt: skip
