@@ -1,6 +1,7 @@
 #include "hydrodae/run/guards.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -100,6 +101,34 @@ private:
   Judges judges_;
 };
 
+/// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
+/// without end, and no shorter one is better.
+class RoundingCheck : public Guard {
+public:
+  RoundingCheck(const system::Regime& s, double rtol) : s_(s), rtol_(rtol) {}
+  void check(const Step& step) override {
+    constexpr double allowed = 100.0; // tolerances; a sound error test bears some
+    constexpr double rounding = std::numeric_limits<double>::epsilon();
+    const auto size = step.y.head(s_.lambda0).array().abs();
+    const auto tolerance =
+        rtol_ * (s_.scale.head(s_.lambda0).array() + s_.relative.head(s_.lambda0).array() * size);
+    Index i = 0;
+    const double worst = (rounding * size - allowed * tolerance).maxCoeff(&i);
+    if (worst > 0.0)
+      throw SolverError(
+          step.end,
+          "stopped at t = " + number_text(step.end) +
+              " s: the motion grows beyond all bounds: " + s_.names[static_cast<std::size_t>(i)] +
+              " = " + rounded_text(step.y[i]) + " is rounded by " +
+              rounded_text(rounding * size[i]) + ", where solver.rtol asks for " +
+              rounded_text(tolerance[i]) + " (is the scene unstable, or fed without a loss?)");
+  }
+
+private:
+  const system::Regime& s_;
+  double rtol_;
+};
+
 /// Friction that its joint presses, against Painleve's paradox.
 class JamCheck : public Guard {
 public:
@@ -188,6 +217,8 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const VectorX& y, const Judges& judges,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
+  if (options.step <= 0.0 && system.lambda0 > 0)
+    guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   solve::EnergyGuard energy(system, options);
   const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
   watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);

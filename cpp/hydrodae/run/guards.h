@@ -83,8 +83,8 @@ struct Judges {
   const system::Pattern& pattern; ///< of the rows that hold
 };
 
-/// All guards that the options ask for, in the order in which they look: energy, fixed steps,
-/// velocities that jump, constraints that drift, piled up errors.
+/// All guards that the options ask for, in the order in which they look: rounding, energy, fixed
+/// steps, velocities that jump, constraints that drift, piled up errors.
 /// @param watch takes the watch over singular poses, which outlives the guards
 /// @param y pose of the start
 std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
