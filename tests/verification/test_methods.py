@@ -189,7 +189,7 @@ def test_formulations_agree(formulation: str, method: str) -> None:
     ids=lambda solver: solver["method"],
 )
 def test_joints_are_closed_at_samples_between_steps(solver: dict[str, Any]) -> None:
-    """Where interpolants of long steps part the rod by up to 1e-4 m. The steps know nothing of it."""
+    """Where interpolants of long steps part it by up to 1e-4 m. The steps know nothing of it."""
     values = {f"solver.{key}": value for key, value in solver.items()}
     values |= {"solver.end_time": 2.0, "solver.rtol": 1e-3}
     statistics = []
