@@ -6,6 +6,7 @@ the results (`bodies/u3_flap`) and in the database (`hydro = "u3_flap"`).
 
 from __future__ import annotations
 
+import difflib
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -115,6 +116,62 @@ def place(
                 keys = {key: _moved(key, value, unit, own, offset) for key, value in entry.items()}
                 _add(array, table, keys)
     return array
+
+
+@dataclass(frozen=True)
+class Unit:
+    """What belongs to one unit of an array, by the names that the device has alone.
+
+    `unit(results, 3)["bodies/flap/position"]` is `results["bodies/u3_flap/position"]`.
+    """
+
+    results: Mapping[str, Any]
+    name: str
+
+    def __getitem__(self, channel: str) -> Any:
+        """Return a channel of the unit; KeyError, with those that there are, for any other."""
+        names = dict(zip(self.channels(), _of_unit(self.results, self.name), strict=True))
+        if channel not in names:
+            near = difflib.get_close_matches(channel, names, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"unit {self.name!r} has no channel {channel!r}{hint}")
+        return self.results[names[channel]]
+
+    def channels(self) -> list[str]:
+        """Names of the channels, as of the device alone."""
+        return [
+            channel.replace(f"/{self.name}_", "/", 1)
+            for channel in _of_unit(self.results, self.name)
+        ]
+
+
+def unit(results: Mapping[str, Any], name: str | int) -> Unit:
+    """Return the part of the results that belongs to one unit of an array.
+
+    Parameters
+    ----------
+    results : Results
+        Of a scene that `place` made.
+    name : str or int
+        Of the unit; 3 stands for "u3", as `hexagonal` names them.
+
+    Raises
+    ------
+    CaseError
+        No channel belongs to such a unit.
+    """
+    found = Unit(results, f"u{name}" if isinstance(name, int) else name)
+    if not found.channels():
+        bodies = sorted({c.split("/")[1] for c in results if c.startswith("bodies/")})
+        raise CaseError(
+            f"unit {found.name!r}: nothing in the results has a name '{found.name}_...'; "
+            f"the bodies are {', '.join(bodies)}"
+        )
+    return found
+
+
+def _of_unit(results: Mapping[str, Any], unit: str) -> list[str]:
+    return [channel for channel in results if f"/{unit}_" in channel]
 
 
 def _number(value: Any) -> float:

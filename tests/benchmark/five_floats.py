@@ -8,7 +8,7 @@ lines of 165 segments in all of which four meet in a weight below the bow, 50 m 
 3 m and 10 s, spread by cos^24. Masses, inertias, springs, damping, lines and sea are those of the
 demonstration, but not the water: in place of long tubes these are wide vertical cylinders of the
 same displacement, with a memory that is made up as in hexagonal_arrays.py. So it costs what that
-case costs, and answers nothing about it.
+case costs, and answers nothing about it. `--lines catenary` takes quasi-static lines instead.
 """
 
 from __future__ import annotations
@@ -65,8 +65,8 @@ def water() -> hdb.HydroDatabase:
     return with_bank(tables, [list(tables.coordinates)], BANK)
 
 
-def scene(directory: Path) -> hydrodae.Scene:
-    """Attenuator on its lines, whose database is hydro.h5 in the directory."""
+def scene(directory: Path, lines: str = "line") -> hydrodae.Scene:
+    """Attenuator on lines of this type, whose database is hydro.h5 in the directory."""
     made = hydrodae.Scene("Five floats on five lines", directory=directory)
     made.hydro(database="hydro.h5")
     for name, (x, y) in PLACES.items():
@@ -100,6 +100,20 @@ def scene(directory: Path) -> hydrodae.Scene:
             )
     made.body("weight", motion="point", mass=3000.0, center_of_gravity=WEIGHT, volume=0.5)
     for name, (a, point_a, b, point_b, length, segments) in LINES.items():
+        if lines == "catenary":
+            (mass,), (diameter,) = ROPE["mass"], ROPE["diameter"]
+            made.force.catenary(
+                name,
+                body_a=a,
+                body_b=b,
+                point_a=point_a,
+                point_b=point_b,
+                length=[length],
+                weight=[9.81 * (mass - 0.25 * math.pi * diameter**2 * DENSITY)],
+                stiffness=ROPE["stiffness"],
+                seabed=a == "ground",
+            )
+            continue
         made.force.line(
             name,
             body_a=a,
@@ -122,12 +136,13 @@ def scene(directory: Path) -> hydrodae.Scene:
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--end", type=float, default=600.0, help="of the run, s")
+    parser.add_argument("--lines", choices=("line", "catenary"), default="line")
     parser.add_argument("--rtol", type=float, nargs="+", default=(1e-3, 1e-4))
     given = parser.parse_args()
     print(f"load of the machine (1 min): {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     with tempfile.TemporaryDirectory() as folder:
         water().write(Path(folder) / "hydro.h5")
-        case = scene(Path(folder)).case().with_values({"solver.end_time": given.end})
+        case = scene(Path(folder), given.lines).case().with_values({"solver.end_time": given.end})
         for rtol in given.rtol:
             before = time.process_time()
             results = hydrodae.run(case, Path(folder) / "results.h5", set={"solver.rtol": rtol})

@@ -181,3 +181,15 @@ def test_impossible_arrays_are_refused(tmp_path: Path, array_database: hdb.Hydro
     for count, spacing in grids:
         with pytest.raises(CaseError, match="expected an integer > 0 and a finite number > 0"):
             arrays.hexagonal(count, spacing)
+
+
+def test_channels_of_a_unit_have_the_names_of_the_device() -> None:
+    results = {"bodies/u1_flap/position": 1, "bodies/u11_flap/position": 2, "energy/work/u1_pto": 3}
+    first = arrays.unit(results, 1)
+    assert first.channels() == ["bodies/flap/position", "energy/work/pto"]
+    assert first["bodies/flap/position"] == 1
+    assert arrays.unit(results, "u11")["bodies/flap/position"] == 2
+    with pytest.raises(KeyError, match=r"unit 'u1' has no channel 'bodies/flop/position'; did you"):
+        first["bodies/flop/position"]
+    with pytest.raises(CaseError, match=r"unit 'u7': nothing .* the bodies are u11_flap, u1_flap"):
+        arrays.unit(results, 7)

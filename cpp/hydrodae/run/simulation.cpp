@@ -167,6 +167,8 @@ bool Simulation::take_step(double end) {
     choose_quadrature();
     recorder_->begin(t_, inside_);
     at_(t_, y_, yp_);
+    if (closing_)
+      closing_->accept(t_, y_, yp_);
     if (!take_back(event))
       return event;
   }

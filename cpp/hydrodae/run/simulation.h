@@ -17,6 +17,7 @@
 #include "hydrodae/run/method_choice.h"
 #include "hydrodae/run/state.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/solve/sample_closing.h"
 #include "hydrodae/solve/switching.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
@@ -131,6 +132,7 @@ private:
   void choose_method();
   void use_method();
   void make_integrator();
+  void make_closing();
   void fall_back(const SolverError& error);
   bool take_step(double end);
   bool take_back(bool event);
@@ -170,6 +172,7 @@ private:
   std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps
   std::unique_ptr<system::MotionScale> scale_;      ///< adapts the tolerances
   std::unique_ptr<solve::Integrator> integrator_;
+  std::unique_ptr<solve::SampleClosing> closing_; ///< null: no rows, or rows that drift
   std::unique_ptr<solve::Trust> trust_;
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<PoseWatch> poses_;

@@ -42,6 +42,7 @@ void Simulation::make_integrator() {
   for (;;) {
     try {
       integrator_ = solve::make_integrator(regime_, pattern_, options_, t_, y_, yp_);
+      make_closing();
       return;
     } catch (const SolverError& error) {
       if (!methods_.chosen())
@@ -50,6 +51,14 @@ void Simulation::make_integrator() {
       use_method();
     }
   }
+}
+
+/// Samples of formulations that drift show their drift.
+void Simulation::make_closing() {
+  closing_.reset();
+  if (regime_.n_lambda > 0 && regime_.formulation == system::Formulation::stabilised)
+    closing_ =
+        std::make_unique<solve::SampleClosing>(regime_, pattern_, options_.method != "explicit_rk");
 }
 
 /// The next method goes on from the last accepted instant, as this one has met an error there. What

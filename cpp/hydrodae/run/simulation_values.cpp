@@ -8,7 +8,12 @@
 namespace hydrodae::run {
 
 void Simulation::sample(double t, std::span<double> row) {
-  recorder_->sample(t, at_, row.first(recorder_->width()));
+  const auto closed = [this](double at, VectorX& y, VectorX& yp) {
+    at_(at, y, yp);
+    if (closing_)
+      closing_->close(at, y, yp);
+  };
+  recorder_->sample(t, closed, row.first(recorder_->width()));
   fill_counts(row);
 }
 

@@ -1,0 +1,40 @@
+#include "hydrodae/solve/sample_closing.h"
+
+#include <cmath>
+
+namespace hydrodae::solve {
+
+namespace {
+constexpr double tolerance = 1e-10; ///< of gaps and their rates, in units of their scale
+constexpr double far = 0.1;         ///< likewise: more is no error of an interpolant
+} // namespace
+
+SampleClosing::SampleClosing(const system::Regime& system, const system::Pattern& pattern,
+                             bool rates)
+    : s_(system), first_(rates ? system.lambda0 : system.mu0), equations_(system, pattern, 1.0),
+      residual_(system.n) {}
+
+bool SampleClosing::open(double t, const VectorX& y, const VectorX& yp) {
+  residual_.setZero();
+  if (!equations_.constraint_residual(t, y, yp, residual_))
+    return false;
+  double size = 0.0;
+  for (Index i = first_; i < s_.sigma0; ++i)
+    size = std::max(size, std::abs(residual_[i]) / s_.row_scale[i]);
+  return size > tolerance && size < far;
+}
+
+void SampleClosing::close(double t, VectorX& y, const VectorX& yp) {
+  rates_ = VectorX::Zero(s_.n); // without the multipliers' part of q'
+  closed_ = y;
+  closed_.tail(s_.n - s_.lambda0).setZero();
+  if (!open(t, closed_, rates_))
+    return;
+  if (!saddle_)
+    saddle_.emplace(equations_);
+  rates_ = yp;
+  if (saddle_->accelerations(t, closed_, rates_) && saddle_->project(t, closed_))
+    y.head(s_.z0) = closed_.head(s_.z0);
+}
+
+} // namespace hydrodae::solve

@@ -1,0 +1,36 @@
+#pragma once
+/// Closes the joints of a sample between two steps. The interpolant of a method misses the
+/// constraints by its own error, where the ends of its steps meet them.
+
+#include <optional>
+
+#include "hydrodae/solve/saddle_point.h"
+
+namespace hydrodae::solve {
+
+class SampleClosing {
+public:
+  /// Of rows that stay as they are in `system`, which must outlive it, as must `pattern`.
+  /// @param rates false: gaps alone call for it, as rates of gaps cost a sample more than they are
+  ///   worth where the method closes these itself
+  SampleClosing(const system::Regime& system, const system::Pattern& pattern, bool rates);
+
+  /// To be told of each step's end: drives and couplers of angles know on which turn these are.
+  void accept(double t, const VectorX& y, const VectorX& yp) { equations_.accept(t, y, yp); }
+
+  /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, where they
+  /// miss them by more than a tolerance far below any of a run. In a pose where that does not
+  /// succeed (a singular one) they stay.
+  void close(double t, VectorX& y, const VectorX& yp);
+
+private:
+  bool open(double t, const VectorX& y, const VectorX& yp);
+
+  const system::Regime& s_;
+  const Index first_; ///< row that is looked at
+  Equations equations_;
+  std::optional<SaddlePoint> saddle_; ///< made for the first sample that is open
+  VectorX residual_, closed_, rates_;
+};
+
+} // namespace hydrodae::solve
