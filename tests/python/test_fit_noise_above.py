@@ -225,7 +225,7 @@ def test_a_hopeless_table_is_not_fitted_before_the_part_that_can_be_met(right, m
 
 
 def test_lateral_motions_of_a_body_of_revolution_take_the_planar_fit(right):
-    told = []
+    told: list[str] = []
     labels = [f"buoy.{dof}" for dof in ("surge", "sway", "roll", "pitch")]
     fit = hdb.fit(right, labels, band=BAND, progress=told.append).memory["default"]
     assert sum("tables of a group before" in text for text in told) == 1
