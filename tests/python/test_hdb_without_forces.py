@@ -65,6 +65,15 @@ def test_rows_of_other_motions_of_a_body_are_told(pair):
         assert "couples surge with roll" in errors(taken(pair, order))["motions of a body"]
 
 
+def test_moments_about_another_point_are_told(pair):
+    body = pair.bodies["a"]
+    for height, told in ((250.0, "far above the water"), (-70.0, "below the ground")):
+        point = np.array([0.0, 0.0, height])
+        moved = {**pair.bodies, "a": dataclasses.replace(body, reference_point=point)}
+        found = errors(dataclasses.replace(pair, bodies=moved))["motions of a body"]
+        assert told in found
+
+
 def test_frequencies_in_another_unit_are_told_by_hulls_or_not_checked(pair):
     """A(w) and B/w keep their values: causality holds, waves of another length do not."""
 

@@ -35,6 +35,8 @@ CROSSED, MATTERS = 3.0, 0.02
 ROUND = 0.05
 #: Share of the depth below the ground where no pressure acts.
 BELOW = 0.05
+#: Height above the water over the body's width: 0.6 of a float with a heave plate, 5 of a flat cap.
+ABOVE = 10.0
 
 
 def place_findings(database: HydroDatabase) -> list[Finding]:
@@ -158,15 +160,19 @@ def _crossed(db: HydroDatabase, name: str) -> str:
 
 
 def _buried(db: HydroDatabase, name: str) -> str:
-    """Tell pressures that act below the ground."""
+    """Tell pressures that act below the ground, or far above the water."""
     a, point = _block(db, name), db.bodies[name].reference_point
-    if a is None or point is None or not np.isfinite(db.water_depth):
+    if a is None or point is None:
         return ""
-    heights = (a[3, 0] / a[0, 0], -a[2, 1] / a[1, 1])
-    lowest = float(np.asarray(point)[2]) + min(heights)
-    if lowest > -(1.0 + BELOW) * db.water_depth:
+    level = float(np.asarray(point)[2])
+    heights = (level + a[3, 0] / a[0, 0], level - a[2, 1] / a[1, 1])
+    if max(heights) > ABOVE * _width(db, name):
+        where = f"{max(heights):.4g} m, far above the water"
+    elif min(heights) < -(1.0 + BELOW) * db.water_depth:
+        where = f"{min(heights):.4g} m, below the ground at {-db.water_depth:g} m"
+    else:
         return ""
     return (
-        f"its added mass of surge or sway acts at z = {lowest:.4g} m, below the ground at "
-        f"{-db.water_depth:g} m: is it of another body, or are its moments about another point?"
+        f"its added mass of surge or sway acts at z = {where}: is it of another body, or are its "
+        f"moments about another point?"
     )

@@ -19,7 +19,7 @@ GARBLED = 10.0
 EXCHANGED = 2.0
 #: Median of surge, sway and heave, over the largest A, by which A_inf of a file may miss that of
 #: its A and B: 0.17 of a table that ends early.
-FOREIGN = 0.5
+FOREIGN = 0.3
 #: Couplings below this share of the largest added mass are noise.
 LEAST_COUPLING = 0.02
 
