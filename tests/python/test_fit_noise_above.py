@@ -200,3 +200,34 @@ def test_a_misfit_that_neighbours_share_is_no_noise():
     assert not as_near(
         dataclasses.replace(near, weighted_band=1e-3, weighted_outside=0.2), 0.0, goal
     )
+
+
+def test_a_hopeless_table_is_not_fitted_before_the_part_that_can_be_met(right, monkeypatch):
+    from hydrodae import memory
+
+    i = right.index("buoy.heave")[0]
+    b = right.radiation_damping.copy()
+    high = right.omega > 1.5
+    b[high, i, i] += b[:, i, i].max() * np.random.default_rng(3).standard_normal(high.sum())
+    tried = []
+    whole = memory.fit_memory
+
+    def counted(tables, *args, **options):
+        tried.append(tables.omega.size)
+        return whole(tables, *args, **options)
+
+    monkeypatch.setattr(memory, "fit_memory", counted)
+    noisy = dataclasses.replace(right, radiation_damping=b)
+    fit = hdb.fit(noisy, "buoy.heave", band=BAND).memory["default"]
+    assert fit.report["target_met"]
+    assert len(tried) == 1
+    assert tried[0] < right.omega.size
+
+
+def test_lateral_motions_of_a_body_of_revolution_take_the_planar_fit(right):
+    told: list[str] = []
+    labels = [f"buoy.{dof}" for dof in ("surge", "sway", "roll", "pitch")]
+    fit = hdb.fit(right, labels, band=BAND, progress=told.append).memory["default"]
+    assert sum("tables of a group before" in text for text in told) == 1
+    assert fit.report["passive"]
+    assert fit.report["h_error_band"] < 2e-3

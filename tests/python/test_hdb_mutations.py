@@ -287,3 +287,14 @@ def test_halves_of_added_mass_far_apart_are_an_error(copy):
     _, report = hdb.import_database(path.parents[1])
     errors = [f.message for f in report.findings if f.severity == "error"]
     assert any("asymmetry" in message and "of the diagonal" in message for message in errors)
+
+
+def test_a_garbled_frequency_names_its_line(copy):
+    path = copy("twospheres_capytaine_legacy") / "results" / "RadiationCoefficients.tec"
+    lines = path.read_text().splitlines()
+    at = next(i for i, line in enumerate(lines) if re.match(r"\s*\d", line)) + 3
+    right = lines[at].split()
+    for word, told in (("0.0", rf"tec:{at + 1}: .* > 0, but is 0"), ("77.7", f"in line {at + 1};")):
+        path.write_text("\n".join([*lines[:at], " ".join([word, *right[1:]]), *lines[at + 1 :]]))
+        with pytest.raises(DatabaseError, match=told):
+            read_source(path.parents[1])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,6 +29,8 @@ OUTSIDE = 0.3
 ABOVE, LEAST_ROWS = (2.0, 1.2), 12
 #: Eigenvalue of B below that of the largest, near the band, which no passive fit goes with.
 NEGATIVE = -1e-3
+#: Vector fits so many times off the target cannot meet it; those within such a share do easily.
+HOPELESS, EASY = 2.0, 0.5
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
 #: beyond so many times its largest in the tables.
 INERTIA, RINGS = 0.05, 1.5
@@ -129,46 +131,95 @@ def fit(
     moving = _labels(inputs, database)
     options["outputs"] = None if loads is None else _labels(loads, database)
 
-    def refusals(trial: ExponentialMemory) -> dict[str, str]:
-        return {key: text for key, text in missed(trial.report).items() if key not in allowed}
-
     judged = band or DEFAULT_BAND
     tables, garbled = without_lone_rows(database, moving, judged)
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always", MemoryFitWarning)
-        made = fit_memory(tables, inputs=moving, name=name, **options)
-    if garbled:
-        made = replace(made, report={**made.report, "left_out": garbled})
-    refused = refusals(made)
-    near: ExponentialMemory | None = None
-    if list(refused) == ["target"] and target is None and made.report.get("as_near_as_noise"):
-        near = made
-    for bad, text in ways_out(tables.select(moving), judged) if refused else []:
+
+    def attempt(bad: NDArray[np.bool_], text: str) -> _Attempt:
+        """Fit without some frequencies, which the report tells."""
+        away = {**options, "target_outside": OUTSIDE} if bad.any() else options
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", MemoryFitWarning)
+            made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **away)
+        left_out = "; ".join(part for part in (garbled, text) if part)
+        if left_out:
+            made = replace(made, report={**made.report, "left_out": left_out})
+        refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
+        return _Attempt(made, refused, told)
+
+    def on_noise(trial: _Attempt) -> bool:
+        noisy = list(trial.refused) == ["target"] and target is None
+        return noisy and bool(trial.made.report.get("as_near_as_noise"))
+
+    whole = np.zeros(tables.omega.size, bool)
+    if states is None and method in (None, "auto"):
+        looked: dict[str, Any] = {
+            k: options[k] for k in ("band", "target", "uniform") if k in options
+        }
+        easy = _easy_way(tables, moving, judged, looked)
+        if easy is not None:
+            if progress is not None:
+                progress(easy[1])
+            trial = attempt(*easy)
+            if not trial.refused and goes_on(trial.made, tables):
+                return _with(database, name, trial)
+    best = attempt(whole, "")
+    near = best if on_noise(best) else None
+    for bad, text in ways_out(tables.select(moving), judged) if best.refused else []:
         if progress is not None:
             progress(text)
-        options["target_outside"] = OUTSIDE
-        with warnings.catch_warnings(record=True) as then:
-            warnings.simplefilter("always", MemoryFitWarning)
-            again = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
-        left = refusals(again)
-        if not goes_on(again, tables):
+        again = attempt(bad, text)
+        if not goes_on(again.made, tables):
             continue
-        text = "; ".join(part for part in (garbled, text) if part)
-        again = replace(again, report={**again.report, "left_out": text})
-        noisy = list(left) == ["target"] and target is None
-        if noisy and again.report.get("as_near_as_noise") and _nearer(again, near):
+        if on_noise(again) and (near is None or _nearer(again.made, near.made)):
             near = again
-        if len(left) < len(refused):
-            made, refused, told = again, left, then
-        if not refused:
+        if len(again.refused) < len(best.refused):
+            best = again
+        if not best.refused:
             break
-    if refused and near is not None:
-        made, told, refused = _as_noise(near), [], {}
-    if refused:
-        raise DatabaseError(f"fit '{name}' {_refusal(refused)}")
-    for warning in told:
-        warnings.warn(warning.message, stacklevel=2)
-    return replace(database, memory={**database.memory, name: made})
+    if best.refused and near is not None:
+        best = _Attempt(_as_noise(near.made), {}, [])
+    if best.refused:
+        raise DatabaseError(f"fit '{name}' {_refusal(best.refused)}")
+    return _with(database, name, best)
+
+
+@dataclass(frozen=True)
+class _Attempt:
+    """A fit, what it is refused for, and the warnings that it made."""
+
+    made: ExponentialMemory
+    refused: dict[str, str]
+    told: list[warnings.WarningMessage]
+
+
+def _with(database: HydroDatabase, name: str, fit: _Attempt) -> HydroDatabase:
+    """Return the database with a fit, whose warnings are given."""
+    for warning in fit.told:
+        warnings.warn(warning.message, stacklevel=3)
+    return replace(database, memory={**database.memory, name: fit.made})
+
+
+def _easy_way(
+    database: HydroDatabase,
+    moving: Sequence[str],
+    band: tuple[float, float],
+    options: dict[str, Any],
+) -> tuple[NDArray[np.bool_], str] | None:
+    """Return the first of `ways_out` by which tables that no smooth function follows can be met.
+
+    A look by vector fits spares minutes of passive fits that cannot meet the target.
+    """
+    from hydrodae.memory.reach import reach
+
+    whole = reach(database, moving, worst=HOPELESS, **options)
+    if whole is None or whole <= HOPELESS:
+        return None
+    options = {**options, "target_outside": OUTSIDE, "worst": EASY}
+    for bad, text in ways_out(database.select(moving), band):
+        found = reach(at(database, ~bad), moving, **options)
+        if found is not None and found <= EASY:
+            return bad, text
+    return None
 
 
 def without_lone_rows(
@@ -200,10 +251,9 @@ def without_lone_rows(
     return at(database, ~bad), f"{text}: left out"
 
 
-def _nearer(fit: ExponentialMemory, other: ExponentialMemory | None) -> bool:
-    """Tell whether a fit is nearer to its tables in the band than another, if there is one."""
-    key = "weighted_error_band"
-    return other is None or bool(fit.report[key] < other.report[key])
+def _nearer(fit: ExponentialMemory, other: ExponentialMemory) -> bool:
+    """Tell whether a fit is nearer to its tables in the band than another."""
+    return bool(fit.report["weighted_error_band"] < other.report["weighted_error_band"])
 
 
 def _as_noise(fit: ExponentialMemory) -> ExponentialMemory:

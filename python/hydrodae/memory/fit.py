@@ -30,6 +30,8 @@ REPORTED = 2_000_000
 DEFAULT_BAND = (0.04, 1.0)
 """Frequencies of the rigid resonances and of swell at full scale, rad/s."""
 
+TARGET, TARGET_OUTSIDE, BAND_WEIGHT = 4.5e-4, 0.15, 500.0
+"""Relative errors of H in the band and outside it, and the weight of the band."""
 UNIFORM_WEIGHT = 10.0
 """Most weight of the band where the goal is one error of H over its largest entry."""
 
@@ -51,9 +53,9 @@ def fit_memory(
     outputs: Sequence[str] | None = None,
     band: tuple[float, float] | None = None,
     max_states: int | None = None,
-    target: float = 4.5e-4,
-    target_outside: float = 0.15,
-    band_weight: float = 500.0,
+    target: float = TARGET,
+    target_outside: float = TARGET_OUTSIDE,
+    band_weight: float = BAND_WEIGHT,
     name: str = "default",
     progress: Progress | None = None,
     uniform: float | None = None,
@@ -178,15 +180,16 @@ def _fit_groups(
 ) -> list[FittedGroup]:
     """Fit the groups one after the other; states that one leaves go to the next.
 
-    Groups whose tables are those of one before (equal devices that do not radiate into each other)
-    take its fit.
+    Groups whose tables are those of one before but for signs (equal devices that do not radiate
+    into each other; surge with pitch and sway with roll of a body of revolution) take its fit.
     """
     made: list[FittedGroup] = []
     left, rest = goal.max_states, sum(group.size for group in groups)
     for group in groups:
         cap = None if left is None else max(2, left * group.size // rest)
         before = zip(groups, made, strict=False)
-        found = next((fit for own, fit in before if _alike(data, own, fit, group, goal)), None)
+        turned = (_alike(data, own, fit, group, goal) for own, fit in before)
+        found = next((fit for fit in turned if fit is not None), None)
         if found is not None and (cap is None or found.fit.modes.n_states <= cap):
             say(f"{labels[group[0]]} and {group.size - 1} more: tables of a group before, its fit")
             made.append(found)
@@ -199,17 +202,32 @@ def _fit_groups(
 
 def _alike(
     data: ImpedanceData, own: IntArray, made: FittedGroup, group: IntArray, goal: Goal
-) -> bool:
-    """Tell whether the tables of another group are those of a fitted one, as symmetric ones are."""
+) -> FittedGroup | None:
+    """Return the fit of a group for another one whose tables are the same, as symmetric ones are.
+
+    Coordinates may count the other way round: roll against sway is -pitch against surge.
+    """
     if group.size != own.size:
-        return False
-    scale = made.scale * made.scale[:, None]
-    off = (data.stored[:, group[:, None], group] - data.stored[:, own[:, None], own]) / scale
+        return None
+    ours = data.stored[:, group[:, None], group]
+    theirs = data.stored[:, own[:, None], own]
+    towards = np.einsum("wij,wij->ij", theirs.conj(), ours).real[0]
+    sign = np.where(towards < 0.0, -1.0, 1.0)
+    if made.blocks and np.any(sign < 0.0):
+        return None
+    off = (ours - theirs * np.outer(sign, sign)) / (made.scale * made.scale[:, None])
     problem = made.fit.problem
+    entries = sign[problem.rows] * sign[problem.columns]
+    modes = made.fit.modes
     lost = measure(
-        off[:, problem.rows, problem.columns], made.fit.modes.added_mass, problem, goal.band
+        off[:, problem.rows, problem.columns] * entries, modes.added_mass, problem, goal.band
     )
-    return goal.met(lost, SYMMETRIC)
+    if not goal.met(lost, SYMMETRIC):
+        return None
+    samples = replace(problem.samples, value=problem.samples.value * entries)
+    modes = replace(modes, vectors=modes.vectors * sign, added_mass=modes.added_mass * entries)
+    fit = replace(made.fit, modes=modes, problem=replace(problem, samples=samples))
+    return replace(made, fit=fit)
 
 
 def _checked_band(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:

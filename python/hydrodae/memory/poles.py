@@ -22,9 +22,9 @@ STARTS = (
 
 
 def rich_poles(
-    problem: Problem, goal: Goal, say: Progress
+    problem: Problem, goal: Goal, say: Progress, most: int = 32
 ) -> tuple[dict[int, ComplexArray], float]:
-    """Raise the number of common poles until vector fits near the goal.
+    """Raise the number of common poles, up to `most`, until vector fits near the goal.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def rich_poles(
     found: dict[int, ComplexArray] = {}
     misses: list[float] = []
     after = 0
-    for count in range(4, min(36, problem.samples.omega.size // 2), 4):
+    for count in range(4, min(most + 4, problem.samples.omega.size // 2), 4):
         _, found[count] = best_poles(problem, count, found.get(count - 4))
         miss = _vector_miss(found[count], problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")

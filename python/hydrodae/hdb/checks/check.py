@@ -21,6 +21,8 @@ from hydrodae.hdb.checks.irregular import irregular_findings, ogilvie_residual
 from hydrodae.hdb.checks.lone import lone_findings
 from hydrodae.hdb.checks.longwave import long_wave_findings
 from hydrodae.hdb.checks.one_heading import one_heading_findings
+from hydrodae.hdb.checks.places import place_findings
+from hydrodae.hdb.checks.rows import row_findings
 from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
@@ -44,7 +46,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
     -------
     CheckReport
         In the order grid, headings, memory, symmetry, energy, irregular frequencies, garbled rows,
-        causality, spikes, fits, long waves, hulls.
+        sizes, places, causality, spikes, fits, long waves, hulls.
     """
     judged = band or felt_band(database)
     return CheckReport(
@@ -61,6 +63,8 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             *energy_findings(database, judged),
             *([] if _negative(database) else one_heading_findings(database)),
             *size_findings(database),
+            *place_findings(database),
+            *row_findings(database),
             *_causality(database),
             *unit_findings(database),
             *spike_findings(database, judged),

@@ -31,7 +31,8 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
     a, b = (getattr(db, t)[:, used, used] for t in ("added_mass", "radiation_damping"))
     slope, correlation = causal_line(db.omega, a, b)
     clear = correlation > CORRELATION
-    if not clear.any() and _agree(TURN / db.omega[::-1], a[::-1], b[::-1]):
+    turned = [(turn / db.omega[::-1], a[::-1], b[::-1]) for turn in (TURN, TURN**2)]
+    if not clear.any() and any(_agree(*tables) for tables in turned):
         text = "A and B fit each other if the frequencies [rad/s] are periods [s], or the reverse"
         return [Finding("error", "units of frequency", text)]
     if clear.sum() < max(2, 0.4 * slope.size):

@@ -17,6 +17,9 @@ from hydrodae.version import version
 GARBLED = 10.0
 #: No water couples two motions by so many times what their own added masses allow.
 EXCHANGED = 2.0
+#: Median of surge, sway and heave, over the largest A, by which A_inf of a file may miss that of
+#: its A and B: 0.17 of a table that ends early.
+FOREIGN = 0.3
 #: Couplings below this share of the largest added mass are noise.
 LEAST_COUPLING = 0.02
 
@@ -272,12 +275,21 @@ def _added_mass_inf(data: SourceData, a: Array, b: Array) -> tuple[Array, Array,
     scale[scale <= 1e-6 * scale.max()] = np.inf
     error = np.abs(given - value) / scale
     i, j = np.unravel_index(error.argmax(), error.shape)
+    level = "warning" if error.max() > 0.05 else "info"
+    text = (
+        f"differs from Ogilvie's relation by up to {error.max():.2g} "
+        f"({data.coordinates[i]}, {data.coordinates[j]}); the source's value is used"
+    )
+    going = [k for k, c in enumerate(data.coordinates) if c.endswith(("surge", "sway", "heave"))]
+    own = np.abs(np.diag(given - value)) / np.maximum(np.abs(a).max(axis=0).diagonal(), 1e-300)
+    if going and float(np.median(own[going])) > FOREIGN:
+        level = "error"
+        text += "; so far off are A and B of different columns, units or runs"
     data.findings.append(
         Finding(
-            "warning" if error.max() > 0.05 else "info",
+            level,
             "added_mass_inf of the source",
-            f"differs from Ogilvie's relation by up to {error.max():.2g} "
-            f"({data.coordinates[i]}, {data.coordinates[j]}); the source's value is used",
+            text,
             value=float(error.max()),
         )
     )

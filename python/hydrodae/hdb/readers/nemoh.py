@@ -129,9 +129,10 @@ def _read_radiation(
     columns = 1 + 2 * len(forces)
     meaning = f"frequency and (A, B) of the {len(forces)} forces of Nemoh.cal"
     tables = [tecplot.table(path, block, columns, meaning) for block in blocks]
-    omega = tecplot.to_omega(path, header, tables[0][:, 0])
+    omega = tecplot.to_omega(path, header, blocks[0], tables[0])
     for block, values in zip(blocks, tables, strict=True):
-        _same_grid(path, block, tecplot.to_omega(path, header, values[:, 0]), omega)
+        found = tecplot.to_omega(path, header, block, values)
+        _same_grid(path, block, columns, found, omega, blocks[0])
     a = np.stack([t[:, 1::2] for t in tables], axis=2)
     b = np.stack([t[:, 2::2] for t in tables], axis=2)
     order = _zone_order(path, blocks, motions)
@@ -172,7 +173,7 @@ def _read_forces(
     values = np.empty((omega.size, len(blocks), count), dtype=complex)
     for h, block in enumerate(blocks):
         t = tecplot.table(path, block, 1 + 2 * count, meaning)
-        _same_grid(path, block, tecplot.to_omega(path, header, t[:, 0]), omega)
+        _same_grid(path, block, t.shape[1], tecplot.to_omega(path, header, block, t), omega)
         values[:, h] = t[:, 1::2] * np.exp(-1j * t[:, 2::2])
     heading_deg = _headings(path, blocks, cal)
     if known_deg.size and not np.allclose(known_deg, heading_deg, atol=2e-3):
@@ -206,12 +207,30 @@ def _headings(path: Path, blocks: list[tecplot.Block], cal: NemohCal) -> Array:
     return stated
 
 
-def _same_grid(path: Path, block: tecplot.Block, found: Array, omega: Array) -> None:
-    if found.shape != omega.shape or not np.allclose(found, omega, rtol=1e-5):
+def _same_grid(
+    path: Path,
+    block: tecplot.Block,
+    columns: int,
+    found: Array,
+    omega: Array,
+    first: tecplot.Block | None = None,
+) -> None:
+    """Refuse a zone whose frequencies are not those of the `first` one of the radiation."""
+    if found.shape != omega.shape:
         raise DatabaseError(
             f"{path}:{block.line}: the frequencies of this zone are not those of the first one of "
             f"RadiationCoefficients.tec ({found.size} and {omega.size}): files of different runs?"
         )
+    wrong = np.flatnonzero(~np.isclose(found, omega, rtol=1e-5))
+    if not wrong.size:
+        return
+    row = int(wrong[0])
+    place = "RadiationCoefficients.tec" if first is None else f"line {first.line_of(row, columns)}"
+    raise DatabaseError(
+        f"{path}:{block.line_of(row, columns)}: {found[row]:g} rad/s, but {omega[row]:g} in "
+        f"{place}; so in {wrong.size} of {omega.size} rows: "
+        + ("is one of them garbled?" if wrong.size < 3 else "files of different runs?")
+    )
 
 
 def _point(name: str, body: CalBody) -> Array | None:

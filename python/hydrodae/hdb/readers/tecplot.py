@@ -43,6 +43,11 @@ class Block:
     values: Array
     counts: list[int]
 
+    def line_of(self, row: int, columns: int) -> int:
+        """Number of the line on which a row of so many columns begins; both count from 0 here."""
+        before = np.cumsum(self.counts)
+        return self.line + int(np.searchsorted(before, row * columns, side="right"))
+
 
 def read_blocks(path: Path) -> tuple[str, list[Block]]:
     """Read a file into its header (all text before the first number) and its blocks.
@@ -110,20 +115,23 @@ def table(path: Path, block: Block, columns: int, meaning: str) -> Array:
     return block.values.reshape(rows, columns)
 
 
-def to_omega(path: Path, header: str, first: Array) -> Array:
-    """Convert the first column to rad/s by what the header calls it: w (rad/s), f (Hz) or T (s).
+def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
+    """Convert the first column of a table to rad/s.
+
+    The header tells what it is: w (rad/s), f (Hz) or T (s).
 
     Raises
     ------
     DatabaseError
         Unknown variable, or values that are not > 0.
     """
+    first = table[:, 0]
     wrong = ~((first > 0.0) & np.isfinite(first))
     if wrong.any():
         row = int(wrong.argmax())
         raise DatabaseError(
-            f"{path}: the first column (frequency) must be > 0, but is {first[row]:g} in row "
-            f"{row + 1} of its first table"
+            f"{path}:{block.line_of(row, table.shape[1])}: the first column (frequency) must be "
+            f"> 0, but is {first[row]:g}"
         )
     found = _VARIABLE.search(header)
     unit = found[2].strip().lower() if found else "rad/s"

@@ -18,6 +18,7 @@ from hydrodae.hdb.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
+from hydrodae.hdb.readers.wamit_asked import asked_findings
 from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
@@ -100,6 +101,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     if np.isnan(rows[usual, 4]).any():
         line = lines[int(np.flatnonzero(usual & np.isnan(rows[:, 4]))[0])]
         raise DatabaseError(f"{radiation}:{line}: no damping: expected period, I, J, A, B")
+    known = at[finite]
+    scales = (length, depth, gravity)
+    findings += asked_findings(control.asked, radiation, known, modes, names, scales, option)
     axes = (at, modes, modes)
     a = np.real(tables.scatter(radiation, rows, lines, (0, 1, 2), axes, rows[:, 3]))
     damping = np.nan_to_num(rows[:, 4])

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
+from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
 
 Array = NDArray[np.float64]
 
@@ -47,6 +48,8 @@ class Control:
     names: list[str] = field(default_factory=list)
     statics: list[Statics] = field(default_factory=list)
     frequencies: int | None = None
+    first_input: int | None = None
+    asked: Asked | None = None
     stiffness: list[Array] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
@@ -115,8 +118,11 @@ def _cfg(path: Path, control: Control) -> None:
         found = re.match(r"\s*IPEROUT\s*=\s*(\d+)", line, re.IGNORECASE)
         if found:
             control.first_column = int(found[1])
-    if control.first_column is None:
-        control.first_column = 1
+        found = re.match(r"\s*IPERIN\s*=\s*(\d+)", line, re.IGNORECASE)
+        if found:
+            control.first_input = int(found[1])
+    control.first_column = control.first_column or 1
+    control.first_input = control.first_input or 1
 
 
 def _pot(path: Path, control: Control) -> None:
@@ -138,21 +144,26 @@ def _pot(path: Path, control: Control) -> None:
     row = 3
     count = int(expect(row, 1, "NPER")[0])
     control.frequencies = abs(count)
+    wanted = steps(count, [x for line in values[row + 1 : row + 1 + abs(count)] for x in line])
     row = _skip(values, row + 1, abs(count) if count > 0 else 2 * (count < 0))
     headings = int(expect(row, 1, "NBETA")[0])
     row = _skip(values, row + 1, abs(headings) if headings > 0 else 2 * (headings < 0))
     bodies = int(expect(row, 1, "NBODY")[0])
     row += 1
+    all_six = values[2][:1] == [1.0]  # IRAD: of all motions, whatever their MODE
+    modes: list[list[int]] = []
     for _ in range(bodies):
         if row >= len(lines) or not lines[row].strip():
             raise DatabaseError(f"{path}:{row + 1}: expected the .gdf file of a body")
         control.names.append(PureWindowsPath(lines[row].split()[0]).stem)
         control.points.append(_point(path, row + 1, expect(row + 1, 4, "XBODY(1-4)")))
-        expect(row + 2, 6, "MODE(1-6)")
+        chosen = expect(row + 2, 6, "MODE(1-6)")
+        modes.append([i for i, wanted_one in enumerate(chosen, 1) if all_six or wanted_one])
         row += 3
         # form 2 may hold lines of new modes (NEWMDS) between the bodies
         while row < len(lines) and len(values[row]) == 1:
             row += 1
+    control.asked = Asked(path, wanted, control.first_input, modes)
 
 
 def _skip(values: list[list[float]], row: int, count: int) -> int:
@@ -261,13 +272,12 @@ def _hams(path: Path, control: Control) -> None:
     length = re.search(rf"Reference_body_length\s+({NUMBER})", text)
     if length and control.length is None:
         control.length = _numbers(length[1])[0]
-    # HAMS: 1, 2 wavenumber in deep and finite depth, 3 frequency, 4 period, 5 wavelength
     kind = re.search(r"Output_frequency_type\s+(\d)", text)
     if kind and control.first_column is None:
-        forms = {"1": 3, "2": 4, "3": 2, "4": 1}
-        if kind[1] not in forms:
+        if kind[1] not in HAMS:
             raise DatabaseError(f"{path}: Output_frequency_type {kind[1]}: expected 1 to 4")
-        control.first_column = forms[kind[1]]
+        control.first_column = HAMS[kind[1]]
+    control.asked = of_hams(path, text)
 
 
 def _after(path: Path, count: int, line: str) -> Array:

@@ -14,12 +14,11 @@ from hydrodae.hdb.causality import causal_line
 from hydrodae.hdb.dispersion import group_velocity, wavenumber
 from hydrodae.hdb.findings import Finding
 from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, Water
+from hydrodae.hdb.readers.wamit_asked import COLUMNS
 from hydrodae.hdb.readers.wamit_control import Control
 from hydrodae.hdb.readers.wamit_tables import to_omega
 
 Array = NDArray[np.float64]
-#: What the first column of the tables may hold, by IPEROUT.
-COLUMNS = {1: "period", 2: "frequency", 3: "wavenumber of deep water", 4: "wavenumber"}
 #: Correlation of A with what B implies that is no chance.
 CLEAR = 0.98
 #: Factors between damping and force of heave within which they agree, and that nothing explains.

@@ -1,0 +1,178 @@
+r"""Places and motions that A and B alone tell: rows of other bodies, or of other motions.
+
+In waves longer than the bodies a body that heaves is a source and one that surges a dipole. Their
+waves meet, at a distance d and in the direction alpha from the one that surges, so that
+
+    B_13 = -sqrt(2 B_11 B_33) J_1(k d) cos(alpha),    for sway: sin(alpha)
+
+(from the far field, as in `energy`): where the bodies change places, the sign changes. In pairs of
+floating bodies of seven tables the factor is 0.90 to 1.03. Pressures of a surge act about at one
+height z, so that A_15 = z A_11 and A_24 = -z A_22 along the main axes of A, and A_14, A_25 are
+small; that height is above the ground.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import j1
+
+from hydrodae.hdb.coordinates import split_label
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+
+Array = NDArray[np.float64]
+#: Longest k times the larger body, and k times the distance up to which the waves meet in order.
+LONG, FARTHEST = 1.0, 3.5
+#: Fewest frequencies, correlation that is no chance, least share of the distance along a motion.
+FEWEST, SURE, ALONG = 4, 0.9, 0.5
+#: Inertia over stiffness up to which a floating body's heave force is that of its waterplane.
+FOLLOWS = 0.5
+#: A_14 and A_25 over A_15 and A_24 that no hull has, and over the root of A_11 A_44 that matters.
+CROSSED, MATTERS = 3.0, 0.02
+#: Difference of A_11 and A_22 from which they have main axes.
+ROUND = 0.05
+#: Share of the depth below the ground where no pressure acts.
+BELOW = 0.05
+#: Height above the water over the body's width: 0.6 of a float with a heave plate, 5 of a flat cap.
+ABOVE = 10.0
+
+
+def place_findings(database: HydroDatabase) -> list[Finding]:
+    """Judge the coupling of bodies by their places, and of motions of a body by each other.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    list of Finding
+        Errors only: at most one of pairs of bodies, and one of each body.
+    """
+    found = _sides(database)
+    for name in database.bodies:
+        text = _crossed(database, name) or _buried(database, name)
+        if text:
+            found.append(Finding("error", "motions of a body", f"{name}: {text}"))
+    return found
+
+
+def _sides(db: HydroDatabase) -> list[Finding]:
+    """Tell bodies whose coupling has the sign of the other side."""
+    at = {label: i for i, label in enumerate(db.coordinates)}
+    k, b = wavenumber(db.omega, db.water_depth, db.gravity), db.radiation_damping
+    wrong: list[tuple[float, str, str]] = []
+    for one in db.bodies:
+        for other in db.bodies:
+            i3 = at.get(f"{other}.heave")
+            away = _away(db, one, other)
+            if i3 is None or away is None or not np.hypot(*away) > 0.0:
+                continue
+            distance = float(np.hypot(*away))
+            long = (k * _width(db, one, other) < LONG) & (k * distance < FARTHEST)
+            long &= _follows(db, other, i3)
+            for dof, part in zip(("surge", "sway"), away / distance, strict=True):
+                i = at.get(f"{one}.{dof}")
+                if i is None or abs(part) < ALONG or np.count_nonzero(long) < FEWEST:
+                    continue
+                own = np.sqrt(np.maximum(b[long, i, i] * b[long, i3, i3], 0.0))
+                expected = -np.sqrt(2.0) * own * j1(k[long] * distance) * part
+                stored = b[long, i, i3]
+                size = float(np.linalg.norm(expected) * np.linalg.norm(stored))
+                if size > 0.0 and float(expected @ stored) < -SURE * size:
+                    wrong.append((distance, f"{one}.{dof}", f"{other}.heave"))
+    if not wrong:
+        return []
+    _, motion, heave = min(wrong)
+    text = (
+        f"B of {motion} by {heave} has the sign of bodies in each other's places: are rows of two "
+        f"bodies exchanged, or their places, or the signs of an axis?"
+    )
+    return [Finding("error", "places of bodies", text, float(len(wrong)))]
+
+
+def _away(db: HydroDatabase, one: str, other: str) -> Array | None:
+    """Horizontal way from one body to another [m]; None where that is not known."""
+    points = []
+    for name in (one, other):
+        body = db.bodies[name]
+        statics = body.hydrostatics
+        point = body.reference_point if statics is None else statics.center_of_buoyancy
+        if point is None or one == other:
+            return None
+        points.append(np.asarray(point, dtype=float)[:2])
+    return np.asarray(points[1] - points[0])
+
+
+def _width(db: HydroDatabase, *names: str) -> float:
+    """Cube root of the largest added volume of some bodies [m]."""
+    own = np.abs(np.diag(db.added_mass_inf)) / db.rho
+    sizes = [
+        own[i]
+        for i, label in enumerate(db.coordinates)
+        if split_label(label)[0] in names and split_label(label)[1] < 3
+    ]
+    return float(np.cbrt(max(sizes, default=0.0)))
+
+
+def _follows(db: HydroDatabase, name: str, heave: int) -> NDArray[np.bool_]:
+    """Tell where (nw,) the heave force of a body is that of its waterplane; nowhere if unknown."""
+    statics = db.bodies[name].hydrostatics
+    if statics is None:
+        return np.zeros(db.omega.size, bool)
+    stiffness = db.rho * db.gravity * statics.waterplane_area
+    mass = db.rho * statics.displaced_volume + db.added_mass[:, heave, heave]
+    return np.asarray(db.omega**2 * mass < FOLLOWS * stiffness)
+
+
+def _block(db: HydroDatabase, name: str) -> Array | None:
+    """A_inf of surge, sway, roll, pitch of a body; None where one of them is missing."""
+    at = {label: i for i, label in enumerate(db.coordinates)}
+    i = [at.get(f"{name}.{dof}") for dof in ("surge", "sway", "roll", "pitch")]
+    if any(place is None for place in i):
+        return None
+    a = db.added_mass_inf[np.ix_(i, i)]  # type: ignore[arg-type]
+    return a if np.diag(a)[:2].min() > 0.0 else None
+
+
+def _crossed(db: HydroDatabase, name: str) -> str:
+    """Tell a surge that turns a body as sway does."""
+    a = _block(db, name)
+    if a is None:
+        return ""
+    mass, coupling = a[:2, :2], a[2:, :2]
+    across = np.hypot(2.0 * mass[0, 1], mass[0, 0] - mass[1, 1])
+    if across > ROUND * np.trace(mass):
+        turn = 0.5 * np.arctan2(2.0 * mass[0, 1], mass[0, 0] - mass[1, 1])
+        axes = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        coupling = axes.T @ coupling @ axes
+    cross = float(np.hypot(coupling[0, 0], coupling[1, 1]))
+    direct = float(np.hypot(coupling[1, 0], coupling[0, 1]))
+    own = float(np.sqrt(np.diag(mass).max() * np.diag(a)[2:].max()))
+    if cross < CROSSED * direct or cross < MATTERS * own:
+        return ""
+    return (
+        f"its added mass couples surge with roll and sway with pitch, {cross / own:.2g} of their "
+        f"own, and hardly surge with pitch: are rows of two motions exchanged?"
+    )
+
+
+def _buried(db: HydroDatabase, name: str) -> str:
+    """Tell pressures that act below the ground, or far above the water."""
+    a, point = _block(db, name), db.bodies[name].reference_point
+    if a is None or point is None:
+        return ""
+    level = float(np.asarray(point)[2])
+    heights = (level + a[3, 0] / a[0, 0], level - a[2, 1] / a[1, 1])
+    if max(heights) > ABOVE * _width(db, name):
+        where = f"{max(heights):.4g} m, far above the water"
+    elif min(heights) < -(1.0 + BELOW) * db.water_depth:
+        where = f"{min(heights):.4g} m, below the ground at {-db.water_depth:g} m"
+    else:
+        return ""
+    return (
+        f"its added mass of surge or sway acts at z = {where}: is it of another body, or are its "
+        f"moments about another point?"
+    )

@@ -1,0 +1,107 @@
+"""Rows that no water makes: added masses of zero or less, no damping at all; and what stays open.
+
+A table that lost a row, or a sign, reads as a device that moves without water there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydrodae.hdb.checks.ground import standing
+from hydrodae.hdb.coordinates import split_label
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.findings import Finding
+
+#: Added mass of a translation over the largest one of its body that is a row left out.
+EMPTY = 1e-9
+#: Share of the largest added mass of its kind from which a negative one is no noise.
+NOISE = 0.05
+#: Longest k times the width of a hull, and fewest frequencies there, by which B tells the unit.
+LONG, FEWEST = 0.8, 2
+#: Change of A over the frequencies, as a share of the largest, that takes damping.
+CHANGES = 1e-3
+
+
+def row_findings(database: HydroDatabase) -> list[Finding]:
+    """Judge the diagonals of A and B, and tell what cannot be checked without forces of waves.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+
+    Returns
+    -------
+    list of Finding
+        Errors for translations without added mass, for negative added masses and for tables
+        without damping; a warning where there is no excitation.
+    """
+    return [*_empty(database), *_signs(database), *_damping(database), *_open(database)]
+
+
+def _empty(db: HydroDatabase) -> list[Finding]:
+    largest = np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0)
+    held, found = standing(db), []
+    for body in db.bodies:
+        going = [i for i, c in enumerate(db.coordinates) if split_label(c)[0] == body and _goes(c)]
+        top = max((largest[i] for i in going), default=0.0)
+        lost = [db.coordinates[i] for i in going if largest[i] <= EMPTY * top]
+        if lost and body not in held:
+            text = f"A of {', '.join(lost)} is zero at all frequencies: are rows missing?"
+            found.append(Finding("error", "added mass of zero", text))
+    return found
+
+
+def _goes(label: str) -> bool:
+    return split_label(label)[1] < 3
+
+
+def _signs(db: HydroDatabase) -> list[Finding]:
+    middle = np.median(np.einsum("wii->wi", db.added_mass), axis=0)
+    lowest = np.maximum(middle, np.diag(db.added_mass_inf))
+    goes = np.array([_goes(c) for c in db.coordinates])
+    # where B has the wrong sign as well, that is told of B
+    told = np.median(np.einsum("wii->wi", db.radiation_damping), axis=0) < 0.0
+    wrong = []
+    for kind in (goes, ~goes):
+        size = np.abs(middle[kind]).max(initial=0.0)
+        wrong += [int(i) for i in np.flatnonzero(kind & ~told & (lowest < -NOISE * size))]
+    if not wrong:
+        return []
+    names = ", ".join(db.coordinates[i] for i in sorted(wrong))
+    text = f"A of {names} is negative: water that is moved by a body adds to its mass"
+    return [Finding("error", "sign of A", text, float(len(wrong)))]
+
+
+def _damping(db: HydroDatabase) -> list[Finding]:
+    if np.any(db.radiation_damping):
+        return []
+    a = np.einsum("wii->wi", db.added_mass)
+    changes = np.ptp(a, axis=0) > CHANGES * np.abs(a).max(axis=0)
+    severity = "error" if changes.any() else "warning"
+    text = "B is zero throughout, and A is not the same at all frequencies: a column is missing"
+    if severity == "warning":
+        text = "B is zero throughout: nothing here makes waves"
+    return [Finding(severity, "damping of zero", text)]
+
+
+def _open(db: HydroDatabase) -> list[Finding]:
+    """Tell what A and B alone leave open, so that nobody takes silence for a verdict."""
+    if db.heading.size:
+        return []
+    unseen = ["a factor of A and B together (density, length scale)"]
+    k = wavenumber(db.omega, db.water_depth, db.gravity)
+    for body in db.bodies.values():
+        statics = body.hydrostatics
+        width = np.cbrt(max(statics.displaced_volume, 0.0)) if statics else np.inf
+        if np.count_nonzero(k * width < LONG) < FEWEST:
+            unseen.append("a factor of all frequencies, or of B (no hull, or no long waves)")
+            break
+    if len(db.bodies) > 1:
+        unseen.append("names of bodies whose hulls are equal")
+    names = ", ".join(db.bodies)
+    text = (
+        f"no forces of waves to check by: {'; '.join(unseen)} cannot be told and "
+        f"{'are' if len(unseen) > 1 else 'is'} taken as the files say (bodies in the order {names})"
+    )
+    return [Finding("warning", "not checked", text)]
