@@ -1,6 +1,7 @@
 #include "hydrodae/run/guards.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hydrodae/core/error.h"
@@ -102,31 +103,43 @@ private:
 };
 
 /// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
-/// without end, and no shorter one is better.
+/// without end, and no shorter one is better. It is held against the sizes of the bodies, since the
+/// scale of what has not moved yet is next to nothing.
 class RoundingCheck : public Guard {
 public:
-  RoundingCheck(const system::Regime& s, double rtol) : s_(s), rtol_(rtol) {}
-  void check(const Step& step) override {
+  RoundingCheck(const system::Regime& s, double rtol)
+      : s_(s), size_(VectorX::Constant(s.lambda0, INFINITY)) {
     constexpr double allowed = 100.0; // tolerances; a sound error test bears some
-    constexpr double rounding = std::numeric_limits<double>::epsilon();
-    const auto size = step.y.head(s_.lambda0).array().abs();
-    const auto tolerance =
-        rtol_ * (s_.scale.head(s_.lambda0).array() + s_.relative.head(s_.lambda0).array() * size);
+    const double times = allowed * rtol / rounding;
+    for (const system::BodyData& b : s.bodies)
+      for (int k = 0; k < b.n_position; ++k)
+        size_[b.q0 + k] = times * (k < b.n_translations ? b.lever : 1.0);
+    for (const system::Block& block : s.blocks)
+      if (block.body < 0 && block.moves)
+        system::for_each_point(s.states[static_cast<std::size_t>(block.states)],
+                               [&](Index place, Index, double length) {
+                                 size_.segment<3>(place).setConstant(times * length);
+                               });
+  }
+  void check(const Step& step) override {
     Index i = 0;
-    const double worst = (rounding * size - allowed * tolerance).maxCoeff(&i);
-    if (worst > 0.0)
-      throw SolverError(
-          step.end,
-          "stopped at t = " + number_text(step.end) +
-              " s: the motion grows beyond all bounds: " + s_.names[static_cast<std::size_t>(i)] +
-              " = " + rounded_text(step.y[i]) + " is rounded by " +
-              rounded_text(rounding * size[i]) + ", where solver.rtol asks for " +
-              rounded_text(tolerance[i]) + " (is the scene unstable, or fed without a loss?)");
+    const double worst = step.y.head(s_.lambda0).cwiseAbs().cwiseQuotient(size_).maxCoeff(&i);
+    if (worst <= 1.0)
+      return;
+    const double reached = step.y[i];
+    throw SolverError(step.end, "stopped at t = " + number_text(step.end) +
+                                    " s: the motion grows beyond all bounds: " +
+                                    s_.names[static_cast<std::size_t>(i)] + " = " +
+                                    rounded_text(reached) + " is rounded by " +
+                                    rounded_text(rounding * std::abs(reached)) +
+                                    ", a hundred times what solver.rtol allows" +
+                                    " (is the scene unstable, or fed without a loss?)");
   }
 
 private:
+  static constexpr double rounding = std::numeric_limits<double>::epsilon();
   const system::Regime& s_;
-  double rtol_;
+  VectorX size_; ///< (lambda0,) largest positions whose rounding is bearable, else infinite
 };
 
 /// Friction that its joint presses, against Painleve's paradox.
@@ -217,12 +230,12 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const VectorX& y, const Judges& judges,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
-  if (options.step <= 0.0 && system.lambda0 > 0)
-    guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   solve::EnergyGuard energy(system, options);
   const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
   watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);
   guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
+  if (options.step <= 0.0 && system.lambda0 > 0)
+    guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   if (const double allowed = options.step_guard.value_or(0.02); options.step > 0.0 && allowed > 0.0)
     guards.push_back(
         std::make_unique<StepCheck>(solve::StepGuard(system, allowed, options.end_time)));

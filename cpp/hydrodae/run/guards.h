@@ -83,7 +83,7 @@ struct Judges {
   const system::Pattern& pattern; ///< of the rows that hold
 };
 
-/// All guards that the options ask for, in the order in which they look: rounding, energy, fixed
+/// All guards that the options ask for, in the order in which they look: energy, rounding, fixed
 /// steps, velocities that jump, constraints that drift, piled up errors.
 /// @param watch takes the watch over singular poses, which outlives the guards
 /// @param y pose of the start
