@@ -80,9 +80,7 @@ def test_nothing_in_the_band_is_left_out(right):
     b = right.radiation_damping.copy()
     b[4:17, i, i] *= -1.0
     many = dataclasses.replace(right, radiation_damping=b)
-    assert cure(many, ["buoy.heave"], BAND).endswith(
-        "break causality or energy: compute again with a lid"
-    )
+    assert "causality or energy: compute again with a lid" in cure(many, ["buoy.heave"], BAND)
     for gone, text in ways:
         assert not np.any(gone & (w >= BAND[0]) & (w <= BAND[1])), text
 

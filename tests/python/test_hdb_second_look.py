@@ -125,4 +125,4 @@ def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(reference):
         prepare.fit(noisy, "sphere.heave", band=(0.3, 7.0), target=1e-3)
     assert "rad/s, in the band, and what gives energy" in str(refused.value)
     assert "break causality or energy: " in str(refused.value)
-    assert "compute again with a lid. Not kept" in str(refused.value)
+    assert "compute again with a lid (finer" in str(refused.value)

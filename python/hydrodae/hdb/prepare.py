@@ -360,7 +360,7 @@ def cure(database: HydroDatabase, moving: Sequence[str], band: tuple[float, floa
     repair = "interpolate them (hdb doctor --repair irregular), or " if helps else ""
     return (
         f"{before} of {inside(database.omega, band).sum()} frequencies in the band break causality "
-        f"or energy: {repair}compute again with a lid"
+        f"or energy: {repair}compute again with a lid (finer steps where a gap resonates)"
     )
 
 
