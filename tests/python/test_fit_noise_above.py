@@ -10,7 +10,7 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.lone import lone_findings
-from hydrodae.hdb.prepare import goes_on, ways_out
+from hydrodae.hdb.prepare import cure, goes_on, ways_out
 from hydrodae.memory.data import least_damping, with_zero
 from hydrodae.memory.fit import _near as as_near
 from hydrodae.memory.goal import Goal, Quality
@@ -69,8 +69,18 @@ def test_nothing_in_the_band_is_left_out(right):
     x = (w - 0.7) / 0.06
     a = right.added_mass.copy()
     a[:, i, i] *= 1.0 - 0.3 * x / (1.0 + x**2) ** 2
-    ways = ways_out(dataclasses.replace(right, added_mass=a), BAND)
+    wrong = dataclasses.replace(right, added_mass=a)
+    ways = ways_out(wrong, BAND)
     assert ways
+    # what is in the band has a repair, or none if most of it is wrong
+    assert "or energy: interpolate them (hdb doctor --repair irregular), or" in cure(
+        wrong, ["buoy.heave"], BAND
+    )
+    assert cure(right, ["buoy.heave"], BAND) == ""
+    b = right.radiation_damping.copy()
+    b[4:17, i, i] *= -1.0
+    many = dataclasses.replace(right, radiation_damping=b)
+    assert "causality or energy: compute again with a lid" in cure(many, ["buoy.heave"], BAND)
     for gone, text in ways:
         assert not np.any(gone & (w >= BAND[0]) & (w <= BAND[1])), text
 

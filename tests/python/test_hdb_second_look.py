@@ -121,5 +121,8 @@ def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(reference):
     assert "outside the band, break causality or energy: left out" in fit_summary(fit)
     assert fit.report["passive"]
     assert fit.report["h_error_band"] < 2e-4
-    with pytest.raises(DatabaseError, match="misses its target"):
+    with pytest.raises(DatabaseError, match="misses its target") as refused:
         prepare.fit(noisy, "sphere.heave", band=(0.3, 7.0), target=1e-3)
+    assert "rad/s, in the band, and what gives energy" in str(refused.value)
+    assert "break causality or energy: " in str(refused.value)
+    assert "compute again with a lid (finer" in str(refused.value)

@@ -99,6 +99,19 @@ def test_rows_that_no_water_makes_are_told(pair):
         radiation_damping=pair.radiation_damping * hollow,
     )
     assert errors(without)["added mass of zero"].startswith("A of b.heave is zero")
+    mute = dataclasses.replace(pair, radiation_damping=pair.radiation_damping * hollow)
+    assert errors(mute)["damping of zero"].startswith("B of b.heave is zero")
+    keep = np.arange(len(pair.coordinates)) != pair.index("a.roll")[0]
+    hollow = keep[:, None] & keep
+    (lost, _) = row_findings(dataclasses.replace(pair, added_mass=pair.added_mass * hollow))
+    assert lost.severity == "error"
+    assert lost.message.startswith("A of a.roll is zero at all frequencies and that of a.pitch")
+    # a body longer than wide may be one of revolution about its length
+    long = np.where(np.array(pair.coordinates) == "a.surge", 0.5, 1.0)
+    (told, _) = row_findings(
+        dataclasses.replace(pair, added_mass=pair.added_mass * hollow * np.outer(long, long))
+    )
+    assert told.severity == "warning"
     negative = dataclasses.replace(
         pair, added_mass=-pair.added_mass, added_mass_inf=-pair.added_mass_inf
     )

@@ -15,6 +15,7 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.checks.band import felt_band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
 from hydrodae.hdb.checks.lone import MOST, lone_rows
+from hydrodae.hdb.checks.repair import irregular
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.scales import scaled_damping_eigenvalues
@@ -179,7 +180,9 @@ def fit(
     if best.refused and near is not None:
         best = _Attempt(_as_noise(near.made), {}, [])
     if best.refused:
-        raise DatabaseError(f"fit '{name}' {_refusal(best.refused)}")
+        raise DatabaseError(
+            f"fit '{name}' {_refusal(best.refused, cure(database, moving, judged))}"
+        )
     return _with(database, name, best)
 
 
@@ -338,7 +341,30 @@ def at(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
     )
 
 
-def _refusal(refused: dict[str, str]) -> str:
+def cure(database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]) -> str:
+    """Return what helps against frequencies in the band that break causality or energy, or "".
+
+    The repair is named only where it leaves fewer than half of them.
+    """
+
+    def bad(tables: HydroDatabase) -> int:
+        return int((suspect_rows(tables.select(moving)) & inside(tables.omega, band)).sum())
+
+    before = bad(database)
+    if not before:
+        return ""
+    try:
+        helps = 2 * bad(irregular(database)[0]) < before
+    except DatabaseError:  # too many to interpolate
+        helps = False
+    repair = "interpolate them (hdb doctor --repair irregular), or " if helps else ""
+    return (
+        f"{before} of {inside(database.omega, band).sum()} frequencies in the band break causality "
+        f"or energy: {repair}compute again with a lid (finer steps where a gap resonates)"
+    )
+
+
+def _refusal(refused: dict[str, str], cured_by: str) -> str:
     """Return why a fit is refused, and what can be done."""
     ways = []
     if "target" in refused:
@@ -346,7 +372,10 @@ def _refusal(refused: dict[str, str]) -> str:
     if "passive" in refused:
         ways.append("more states or another --method")
     names = " ".join(f"--accept {check}" for check in refused)
-    return f"{', and '.join(refused.values())}. Not kept: give {', or '.join(ways)}, or {names}"
+    first = f" {cured_by}." if cured_by else ""
+    return (
+        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or {names}"
+    )
 
 
 def kernel(

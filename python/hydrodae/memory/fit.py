@@ -113,11 +113,13 @@ def fit_memory(
     ExponentialMemory
         Its `report` holds n_states, passive, min_eig_re_h_relative, max_real_pole, h_error_band and
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
-        h_zero, data_min_eig_relative, target_met, band, weights, method, dropped_inputs (no
-        radiation: memory zero, A_inf the mean added mass in the band), groups, neglected_coupling,
-        symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z that breaks it),
-        noise (of the tables in the band, as the weighted errors, `hydrodae.memory.noise`),
-        as_near_as_noise (the target is met, or missed by no more than that or panels explain).
+        h_zero, data_min_eig_relative and data_min_eig_omega (lowest eigenvalue of the tables' B
+        over the largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band),
+        target_met, band, weights, method, dropped_inputs (no radiation: memory zero, A_inf the mean
+        added mass in the band), groups, neglected_coupling, symmetry (groups fitted in blocks),
+        symmetry_left_out (rms share of Z that breaks it), noise (of the tables in the band, as the
+        weighted errors, `hydrodae.memory.noise`), as_near_as_noise (the target is met, or missed by
+        no more than that or panels explain).
 
     Raises
     ------
@@ -271,6 +273,8 @@ def _report(
     rows = [ratio(extra_off[inside, i], extra[inside, i]) for i in range(len(data.extra))]
     damping = (data.stored.real / scale)[:, data.active][:, :, data.active]
     values = np.linalg.eigvalsh(damping)
+    least = values[:, 0] / values.max()
+    at, within = int(least.argmin()), int(np.where(inside, least, np.inf).argmin())
     labels = memory.inputs
     return {
         "n_states": memory.n_states,
@@ -283,7 +287,10 @@ def _report(
         "h_error_peak": float(np.abs(off[inside]).max() / np.abs(target[inside]).max()),
         "h_error_outputs": max(rows, default=0.0),
         "h_zero": float(np.abs(memory.transfer(np.zeros(1))[0, :n_in] / scale * scaled).max()),
-        "data_min_eig_relative": float(values.min() / values.max()),
+        "data_min_eig_relative": float(least[at]),
+        "data_min_eig_omega": float(data.omega[at]),
+        "data_min_eig_band": float(least[within]),
+        "data_min_eig_band_omega": float(data.omega[within]),
         "target_met": all(goal.met(fit.quality) for fit in fits),
         "weighted_error_band": max(fit.quality.weighted_band for fit in fits),
         "weighted_error_outside": max(fit.quality.weighted_outside for fit in fits),

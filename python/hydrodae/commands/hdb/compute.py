@@ -142,6 +142,11 @@ def run(args: argparse.Namespace) -> int:
     database = database.with_meshes({body.name: body.panels for body in bodies})
     print(database.summary())
     print(report)
+    if args.no_lid and report.find("irregular frequencies"):
+        print(
+            "computed with --no-lid: a lid, the default, removes irregular frequencies (not the "
+            "resonance of a moonpool, which asks for finer steps)"
+        )
     if left := report.left(args.accept):
         words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
         print(f"{args.output} not written: a check found an error ({words} writes it anyway)")

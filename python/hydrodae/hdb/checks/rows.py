@@ -6,6 +6,7 @@ A table that lost a row, or a sign, reads as a device that moves without water t
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.coordinates import split_label
@@ -13,14 +14,18 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
 
+Array = NDArray[np.float64]
 #: Added mass of a translation over the largest one of its body that is a row left out.
 EMPTY = 1e-9
 #: Share of the largest added mass of its kind from which a negative one is no noise.
 NOISE = 0.05
 #: Longest k times the width of a hull, and fewest frequencies there, by which B tells the unit.
 LONG, FEWEST = 0.8, 2
-#: Change of A over the frequencies, as a share of the largest, that takes damping.
-CHANGES = 1e-3
+#: Change of A over the frequencies, as a share of the largest, that takes damping: of some motion,
+#: and of a single one, whose B may be too small for the digits of a file.
+CHANGES, MAKES_WAVES = 1e-3, 0.01
+#: Added masses of surge and sway this near each other are those of a body as long as wide.
+ROUND = 0.05
 
 
 def row_findings(database: HydroDatabase) -> list[Finding]:
@@ -33,10 +38,17 @@ def row_findings(database: HydroDatabase) -> list[Finding]:
     Returns
     -------
     list of Finding
-        Errors for translations without added mass, for negative added masses and for tables
-        without damping; a warning where there is no excitation.
+        Errors for translations without added mass or damping, for rotations without where another
+        one has it, for negative added masses and for tables without damping; a warning where there
+        is no excitation.
     """
-    return [*_empty(database), *_signs(database), *_damping(database), *_open(database)]
+    return [
+        *_empty(database),
+        *_turns(database),
+        *_signs(database),
+        *_damping(database),
+        *_open(database),
+    ]
 
 
 def _empty(db: HydroDatabase) -> list[Finding]:
@@ -74,15 +86,59 @@ def _signs(db: HydroDatabase) -> list[Finding]:
 
 
 def _damping(db: HydroDatabase) -> list[Finding]:
-    if np.any(db.radiation_damping):
-        return []
     a = np.einsum("wii->wi", db.added_mass)
-    changes = np.ptp(a, axis=0) > CHANGES * np.abs(a).max(axis=0)
+    size = np.abs(a).max(axis=0)
+    if np.any(db.radiation_damping):
+        still = ~np.any(np.einsum("wii->wi", db.radiation_damping), axis=0)
+        still &= np.ptp(a, axis=0) > MAKES_WAVES * size
+        top = {body: max(_sizes(db, size, body), default=0.0) for body in db.bodies}
+        names = [
+            label
+            for i, label in enumerate(db.coordinates)
+            if still[i] and _goes(label) and size[i] > NOISE * top[split_label(label)[0]]
+        ]
+        if not names:
+            return []
+        text = (
+            f"B of {', '.join(names)} is zero throughout, and A is not the same at all "
+            f"frequencies: are rows missing?"
+        )
+        return [Finding("error", "damping of zero", text)]
+    changes = np.ptp(a, axis=0) > CHANGES * size
     severity = "error" if changes.any() else "warning"
     text = "B is zero throughout, and A is not the same at all frequencies: a column is missing"
     if severity == "warning":
         text = "B is zero throughout: nothing here makes waves"
     return [Finding(severity, "damping of zero", text)]
+
+
+def _sizes(db: HydroDatabase, size: Array, body: str) -> list[float]:
+    """Largest added masses of the translations of a body."""
+    own = zip(db.coordinates, size, strict=True)
+    return [float(s) for c, s in own if split_label(c)[0] == body and _goes(c)]
+
+
+def _turns(db: HydroDatabase) -> list[Finding]:
+    """Tell bodies that roll without water and pitch with it, or the other way round."""
+    at = {label: i for i, label in enumerate(db.coordinates)}
+    largest = np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0)
+    held, found = standing(db), []
+    for body in db.bodies:
+        labels = [f"{body}.{motion}" for motion in ("surge", "sway", "roll", "pitch")]
+        if body in held or any(label not in at for label in labels):
+            continue
+        surge, sway, roll, pitch = (float(largest[at[label]]) for label in labels)
+        if min(roll, pitch) > EMPTY * max(roll, pitch) or max(roll, pitch) == 0.0:
+            continue
+        lost, other = ("roll", "pitch") if roll < pitch else ("pitch", "roll")
+        text = f"A of {body}.{lost} is zero at all frequencies and that of {body}.{other} is not"
+        if abs(surge - sway) < ROUND * max(surge, sway):
+            text += ", though surge and sway are alike: are rows missing?"
+            found.append(Finding("error", "added mass of zero", text))
+        else:
+            text += ": right of a body of revolution about that axis only; else rows are missing"
+            found.append(Finding("warning", "added mass of zero", text))
+    return found
 
 
 def _open(db: HydroDatabase) -> list[Finding]:
@@ -96,9 +152,11 @@ def _open(db: HydroDatabase) -> list[Finding]:
         width = np.cbrt(max(statics.displaced_volume, 0.0)) if statics else np.inf
         if np.count_nonzero(k * width < LONG) < FEWEST:
             unseen.append("a factor of all frequencies, or of B (no hull, or no long waves)")
+            if any(b.hydrostatics is None for b in db.bodies.values()):
+                unseen.append("rows of surge and heave in each other's places (no hull)")
             break
     if len(db.bodies) > 1:
-        unseen.append("names of bodies whose hulls are equal")
+        unseen.append("names of bodies whose hulls are equal or not known")
     names = ", ".join(db.bodies)
     text = (
         f"no forces of waves to check by: {'; '.join(unseen)} cannot be told and "
