@@ -93,14 +93,17 @@ class Worker:
         return reason(self.log) if process.wait(PATIENCE) else ""
 
     def in_library(self) -> bool:
-        """Did it end inside HDF5? The first frame that is not the sanitizer's own tells."""
+        """Did it end inside HDF5? The first frame that tells is none of the sanitizer or of libc.
+
+        Of Python it is the line of h5py that called.
+        """
         if not self.log.exists():
             return False
-        frames = [
-            line for line in self.log.read_text(errors="replace").splitlines() if " #" in line
-        ]
-        outside = (f for f in frames if "libsanitizer" not in f and "libasan" not in f)
-        return "libhdf5" in next(outside, "")
+        lines = self.log.read_text(errors="replace").splitlines()
+        others = ("libsanitizer", "libasan", "sysdeps", "libc.so")
+        frames = (line for line in lines if " #" in line and not any(o in line for o in others))
+        python = (line for line in lines if line.startswith('  File "'))
+        return "libhdf5" in next(frames, "") or "/h5py/" in next(python, "")
 
 
 def reason(log: Path) -> str:
@@ -134,7 +137,8 @@ class Fuzz:
         place = self.base / f"work{thread}"
         logs = [self.base / f"{name}{thread}.log" for name in ("worker", "reader")]
         worker = Worker([self.program], logs[0])
-        reader = Worker([sys.executable, str(ROOT / "tests/fuzz/reader.py")], logs[1])
+        reading = [sys.executable, "-X", "faulthandler", str(ROOT / "tests/fuzz/reader.py")]
+        reader = Worker(reading, logs[1])
         while time.monotonic() < self.until:
             try:
                 number = self.numbers.get_nowait()
@@ -150,7 +154,7 @@ class Fuzz:
                 code, message = process.ask(request)
                 if alone and (words := process.close()):
                     code, message = None, words
-                inside = code is None and alone and process.in_library()
+                inside = code is None and (alone or by == "reader") and process.in_library()
                 self.note(number, kind, by, request, code, message, place, logs, inside)
         for process in (worker, reader):
             if words := process.close():
