@@ -139,10 +139,15 @@ class Unit:
 
     def channels(self) -> list[str]:
         """Names of the channels, as of the device alone."""
-        return [
-            channel.replace(f"/{self.name}_", "/", 1)
-            for channel in _of_unit(self.results, self.name)
-        ]
+        prefix = f"{self.name}_"
+        found = []
+        for channel in _of_unit(self.results, self.name):
+            *path, last = channel.split("/")  # of a force on several bodies: a name in each part
+            path = [part.removeprefix(prefix) for part in path]
+            if path == channel.split("/")[:-1]:  # the last part is the name, no quantity
+                last = last.removeprefix(prefix)
+            found.append("/".join([*path, last]))
+        return found
 
 
 def unit(results: Mapping[str, Any], name: str | int) -> Unit:

@@ -184,9 +184,21 @@ def test_impossible_arrays_are_refused(tmp_path: Path, array_database: hdb.Hydro
 
 
 def test_channels_of_a_unit_have_the_names_of_the_device() -> None:
-    results = {"bodies/u1_flap/position": 1, "bodies/u11_flap/position": 2, "energy/work/u1_pto": 3}
+    results = {
+        "bodies/u1_flap/position": 1,
+        "bodies/u11_flap/position": 2,
+        "energy/work/u1_pto": 3,
+        "forces/u1_mooring/u1_flap/force": 4,
+        "joints/u1_hinge/u1_rate": 5,  # a quantity that begins as the unit does
+    }
     first = arrays.unit(results, 1)
-    assert first.channels() == ["bodies/flap/position", "energy/work/pto"]
+    assert first.channels() == [
+        "bodies/flap/position",
+        "energy/work/pto",
+        "forces/mooring/flap/force",
+        "joints/hinge/u1_rate",
+    ]
+    assert first["forces/mooring/flap/force"] == 4
     assert first["bodies/flap/position"] == 1
     assert arrays.unit(results, "u11")["bodies/flap/position"] == 2
     with pytest.raises(KeyError, match=r"unit 'u1' has no channel 'bodies/flop/position'; did you"):
