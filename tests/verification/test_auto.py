@@ -111,10 +111,11 @@ def test_a_stiff_scene_that_explicit_steps_cannot_pass(tmp_path: Path) -> None:
 def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> None:
     """Over a stroke: what has been at rest has exchanged no energy that an error could be compared
     with. The motion is the right one, and the summary says what happened."""
-    scene = suite.all_scenes((301,))["table_stroke_s301"]
-    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path).reason
-    assert outcome(scene, "auto", tmp_path).outcome == PASS
-    results = hydrodae.run(scene.case({"method": "auto"}, tmp_path))
+    scene = suite.all_scenes((303,))["table_stroke_s303"]
+    loose = {"rtol": 1e-2}
+    assert "energy_guard" in outcome(scene, "explicit_rk", tmp_path, **loose).reason
+    assert outcome(scene, "auto", tmp_path, **loose).outcome == PASS
+    results = hydrodae.run(scene.case({"method": "auto", **loose}, tmp_path))
     assert str(results.statistics["methods"]).split() == ["explicit_rk", "radau"]
     start, since = map(float, str(results.statistics["method_from"]).split())
     assert start == 0.0 < since < results.end_time
@@ -122,6 +123,36 @@ def test_a_step_that_loses_energy_is_made_by_another_method(tmp_path: Path) -> N
     line = next(row for row in results.summary().splitlines() if "method auto" in row)
     assert f"explicit_rk (nothing is stiff), radau from t = {since:.9g} s because" in line
     assert "energy balance" in line
+
+
+HANGING = """
+[[body]]
+name = "bob"
+motion = "planar"
+mass = 0.7
+center_of_gravity = [0.1, 0.3, -0.727]
+inertia = [1e-6, 1e-6, 1e-6]
+[[joint]]
+name = "hinge"
+type = "revolute"
+body_a = "ground"
+body_b = "bob"
+point = [0.1, 0.3, -0.7]
+axis = [0.0, 1.0, 0.0]
+[solver]
+method = "explicit_rk"
+end_time = 1e4
+[output]
+step = 100.0
+"""
+
+
+def test_an_explicit_step_at_rest_stays_stable() -> None:
+    """Steps of many periods (0.33 s) made a motion from the rounding of a pendulum that hangs."""
+    results = hydrodae.run(hydrodae.Case.from_text(HANGING))
+    assert results.end_time == 1e4
+    assert int(results.statistics["steps"]) > 1e4 / 0.33
+    assert np.abs(results["bodies/bob/velocity"].values).max() < 1e-9
 
 
 def labouring() -> Simulation:

@@ -11,7 +11,7 @@ void Simulation::sample(double t, std::span<double> row) {
   const auto closed = [this](double at, VectorX& y, VectorX& yp) {
     at_(at, y, yp);
     if (closing_)
-      closing_->close(at, y, yp);
+      closing_->close(at, y);
   };
   recorder_->sample(t, closed, row.first(recorder_->width()));
   fill_counts(row);

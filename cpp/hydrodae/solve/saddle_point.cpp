@@ -13,12 +13,11 @@ namespace {
 
 constexpr double regularisation = 1e-8; ///< e
 constexpr int refinements = 4;
-constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
-constexpr double much_left = 1e-6;  ///< likewise: more than regularisation leaves
+constexpr double much_left = 1e-6; ///< likewise: more than regularisation leaves
 constexpr int projections = 8;
-constexpr double closed = 1e-13; ///< gaps in units of their scale
-constexpr double longest = 1e4;  ///< way that closes a gap, relative to the gap
-constexpr double moving = 1e-8;  ///< rates of the gaps likewise: more means that the loop is locked
+constexpr double rough = 1e-6;  ///< residual of a step of a projection, which the next step mends
+constexpr double longest = 1e4; ///< way that closes a gap, relative to the gap
+constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
 
 template <class Vector> double largest(const Vector& v) {
   return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
@@ -106,18 +105,22 @@ void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
       out[row_[k]] += plain_[k] * x[c];
 }
 
-/// x = K^-1 rhs, the residual taken with e = 0. Where much of it is left the pivots may have gone
-/// bad, and are looked at.
-void SaddlePoint::solve(VectorX& x) {
+/// x = K^-1 rhs, the residual taken with e = 0, until what is left of it is below `accuracy`. Where
+/// much of it is left the pivots may have gone bad, and are looked at.
+void SaddlePoint::solve(VectorX& x, double accuracy) {
   x = rhs_;
   lu_->solve(x.data());
   for (int i = 0; i < refinements; ++i) {
     multiply(x, r_);
     r_ = rhs_ - r_;
     // Forces and gaps are of different units, and converge each by their own size.
-    const double load = largest(rhs_.head(s_.n_u)), motion = largest(x.head(s_.n_u)),
-                 forces = largest(r_.head(s_.n_u)), gaps = largest(r_.tail(s_.n_lambda));
-    if (forces <= converged * load && gaps <= converged * motion)
+    const double motion = largest(x.head(s_.n_u)), forces = largest(r_.head(s_.n_u)),
+                 gaps = largest(r_.tail(s_.n_lambda));
+    double load = largest(rhs_.head(s_.n_u));
+    if (load == 0.0) // of a projection: inertia, which the rows balance
+      for (Index k = 0; k < s_.n_u; ++k)
+        load = std::max(load, std::abs(plain_[mass_[k]] * x[k]));
+    if (forces <= accuracy * load && gaps <= accuracy * motion)
       return;
     if (old_pivots_ && !(forces <= much_left * load && gaps <= much_left * motion)) {
       old_pivots_ = false;
@@ -125,11 +128,26 @@ void SaddlePoint::solve(VectorX& x) {
         x.setConstant(NAN);
         return;
       }
-      return solve(x);
+      return solve(x, accuracy);
     }
     lu_->solve(r_.data());
     x += r_;
   }
+}
+
+/// K with e = 0, in the pose of y.
+void SaddlePoint::fill(double t, const VectorX& y) {
+  e_.jacobian(t, y, yp0_, pattern_, parts_);
+  for (const Entry& entry : entries_) {
+    const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];
+    plain_[entry.slot] = entry.turned ? -value : value;
+  }
+}
+
+bool SaddlePoint::linearise(double t, VectorX& y) {
+  y.tail(s_.n - s_.lambda0).setZero();
+  fill(t, y);
+  return factorise();
 }
 
 bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
@@ -143,11 +161,7 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   for (Index z = s_.z0; z < s_.memory0; ++z)
     if (s_.is_algebraic(z))
       yp[z] = 0.0;
-  e_.jacobian(t, y, yp0_, pattern_, parts_);
-  for (const Entry& entry : entries_) {
-    const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];
-    plain_[entry.slot] = entry.turned ? -value : value;
-  }
+  fill(t, y);
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
   rhs_.tail(s_.n_lambda).setZero();
   for (const Rate& rate : rates_)
@@ -242,12 +256,12 @@ void SaddlePoint::close(VectorX& y) {
   if (s_.n_lambda == 0 || gaps() <= closed)
     return;
   const double gap = largest(rhs_);
-  solve(x_);
+  solve(x_, rough);
   if (largest(x_.head(s_.n_u)) <= longest * gap)
     system::retract(s_, x_.head(s_.n_u), y);
 }
 
-bool SaddlePoint::project(double t, VectorX& y) {
+bool SaddlePoint::project(double t, VectorX& y, double accuracy) {
   for (const system::BodyData& b : s_.bodies)
     if (b.rotation == system::BodyData::Rotation::free)
       y.segment<4>(b.q0 + b.n_translations).normalize();
@@ -259,14 +273,14 @@ bool SaddlePoint::project(double t, VectorX& y) {
     if (!e_.constraint_residual(t, y, yp0_, residual_))
       return false;
     const double gap = gaps();
-    if (gap <= closed || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
+    if (gap <= accuracy || (i > 0 && gap >= 0.5 * before && gap < 1e-10))
       break;
     if (i > 1 && gap > 2.0 * before)
       return false;
     before = gap;
     if (i + 1 == projections && gap > 1e-9)
       return false;
-    solve(x_);
+    solve(x_, rough);
     system::retract(s_, x_.head(s_.n_u), y);
   }
   for (int i = 0; i < 2; ++i) { // the matrix is of a pose a little off: twice
@@ -274,7 +288,7 @@ bool SaddlePoint::project(double t, VectorX& y) {
       return false;
     rhs_.setZero();
     rhs_.tail(s_.n_lambda) = -residual_.segment(s_.lambda0, s_.n_lambda);
-    solve(x_);
+    solve(x_, rough);
     y.segment(s_.u0, s_.n_u) += x_.head(s_.n_u);
   }
   if (!e_.constraint_residual(t, y, yp0_, residual_))

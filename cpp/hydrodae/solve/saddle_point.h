@@ -22,12 +22,18 @@ namespace hydrodae::solve {
 
 class SaddlePoint {
 public:
+  static constexpr double closed = 1e-13; ///< gaps, in units of their scale
+
   explicit SaddlePoint(Equations& equations);
   ~SaddlePoint();
 
   /// Of y only q, u, z are read. Fills y' of them and the reactions lambda of y (mu = sigma = 0).
   /// False when no finite accelerations exist.
   bool accelerations(double t, VectorX& y, VectorX& yp);
+
+  /// The matrix alone, for `project`. Of y only q and u are read; its multipliers are set to 0.
+  /// False when it is singular.
+  bool linearise(double t, VectorX& y);
 
   /// Friction pressed by its joint that leaves no accelerations or more than one at the last call
   /// of `accelerations` (Painleve's paradox), in words; empty: there is none.
@@ -58,8 +64,9 @@ public:
   Strike strike(double t, VectorX& y, const VectorX& rates);
 
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, with the
-  /// matrix of the last `accelerations`. False when it does not converge.
-  bool project(double t, VectorX& y);
+  /// matrix of the last `accelerations` or `linearise`. False when it does not converge.
+  /// @param accuracy of the gaps, in units of their scale
+  bool project(double t, VectorX& y, double accuracy = closed);
 
   /// Moves q of the last `accelerations`, which misses the constraints by a little, onto them to
   /// first order and in the same metric; u and reactions stay. In a singular pose, where a small
@@ -67,11 +74,14 @@ public:
   void close(VectorX& y);
 
 private:
+  static constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
+
   struct Pressed;
   bool press(double t, const VectorX& y, VectorX& yp);
+  void fill(double t, const VectorX& y);
   bool factorise();
   double gaps();
-  void solve(VectorX& x);
+  void solve(VectorX& x, double accuracy = converged);
   void multiply(const VectorX& x, VectorX& out) const;
 
   struct Entry {

@@ -6,6 +6,7 @@ namespace hydrodae::solve {
 
 namespace {
 constexpr double tolerance = 1e-10; ///< of gaps and their rates, in units of their scale
+constexpr double closed_to = 1e-11; ///< likewise: of a sample that is closed
 constexpr double far = 0.1;         ///< likewise: more is no error of an interpolant
 } // namespace
 
@@ -24,7 +25,7 @@ bool SampleClosing::open(double t, const VectorX& y, const VectorX& yp) {
   return size > tolerance && size < far;
 }
 
-void SampleClosing::close(double t, VectorX& y, const VectorX& yp) {
+void SampleClosing::close(double t, VectorX& y) {
   rates_ = VectorX::Zero(s_.n); // without the multipliers' part of q'
   closed_ = y;
   closed_.tail(s_.n - s_.lambda0).setZero();
@@ -32,9 +33,21 @@ void SampleClosing::close(double t, VectorX& y, const VectorX& yp) {
     return;
   if (!saddle_)
     saddle_.emplace(equations_);
-  rates_ = yp;
-  if (saddle_->accelerations(t, closed_, rates_) && saddle_->project(t, closed_))
-    y.head(s_.z0) = closed_.head(s_.z0);
+  bool here = false;
+  if (!linearised_) {
+    if (!saddle_->linearise(t, closed_))
+      return;
+    linearised_ = here = true;
+  }
+  if (!saddle_->project(t, closed_, closed_to)) {
+    if (here)
+      return;
+    // The matrix of a sample before may be too far off.
+    closed_ = y;
+    if (!saddle_->linearise(t, closed_) || !saddle_->project(t, closed_, closed_to))
+      return;
+  }
+  y.head(s_.z0) = closed_.head(s_.z0);
 }
 
 } // namespace hydrodae::solve

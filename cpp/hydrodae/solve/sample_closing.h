@@ -16,12 +16,15 @@ public:
   SampleClosing(const system::Regime& system, const system::Pattern& pattern, bool rates);
 
   /// To be told of each step's end: drives and couplers of angles know on which turn these are.
-  void accept(double t, const VectorX& y, const VectorX& yp) { equations_.accept(t, y, yp); }
+  void accept(double t, const VectorX& y, const VectorX& yp) {
+    equations_.accept(t, y, yp);
+    linearised_ = false;
+  }
 
   /// Moves q, then u, by the smallest amount in the metric of M onto the constraints, where they
   /// miss them by more than a tolerance far below any of a run. In a pose where that does not
   /// succeed (a singular one) they stay.
-  void close(double t, VectorX& y, const VectorX& yp);
+  void close(double t, VectorX& y);
 
 private:
   bool open(double t, const VectorX& y, const VectorX& yp);
@@ -30,6 +33,7 @@ private:
   const Index first_; ///< row that is looked at
   Equations equations_;
   std::optional<SaddlePoint> saddle_; ///< made for the first sample that is open
+  bool linearised_ = false;           ///< for the samples of this step: one matrix serves them all
   VectorX residual_, closed_, rates_;
 };
 
