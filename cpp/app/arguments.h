@@ -13,7 +13,8 @@ namespace hydrodae::app {
 
 inline constexpr const char* usage =
     R"(usage: hydrodae-solve CASE -o RESULTS [--set KEY=VALUE]... [--method NAME] [--quiet]
-                      [--verify | --checkpoint SECONDS] [--resume] [--library FILE]...
+                      [--verify METHOD] [--strict] [--checkpoint SECONDS] [--resume]
+                      [--library FILE]...
        hydrodae-solve --check CASE [--set KEY=VALUE]...
        hydrodae-solve --keys [TABLE [TYPE]]
        hydrodae-solve --version | --help
@@ -24,7 +25,8 @@ inline constexpr const char* usage =
                    --set joint.hinge1.initial.angle_deg=5
   --method NAME    the same as --set solver.method="NAME": auto, radau, ...
   --force          run a pair of method and formulation that is known to fail
-  --verify         run a second time with a tenth of the tolerance, or half the step, and compare
+  --verify METHOD  estimate the error by a second run with another method: radau, ida, explicit_rk
+  --strict         exit with 5 where the motion of a body or line is not reproducible to the end
   --checkpoint SECONDS
                    keep RESULTS.checkpoint.h5 beside RESULTS.h5 while the run lasts: what --resume
                    goes on from, anew after so many seconds of wall time
@@ -36,8 +38,8 @@ inline constexpr const char* usage =
                    --keys solver, --keys force pto_linear
   --quiet          no progress on stderr
 
-Exit codes: 0 done, 2 bad case or model, 3 solver failure, 4 interrupted; what was computed before
-a failure or an interrupt (Ctrl-C) is kept in the results file.
+Exit codes: 0 done, 2 bad case or model, 3 solver failure, 4 interrupted, 5 not reproducible
+(--strict); what was computed before a failure or an interrupt (Ctrl-C) is kept in the results file.
 )";
 
 struct Arguments {
@@ -46,7 +48,7 @@ struct Arguments {
   io::Overrides overrides;
   std::vector<std::string> libraries;
   std::vector<std::string> words; ///< after --keys
-  bool quiet = false;
+  bool quiet = false, strict = false;
   RunOptions options;
 };
 
@@ -95,7 +97,9 @@ inline Arguments parse(int argc, char** argv) {
     else if (word == "--quiet")
       arguments.quiet = true;
     else if (word == "--verify")
-      arguments.options.verify = true;
+      arguments.options.verify = next_value(argc, argv, i);
+    else if (word == "--strict")
+      arguments.strict = true;
     else if (word == "--resume")
       arguments.options.resume = true;
     else if (word == "--checkpoint")

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 
 #include "arguments.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/io/libraries.h"
 #include "hydrodae/simulation.h"
 #include "keys.h"
@@ -77,6 +79,32 @@ void print_controllers(const hydrodae::RunStatistics& statistics) {
                 1e6 * c.mean_time);
 }
 
+/// @returns whether the motion of everything is reproducible to the end
+bool print_accuracy(const hydrodae::RunStatistics& statistics) {
+  const hydrodae::accuracy::Estimate& estimate = statistics.accuracy;
+  if (statistics.at_rest) {
+    std::printf("at rest\n");
+    return true;
+  }
+  if (const hydrodae::accuracy::MoverError* worst = estimate.worst())
+    std::printf("estimated error %.1g of the motion (%s, t = %.4g s), by %s\n", worst->largest,
+                worst->name.c_str(), worst->when, estimate.how.c_str());
+  if (!estimate.missing.empty())
+    std::printf("error not estimated%s: %s\n",
+                estimate.known()
+                    ? (" after t = " + hydrodae::rounded_text(estimate.until) + " s").c_str()
+                    : "",
+                estimate.missing.c_str());
+  bool all = true;
+  for (const hydrodae::accuracy::MoverError& m : estimate.movers)
+    if (std::isfinite(m.reproducible_until)) {
+      all = false;
+      std::printf("%s: reproducible until t = %.4g s; the two runs part by 5 %% at t = %.4g s\n",
+                  m.name.c_str(), m.reproducible_until, m.parted);
+    }
+  return all;
+}
+
 ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
@@ -90,18 +118,15 @@ ExitCode run(const hydrodae::model::Scene& scene, const Arguments& arguments) {
       std::cerr << "note: " << note << '\n';
   std::printf("%s at t = %.6g s: %ld steps in %.3g s, ", statistics.status.c_str(),
               statistics.end_time, statistics.steps, statistics.wall_time);
-  if (statistics.at_rest)
-    std::printf("at rest, ");
-  else
-    std::printf("estimated error %.1g of the motion, ", statistics.estimated_error);
-  if (statistics.verified_error >= 0.0)
-    std::printf("verified %.1g, ", statistics.verified_error);
   std::printf("results in %s\n", arguments.output.c_str());
   if (statistics.method.starts_with("auto"))
     std::printf("method %s\n", statistics.method.c_str());
+  const bool reproducible = print_accuracy(statistics);
   print_power(statistics);
   print_controllers(statistics);
-  return statistics.status == "interrupted" ? ExitCode::interrupted : ExitCode::done;
+  if (statistics.status == "interrupted")
+    return ExitCode::interrupted;
+  return arguments.strict && !reproducible ? ExitCode::not_reproducible : ExitCode::done;
 }
 
 ExitCode perform(const Arguments& arguments) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hydrodae/accuracy/comparison.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/model/scene.h"
 
@@ -26,18 +27,13 @@ struct RunStatistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long convergence_failures = 0;
-  long events = 0;                   ///< changes of stops, one-sided joints and dry friction
-  double end_time = 0.0;             ///< time reached [s]
-  double setup_time = 0.0;           ///< wall time before the first step [s]
-  double solver_time = 0.0;          ///< wall time inside the integrator and the residual [s]
-  double wall_time = 0.0;            ///< wall time of the whole run with output [s]
-  double estimated_error = 0.0;      ///< of the motion, relative to its size [-]; see solve::Trust
-  std::string estimated_error_of;    ///< the body that is off most
-  double estimated_error_time = 0.0; ///< when [s]
-  bool at_rest = false;              ///< nothing has moved by more than rounding
-  double verified_error = -1.0;      ///< against a more exact run, likewise; < 0: not verified
-  std::string verified_error_of;
-  double verified_error_time = 0.0;
+  long events = 0;             ///< changes of stops, one-sided joints and dry friction
+  double end_time = 0.0;       ///< time reached [s]
+  double setup_time = 0.0;     ///< wall time before the first step [s]
+  double solver_time = 0.0;    ///< wall time inside the integrator and the residual [s]
+  double wall_time = 0.0;      ///< wall time of the whole run with output [s]
+  accuracy::Estimate accuracy; ///< of the error of the motion
+  bool at_rest = false;        ///< nothing has moved by more than rounding
   /// What each power take-off absorbed on average after the ramp of the sea [W], which ends then
   /// [s].
   std::vector<std::pair<std::string, double>> mean_power;
@@ -62,9 +58,9 @@ std::string examine(const model::Scene& scene);
 
 /// How a run is made, apart from its scene.
 struct RunOptions {
-  /// Runs the scene a second time, at a tenth of the tolerance or half the step, and compares the
-  /// motion at the output samples.
-  bool verify = false;
+  /// Method of the second run, at the tolerance of the first; empty: the method of the first at
+  /// 10 rtol, or at twice the fixed step. Another method sees errors that no tolerance changes.
+  std::string verify;
   /// Wall time between checkpoints [s], 0: one after each step, negative: none. A checkpoint
   /// X.checkpoint.h5 stands beside X.h5 until the run is completed. Each makes the method start
   /// anew, see run::Simulation.
@@ -77,9 +73,8 @@ struct RunOptions {
 /// has its name when the run has ended; see ResultsFile.
 /// Throws ModelError when the scene cannot start, CaseError when `output_path` cannot be written,
 /// SolverError when the integration fails or the disk is full (the file then has status "failed"
-/// and keeps what was computed); also where `verify` finds the two runs further apart than
-/// solver.error_guard, or the second one stops; CaseError when there is nothing to resume, or it is
-/// of another case.
+/// and keeps what was computed); CaseError when there is nothing to resume, or it is of another
+/// case. The error of the motion is an estimate, reported and never a reason to stop.
 RunStatistics simulate(const model::Scene& scene, const std::string& output_path,
                        const Progress& progress = {}, const RunOptions& options = {});
 

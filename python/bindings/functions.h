@@ -131,13 +131,19 @@ class PythonFunctions {
 public:
   /// A copy of the scene that has the functions.
   model::Scene join(const model::Scene& scene, const Functions& drives, const Functions& forces,
-                    const Functions& controllers = {}) {
+                    const Functions& controllers = {}, const Functions& again = {}) {
     model::Scene out = scene;
-    for (model::Controller& c : out.controllers)
-      if (const auto found = controllers.find(c.name); found != controllers.end())
-        c.make = [this, name = c.name, call = &found->second](const control::Terminals& terminals) {
+    const auto maker = [this](const std::string& name, const Functions& of) {
+      decltype(model::Controller::make) make;
+      if (const auto found = of.find(name); found != of.end())
+        make = [this, name, call = &found->second](const control::Terminals& terminals) {
           return std::make_unique<PythonLaw>(name, *call, failure_, terminals);
         };
+      return make;
+    };
+    for (model::Controller& c : out.controllers)
+      if (c.make = maker(c.name, controllers); c.make)
+        c.make_again = maker(c.name, again);
     std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
     for (model::Constraint& c : out.constraints)
       if (const auto found = drives.find(c.name); found != drives.end())

@@ -61,20 +61,16 @@ py::dict as_dict(const RunStatistics& s) {
       "error_test_failures"_a = s.error_test_failures,
       "convergence_failures"_a = s.convergence_failures, "events"_a = s.events,
       "end_time"_a = s.end_time, "setup_time"_a = s.setup_time, "solver_time"_a = s.solver_time,
-      "wall_time"_a = s.wall_time, "estimated_error"_a = s.estimated_error,
-      "estimated_error_of"_a = s.estimated_error_of,
-      "estimated_error_time"_a = s.estimated_error_time, "at_rest"_a = s.at_rest,
-      "verified_error"_a = s.verified_error, "verified_error_of"_a = s.verified_error_of,
-      "verified_error_time"_a = s.verified_error_time, "unknowns"_a = s.unknowns,
+      "wall_time"_a = s.wall_time, "at_rest"_a = s.at_rest, "unknowns"_a = s.unknowns,
       "nonzeros"_a = s.nonzeros, "notes"_a = s.notes);
 }
 
 py::dict run(const model::Scene& scene, const std::string& output, const py::object& callback,
              const Functions& drives, const Functions& forces, const Functions& controllers,
-             bool verify, double checkpoint, bool resume) {
+             const Functions& again, const std::string& verify, double checkpoint, bool resume) {
   PythonProgress progress(callback);
   PythonFunctions functions;
-  const model::Scene driven = functions.join(scene, drives, forces, controllers);
+  const model::Scene driven = functions.join(scene, drives, forces, controllers, again);
   RunStatistics statistics;
   try {
     const py::gil_scoped_release release;
@@ -116,22 +112,24 @@ void bind_simulation(py::module_& module) {
       py::arg("forces") = Functions{},
       "The scene as a tree, its unknowns, mobility and redundant rows. Raises CaseError when "
       "the joints cannot\nbe closed.");
-  module.def("simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"),
-             py::arg("drives"), py::arg("forces") = Functions{},
-             py::arg("controllers") = Functions{}, py::arg("verify") = false,
-             py::arg("checkpoint") = -1.0, py::arg("resume") = false,
-             "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
-             "`drives` has a function t -> (f, f', f'') for every constraint in "
-             "`scene.python_drives`;\n"
-             "`forces` a law t, x, v -> load for every force in `scene.python_forces`;\n"
-             "`controllers` a function t, inputs ... -> outputs for every one in "
-             "`scene.python_controllers`;\n"
-             "`verify`: compares the motion with that of a second, more exact run;\n"
-             "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
-             "from one.\n\n"
-             "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
-             "solver. Raises\nSolverError when the integration fails; the file then holds what was "
-             "computed.");
+  module.def(
+      "simulate", &run, py::arg("scene"), py::arg("output"), py::arg("progress"), py::arg("drives"),
+      py::arg("forces") = Functions{}, py::arg("controllers") = Functions{},
+      py::arg("again") = Functions{}, py::arg("verify") = "", py::arg("checkpoint") = -1.0,
+      py::arg("resume") = false,
+      "Run `scene` and write `output`; `progress(t, t_end)` returns False to stop;\n"
+      "`drives` has a function t -> (f, f', f'') for every constraint in "
+      "`scene.python_drives`;\n"
+      "`forces` a law t, x, v -> load for every force in `scene.python_forces`;\n"
+      "`controllers` a function t, inputs ... -> outputs for every one in "
+      "`scene.python_controllers`;\n"
+      "`again`: those of `controllers` that a second run may call, by name;\n"
+      "`verify`: method of the second run, by which the error is estimated; empty: the same;\n"
+      "`checkpoint`: wall time between checkpoints [s], negative: none; `resume`: goes on "
+      "from one.\n\n"
+      "Returns the status (\"completed\" or \"interrupted\") and the statistics of the "
+      "solver. Raises\nSolverError when the integration fails; the file then holds what was "
+      "computed.");
 }
 
 } // namespace hydrodae::bindings

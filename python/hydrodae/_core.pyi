@@ -128,7 +128,8 @@ def simulate(
     drives: Mapping[str, Callable[[float], Sequence[float]]],
     forces: Mapping[str, Callable[[float, Any, Any], Any]] = ...,
     controllers: Mapping[str, Callable[..., Any]] = ...,
-    verify: bool = False,
+    again: Mapping[str, Callable[..., Any]] = ...,
+    verify: str = "",
     checkpoint: float = -1.0,
     resume: bool = False,
 ) -> dict[str, Any]:
@@ -137,8 +138,9 @@ def simulate(
     `drives` has a function t -> (f, f', f'') for every constraint in `scene.python_drives`;
     `forces` a law t, x, v -> load for every force in `scene.python_forces`;
     `controllers` a function t, inputs ... -> outputs for every one in `scene.python_controllers`;
-    `verify`: compares the motion with that of a second, more exact run; `checkpoint`: wall time
-    between checkpoints [s], negative: none; `resume`: goes on from one.
+    `again`: those of `controllers` that a second run may call, by name; `verify`: method of the
+    second run, by which the error is estimated, "": the same; `checkpoint`: wall time between
+    checkpoints [s], negative: none; `resume`: goes on from one.
     Returns the status ("completed" or "interrupted") and the statistics of the solver. Raises
     SolverError when the integration fails; the file then holds what was computed.
     """

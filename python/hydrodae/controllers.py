@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import inspect
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -47,3 +49,41 @@ def kernel_controllers(
             kind = controller.__name__
             raise CaseError(f"controllers: '{name}' is the class {kind}; give an object, {kind}()")
     return given
+
+
+def repeatable_controllers(controllers: Mapping[str, Controller]) -> dict[str, Controller]:
+    """Return those that a second run of the same scene may call, ready for it.
+
+    An object with ``reset()`` is copied. A function may be called again if it has no memory: its
+    closure and the globals that it names hold no list, dictionary, set or object. The second run
+    repeats the recorded answers of all others.
+
+    Parameters
+    ----------
+    controllers : mapping from str to callable
+        By the name of the controller.
+    """
+    again: dict[str, Controller] = {}
+    for name, controller in controllers.items():
+        if inspect.isfunction(controller):
+            if not _has_memory(controller):
+                again[name] = controller
+        elif hasattr(controller, "reset"):
+            try:
+                again[name] = copy.deepcopy(controller)
+            except Exception:  # what it holds cannot be copied: a library's object, a file
+                continue
+    return again
+
+
+def _has_memory(function: Callable[..., Any]) -> bool:
+    seen = inspect.getclosurevars(function)
+    held = [*seen.nonlocals.values(), *seen.globals.values(), *(function.__defaults__ or ())]
+    return any(not _is_constant(value) for value in held)
+
+
+def _is_constant(value: object) -> bool:
+    if isinstance(value, tuple):
+        return all(map(_is_constant, value))
+    plain = (type(None), bool, int, float, complex, str, bytes)
+    return isinstance(value, plain) or inspect.ismodule(value) or callable(value)

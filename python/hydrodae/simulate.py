@@ -15,7 +15,7 @@ from types import FrameType
 from typing import Any
 
 from hydrodae.case import Case, CaseLike, read_case
-from hydrodae.controllers import Controller, kernel_controllers
+from hydrodae.controllers import Controller, kernel_controllers, repeatable_controllers
 from hydrodae.drives import Drive, Kernel, kernel_drives
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.laws import Force, kernel_forces
@@ -34,7 +34,7 @@ def run(
     drives: Mapping[str, Drive] | None = None,
     forces: Mapping[str, Force] | None = None,
     controllers: Mapping[str, Controller] | None = None,
-    verify: bool = False,
+    verify: str = "",
     checkpoint: float | None = None,
     resume: bool = False,
 ) -> Results:
@@ -68,10 +68,10 @@ def run(
         instants only. An object may have ``reset()``, called before the run, and ``state()`` to a
         list of numbers with ``restore(list)``: these then belong to checkpoints. Exceptions in it
         end the run and come back here, with what was computed as attribute `results`.
-    verify : bool
-        Run a second time, at a tenth of the tolerance or half the step, and compare the motion at
-        the output samples: `results.statistics` then has ``verified_error``, relative to the size
-        of the motion, ``verified_error_of`` and ``verified_error_time``. Twice the time and more.
+    verify : str
+        Method of the second run by which the error is estimated: "radau", "ida", "explicit_rk". By
+        default it is the method of the run, at 10 rtol or twice the fixed step: that cannot see
+        errors which no tolerance changes. See `Results.accuracy`.
     checkpoint : float, optional
         Keep ``X.checkpoint.h5`` beside ``X.h5`` until the run is completed, anew after so many
         seconds of wall time: what `resume` goes on from when the run was killed or stopped. At
@@ -90,8 +90,7 @@ def run(
         The case, a drive or a force cannot be used, `output` exists and is no results file (it is
         not replaced), another run is writing it, or there is no checkpoint of this case to resume.
     SolverError
-        The integration failed, the disk is full, or `verify` found the motion off by more than
-        ``solver.error_guard``. What was computed is kept: the attribute
+        The integration failed, or the disk is full. What was computed is kept: the attribute
         `results` of the exception is a `Results`, or None when the run did not even start.
     RunInterrupted
         Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
@@ -137,7 +136,7 @@ def _integrate(
     path: Path,
     progress: Progress | None,
     functions: tuple[dict[str, Kernel], dict[str, Force], dict[str, Controller]],
-    verify: bool,
+    verify: str,
     checkpoint: float | None,
     resume: bool,
 ) -> str:
@@ -163,6 +162,7 @@ def _integrate(
             str(path),
             report,
             *functions,
+            repeatable_controllers(functions[2]),
             verify,
             -1.0 if checkpoint is None else checkpoint,
             resume,

@@ -113,7 +113,7 @@ def ratio(cell: Cell) -> float | None:
         return None
     if cell.estimate is None:
         return None
-    return max(cell.error / cell.size, FLOOR) / max(cell.estimate, 0.1 * FLOOR)
+    return max(cell.error / cell.size, FLOOR) / max(cell.estimate, FLOOR)
 
 
 def label(cell: Cell) -> str:

@@ -147,10 +147,10 @@ def test_refusals(case: Path, tmp_path: Path) -> None:
     checkpoint = output.with_suffix(".checkpoint.h5")
     with pytest.raises(CaseError, match="nothing to resume"):
         hydrodae.run(case, output, resume=True)
+    with pytest.raises(CaseError, match="leave out --verify"):
+        hydrodae.run(case, output, resume=True, verify="radau")
     with pytest.raises(CaseError, match="name an output"):
         hydrodae.run(case, checkpoint=60.0)
-    with pytest.raises(CaseError, match="leave out --verify"):
-        hydrodae.run(case, output, checkpoint=60.0, verify=True)
     kill_in_the_middle(case, output, "--checkpoint", "0")
     with pytest.raises(CaseError, match="other overrides"):
         hydrodae.run(case, output, resume=True, set={"solver.rtol": 1e-5})

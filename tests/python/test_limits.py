@@ -81,7 +81,6 @@ KEYS = [
     "solver.max_step",
     "solver.baumgarte_time",
     "solver.energy_guard",
-    "solver.step_guard",
     "solver.spectral_radius",
     "solver.length_scale",
     "solver.time_scale",

@@ -302,8 +302,3 @@ def test_nobody_there() -> None:
         given.set("controller.pi.connect_timeout", 0.2)
         with pytest.raises(SolverError, match=message):
             hydrodae.run(given)
-
-
-def test_a_run_over_tcp_is_not_verified() -> None:
-    with pytest.raises(CaseError, match="cannot be verified"):
-        hydrodae.run(case(free_port()), verify=True)

@@ -102,8 +102,6 @@ def test_where_nothing_fails_the_run_is_that_of_the_method(name: str, tmp_path: 
 
 def test_a_stiff_scene_that_explicit_steps_cannot_pass(tmp_path: Path) -> None:
     scene = MAP["stiff_1e9"]
-    guarded = {**scene.tables, "solver": {**scene.tables["solver"], "error_guard": 0.005}}
-    scene = replace(scene, tables=guarded)
     assert outcome(scene, "explicit_rk", tmp_path).outcome == STOPPED
     assert outcome(scene, "auto", tmp_path).outcome == PASS
 
@@ -209,22 +207,6 @@ def test_a_lock_stops_every_method_and_the_message_names_them(tmp_path: Path) ->
     assert caught.value.results.statistics["method_in_use"] == "ida"
 
 
-def test_what_went_wrong_over_many_steps_is_not_tried_again(tmp_path: Path) -> None:
-    """The same stop, at the same time, as of the method by itself."""
-    told = []
-    for method in ("auto", "radau"):
-        with pytest.raises(hydrodae.SolverError, match="error_guard") as caught:
-            hydrodae.run(MAP["long_pendulum"].case({"rtol": 2e-3, "method": method}, tmp_path))
-        told.append(str(caught.value))
-        assert caught.value.results is not None
-        assert caught.value.results.statistics["method_in_use"] == "radau"
-    assert told[0] == told[1]
-    with pytest.raises(hydrodae.SolverError, match="error_guard") as caught:
-        hydrodae.run(short_of("pendulum", 400.0, tmp_path))
-    assert caught.value.results is not None
-    assert str(caught.value.results.statistics["methods"]).split() == ["explicit_rk"]
-
-
 @pytest.mark.parametrize(
     ("values", "message"),
     [
@@ -232,7 +214,6 @@ def test_what_went_wrong_over_many_steps_is_not_tried_again(tmp_path: Path) -> N
         ({"step": 0.01}, '"auto" takes methods that choose their steps by rtol; for a fixed step'),
         ({"formulation": "index_2"}, '"auto" keeps to "stabilised"'),
         ({"max_order": 3}, "belongs to ida; name the method"),
-        ({"step_guard": 0.1}, "belongs to fixed steps"),
     ],
 )
 def test_keys_that_ask_for_a_method_by_name(values: dict[str, Any], message: str) -> None:

@@ -272,7 +272,6 @@ def test_the_energy_guard_looks_inside_steps(repository: Path) -> None:
             "solver.method": "explicit_rk",
             "solver.order": 5,
             "solver.step": 0.2,
-            "solver.step_guard": 0,
         }
     )
     for values in ({}, REDUCED):

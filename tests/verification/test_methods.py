@@ -166,7 +166,7 @@ def test_pairs_known_to_fail_are_refused_with_the_reason(
 
 def test_force_runs_a_refused_pair() -> None:
     values: dict[str, Any] = {"solver.method": "ida", "solver.formulation": "index_3"}
-    values |= {"solver.force": True, "solver.end_time": 1.0, "solver.error_guard": 0.0}
+    values |= {"solver.force": True, "solver.end_time": 1.0}
     assert hydrodae.run(PENDULUM, set=values).statistics["steps"] > 10
 
 

@@ -31,6 +31,12 @@ struct SolverError : Error {
   double time; ///< [s]
 };
 
-enum class ExitCode { done = 0, bad_case = 2, solver_failure = 3, interrupted = 4 };
+enum class ExitCode {
+  done = 0,
+  bad_case = 2,
+  solver_failure = 3,
+  interrupted = 4,
+  not_reproducible = 5
+};
 
 } // namespace hydrodae

@@ -84,8 +84,6 @@ void check_step(const SolverOptions& o) {
     refuse_solver("step", "ida chooses its steps by rtol; solver.max_step limits them");
   if (o.step > 0.0 && o.max_step > 0.0)
     refuse_solver("max_step", "has no meaning beside a fixed step");
-  if (o.step_guard.value_or(0.0) > 0.0 && o.step == 0.0)
-    refuse_solver("step_guard", "belongs to fixed steps (solver.step)");
   if (o.step > o.end_time)
     refuse_solver("step", "is longer than the run (" + number_text(o.end_time) + " s)");
 }

@@ -54,6 +54,9 @@ struct Controller {
 
   /// Makes the law of one run; given by the program where it is not one of the kernel's own.
   std::function<std::unique_ptr<control::Law>(const control::Terminals&)> make;
+  /// Makes another one, for a second run of the same scene; empty where the law of the first cannot
+  /// begin anew.
+  std::function<std::unique_ptr<control::Law>(const control::Terminals&)> make_again;
 
   static Fields<Controller> fields(); ///< in controller.cpp
 };

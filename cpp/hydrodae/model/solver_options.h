@@ -24,8 +24,7 @@ struct SolverOptions {
   double baumgarte_time = 0.0;
   std::optional<double> energy_guard;
   bool branch_guard = true;
-  double error_guard = 0.1;
-  std::optional<double> step_guard;
+  std::string accuracy = "two_runs";
   double tolerance_assembly = 1e-6;
   bool force = false;
   std::optional<double> length_scale;
@@ -102,16 +101,16 @@ struct SolverOptions {
          "A run of a scene with closed loops ends as failed when its velocities jump though "
          "nothing "
          "strikes: at a singular pose the motion left its branch."},
-        {"error_guard", &O::error_guard, "-",
-         "A run ends as failed when the errors of its steps, carried along by the linearised "
-         "equations, and the energy that they miss may put the motion off by more than this part "
-         "of it: when twice their estimate is more, with fixed steps three times; 0: no guard.",
-         false, at_least(0)},
-        {"step_guard", &O::step_guard, "-",
-         "A run of fixed steps ends as failed when the estimated errors of its steps, summed over "
-         "ten time scales of the bodies, are more than this angle [rad], or this part of a body's "
-         "lever; 0: no guard. By default 0.02.",
-         false, at_least(0, 1e6)},
+        {"accuracy",
+         &O::accuracy,
+         "-",
+         "Estimate of the error of the motion, body by body: two_runs compares the run with a "
+         "second "
+         "one at 10 rtol, or at twice the fixed step, which runs in a second thread; none: no "
+         "estimate.",
+         false,
+         any_value,
+         {"two_runs", "none"}},
         {"tolerance_assembly", &O::tolerance_assembly, "-",
          "Joints that are out of line with each other by less than this part of the body's lever "
          "(its farthest joint or radius of gyration), or of one radian, count as exact: a row that "

@@ -32,28 +32,12 @@ public:
         step.end, step.recorder, [&] { return watch_.near_singular(step); },
         [&] { return reactions(s_, step.y); });
   }
-  bool lies_in_step(const Step& step) const override {
-    return guard_.lies_in_last_step(step.recorder);
-  }
   void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
 
 private:
   const system::Regime& s_;
   solve::EnergyGuard guard_;
   PoseWatch& watch_;
-};
-
-class StepCheck : public Guard {
-public:
-  explicit StepCheck(solve::StepGuard guard) : guard_(std::move(guard)) {}
-  void check(const Step& step) override {
-    const solve::Statistics s = step.integrator.statistics();
-    guard_.check(step.end, s.last_step, s.last_order, step.integrator.local_error());
-  }
-  void remember(Archive& a) override { guard_.remember(a); }
-
-private:
-  solve::StepGuard guard_;
 };
 
 class BranchCheck : public Guard {
@@ -82,24 +66,6 @@ private:
   const system::Regime& s_;
   std::unique_ptr<solve::DriftGuard> guard_;
   PoseWatch& watch_;
-};
-
-class TrustCheck : public Guard {
-public:
-  explicit TrustCheck(const Judges& judges) : judges_(judges) {}
-  void check(const Step& step) override {
-    judges_.scale.accept(step.end, step.y);
-    judges_.trust.accept(step.end, step.integrator, judges_.scale.reached(), step.y, step.event,
-                         step.recorder);
-  }
-  void restart(const Step& step) override {
-    judges_.trust.restart(judges_.pattern, step.end, step.y, step.yp);
-  }
-  void remember(Archive& a) override { judges_.trust.remember(a); }
-  void finish(const Step& step) override { judges_.trust.finish(step.end); }
-
-private:
-  Judges judges_;
 };
 
 /// Positions so large that their rounding hides what the tolerance asks for: steps shrink there
@@ -226,8 +192,9 @@ void PoseWatch::remember(Archive& a) {
 }
 
 std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
+                                                const system::Pattern& pattern,
                                                 const model::SolverOptions& options,
-                                                const VectorX& y, const Judges& judges,
+                                                const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
   solve::EnergyGuard energy(system, options);
@@ -236,17 +203,13 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
   guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
   if (options.step <= 0.0 && system.lambda0 > 0)
     guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
-  if (const double allowed = options.step_guard.value_or(0.02); options.step > 0.0 && allowed > 0.0)
-    guards.push_back(
-        std::make_unique<StepCheck>(solve::StepGuard(system, allowed, options.end_time)));
   if (options.branch_guard)
     if (solve::BranchGuard branch(system); branch.active())
       guards.push_back(std::make_unique<BranchCheck>(std::move(branch)));
   if (drifts)
     guards.push_back(std::make_unique<DriftCheck>(system, *watch));
   if (has_pressed_friction(system))
-    guards.push_back(std::make_unique<JamCheck>(system, judges.pattern));
-  guards.push_back(std::make_unique<TrustCheck>(judges));
+    guards.push_back(std::make_unique<JamCheck>(system, pattern));
   return guards;
 }
 

@@ -8,8 +8,6 @@
 #include "hydrodae/core/archive.h"
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
-#include "hydrodae/solve/trust.h"
-#include "hydrodae/system/motion_scale.h"
 #include "hydrodae/system/recorder.h"
 
 namespace hydrodae::run {
@@ -28,12 +26,8 @@ class Guard {
 public:
   virtual ~Guard() = default;
 
-  /// Throws SolverError where the motion is not to be trusted any more.
+  /// Throws SolverError where the step is proved wrong.
   virtual void check(const Step& step) = 0;
-
-  /// Does what `check` has just complained of lie in that step alone, so that the state at its
-  /// start is as good as that of any run? Then another method may take the step.
-  virtual bool lies_in_step(const Step&) const { return false; }
 
   /// Other rows hold from the end of the step on.
   virtual void restart(const Step&) {}
@@ -76,20 +70,16 @@ private:
   VectorX y_, yp_;
 };
 
-/// Where the motion itself is judged: the tolerances follow it, then errors are held against it.
-struct Judges {
-  system::MotionScale& scale;
-  solve::Trust& trust;
-  const system::Pattern& pattern; ///< of the rows that hold
-};
-
-/// All guards that the options ask for, in the order in which they look: energy, rounding, fixed
-/// steps, velocities that jump, constraints that drift, piled up errors.
+/// All guards that the options ask for. Each ends a run only on proof of failure: energy made or
+/// lost, positions whose rounding hides the tolerance, velocities that jump, constraints that
+/// drift, friction that leaves no accelerations.
+/// @param pattern of the rows that hold
 /// @param watch takes the watch over singular poses, which outlives the guards
 /// @param y pose of the start
 std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
+                                                const system::Pattern& pattern,
                                                 const model::SolverOptions& options,
-                                                const VectorX& y, const Judges& judges,
+                                                const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch);
 
 } // namespace hydrodae::run

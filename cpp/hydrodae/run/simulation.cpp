@@ -60,10 +60,9 @@ Simulation::Simulation(Start start, model::Scene&& scene)
   make_integrator();
   if (options_.coordinates == "reduced")
     notes_.push_back(system::JointTree(system_).in_words(regime_));
-  trust_ = std::make_unique<solve::Trust>(regime_, pattern_, options_, y_, yp_);
   recorder_ = std::make_unique<system::Recorder>(regime_, 0.0, y_, yp_);
   recorder_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
-  guards_ = make_guards(regime_, options_, y_, {*scale_, *trust_, pattern_}, poses_);
+  guards_ = make_guards(regime_, pattern_, options_, y_, poses_);
   make_channels();
 }
 
@@ -137,9 +136,7 @@ void Simulation::advance(double limit, const Inside& inside) {
   if (inside)
     inside();
   recorder_->accept();
-  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
-  for (const std::unique_ptr<Guard>& guard : guards_)
-    guard->check(step);
+  scale_->accept(t_, y_);
   if (history_)
     history_->append(t_, y_, yp_);
   watch_steps(event, end);
@@ -157,7 +154,8 @@ void Simulation::require_going() const {
                               " s; it goes on from a state that is restored only");
 }
 
-/// One step, and what the recorder makes of it.
+/// One step that no guard proves wrong, and what the recorder makes of it. Under "auto" the next
+/// method makes a step that is.
 /// @returns whether it ends in an event
 bool Simulation::take_step(double end) {
   for (;;) {
@@ -169,9 +167,23 @@ bool Simulation::take_step(double end) {
     at_(t_, y_, yp_);
     if (closing_)
       closing_->accept(t_, y_, yp_);
-    if (!take_back(event))
+    try {
+      check_step(event);
       return event;
+    } catch (const SolverError& error) {
+      if (!methods_.more())
+        throw;
+      take_back();
+      fall_back(error);
+    }
   }
+}
+
+/// Throws SolverError where the step is proved wrong.
+void Simulation::check_step(bool event) {
+  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
+  for (const std::unique_ptr<Guard>& guard : guards_)
+    guard->check(step);
 }
 
 /// One step, cut short where a stop or dry friction changes.
@@ -211,7 +223,6 @@ void Simulation::restart() {
   const Clock::time_point before = Clock::now();
   std::optional<double> struck;
   follow_turns();
-  const VectorX y = y_, yp = yp_;
   if (law_events_)
     law_events_->settle(t_, y_);
   if (switching_)
@@ -221,13 +232,6 @@ void Simulation::restart() {
   if (struck && law_events_ && law_events_->settle(t_, y_) && !switching_)
     consistency().restore(t_, y_, yp_);
   recorder_->restart(y_, yp_, struck);
-  if (struck && switching_ && switching_->hit())
-    trust_->carry_over({regime_, *switching_, *switching_->hit(), t_, y, yp, y_, yp_});
-  for (std::size_t k = 0; struck && k < regime_.switches.size(); ++k)
-    if (!switching_->struck()[k].impacts.empty())
-      trust_->strike(
-          system::moving_body(regime_, system::joint_of(regime_, regime_.switches[k].motion))
-              ->mechanism);
   if (history_)
     history_->append(t_, y_, yp_);
   if (!finished()) {

@@ -21,6 +21,7 @@
 #include "hydrodae/solve/switching.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/system/motion_scale.h"
 
 namespace hydrodae::run {
 
@@ -41,7 +42,8 @@ public:
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  double time() const { return t_; } ///< of the last accepted step [s]
+  double time() const { return t_; }      ///< of the last accepted step [s]
+  const VectorX& y() const { return y_; } ///< all unknowns there
   bool finished() const { return t_ >= options_.end_time; }
 
   /// Called with every accepted step while `sample` may ask for times inside it.
@@ -76,6 +78,9 @@ public:
   /// One row of all channels at a time inside the step (see `advance`), or now.
   void sample(double t, std::span<double> row);
 
+  /// The unknowns alone at a time inside the step, or now.
+  void look(double t, VectorX& y);
+
   /// The values of a channel now: one, three or four; one of a component, "velocity.z". Changes
   /// nothing. Throws CaseError, with the nearest name, where there is none.
   std::span<const double> read(const std::string& channel);
@@ -102,8 +107,8 @@ public:
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
   long nonzeros() const { return pattern_.nonzeros(); }
   long events() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
-  solve::Trust::Estimate estimate() const { return trust_->estimate(); }
-  bool at_rest() const { return trust_->at_rest(); }
+  /// Has nothing moved by more than rounding?
+  bool at_rest() const { return scale_->at_rest(); }
   double relative_balance_error() const; ///< the largest so far, of `energy_scale` [-]
   /// Energy exchanged so far, no less than that of errors within the tolerance [J].
   double energy_scale() const;
@@ -135,7 +140,8 @@ private:
   void make_closing();
   void fall_back(const SolverError& error);
   bool take_step(double end);
-  bool take_back(bool event);
+  void check_step(bool event);
+  void take_back();
   void watch_steps(bool event, double end);
   void restart();
   solve::Consistency& consistency();
@@ -173,7 +179,6 @@ private:
   std::unique_ptr<system::MotionScale> scale_;      ///< adapts the tolerances
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::SampleClosing> closing_; ///< null: no rows, or rows that drift
-  std::unique_ptr<solve::Trust> trust_;
   std::unique_ptr<system::Recorder> recorder_;
   std::unique_ptr<PoseWatch> poses_;
   std::vector<std::unique_ptr<Guard>> guards_;

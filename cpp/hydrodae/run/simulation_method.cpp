@@ -33,8 +33,6 @@ void Simulation::use_method() {
   approaches_events_ = options_.method == "radau" || options_.step > 0.0;
   if (poses_)
     poses_->use(options_.method);
-  if (trust_)
-    trust_->use(options_);
 }
 
 /// At the last accepted instant; of the next method where this one cannot start there.
@@ -70,31 +68,14 @@ void Simulation::fall_back(const SolverError& error) {
   follow_turns();
   use_method();
   make_integrator();
-  trust_->restart(pattern_, t_, y_, yp_);
 }
 
-/// Takes the last step back, for the next method to make it, where a guard complains of that step
-/// alone: the state at its start is as good as that of any run. What has gone wrong over more than
-/// one step is not tried again.
-/// @returns whether it has
-bool Simulation::take_back(bool event) {
-  if (!methods_.more())
-    return false;
-  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
-  Guard& guard = *guards_.front();
-  try {
-    guard.check(step);
-    return false;
-  } catch (const SolverError& error) {
-    if (!guard.lies_in_step(step))
-      return false;
-    recorder_->take_back();
-    t_ = step_start_;
-    y_ = y_start_;
-    yp_ = yp_start_;
-    fall_back(error);
-    return true;
-  }
+/// Goes back to the start of the last step.
+void Simulation::take_back() {
+  recorder_->take_back();
+  t_ = step_start_;
+  y_ = y_start_;
+  yp_ = yp_start_;
 }
 
 bool Simulation::has_events() const {

@@ -17,6 +17,16 @@ void Simulation::sample(double t, std::span<double> row) {
   fill_counts(row);
 }
 
+void Simulation::look(double t, VectorX& y) {
+  y = y_;
+  if (t >= t_)
+    return;
+  VectorX yp(y_.size());
+  inside_(t, y, yp);
+  if (closing_)
+    closing_->close(t, y);
+}
+
 /// The columns behind those of the recorder.
 void Simulation::fill_counts(std::span<double> row) const {
   const solve::Statistics s = integrator_->statistics();

@@ -9,7 +9,6 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/solve/stage_newton.h"
-#include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::solve {
@@ -36,6 +35,21 @@ int stages_of(Family family, int order) {
   return order == 0 ? 3 : order / 2 + 1;
 }
 
+/// q' = E(q) u of the bodies (n_q,): quaternions turn by half the angular velocity.
+VectorX position_rates(const system::Regime& s, const VectorX& y) {
+  VectorX rates = VectorX::Zero(s.n_q);
+  for (const system::BodyData& b : s.bodies) {
+    const bool free = b.rotation == system::BodyData::Rotation::free;
+    const Index q = b.q0 + b.n_translations;
+    for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+      rates[b.q0 + k] = y[b.u0 + k];
+    if (free)
+      rates.segment<4>(q) = 0.5 * quaternion_rate_matrix<double>(Vector4(y.segment<4>(q))) *
+                            y.segment<3>(b.u0 + b.n_translations);
+  }
+  return rates;
+}
+
 class Collocation : public Integrator {
 public:
   Collocation(const system::Regime& system, const system::Pattern& pattern,
@@ -60,11 +74,8 @@ public:
 
   double step(double end, double bound) override;
   bool restart(double t, const VectorX& y, const VectorX& yp) override;
-  const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
-  const VectorX& local_error() const override { return local_error_; }
-  const VectorX& inner_error() const override { return inner_error_; }
   double gap() const override { return gap_; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
   void remember(Archive& a) override;
@@ -81,7 +92,6 @@ private:
   void find_driven();
   double drive_error(double h);
   void accept(double h);
-  void find_inner_error(double h);
   void between_ends(double x, VectorX& y) const;
   void choose_order(double error, bool cut);
   const RungeKutta& last() const { return methods_.at(static_cast<int>(Z_.cols()))->rk(); }
@@ -103,7 +113,6 @@ private:
   std::map<int, std::unique_ptr<StageNewton>> methods_; ///< by number of stages
   StageNewton* newton_ = nullptr;
   double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0;
-  VectorX step_error_; ///< (lambda0,)
   double reach_ = 0.0; ///< time to which the error control would have stepped [s]
   VectorX y_, yp_, y0_, w_, error_, v_, guess_, guess_rate_;
   MatrixX Z_, start_, rates_; ///< stages of the last step; start values; their rates
@@ -117,13 +126,10 @@ private:
   int wary_ = 0, wait_ = 0; ///< steps to make with new ones after old ones failed; left of them
   bool was_full_ = false;   ///< the last step took full Newton
   double last_h_ = 0.0, last_error_ = 1.0;
-  std::optional<StageError> stage_error_;
-  VectorX local_error_, inner_error_; ///< (n_blocks,)
-  VectorX nodes_;                     ///< of the interpolant, on [0, 1]
-  double largest_product_ = 0.0;      ///< of prod (x - node) on [0, 1]
-  double gap_ = 1.0;                  ///< see `gap`
-  VectorX slope0_, slope_;            ///< rates of the positions at both ends, where it is a line
-  int since_change_ = 0, slack_ = 0;  ///< steps of this order; those last that Newton limited
+  VectorX nodes_;                    ///< of the interpolant, on [0, 1]
+  double gap_ = 1.0;                 ///< see `gap`
+  VectorX slope0_, slope_;           ///< rates of the positions at both ends, where it is a line
+  int since_change_ = 0, slack_ = 0; ///< steps of this order; those last that Newton limited
 };
 
 void Collocation::use(int stages) {
@@ -131,16 +137,12 @@ void Collocation::use(int stages) {
   if (!entry)
     entry = std::make_unique<StageNewton>(e_, make_runge_kutta(family_, stages));
   newton_ = entry.get();
-  stage_error_.emplace(newton_->rk());
   nodes_ = newton_->rk().c;
   gap_ = fixed_ ? 1.0 : largest_gap({nodes_.begin(), nodes_.end()});
   if (family_ != Family::lobatto_iiic) {
     nodes_.conservativeResize(stages + 1);
     nodes_[stages] = 0.0;
   }
-  largest_product_ = 0.0;
-  for (int i = 0; i <= 100; ++i)
-    largest_product_ = std::max(largest_product_, std::abs((0.01 * i - nodes_.array()).prod()));
   factored_ = 0.0;
   since_change_ = slack_ = 0;
   last_h_ = 0.0; // its error was another method's
@@ -347,22 +349,6 @@ double Collocation::drive_error(double h) {
   return size;
 }
 
-/// A polynomial through n nodes misses y^(n) / n! prod (x - node). How far that of the last step,
-/// followed to the end of this one, misses it tells y^(n).
-void Collocation::find_inner_error(double h) {
-  if (done_ == 0.0)
-    return;
-  const double x = 1.0 + h / done_;
-  evaluate(x, guess_);
-  const RungeKutta& rk = newton_->rk();
-  const Index n = s_.lambda0;
-  guess_.head(n) -= y_.head(n) + (rk.stiffly_accurate() ? VectorX(start_.col(rk.stages - 1).head(n))
-                                                        : VectorX((start_ * rk.end).head(n)));
-  const double missed = std::abs((x - nodes_.array()).prod()) *
-                        std::pow(done_ / h, static_cast<double>(nodes_.size()));
-  inner_error_ = largest_product_ / missed * block_sizes(s_, guess_);
-}
-
 /// Where the interpolant is a line: velocities on a line between both ends of the step, positions
 /// on the cubic that has their rates there, so that what falls does so on a parabola.
 void Collocation::between_ends(double x, VectorX& y) const {
@@ -374,14 +360,8 @@ void Collocation::between_ends(double x, VectorX& y) const {
 
 void Collocation::accept(double h) {
   const RungeKutta& rk = newton_->rk();
-  if (fixed_)
-    find_inner_error(h);
   Z_ = start_;
   newton_->rates(h, Z_, rates_);
-  local_error_ = (*stage_error_)(s_, h, yp_, rates_, e_.time_scale());
-  if (inner_error_.size() > 0)
-    inner_error_ += stage_error_->at_stages();
-  step_error_ = stage_error_->pattern();
   y0_ = y_;
   t0_ = t_;
   done_ = h;
@@ -395,18 +375,14 @@ void Collocation::accept(double h) {
     y_.head(s_.lambda0) += (Z_ * rk.end).head(s_.lambda0);
     y_.tail(s_.n - s_.lambda0) = at_end.tail(s_.n - s_.lambda0);
     evaluate_rates(1.0, yp_);
-    const VectorX aside = y_.head(s_.z0);
     if (project_ && (!saddle_->accelerations(t_, y_, yp_) || !saddle_->project(t_, y_) ||
                      !saddle_->accelerations(t_, y_, yp_)))
       fail("the constraints cannot be met at the end of the step");
-    // With constraints the end is of the order of the stages. Along them it was found off by 1/10
-    // to 1/300 of what it was aside of them.
-    step_error_.head(s_.z0) += 0.1 * (y_.head(s_.z0) - aside);
   }
   e_.accept(t_, y_, yp_);
   if (nodes_.size() <= 2) {
-    slope0_ = to_positions(s_, y0_, y0_.segment(s_.u0, s_.n_u));
-    slope_ = to_positions(s_, y_, y_.segment(s_.u0, s_.n_u));
+    slope0_ = position_rates(s_, y0_);
+    slope_ = position_rates(s_, y_);
   }
   fresh_ = false;
   ++e_.statistics.steps;
@@ -519,8 +495,6 @@ bool Collocation::restart(double t, const VectorX& y, const VectorX& yp) {
   last_error_ = 1.0;
   since_change_ = slack_ = 0;
   fresh_ = false;
-  stage_error_.emplace(newton_->rk());
-  step_error_ = local_error_ = inner_error_ = VectorX();
   reach_ = t + h_;
   e_.accept(t_, y_, yp_);
   return true;
@@ -554,8 +528,8 @@ void Collocation::remember(Archive& a) {
     use(stages);
   }
   a(rates_, y0_, t0_, done_, slope0_, slope_, h_, reach_, last_h_, last_error_, contraction_,
-    last_contraction_, wary_, wait_, was_full_, since_change_, slack_, *stage_error_, step_error_,
-    local_error_, inner_error_, e_.statistics.last_step, e_.statistics.last_order, guard_);
+    last_contraction_, wary_, wait_, was_full_, since_change_, slack_, e_.statistics.last_step,
+    e_.statistics.last_order, guard_);
 }
 
 } // namespace

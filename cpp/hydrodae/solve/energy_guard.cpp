@@ -103,23 +103,6 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
          believed(recorder.mechanisms_before()[m], mechanisms[m]));
 }
 
-bool EnergyGuard::lies_in_last_step(const system::Recorder& recorder) const {
-  using Balance = system::Recorder::Balance;
-  constexpr double less = 0.5; // of what is missing now
-  const double part = std::min(part_, at_singular_);
-  const auto sound = [&](int mechanism, const Balance& before, const Balance& now) {
-    const auto good = [&](const Balance& b) {
-      return std::abs(b.error) - least(mechanism) <= part * b.exchanged;
-    };
-    return good(before) && (good(now) || std::abs(before.error) <= less * std::abs(now.error));
-  };
-  bool all = sound(-1, recorder.whole_before(), recorder.whole());
-  for (std::size_t m = 0; m < recorder.mechanisms().size(); ++m)
-    all = all &&
-          sound(static_cast<int>(m), recorder.mechanisms_before()[m], recorder.mechanisms()[m]);
-  return all;
-}
-
 void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)

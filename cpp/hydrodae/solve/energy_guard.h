@@ -24,10 +24,6 @@ public:
              const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
-  /// Does what is missing go back to the last step alone? At its start nothing was missing that
-  /// is not allowed even at a singular pose, and less than half of what is missing now.
-  bool lies_in_last_step(const system::Recorder& recorder) const;
-
   /// Energy below which an exchange tells nothing: that of errors within the tolerance [J].
   double counts() const { return least(-1); }
 

@@ -8,7 +8,6 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/explicit_tableaux.h"
 #include "hydrodae/solve/joint_space.h"
-#include "hydrodae/solve/step_error.h"
 #include "hydrodae/solve/stiffness.h"
 
 namespace hydrodae::solve {
@@ -95,14 +94,12 @@ public:
 
   double step(double end, double bound) override;
   bool restart(double t, const VectorX& y, const VectorX& yp) override;
-  const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   void look_inside(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override {
     Statistics all = e_.statistics;
     return all += space_.statistics();
   }
-  const VectorX& local_error() const override { return local_error_; }
   int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
   /// Larger than it is between stages: in steps beyond a third of a wave the estimated errors are a
   /// hundred times too large.
@@ -120,7 +117,6 @@ private:
   double error(double h);
   bool is_smooth(double h);
   double longest_at_rest(double err);
-  void estimate(double h);
   void extend();
   void follow_polynomial(double x);
   [[noreturn]] void fail(const std::string& reason);
@@ -145,8 +141,6 @@ private:
   double last_error_ = 1e-4;
   double rest_step_ = 0.0;  ///< the longest stable one of this rest, 0: not at rest
   double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
-  VectorX step_error_;      ///< (lambda0,)
-  VectorX local_error_;     ///< (n_blocks,), of fixed steps
 };
 
 template <class Space> void ExplicitRk<Space>::fail(const std::string& reason) {
@@ -215,36 +209,6 @@ template <class Space> double ExplicitRk<Space>::error(double h) {
   return of_order_8(five, size(tableaux::rk8_e3));
 }
 
-/// The same as a vector, of the last step.
-template <class Space> const VectorX& ExplicitRk<Space>::step_error() {
-  if (pair_.order == 5) {
-    combine(done_, tableaux::rk5_e);
-    step_error_ = space_.of_bodies(x_, stage_).head(e_.system.lambda0);
-    return step_error_;
-  }
-  e_.weights(y_, w_);
-  combine(done_, tableaux::rk8_e3);
-  const double three = e_.norm(w_, space_.of_bodies(x_, stage_));
-  combine(done_, tableaux::rk8_e5);
-  const VectorX& change = space_.of_bodies(x_, stage_);
-  const double five = e_.norm(w_, change), size = std::hypot(five, 0.1 * three);
-  step_error_ = (size > 0.0 ? five / size : 0.0) * change.head(e_.system.lambda0);
-  return step_error_;
-}
-
-/// The same for each block, relative to its size.
-template <class Space> void ExplicitRk<Space>::estimate(double h) {
-  const system::Regime& s = e_.system;
-  auto sizes = [&](std::span<const double> weights) {
-    combine(h, weights);
-    return block_sizes(s, space_.of_bodies(x_, stage_));
-  };
-  if (pair_.order == 5)
-    local_error_ = sizes(tableaux::rk5_e);
-  else
-    local_error_ = sizes(tableaux::rk8_e5).binaryExpr(sizes(tableaux::rk8_e3), &of_order_8);
-}
-
 /// Do the accelerations at the end of the step agree with those of the last stage, which lies there
 /// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
 /// hits would not be seen. They differ by little more than in the steps before where all is smooth;
@@ -303,8 +267,6 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
       continue;
     }
     const double err = fixed_ ? 0.0 : error(h);
-    if (fixed_)
-      estimate(h);
     const bool good = err <= 1.0 && std::isfinite(err);
     if (good && !(space_.project(t_ + h, trial_) && find_end(h))) {
       if (fixed_)
@@ -367,7 +329,6 @@ bool ExplicitRk<Space>::restart(double t, const VectorX& y, const VectorX& yp) {
   last_error_ = 1e-4;
   rest_step_ = 0.0;
   extended_ = false;
-  step_error_ = local_error_ = VectorX();
   return find_rates();
 }
 

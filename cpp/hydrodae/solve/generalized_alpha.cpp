@@ -8,7 +8,6 @@
 #include "hydrodae/math/rotation.h"
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/newton_matrix.h"
-#include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/assemble.h"
 
 namespace hydrodae::solve {
@@ -41,28 +40,19 @@ public:
     alpha_f_ = rho / (rho + 1.0);
     gamma_ = 0.5 - alpha_m_ + alpha_f_;
     beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
-    const double shift = alpha_m_ - alpha_f_;
-    error_constant_ = beta_ + 0.5 * shift - 1.0 / 6.0;
-    rate_constant_ = shift * (alpha_m_ - 0.5) + gamma_ * (0.5 + shift) - 1.0 / 6.0;
     e_.accept(t_, y_, yp_);
   }
 
   double step(double end, double bound) override;
-  const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
-  const VectorX& local_error() const override { return local_error_; }
-  const VectorX& inner_error() const override { return inner_error_; }
   void remember(Archive& a) override {
-    a(a_, y0_, yp0_, t0_, change_, local_error_, inner_error_, step_error_, e_.statistics.last_step,
-      e_.statistics.last_order);
+    a(a_, y0_, yp0_, t0_, e_.statistics.last_step, e_.statistics.last_order);
   }
 
 private:
   template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
   void update(double h);
-  void estimate(double h);
-  void find_inner_error(double h);
   bool refresh(double t, double h);
   bool newton(double t, double h);
   [[noreturn]] void fail(const std::string& reason);
@@ -72,16 +62,11 @@ private:
   Equations e_;
   NewtonMatrix<double> newton_matrix_;
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
-  double error_constant_ = 0; ///< of the positions, of h^3 q'''
-  double rate_constant_ = 0;  ///< of u and z, of h^3 x'''
   double t_ = 0.0, t0_ = 0.0, h_;
   Index n_x_;
   VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
-  VectorX velocity_;                  ///< G^T mu of the last residual, tangent
-  VectorX change_;                    ///< of x' over the last step; empty: there was none
-  VectorX local_error_, inner_error_; ///< (n_blocks,)
-  VectorX step_error_;                ///< (lambda0,)
-  double factored_ = 0.0;             ///< step of the matrix at hand [s]; 0: none
+  VectorX velocity_;      ///< G^T mu of the last residual, tangent
+  double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
 };
 
 /// From the rows of q, whose last part is E(q) v, the tangent velocity v of each body:
@@ -171,42 +156,6 @@ bool GeneralizedAlpha::newton(double t, double h) {
   return false;
 }
 
-/// Error of the last step. With d = alpha_m - alpha_f, k = d (alpha_m - 1/2) the algorithm's own a
-/// is x' + d h x'' + k h^2 x''', hence (beta + d / 2 - 1/6) h^3 q''' of the positions along each
-/// coordinate and (k + gamma (1/2 + d) - 1/6) h^3 x''' of the rest; and turns do not commute,
-/// -h^3 w x w' / 12 (Magnus).
-void GeneralizedAlpha::estimate(double h) {
-  const VectorX change = (yp_ - yp0_).segment(s_.u0, n_x_);
-  VectorX moved = error_constant_ * h * h * change.head(s_.n_u);
-  for (const system::BodyData& b : s_.bodies)
-    if (b.rotation == system::BodyData::Rotation::free) {
-      const Index k = b.u0 + b.n_translations;
-      moved.segment<3>(k - s_.u0) -=
-          h * h * h / 12.0 * Vector3(y_.segment<3>(k)).cross(Vector3(yp_.segment<3>(k)));
-    }
-  step_error_ = VectorX::Zero(s_.lambda0);
-  step_error_.head(s_.n_q) = to_positions(s_, y_, moved);
-  if (change_.size() == change.size())
-    step_error_.segment(s_.u0, s_.memory0 - s_.u0) =
-        rate_constant_ * h * (change - change_).head(s_.memory0 - s_.u0);
-  change_ = change;
-  local_error_ = block_sizes(s_, step_error_);
-}
-
-/// The cubic of the last step, followed to the end of this one, misses it by h^4 q'''' / 6, and
-/// inside its own step by h^4 q'''' / 384.
-void GeneralizedAlpha::find_inner_error(double h) {
-  const double last = t_ - t0_;
-  if (last == 0.0)
-    return;
-  const Index n = s_.lambda0;
-  const double x = 1.0 + h / last, v = 1.0 - x;
-  const VectorX slope = (y_ - y0_).head(n) / last;
-  const VectorX followed = v * y0_.head(n) + x * y_.head(n) +
-                           last * x * v * (v * (yp0_.head(n) - slope) - x * (yp_.head(n) - slope));
-  inner_error_ = block_sizes(s_, followed - trial_.head(n)) / 64.0;
-}
-
 double GeneralizedAlpha::step(double end, double) {
   double h = h_;
   if (end - t_ < 1.0001 * h)
@@ -233,7 +182,6 @@ double GeneralizedAlpha::step(double end, double) {
   }
   if (!done)
     fail("Newton's iteration does not converge at the fixed step");
-  find_inner_error(h);
   y0_ = y_;
   yp0_ = yp_;
   t0_ = t_;
@@ -244,7 +192,6 @@ double GeneralizedAlpha::step(double end, double) {
   e_.residual(t_, y_, yp_, residual_);        // rates of q, for the interpolant
   yp_.head(s_.n_q) -= residual_.head(s_.n_q); // the rows are q' - E(q) (u + G^T mu)
   a_ = a_new_;
-  estimate(h);
   e_.accept(t_, y_, yp_);
   ++e_.statistics.steps;
   e_.statistics.last_step = h;

@@ -6,7 +6,6 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/solve/step_error.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
 
@@ -176,34 +175,6 @@ void BranchGuard::check(double t, const VectorX& y) {
     }
   }
   past_.emplace_back(t, u);
-}
-
-StepGuard::StepGuard(const system::Regime& system, double allowed, double end)
-    : s_(system), allowed_(allowed), end_(end),
-      sums_(VectorX::Zero(static_cast<Index>(system.blocks.size()))) {
-  for (const system::BodyData& b : s_.bodies)
-    window_ = std::max(window_, summed_time_scales * b.time_scale);
-}
-
-void StepGuard::check(double t, double h, int order, const VectorX& errors) {
-  sums_ *= std::exp(-h / window_);
-  for (Index i = 0; i < sums_.size(); ++i)
-    if (s_.blocks[static_cast<std::size_t>(i)].moves)
-      sums_[i] += errors[i];
-  Index worst = 0;
-  const double sum = sums_.maxCoeff(&worst);
-  if (sum <= allowed_)
-    return;
-  const double since = std::min(t, window_);
-  const double expected = sum * std::min(end_, window_) / since; // with more of the same
-  throw SolverError(
-      t, "stopped at t = " + number_text(t) + " s: the step of " + number_text(h) +
-             " s is too long for the motion of " +
-             in_quotes(s_.blocks[static_cast<std::size_t>(worst)].name) + ": within the last " +
-             rounded_text(since) + " s its errors add up to about " + rounded_text(sum) +
-             " (rad, or of its lever or segment), more than solver.step_guard = " +
-             number_text(allowed_) + " (0: no guard); " +
-             rounded_text(h * std::pow(0.5 * allowed_ / expected, 1.0 / order)) + " s may do");
 }
 
 } // namespace hydrodae::solve

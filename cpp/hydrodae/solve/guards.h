@@ -89,26 +89,4 @@ private:
   std::deque<std::pair<double, VectorX>> past_;
 };
 
-/// Methods of a fixed step do not look at their error. Its estimates, summed over the last ten time
-/// scales of the bodies, are what such a run may be off by.
-class StepGuard {
-public:
-  /// @param allowed sum at which the run ends [-], an angle, or a displacement over the lever of
-  /// the
-  ///   body or the length of the segment of a line
-  /// @param end of the run [s]
-  StepGuard(const system::Regime& system, double allowed, double end);
-
-  /// Throws SolverError when the errors add up to more than is allowed.
-  /// @param h, order, errors: length [s] of the last step, order of the method, its errors by block
-  void check(double t, double h, int order, const VectorX& errors);
-
-  void remember(Archive& a) { a(sums_); }
-
-private:
-  const system::Regime& s_;
-  double allowed_, end_, window_ = 0.0;
-  VectorX sums_; ///< (n_blocks,) of those that move, fading
-};
-
 } // namespace hydrodae::solve

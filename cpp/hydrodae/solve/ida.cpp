@@ -108,7 +108,6 @@ public:
   }
   double step(double end, double bound) override;
   bool restart(double t, const VectorX& y0, const VectorX& yp0) override;
-  const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override;
   void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
@@ -127,7 +126,6 @@ private:
   VectorX lost, lost_rate;    ///< where the residual was no number last
   double lost_time = -INFINITY;
   double t_ = 0.0, end_time = 0.0;
-  VectorX error_;
   double first = 0.0;        ///< first step [s]
   double longest = INFINITY; ///< step [s]
   double time_scale = 0.0;   ///< longest of the bodies [s]
@@ -308,14 +306,6 @@ bool Ida::restart(double t, const VectorX& y0, const VectorX& yp0) {
   begin_anew(good, good_rate);
   accept();
   return true;
-}
-
-/// The correction of the predictor. Of it the error of BDF is 1 / (k + 1) at constant steps; as
-/// they vary, more.
-const VectorX& Ida::step_error() {
-  check(IDAGetEstLocalErrors(memory.get(), scratch.get()), "IDAGetEstLocalErrors");
-  error_ = view(scratch.get(), system.n).head(system.lambda0);
-  return error_;
 }
 
 double Ida::step(double end, double bound) {

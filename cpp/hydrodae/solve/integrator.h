@@ -35,9 +35,6 @@ public:
   /// the same system and options that was made with that t, y and y'.
   virtual void remember(Archive& a) = 0;
 
-  /// Estimated error of the last step in q, u, z (lambda0,), signed as far as the method knows it.
-  virtual const VectorX& step_error() = 0;
-
   /// y and y' at a time inside the last step. Of y', the velocities' part is always meant to be
   /// read; the rest where the method knows it.
   virtual void interpolate(double t, VectorX& y, VectorX& yp) = 0;
@@ -47,18 +44,6 @@ public:
   virtual void look_inside(double t, VectorX& y, VectorX& yp) { interpolate(t, y, yp); }
 
   virtual Statistics statistics() const = 0;
-
-  /// Estimated error of the last step of a fixed length, block by block (n_blocks,) as block_sizes
-  /// measures it (step_error.h); empty where the method chooses its steps by their
-  /// error.
-  virtual const VectorX& local_error() const {
-    static const VectorX none;
-    return none;
-  }
-
-  /// Estimated error inside the last step, that of its ends apart, block by block as `local_error`;
-  /// empty where the tolerance bounds it.
-  virtual const VectorX& inner_error() const { return local_error(); }
 
   /// Largest part of the next step between two times at which it asks for the loads, its ends among
   /// them; 1 of fixed steps, which are to be short beside waves whatever that is.

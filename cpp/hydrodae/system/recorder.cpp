@@ -14,57 +14,9 @@ Recorder::Recorder(const Regime& system, double t0, const VectorX& y, const Vect
   if (s_.n_mechanisms > 1)
     for (double kinetic : o.mechanism_kinetic)
       mechanisms_.push_back({0.0, 0.0, kinetic, kinetic});
-  find_shared();
   take_turns();
   observer_.follow(turns_);
   make_channels();
-}
-
-void Recorder::find_shared() {
-  masses_.assign(mechanisms_.size(), 0.0);
-  for (const BodyData& b : s_.bodies)
-    if (b.mechanism >= 0 && !mechanisms_.empty())
-      masses_[static_cast<std::size_t>(b.mechanism)] += b.mass;
-  const Observation& o = observer_.observation();
-  for_each_law(s_, [&](const ElementList& list, std::size_t, const PortData& port) {
-    Shared shared;
-    for_each_body(s_, port, [&](int body) {
-      const int m = body >= 0 ? s_.bodies[static_cast<std::size_t>(body)].mechanism : -1;
-      if (m >= 0 && std::find(shared.mechanisms.begin(), shared.mechanisms.end(), m) ==
-                        shared.mechanisms.end())
-        shared.mechanisms.push_back(m);
-    });
-    if (list.laws->work != element::Work::spent || shared.mechanisms.size() < 2)
-      return;
-    for (std::size_t k = 0; k < o.loads.size(); ++k)
-      if (o.components[static_cast<std::size_t>(o.loads[k].component)] == port.component)
-        shared.loads.push_back(k);
-    shared_.push_back(std::move(shared));
-  });
-}
-
-/// What an element between mechanisms takes from all of them damps each as far as it moves: its
-/// share is that of its mean square speed. The work on one alone may as well come from another.
-void Recorder::share_dissipation(std::vector<double>& given) const {
-  const Observation& o = observer_.observation();
-  const auto speed = [&](int m) {
-    const auto k = static_cast<std::size_t>(m);
-    return masses_[k] > 0.0 ? mechanisms_[k].kinetic / masses_[k] : 0.0;
-  };
-  for (const Shared& shared : shared_) {
-    double taken = 0.0, all = 0.0;
-    for (std::size_t k : shared.loads) {
-      const double work = end_work_[o.powers.size() + k];
-      taken -= work;
-      if (const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism; m >= 0)
-        given[static_cast<std::size_t>(m)] += work;
-    }
-    for (int m : shared.mechanisms)
-      all += speed(m);
-    for (int m : shared.mechanisms)
-      if (all > 0.0)
-        given[static_cast<std::size_t>(m)] += taken * speed(m) / all;
-  }
 }
 
 /// Powers at the nodes of the step from t_ to t, on the solver's interpolant, and the work over it.
@@ -151,11 +103,9 @@ void Recorder::balance_mechanisms() {
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     Balance& b = mechanisms_[m];
     b.error = o.mechanism_kinetic[m] - b.start - end_work_[rows + m];
-    b.now = o.mechanism_kinetic[m];
-    b.kinetic = std::max(b.kinetic, b.now);
+    b.kinetic = std::max(b.kinetic, o.mechanism_kinetic[m]);
     b.exchanged = std::max({b.exchanged, o.mechanism_kinetic[m], std::abs(end_work_[rows + m])});
   }
-  std::vector<double> given(mechanisms_.size());
   for (std::size_t k = 0; k < o.loads.size() && !mechanisms_.empty(); ++k) {
     const int m = s_.bodies[static_cast<std::size_t>(o.loads[k].body)].mechanism;
     const element::Work of = o.works[static_cast<std::size_t>(o.loads[k].component)];
@@ -164,14 +114,6 @@ void Recorder::balance_mechanisms() {
     Balance& b = mechanisms_[static_cast<std::size_t>(m)];
     b.error -= end_work_[loads + k];
     b.exchanged = std::max(b.exchanged, std::abs(end_work_[loads + k]));
-    if (of == element::Work::spent)
-      given[static_cast<std::size_t>(m)] -= end_work_[loads + k];
-  }
-  share_dissipation(given);
-  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
-    Balance& b = mechanisms_[m];
-    b.given = std::max(b.given, given[m]);
-    b.spends = b.spends || given[m] != 0.0;
   }
 }
 
@@ -207,18 +149,13 @@ std::vector<double> Recorder::work_at(double x) const {
 double Recorder::balance(const std::vector<double>& work) {
   const Observation& o = observer_.observation();
   const double moving = o.kinetic + o.kinetic_added_mass;
-  double total_work = 0.0, exchanged = std::abs(moving), given = 0.0;
+  double total_work = 0.0, exchanged = std::abs(moving);
   for (std::size_t k = 0; k < o.powers.size(); ++k) {
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
     if (o.works[k] != element::Work::fluid && o.works[k] != element::Work::part)
       total_work += work[k];
     exchanged = std::max(exchanged, std::abs(work[k]));
-    if (o.works[k] == element::Work::spent)
-      given -= work[k];
   }
-  whole_.given = std::max(whole_.given, given);
-  whole_.spends = whole_.spends || given != 0.0;
-  whole_.kinetic = moving;
   const double error = moving - energy0_ - total_work;
   whole_.largest_kinetic = std::max(whole_.largest_kinetic, moving);
   whole_.largest_energy = std::max(whole_.largest_energy, exchanged);

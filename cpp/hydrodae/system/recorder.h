@@ -72,10 +72,8 @@ public:
   struct Balance {
     double error = 0.0, exchanged = 0.0; ///< [J]
     double start = 0.0;                  ///< kinetic energy of its bodies at the start [J]
-    double kinetic = 0.0, now = 0.0;     ///< the largest of it so far, and that of now [J]
-    double given = 0.0;  ///< the most that dampers, springs and radiation have taken in all [J]
-    bool spends = false; ///< did any of them work?
-    void remember(Archive& a) { a(error, exchanged, start, kinetic, now, given, spends); }
+    double kinetic = 0.0;                ///< the largest of it so far [J]
+    void remember(Archive& a) { a(error, exchanged, start, kinetic); }
   };
   Balance whole() const { return balance_of(whole_); }
 
@@ -103,12 +101,8 @@ public:
 private:
   /// Balance of the scene, and its largest values so far [J].
   struct Whole {
-    double largest_kinetic = 0.0, kinetic = 0.0, given = 0.0; ///< as in Balance
-    bool spends = false;
-    double largest_energy = 0.0, largest_error = 0.0, balance_error = 0.0;
-    void remember(Archive& a) {
-      a(largest_kinetic, kinetic, given, spends, largest_energy, largest_error, balance_error);
-    }
+    double largest_kinetic = 0.0, largest_energy = 0.0, largest_error = 0.0, balance_error = 0.0;
+    void remember(Archive& a) { a(largest_kinetic, largest_energy, largest_error, balance_error); }
   };
   struct Before { ///< what `begin` changes, as it was
     Whole whole;
@@ -117,8 +111,7 @@ private:
     std::vector<double> mean_work, kinetic;
   };
   Balance balance_of(const Whole& w) const {
-    return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic,
-            w.kinetic,       w.given,          w.spends};
+    return {w.balance_error, w.largest_energy, energy0_, w.largest_kinetic};
   }
   void fill(double t, std::span<double> row, const std::vector<double>& work);
   void make_channels();
@@ -135,8 +128,6 @@ private:
   void fill_energy(double*& out, const std::vector<double>& work);
   double balance(const std::vector<double>& work);
   void balance_mechanisms();
-  void find_shared();
-  void share_dissipation(std::vector<double>& given) const;
   void take_turns();
   std::vector<double> powers() const;
 
@@ -154,13 +145,7 @@ private:
   Turns turns_;                             ///< there
   std::vector<double> end_kinetic_;         ///< there, by mechanism [J]
   std::vector<Balance> mechanisms_;         ///< empty where there is one mechanism only
-  struct Shared { ///< an element between bodies of several mechanisms that may dissipate
-    std::vector<std::size_t> loads; ///< of the observation
-    std::vector<int> mechanisms;
-  };
-  std::vector<Shared> shared_;
-  std::vector<double> masses_; ///< of each mechanism's bodies [kg]
-  double energy0_ = 0.0;       ///< kinetic energies at the start [J]
+  double energy0_ = 0.0;                    ///< kinetic energies at the start [J]
   Whole whole_;
   Before before_;
   Quadrature rule_;

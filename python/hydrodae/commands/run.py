@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hydrodae.results import Results
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -36,8 +40,14 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     parser.add_argument(
         "--verify",
+        metavar="METHOD",
+        default="",
+        help="estimate the error by a second run with another method: radau, ida, explicit_rk",
+    )
+    parser.add_argument(
+        "--strict",
         action="store_true",
-        help="run a second time with a tenth of the tolerance, or half the step, and compare",
+        help="exit with 5 where the motion of a body or line is not reproducible to the end",
     )
     parser.add_argument(
         "--checkpoint",
@@ -88,11 +98,17 @@ def run(arguments: argparse.Namespace) -> int:
         results = simulate.run(case, output, **how)
         if arguments.json:
             print_json(of_run(results))
-        return 0
+        return _exit_code(results, arguments.strict)
     with ProgressLine(case.title) as progress:
         results = simulate.run(case, output, progress=progress, **how)
     print(results.summary())
     if case.unsampled:
         print(f"  note: {case.unsampled}")
     print(f"  results in {output}")
-    return 0
+    return _exit_code(results, arguments.strict)
+
+
+def _exit_code(results: Results, strict: bool) -> int:
+    """5 where `strict` asks for a reproducible motion and there is none, else 0."""
+    lost = [name for name, error in results.accuracy().items() if not error.reproducible]
+    return 5 if strict and lost else 0

@@ -6,6 +6,7 @@ import difflib
 import os
 import warnings
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,8 +31,9 @@ _COMPONENTS = {3: ("component", ["x", "y", "z"]), 4: ("quaternion", ["w", "x", "
 #: Datasets that name the components, no channels.
 _LABELS = tuple(name for name, _ in _COMPONENTS.values())
 
-#: Group of the tables of impacts, one a stop; no channels either.
+#: Groups of tables, which are no channels: impacts, one a stop; errors, one a body or line.
 _IMPACTS = "impacts/"
+_ACCURACY = "accuracy/"
 
 
 class ResultsError(HydrodaeError):
@@ -58,6 +60,39 @@ def partial_path(path: str | os.PathLike[str]) -> Path:
     """
     target = Path(os.path.realpath(path))
     return target.with_name(f"{target.stem}.partial{target.suffix}")
+
+
+@dataclass(frozen=True)
+class MotionError:
+    """Estimated error of the motion of a body or line, from a second run.
+
+    Attributes
+    ----------
+    time : (nt,) array
+        Samples that both runs reached, s.
+    error : (nt,) array
+        Displacement, or turn times the lever of the body, m.
+    relative : (nt,) array
+        The same as a part of `motion`.
+    motion : float
+        Largest motion of the bodies that joints connect with it, or of the line, m.
+    reproducible_until : float
+        Time at which `relative` passes 0.05, s; inf: never.
+    runs_part_at : float
+        Time at which the two runs are 0.05 of the motion apart, s; inf: never.
+    """
+
+    time: NDArray[np.float64]
+    error: NDArray[np.float64]
+    relative: NDArray[np.float64]
+    motion: float
+    reproducible_until: float
+    runs_part_at: float
+
+    @property
+    def reproducible(self) -> bool:
+        """Whether the motion is reproducible to the end of the run."""
+        return bool(np.isinf(self.reproducible_until))
 
 
 class Recording(Mapping[str, "xarray.DataArray"]):
@@ -103,6 +138,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         self._statistics = {_name(key): _plain(value) for key, value in attributes.items()}
         lengths: dict[str, int] = {}
         impacts: list[str] = []
+        errors: list[str] = []
 
         def note(name: str | bytes, node: h5py.Group | h5py.Dataset) -> None:
             if not isinstance(name, str):
@@ -110,6 +146,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             if isinstance(node, h5py.Dataset) and name not in _LABELS:
                 if name.startswith(_IMPACTS):
                     impacts.append(name.removeprefix(_IMPACTS))
+                elif name.startswith(_ACCURACY):
+                    errors.append(name.removeprefix(_ACCURACY))
                 else:
                     lengths[name] = len(node) if node.ndim else 0
 
@@ -121,6 +159,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         self._time: NDArray[np.float64] = _real(file["time"][:samples])
         self._names = tuple(name for name in lengths if name != "time")
         self._impacts = tuple(impacts)
+        self._errors = tuple(errors)
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         if name not in self._read:
@@ -197,6 +236,32 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 {key: ("impact", column, {"unit": unit}) for key, column, unit in columns}
             )
         return tables
+
+    def accuracy(self) -> dict[str, MotionError]:
+        """Return the estimated error of each body and line, by its name.
+
+        It comes from a second run, and is known when the run has ended. It is empty where nothing
+        moves or the error was not estimated: ``statistics["accuracy_missing"]`` has the reason.
+
+        Raises
+        ------
+        ResultsError
+            The tables are damaged.
+        """
+        found = {}
+        for name in self._errors:
+            with opened(self.path, ResultsError, f"accuracy of {name} is damaged") as file:
+                values = _real(file[_ACCURACY + name][:])
+                attributes = {k: _plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
+            if values.ndim != 2 or values.shape[1] != 3:
+                raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
+            found[name] = MotionError(
+                *values.T,
+                motion=float(attributes["motion"]),
+                reproducible_until=float(attributes["reproducible_until"]),
+                runs_part_at=float(attributes["runs_part_at"]),
+            )
+        return found
 
     @property
     def message(self) -> str:

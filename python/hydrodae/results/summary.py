@@ -80,16 +80,26 @@ def _methods(results: Recording) -> list[str]:
 
 
 def _errors(results: Recording) -> list[str]:
-    """Lines on how far the motion can be trusted."""
+    """Lines on the estimated error of the motion, and on what is not reproducible."""
     known, lines = results.statistics, []
     if known.get("at_rest"):
         return []
-    for key, word in (("estimated_error", "estimated"), ("verified_error", "verified")):
-        if key in known and known.get(f"{key}_of"):
-            lines.append(
-                f"{word} error {float(known[key]):.1g} of the motion "
-                f"({known[f'{key}_of']}, t = {float(known[f'{key}_time']):.4g} s)"
-            )
+    if known.get("estimated_error_of"):
+        lines.append(
+            f"estimated error {float(known['estimated_error']):.1g} of the motion "
+            f"({known['estimated_error_of']}, t = {float(known['estimated_error_time']):.4g} s), "
+            f"by {known.get('accuracy')}"
+        )
+    if missing := known.get("accuracy_missing"):
+        until = known.get("estimated_until")
+        after = "" if until is None else f" after t = {float(until):.4g} s"
+        lines.append(f"error not estimated{after}: {missing}")
+    lost = {n: e for n, e in results.accuracy().items() if not e.reproducible}
+    lines += [
+        f"{name}: reproducible until t = {error.reproducible_until:.4g} s; two runs part by 5 % at "
+        f"t = {error.runs_part_at:.4g} s"
+        for name, error in lost.items()
+    ]
     return lines
 
 

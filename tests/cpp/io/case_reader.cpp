@@ -183,7 +183,7 @@ TEST_CASE("a wrong override is told with its key") {
         "--set solver.rtoll: unknown key 'rtoll' in [solver]; did you mean 'rtol'? (valid: method, "
         "coordinates, formulation, start, end_time, rtol, step, max_step, max_order, order, "
         "spectral_radius, "
-        "baumgarte_time, energy_guard, branch_guard, error_guard, step_guard, tolerance_assembly, "
+        "baumgarte_time, energy_guard, branch_guard, accuracy, tolerance_assembly, "
         "force, length_scale, time_scale)");
   CHECK(
       message("solvr.rtol", "1").starts_with("--set solvr.rtol: unknown key 'solvr' in the case"));

@@ -82,9 +82,7 @@ class Method:
 
     def values(self, setting: float) -> dict[str, Any]:
         """Values by dotted key for a `Case`, so that nothing of the case's own method stays."""
-        clean = {"step": 0.0, "order": 0, "max_order": 5}
-        if self.adaptive:
-            clean["step_guard"] = 0.0  # of fixed steps
+        clean = {"step": 0.0, "order": 0, "max_order": 5, "accuracy": "none"}
         return {f"solver.{key}": value for key, value in {**clean, **self.solver(setting)}.items()}
 
 

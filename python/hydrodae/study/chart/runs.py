@@ -23,7 +23,6 @@ _JUDGES = ("radau", "explicit_rk", "ida")
 #: Class of a failure by words of the solver's message.
 _CLASSES = (
     ("energy_guard", "energy guard"),
-    ("step_guard", "step too long"),
     ("velocities jumped", "left its branch"),
     ("have drifted", "constraints drifted"),
     ("no progress", "no progress"),

@@ -24,6 +24,9 @@ io::Attributes attributes(const RunStatistics& statistics, const model::Scene& s
 /// and `method_reason`; the last of them as `method_in_use`.
 void write_methods(const run::MethodChoice& choice, io::Attributes& out);
 
+/// Estimated error of each body and line over time.
+void write_accuracy(const accuracy::Estimate& estimate, io::ResultsFile& file);
+
 /// What the stops have taken, impact by impact.
 void write_impacts(const run::Simulation& simulation, io::ResultsFile& file);
 

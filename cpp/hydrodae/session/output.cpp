@@ -1,4 +1,4 @@
-#include "hydrodae/run_output.h"
+#include "hydrodae/session/output.h"
 
 #include "hydrodae/core/text.h"
 
@@ -39,15 +39,15 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
                      {"relative_balance_error", done.relative_balance_error()},
                      {"energy_scale", done.energy_scale()},
                      {"at_rest", std::int64_t{s.at_rest}},
-                     {"estimated_error", s.estimated_error},
-                     {"estimated_error_of", s.estimated_error_of},
-                     {"estimated_error_time", s.estimated_error_time},
                      {"method", scene.solver.method},
                      {"rtol", scene.solver.rtol}};
-  if (s.verified_error >= 0.0) {
-    out["verified_error"] = s.verified_error;
-    out["verified_error_of"] = s.verified_error_of;
-    out["verified_error_time"] = s.verified_error_time;
+  out["accuracy"] = s.accuracy.how;
+  out["accuracy_missing"] = s.accuracy.missing;
+  if (const accuracy::MoverError* worst = s.accuracy.worst()) {
+    out["estimated_error"] = worst->largest;
+    out["estimated_error_of"] = worst->name;
+    out["estimated_error_time"] = worst->when;
+    out["estimated_until"] = s.accuracy.until;
   }
   double total = 0.0;
   for (const auto& [name, power] : s.mean_power) {
@@ -78,6 +78,26 @@ void write_methods(const run::MethodChoice& choice, io::Attributes& out) {
   out["methods"] = lines_of(methods);
   out["method_from"] = lines_of(from);
   out["method_reason"] = lines_of(reasons);
+}
+
+void write_accuracy(const accuracy::Estimate& estimate, io::ResultsFile& file) {
+  for (const accuracy::MoverError& m : estimate.movers) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < estimate.time.size(); ++k)
+      values.insert(values.end(), {estimate.time[k], m.error[k], m.part[k]});
+    if (values.empty())
+      continue;
+    file.write_table("accuracy/" + m.name, 3, values,
+                     {{"columns", std::string("time, error, part of the motion")},
+                      {"unit", std::string("s, m, -")},
+                      {"motion", m.motion},
+                      {"reproducible_until", m.reproducible_until},
+                      {"runs_part_at", m.parted},
+                      {"description",
+                       std::string("Estimated error of the motion: displacement, or turn times the "
+                                   "lever of the body; and as a part of the largest motion of its "
+                                   "mechanism. An infinite time means never.")}});
+  }
 }
 
 void write_impacts(const run::Simulation& simulation, io::ResultsFile& file) {

@@ -12,12 +12,13 @@
 #include "hydrodae/io/results_rows.h"
 #include "hydrodae/run/checkpoint.h"
 #include "hydrodae/run/simulation.h"
-#include "hydrodae/run_output.h"
-#include "hydrodae/solve/verification.h"
+#include "hydrodae/session/output.h"
+#include "hydrodae/session/second_run.h"
 #include "hydrodae/system/linear_limits.h"
 
 namespace hydrodae {
 
+namespace session {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -26,20 +27,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The scene at a tenth of the tolerance, or at half the step.
-model::Scene more_exact(model::Scene scene) {
-  scene.solver.rtol *= 0.1;
-  if (scene.solver.step > 0.0)
-    scene.solver.step *= 0.5;
-  return scene;
-}
-
 /// One run from the start to the end: a simulation makes steps, and rows of a file of them.
 class Session {
 public:
-  /// @param other  run whose samples this one is compared with
-  Session(const model::Scene& scene, const Progress& progress, solve::Verification* other = nullptr)
-      : progress_(progress), other_(other), simulation_(scene),
+  Session(const model::Scene& scene, const Progress& progress)
+      : progress_(progress), simulation_(scene),
         limits_(system::linear_limits(scene, simulation_.system())), row_(simulation_.width()) {
     statistics_.unknowns = simulation_.regime().n;
     statistics_.nonzeros = simulation_.nonzeros();
@@ -66,16 +58,25 @@ public:
     before.drop();
   }
 
+  /// Estimates the error of the run that is to begin by that second run.
+  void compare_with(SecondRunPlan plan) {
+    constexpr std::size_t most_ahead = 10000; // samples that wait for the slower of the two runs
+    comparison_ = std::make_unique<accuracy::Comparison>(simulation_.regime(),
+                                                         plan.afterwards ? 0 : most_ahead);
+    second_ = std::make_unique<SecondRun>(std::move(plan), *comparison_);
+  }
+
+  /// Says why the error of the run is not estimated.
+  void do_not_estimate(const std::string& why) { statistics_.accuracy.missing = why; }
+
   RunStatistics operator()(const std::string& path, const RunOptions& options) {
     path_ = path;
     checkpoint_ = options.checkpoint;
     try {
-      if (options.verify)
-        own_ = std::make_unique<solve::Verification>(simulation_.regime());
       statistics_.status = march() ? "completed" : "interrupted";
-      if (options.verify && statistics_.status == "completed" && !verify())
-        statistics_.status = "interrupted";
       simulation_.close();
+      if (second_ && statistics_.status == "completed")
+        second_->finish([this](double) { return !progress_ || progress_(last_sample_, end()); });
       close(statistics_.status == "completed" ? "" : "stopped on request");
     } catch (const control::Stopped& stopped) {
       statistics_.status = "interrupted";
@@ -107,57 +108,35 @@ public:
 private:
   const model::Scene& scene() const { return simulation_.scene(); }
 
-  /// The second run; false when it was asked to stop. Throws SolverError when it does not confirm
-  /// the first.
-  bool verify() {
-    const model::Scene second_scene = more_exact(scene());
-    const std::string how = second_scene.solver.step > 0.0
-                                ? "step = " + number_text(second_scene.solver.step) + " s"
-                                : "rtol = " + number_text(second_scene.solver.rtol);
-    try {
-      Session second(second_scene, progress_, own_.get());
-      if (!second.march())
-        return false;
-    } catch (const SolverError& error) {
-      throw SolverError(error.time, "not verified: the second run, with " + how + ", " +
-                                        std::string(error.what()));
-    }
-    const solve::Verification::Difference d = own_->largest();
-    statistics_.verified_error = d.error;
-    statistics_.verified_error_of = d.block;
-    statistics_.verified_error_time = d.time;
-    if (const double allowed = scene().solver.error_guard; allowed > 0.0 && d.error > allowed)
-      throw SolverError(d.time, "not verified: a second run, with " + how + ", has " +
-                                    in_quotes(d.block) + " off by " + rounded_text(d.error) +
-                                    " of the motion at t = " + number_text(d.time) +
-                                    " s, more than " + number_text(allowed) +
-                                    " (solver.error_guard); a smaller tolerance or step may do");
-    return true;
-  }
+  double end() const { return scene().solver.end_time; }
 
   /// Steps until the end; false when the progress callback asked to stop.
   bool march() {
-    const double end = scene().solver.end_time, dt = scene().output.step;
-    const auto samples = static_cast<long>(std::floor(end / dt * (1.0 + 1e-12)));
+    const double dt = scene().output.step;
+    const auto samples = static_cast<long>(std::floor(end() / dt * (1.0 + 1e-12)));
     long steps_since_asked = 0;
     bool going = true;
+    if (comparison_)
+      comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
     if (next_ == 0)
       going = sample(0.0);
     // A run that stops with a checkpoint has all rows up to it.
     const auto samples_inside = [&] {
+      if (comparison_)
+        comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
       const double t = simulation_.time();
       while ((going || checkpoint_ >= 0.0) && next_ <= samples &&
              static_cast<double>(next_) * dt <= t * (1.0 + 1e-14))
         going = sample(std::min(static_cast<double>(next_) * dt, t)) && going;
     };
     while (going && !simulation_.finished()) {
-      simulation_.advance(end, samples_inside);
+      simulation_.advance(end(), samples_inside);
       if (file_)
         file_->flush_if_due();
       // Between samples that are far apart in steps, a request to stop is heard as well.
       if (++steps_since_asked >= 1000 && progress_ && going) {
         steps_since_asked = 0;
-        going = progress_(simulation_.time(), end);
+        going = progress_(simulation_.time(), end());
       }
       write_checkpoint(!going);
     }
@@ -171,15 +150,13 @@ private:
     simulation_.sample(t, row_);
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
     system::watch(limits_, t, bodies);
-    if (own_)
-      own_->keep(t, bodies, simulation_.recorder().state());
-    if (other_)
-      other_->compare(bodies, simulation_.recorder().state());
+    if (comparison_)
+      comparison_->first(t, simulation_.recorder().state());
     if (file_)
       file_->append(t, row_);
     statistics_.end_time = last_sample_ = t;
     ++next_;
-    return !progress_ || progress_(t, scene().solver.end_time);
+    return !progress_ || progress_(t, end());
   }
 
   /// Where one is due, or the run stops: after the rows that it follows are on disk.
@@ -206,15 +183,20 @@ private:
     statistics_.events = simulation_.events();
     statistics_.solver_time = solver_before_ + simulation_.solver_time();
     statistics_.wall_time = wall_before_ + seconds_since(started_);
-    const solve::Trust::Estimate estimate = simulation_.estimate();
-    statistics_.estimated_error = estimate.error;
-    statistics_.estimated_error_of = estimate.block;
-    statistics_.estimated_error_time = estimate.time;
     statistics_.at_rest = simulation_.at_rest();
+  }
+
+  /// Ends the second run where it is, if the first has not reached its end.
+  void take_estimate() {
+    if (!second_)
+      return;
+    second_->give_up();
+    statistics_.accuracy = second_->estimate(simulation_.statistics().last_order);
   }
 
   void close(const std::string& message) {
     count();
+    take_estimate();
     for (const std::string& note : simulation_.scale_notes())
       statistics_.notes.push_back(note);
     const std::vector<std::string> limits = system::notes(limits_);
@@ -235,12 +217,11 @@ private:
     all["unit_conversions"] = lines_of(units);
     write_methods(simulation_.methods(), all);
     write_impacts(simulation_, *file_);
+    write_accuracy(statistics_.accuracy, *file_);
     file_->close(statistics_.status, message, all);
   }
 
   const Progress& progress_;
-  solve::Verification* other_;               ///< run to compare with
-  std::unique_ptr<solve::Verification> own_; ///< where this run is to be verified
   Clock::time_point started_ = Clock::now(), last_checkpoint_ = started_;
   run::Simulation simulation_;
   system::LinearLimits limits_;
@@ -248,32 +229,36 @@ private:
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
   RunStatistics statistics_;
-  long next_ = 0;                                  ///< sample
-  double last_sample_ = 0.0;                       ///< time of the one before [s]
+  std::unique_ptr<accuracy::Comparison> comparison_; ///< null: the error is not estimated
+  std::unique_ptr<SecondRun> second_;                ///< likewise
+  long next_ = 0;                                    ///< sample
+  double last_sample_ = 0.0;                         ///< time of the one before [s]
   double checkpoint_ = -1.0;                       ///< wall time between checkpoints [s]; < 0: none
   double solver_before_ = 0.0, wall_before_ = 0.0; ///< of what was resumed [s]
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
-  for (const model::Controller& c : scene.controllers)
-    if (options.verify && c.type == "tcp")
-      throw CaseError("a run with controller " + in_quotes(c.name) +
-                      " cannot be verified: the other program would have to begin anew");
   const bool resumable = options.checkpoint >= 0.0 || options.resume;
   if (resumable)
     cosim::require_fmu_states(scene);
   if (resumable && path.empty())
     throw CaseError("a checkpoint stands beside the results file: name one");
-  if (resumable && options.verify)
-    throw CaseError("a run that is verified can have no checkpoint: its second run would have to "
-                    "begin anew; leave out --verify, or --checkpoint and --resume");
+  if (options.verify.empty())
+    return;
+  if (options.resume)
+    throw CaseError("a run that goes on from a checkpoint cannot be verified: the second run would "
+                    "have to begin anew; leave out --verify, or --resume");
+  if (scene.solver.accuracy == "none")
+    throw CaseError("--verify is an estimate of the error, which solver.accuracy = \"none\" leaves "
+                    "out; leave out one of them");
 }
 
 } // namespace
+} // namespace session
 
 RunStatistics simulate(const model::Scene& given, const std::string& output_path,
                        const Progress& progress, const RunOptions& options) {
-  check_options(given, output_path, options);
+  session::check_options(given, output_path, options);
   model::Scene scene = given;
   cosim::join_tcp(scene);
   cosim::join_fmus(scene);
@@ -284,7 +269,16 @@ RunStatistics simulate(const model::Scene& given, const std::string& output_path
   std::optional<run::Checkpoint> from;
   if (options.resume)
     from = run::read_checkpoint(output_path, scene);
-  Session session(scene, progress);
+  const bool estimated = scene.solver.accuracy != "none";
+  std::optional<session::SecondRunPlan> plan;
+  if (estimated && !options.resume)
+    plan = session::plan_second_run(scene, options.verify);
+  session::Session session(scene, progress);
+  if (plan)
+    session.compare_with(std::move(*plan));
+  else
+    session.do_not_estimate(estimated ? "the run went on from a checkpoint"
+                                      : "solver.accuracy = \"none\"");
   if (from)
     session.resume(output_path, *from);
   else if (!output_path.empty())

@@ -1,0 +1,124 @@
+#include "hydrodae/accuracy/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hydrodae::accuracy {
+
+namespace {
+
+/// Part of the motion from which on an error leaves nothing of it that another run would repeat.
+constexpr double reproducible = 0.05;
+
+} // namespace
+
+const MoverError* Estimate::worst() const {
+  const auto found =
+      std::max_element(movers.begin(), movers.end(), [](const MoverError& a, const MoverError& b) {
+        return a.largest < b.largest;
+      });
+  return known() && found != movers.end() ? &*found : nullptr;
+}
+
+Comparison::Comparison(const system::Regime& first, std::size_t most_ahead)
+    : movers_(first), most_ahead_(most_ahead), motion_(movers_.n_groups()), apart_(movers_.size()) {
+}
+
+void Comparison::moved(const VectorX& y, const std::vector<double>& turns) {
+  movers_.places(y, now_);
+  if (start_.size() == 0) {
+    start_ = now_;
+    turns0_ = turns;
+  }
+  for (std::size_t m = 0; m < movers_.size(); ++m)
+    motion_[movers_.group(m)].widen(movers_.apart(m, start_, now_));
+  movers_.widen(turns, turns0_, motion_);
+}
+
+void Comparison::first(double time, const VectorX& y) {
+  std::unique_lock lock(mutex_);
+  if (second_ended_ && second_.empty())
+    return;
+  first_.emplace_back(time, VectorX());
+  movers_.places(y, first_.back().second);
+  compare();
+  changed_.wait(lock,
+                [&] { return most_ahead_ == 0 || first_.size() < most_ahead_ || second_ended_; });
+}
+
+bool Comparison::second(const VectorX& places) {
+  std::unique_lock lock(mutex_);
+  second_.push_back(places);
+  compare();
+  changed_.wait(lock,
+                [&] { return most_ahead_ == 0 || second_.size() < most_ahead_ || first_ended_; });
+  return !first_ended_ || !first_.empty();
+}
+
+void Comparison::end_first() {
+  const std::lock_guard lock(mutex_);
+  first_ended_ = true;
+  changed_.notify_all();
+}
+
+void Comparison::end_second() {
+  const std::lock_guard lock(mutex_);
+  second_ended_ = true;
+  changed_.notify_all();
+}
+
+/// All samples that are there of both.
+void Comparison::compare() {
+  while (!first_.empty() && !second_.empty()) {
+    time_.push_back(first_.front().first);
+    for (std::size_t m = 0; m < movers_.size(); ++m)
+      apart_[m].push_back(movers_.apart(m, first_.front().second, second_.front()));
+    first_.pop_front();
+    second_.pop_front();
+    changed_.notify_all();
+  }
+}
+
+/// What errors of a group are compared with: turns with its largest motion, displacements with
+/// their own largest, but not with less than the tolerance of translations follows (MotionScale).
+std::vector<Apart> Comparison::measures() const {
+  constexpr double followed = 1e-3;
+  std::vector<Apart> out = motion_;
+  for (Apart& m : out)
+    m = {std::max({m.moved, followed * m.both(), 1e-300}), std::max(m.both(), 1e-300)};
+  return out;
+}
+
+Estimate Comparison::estimate(double divisor) const {
+  const std::lock_guard lock(mutex_);
+  Estimate out;
+  out.time = time_;
+  out.until = time_.empty() ? 0.0 : time_.back();
+  const std::vector<Apart> measures = this->measures();
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    MoverError error;
+    error.name = movers_.name(m);
+    error.motion = motion_[movers_.group(m)].both();
+    const Apart& measure = measures[movers_.group(m)];
+    for (std::size_t k = 0; k < time_.size(); ++k) {
+      const Apart& apart = apart_[m][k];
+      const double part = std::max(apart.moved / measure.moved, apart.turned / measure.turned);
+      if (part > reproducible)
+        error.parted = std::min(error.parted, time_[k]);
+      if (part / divisor > reproducible)
+        error.reproducible_until = std::min(error.reproducible_until, time_[k]);
+      // From there on errors are no longer small, and nothing is known of their ratio.
+      const double by = std::isfinite(error.reproducible_until) ? 1.0 : divisor;
+      error.error.push_back(apart.both() / by);
+      error.part.push_back(part / by);
+      if (error.part.back() > error.largest) {
+        error.largest = error.part.back();
+        error.when = time_[k];
+      }
+    }
+    out.movers.push_back(std::move(error));
+  }
+  return out;
+}
+
+} // namespace hydrodae::accuracy

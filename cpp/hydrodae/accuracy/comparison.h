@@ -1,0 +1,85 @@
+#pragma once
+/// The error of a run, from its difference to a second run of the same scene.
+
+#include <condition_variable>
+#include <deque>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hydrodae/accuracy/places.h"
+
+namespace hydrodae::accuracy {
+
+/// Error of one body or line over a run.
+struct MoverError {
+  std::string name;
+  std::vector<double> error; ///< at each sample that both runs reached [m]
+  std::vector<double> part;  ///< the same as a part of the motion [-]
+  double motion = 0.0;       ///< of its group: the largest displacement from the start [m]
+  double largest = 0.0;      ///< of `part` [-]
+  double when = 0.0;         ///< time of it [s]
+  /// Where the error passes a twentieth of the motion [s]; infinite: it does not.
+  double reproducible_until = std::numeric_limits<double>::infinity();
+  /// Where the two runs are a twentieth of the motion apart [s]; infinite: they are not.
+  double parted = std::numeric_limits<double>::infinity();
+};
+
+struct Estimate {
+  std::string how;          ///< "a second run at rtol = 1e-05"
+  std::string missing;      ///< why there is none, or none from `until` on; empty: it is complete
+  double until = 0.0;       ///< time up to which the runs were compared [s]
+  std::vector<double> time; ///< of the samples [s]
+  std::vector<MoverError> movers;
+  bool known() const { return !time.empty(); }
+  const MoverError* worst() const; ///< null: nothing moves, or nothing is known
+};
+
+/// Takes the samples of two runs, each from a thread of its own, and compares them one by one:
+///
+///   error = |first - second| / divisor
+///
+/// With errors e and c e of the two the difference is (c - 1) e, so that the divisor is c - 1. From
+/// where the error passes a twentieth of the motion it is the difference itself.
+class Comparison {
+public:
+  /// @param most_ahead samples after which a run waits for the other one; 0: no bound
+  Comparison(const system::Regime& first, std::size_t most_ahead);
+
+  /// The state of the first run at the end of a step, with its coordinates over turns.
+  void moved(const VectorX& y, const std::vector<double>& turns);
+
+  /// The next sample of the first run, at `time` [s].
+  void first(double time, const VectorX& y);
+
+  /// The next sample of the second run. False when nothing is to follow: the first has been given
+  /// up.
+  bool second(const VectorX& places);
+
+  /// No more samples of that run.
+  void end_first();
+  void end_second();
+
+  /// Of all samples that both runs have given.
+  Estimate estimate(double divisor) const;
+
+private:
+  void compare();
+  std::vector<Apart> measures() const;
+
+  Movers movers_;
+  const std::size_t most_ahead_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<double, VectorX>> first_;
+  std::deque<VectorX> second_;
+  bool first_ended_ = false, second_ended_ = false;
+  VectorX start_, now_;
+  std::vector<double> turns0_; ///< at the start
+  std::vector<Apart> motion_;  ///< by group
+  std::vector<double> time_;
+  std::vector<std::vector<Apart>> apart_; ///< by mover
+};
+
+} // namespace hydrodae::accuracy

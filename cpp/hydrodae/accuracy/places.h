@@ -1,0 +1,70 @@
+#pragma once
+/// Where the bodies and lines of a scene are at one sample, for the comparison of two runs.
+
+#include <string>
+#include <vector>
+
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::accuracy {
+
+/// How far a body or line is apart in two states [m]: the displacement of the centre of gravity, or
+/// the largest of a node; and the turn of a body times its lever, which is the distance of its
+/// farthest joint or the radius of gyration.
+struct Apart {
+  double moved = 0.0, turned = 0.0;
+  double both() const { return std::max(moved, turned); }
+  void widen(const Apart& other) {
+    moved = std::max(moved, other.moved);
+    turned = std::max(turned, other.turned);
+  }
+};
+
+/// What moves in a scene: bodies, and lines with the places of their nodes.
+class Movers {
+public:
+  explicit Movers(const system::Regime& system);
+
+  std::size_t size() const { return all_.size(); }
+  const std::string& name(std::size_t mover) const { return all_[mover].name; }
+
+  /// Bodies that joints or loads connect, and each line, are a group of their own: errors count
+  /// against the largest motion of the group.
+  std::size_t group(std::size_t mover) const { return all_[mover].group; }
+  std::size_t n_groups() const { return n_groups_; }
+
+  /// Of a state y: poses of the bodies (r, then R column by column) and places of the nodes
+  /// (n_places,).
+  void places(const VectorX& y, VectorX& out);
+
+  Apart apart(std::size_t mover, const VectorX& a, const VectorX& b) const;
+
+  /// Largest turn of each group about its joints [m], times the lever: these count full turns,
+  /// which poses do not show.
+  /// @param turns, start coordinates of all motions now and at the start
+  /// @param motion (n_groups,) is widened by it
+  void widen(const std::vector<double>& turns, const std::vector<double>& start,
+             std::vector<Apart>& motion) const;
+
+private:
+  struct Mover {
+    std::string name;
+    std::size_t group = 0;
+    std::size_t body = 0;     ///< in System::bodies, where there are no nodes
+    double lever = 0.0;       ///< [m]
+    Index first = 0;          ///< in `places`
+    std::vector<Index> nodes; ///< of a line: where they stand in y, from z0 on
+  };
+  struct Turning { ///< a coordinate that is an angle
+    std::size_t motion = 0, group = 0;
+    double lever = 0.0;
+  };
+  const system::System& s_;
+  std::vector<system::BodyState<double>> bodies_; ///< scratch
+  std::vector<Mover> all_;
+  std::vector<Turning> turning_;
+  Index n_places_ = 0;
+  std::size_t n_groups_ = 0;
+};
+
+} // namespace hydrodae::accuracy

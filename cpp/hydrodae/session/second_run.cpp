@@ -1,0 +1,208 @@
+#include "hydrodae/session/second_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hydrodae/control/law.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/run/simulation.h"
+
+namespace hydrodae::session {
+
+namespace {
+
+constexpr double looser = 10.0;       ///< tolerance of the second run over that of the first
+constexpr double largest_rtol = 1e-2; ///< of a second run; beyond, steps do not follow a tolerance
+
+/// Answers of a controller, each with its sampling instant [s].
+using Answers = std::vector<std::pair<double, std::vector<double>>>;
+
+/// Passes everything on to another law, and keeps its answers.
+class RecordingLaw final : public control::Law {
+public:
+  RecordingLaw(std::unique_ptr<control::Law> law, std::shared_ptr<Answers> answers)
+      : law_(std::move(law)), answers_(std::move(answers)) {}
+  void sample(double t, std::span<const double> in, std::span<double> out) override {
+    law_->sample(t, in, out);
+    answers_->emplace_back(t, std::vector<double>(out.begin(), out.end()));
+  }
+  bool hears_events() const override { return law_->hears_events(); }
+  bool is_due() const override { return law_->is_due(); }
+  bool hears_crossings() const override { return law_->hears_crossings(); }
+  void crossed(double t) override { law_->crossed(t); }
+  double next_time(double t) const override { return law_->next_time(t); }
+  void remember(Archive& a) override { law_->remember(a); }
+  void restored(double t) override { law_->restored(t); }
+  std::vector<std::string> unit_notes() const override { return law_->unit_notes(); }
+  void finish(const std::string& error) override { law_->finish(error); }
+
+private:
+  std::unique_ptr<control::Law> law_;
+  std::shared_ptr<Answers> answers_;
+};
+
+/// Repeats recorded answers: at each instant the last one that is not later.
+class RepeatingLaw final : public control::Law {
+public:
+  explicit RepeatingLaw(std::shared_ptr<const Answers> answers) : answers_(std::move(answers)) {}
+  void sample(double t, std::span<const double>, std::span<double> out) override {
+    const double now = t + 1e-9 * std::max(1.0, std::abs(t)); // instants of one clock differ by
+                                                              // rounding
+    auto next = std::upper_bound(answers_->begin(), answers_->end(), now,
+                                 [](double time, const auto& a) { return time < a.first; });
+    if (next != answers_->begin())
+      std::copy(std::prev(next)->second.begin(), std::prev(next)->second.end(), out.begin());
+  }
+
+private:
+  std::shared_ptr<const Answers> answers_;
+};
+
+template <class List> bool calls_functions(const List& forces) {
+  return std::any_of(forces.begin(), forces.end(), [](const auto& force) {
+    if constexpr (requires { force.function; })
+      return static_cast<bool>(force.function);
+    else
+      return false;
+  });
+}
+
+/// Does the scene call functions of the program that runs it, which may be one thread's only?
+bool calls_functions(const model::Scene& scene) {
+  return std::apply([](const auto&... list) { return (calls_functions(list) || ...); },
+                    scene.forces) ||
+         std::any_of(
+             scene.constraints.begin(), scene.constraints.end(),
+             [](const model::Constraint& c) { return static_cast<bool>(c.drive.function); });
+}
+
+/// Lets the second run have its own laws where they can be made again, else recorded answers.
+/// @returns names of the controllers whose answers are repeated
+std::vector<std::string> part_controllers(model::Scene& first, model::Scene& second) {
+  std::vector<std::string> repeated;
+  for (std::size_t k = 0; k < first.controllers.size(); ++k) {
+    model::Controller &one = first.controllers[k], &other = second.controllers[k];
+    if (!one.make)
+      continue;
+    if (one.make_again) {
+      other.make = one.make_again;
+      continue;
+    }
+    repeated.push_back(in_quotes(one.name));
+    const auto answers = std::make_shared<Answers>();
+    one.make = [make = one.make, answers](const control::Terminals& terminals) {
+      return std::make_unique<RecordingLaw>(make(terminals), answers);
+    };
+    other.make = [answers](const control::Terminals&) {
+      return std::make_unique<RepeatingLaw>(answers);
+    };
+  }
+  return repeated;
+}
+
+/// c - 1, where errors grow c times from the first run to the second. Errors of fixed steps h go as
+/// h^p; constraints reduce the order p of stages, to s + 1 of s = p / 2. Error control keeps the
+/// error of each step, as h^(p + 1), at rtol, so that that of the run goes as rtol^(p / (p + 1)).
+double divisor(const SecondRunPlan& plan, int order) {
+  if (plan.ratio == 1.0)
+    return 1.0;
+  const double p = std::max(order, 1);
+  const bool fixed = plan.scene.solver.step > 0.0;
+  return std::pow(plan.ratio, fixed ? std::min(p, 0.5 * p + 1.0) : p / (p + 1.0)) - 1.0;
+}
+
+} // namespace
+
+SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
+  SecondRunPlan plan;
+  plan.scene = scene;
+  model::SolverOptions& o = plan.scene.solver;
+  if (!method.empty()) {
+    o.method = method;
+    o.order = 0;
+    plan.how = "a second run with " + method;
+  } else if (o.step > 0.0) {
+    o.step *= 2.0;
+    plan.ratio = 2.0;
+    plan.how = "a second run with steps of " + number_text(o.step) + " s";
+  } else {
+    const bool tighter = looser * o.rtol > largest_rtol;
+    o.rtol *= tighter ? 1.0 / looser : looser;
+    plan.ratio = tighter ? 1.0 : looser;
+    plan.how = "a second run at rtol = " + number_text(o.rtol);
+  }
+  const std::vector<std::string> repeated = part_controllers(scene, plan.scene);
+  if (!repeated.empty())
+    plan.how += ", with the recorded answers of controller " + joined(repeated);
+  plan.afterwards = calls_functions(scene) ||
+                    std::any_of(scene.controllers.begin(), scene.controllers.end(),
+                                [](const model::Controller& c) { return c.make != nullptr; });
+  return plan;
+}
+
+SecondRun::SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison)
+    : plan_(std::move(plan)), comparison_(comparison) {
+  if (!plan_.afterwards)
+    thread_ = std::thread([this] { march({}); });
+}
+
+SecondRun::~SecondRun() { give_up(); }
+
+void SecondRun::march(const std::function<bool(double)>& ask) {
+  try {
+    run::Simulation simulation(plan_.scene);
+    accuracy::Movers movers(simulation.regime());
+    VectorX y, places;
+    const double end = plan_.scene.solver.end_time, dt = plan_.scene.output.step;
+    const auto samples = static_cast<long>(std::floor(end / dt * (1.0 + 1e-12)));
+    long next = 0;
+    bool wanted = true;
+    const auto sample = [&] {
+      const double t = simulation.time();
+      while (wanted && next <= samples && static_cast<double>(next) * dt <= t * (1.0 + 1e-14)) {
+        simulation.look(std::min(static_cast<double>(next) * dt, t), y);
+        ++next;
+        movers.places(y, places);
+        wanted = comparison_.second(places) && (!ask || ask(t));
+      }
+    };
+    sample();
+    while (wanted && !given_up_ && !simulation.finished())
+      simulation.advance(end, sample);
+    if (given_up_)
+      stopped_ = "the first run did not reach its end";
+    simulation.close();
+  } catch (const std::exception& error) {
+    const std::string text = error.what();
+    stopped_ = plan_.how + " " + text.substr(0, text.find('\n'));
+  }
+  comparison_.end_second();
+}
+
+void SecondRun::finish(const std::function<bool(double)>& ask) {
+  comparison_.end_first();
+  if (plan_.afterwards)
+    march(ask);
+  if (thread_.joinable())
+    thread_.join();
+}
+
+void SecondRun::give_up() {
+  given_up_ = true;
+  comparison_.end_first();
+  if (thread_.joinable())
+    thread_.join();
+}
+
+accuracy::Estimate SecondRun::estimate(int order) const {
+  accuracy::Estimate out = comparison_.estimate(divisor(plan_, order));
+  out.how = plan_.how;
+  out.missing = stopped_;
+  return out;
+}
+
+} // namespace hydrodae::session
