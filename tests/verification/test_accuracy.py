@@ -154,7 +154,7 @@ initial.displacement = [1.0, 0.0, 0.0]
 [[force]]
 name = "well"
 type = "python_wrench"
-body_b = "mass"
+body = "mass"
 [solver]
 end_time = 80.0
 [output]
@@ -190,7 +190,7 @@ def test_the_estimate_of_a_swing_is_right_to_a_factor(
     [
         ({"method": "generalized_alpha"}, 0.02),
         ({"method": "radau", "order": 3}, 0.1),
-        ({"method": "gauss", "order": 4}, 0.1),
+        ({"method": "gauss", "order": 4}, 0.05),
         ({"method": "gauss", "order": 6}, 0.1),
         ({"method": "lobatto_iiic", "order": 4}, 0.1),
     ],
@@ -256,8 +256,8 @@ def test_a_chaotic_motion_completes_and_says_until_when_it_is_reproducible(metho
     results = hydrodae.run(case, set=forced, forces={"well": duffing})
     exact = hydrodae.run(case, set={**forced, "solver.rtol": 1e-10}, forces={"well": duffing})
     assert results.status == "completed"
-    off = np.abs(results["bodies/mass/position"] - exact["bodies/mass/position"]).values[:, 0]
-    lost = float(results.time[off > 0.05 * np.ptp(exact["bodies/mass/position"][:, 0])][0])
+    places, truth = (r["bodies/mass/position"].values[:, 0] for r in (results, exact))
+    lost = float(results.time[np.abs(places - truth) > 0.05 * np.ptp(truth)][0])
     error = results.accuracy()["mass"]
     assert error.runs_part_at <= error.reproducible_until
     assert error.runs_part_at < lost

@@ -32,7 +32,7 @@ struct Estimate {
   double until = 0.0;       ///< time up to which the runs were compared [s]
   std::vector<double> time; ///< of the samples [s]
   std::vector<MoverError> movers;
-  bool known() const { return !time.empty(); }
+  bool known() const { return time.size() > 1; }
   const MoverError* worst() const; ///< null: nothing moves, or nothing is known
 };
 

@@ -203,6 +203,9 @@ def _judge(
             return WRONG, f"off by {off:.2g} {scene.unit} before the lock", off
         return PASS, f"stops at the lock: {complaint}", off
     if off > allowed:
+        lost = [e.reproducible_until for e in results.accuracy().values() if not e.reproducible]
+        if lost:
+            return PASS, f"off by {off:.2g} {scene.unit}; reproducible until {min(lost):.3g} s", off
         return WRONG, f"off by {off:.2g} {scene.unit}, more than {allowed:.2g}", off
     return PASS, "", off
 
