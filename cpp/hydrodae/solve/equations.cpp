@@ -96,6 +96,11 @@ void Equations::jacobian(double t, const VectorX& y, const VectorX& yp) {
 void Equations::jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                          system::JacobianParts& out) {
   ++statistics.jacobian_calls;
+  mass_and_rows(t, y, yp, own, out);
+}
+
+void Equations::mass_and_rows(double t, const VectorX& y, const VectorX& yp,
+                              const system::Pattern& own, system::JacobianParts& out) {
   system::jacobian(system, own, jacobian_workspace_, t, y.data(), yp.data(), out);
 }
 

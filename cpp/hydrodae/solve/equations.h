@@ -36,6 +36,11 @@ public:
   void jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                 system::JacobianParts& out);
 
+  /// The same where the pattern holds the mass matrix and the constraint rows alone: it counts as no
+  /// Jacobian.
+  void mass_and_rows(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
+                     system::JacobianParts& out);
+
   /// e D / |alpha| for each multiplier, to be added to the diagonal of a Newton matrix
   /// dF/dy + alpha dF/dy' made of the last `jacobian`: D = diag(G M^-1 G^T) roughly, e tiny. In a
   /// singular pose, where the multipliers are not unique, it keeps the matrix regular; the solution

@@ -137,7 +137,7 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
 
 /// K with e = 0, in the pose of y.
 void SaddlePoint::fill(double t, const VectorX& y) {
-  e_.jacobian(t, y, yp0_, pattern_, parts_);
+  e_.mass_and_rows(t, y, yp0_, pattern_, parts_);
   for (const Entry& entry : entries_) {
     const double value = entry.rate ? parts_.by_yp[entry.from] : parts_.by_y[entry.from];
     plain_[entry.slot] = entry.turned ? -value : value;
