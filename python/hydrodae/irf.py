@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from hydrodae.errors import DatabaseError
 
@@ -99,7 +99,7 @@ def radiation_kernel(
     fitted = fit_tail(w, b) if tail else no_tail(b.shape[1])
     kernel = np.empty((t.size, b.shape[1]))
     for rows in _chunks(t.size, 4 * w.size):
-        kernel[rows] = _spline_cosine(spline, t[rows]) + _tail_cosine(fitted, w[-1], t[rows])
+        kernel[rows] = spline_fourier(spline, t[rows]).real + _tail_cosine(fitted, w[-1], t[rows])
     return (2.0 / np.pi * kernel).reshape(t.shape + shape)
 
 
@@ -339,8 +339,8 @@ def _chunks(rows: int, columns: int, limit: int = 4_000_000) -> list[slice]:
 
 
 def _moments(theta: Array) -> list[NDArray[np.complex128]]:
-    """Return int_0^1 u^k e^{i theta u} du, k = 0..3: series below theta = 1, else recursion."""
-    small = theta < 1.0
+    """Return int_0^1 u^k e^{i theta u} du, k = 0..3: series below |theta| = 1, else recursion."""
+    small = np.abs(theta) < 1.0
     z = 1j * np.where(small, 1.0, theta)
     e = np.exp(z)
     forward = [(e - 1.0) / z]
@@ -358,14 +358,44 @@ def _moments(theta: Array) -> list[NDArray[np.complex128]]:
     return moments
 
 
-def _spline_cosine(spline: CubicSpline, t: Array) -> Array:
-    """Return int_0^w_max s(w) cos(wt) dw, exact for the piecewise cubic; (nt, m)."""
+def spline_fourier(spline: CubicSpline, t: Array) -> NDArray[np.complex128]:
+    """Return int s(w) e^{iwt} dw over the knots, exact for the piecewise cubic; (nt, m).
+
+    Parameters
+    ----------
+    spline : CubicSpline
+        Real, (m,) values at each w [rad/s].
+    t : (nt,) array
+        [s].
+    """
     start, h = spline.x[:-1], np.diff(spline.x)
     rotation = np.exp(1j * t[:, None] * start)
-    result = np.zeros((t.size, spline.c.shape[2]))
+    result = np.zeros((t.size, spline.c.shape[2]), dtype=complex)
     for k, moment in enumerate(_moments(t[:, None] * h)):
-        result += (rotation * moment).real @ (h[:, None] ** (k + 1) * spline.c[3 - k])
+        phase, table = rotation * moment, h[:, None] ** (k + 1) * spline.c[3 - k]
+        result.real += phase.real @ table
+        result.imag += phase.imag @ table
     return result
+
+
+def between(omega: ArrayLike, damping: ArrayLike, at: Array) -> Array:
+    """Return by how much B between the frequencies depends on who interpolates; (na, ...).
+
+    The cubic spline, which is what K(t) is made of, less the monotone piecewise cubic.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        Frequencies [rad/s].
+    damping : (nw, ...) array
+        B(w).
+    at : (na,) array
+        Frequencies from 0 to the last one [rad/s].
+    """
+    w, b, shape = _table(omega, damping)
+    spline = _spline(w, b)
+    monotone = PchipInterpolator(spline.x, np.vstack([np.zeros(b.shape[1]), b]))
+    return np.asarray((spline(at) - monotone(at)).reshape(at.shape + shape))
 
 
 def _power_nodes(count: int = 28) -> tuple[Array, Array]:

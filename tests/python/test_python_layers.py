@@ -23,12 +23,12 @@ LAYERS = [
     {"panels", "post"},
     {"plot"},
     # one database
-    {"hdb.coordinates", "hdb.dispersion", "hdb.findings"},
+    {"hdb.coordinates", "hdb.dispersion", "hdb.findings", "hdb.layout"},
     {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.extra", "hdb.interaction"},
     {"hdb.causality", "hdb.shallow"},  # relations of tables, and what a run tells
     {"hdb.mesh_statics"},
     {"hdb.tables"},
-    {"hdb.scales", "hdb.files", "hdb.summary"},
+    {"hdb.scales", "hdb.files", "hdb.summary", "hdb.transfer"},
     {"hdb.kernels"},
     {"hdb.radiation_kernel"},
     {"hdb.database"},

@@ -15,7 +15,7 @@ from hydrodae.hdb import coordinates as co
 from hydrodae.hdb import files
 from hydrodae.hdb.convolution import moved_kernel
 from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.radiation_kernel import make_kernel
+from hydrodae.hdb.radiation_kernel import LIMIT, make_kernel
 from hydrodae.hdb.summary import summary
 from hydrodae.hdb.tables import Body, Tables
 
@@ -39,13 +39,15 @@ class HydroDatabase(Tables):
         *,
         length: float | None = None,
         band: tuple[float, float] | None = None,
+        limit: float = LIMIT,
     ) -> Self:
         """Return a copy that stores K of these inputs (default: all coordinates).
 
         See `hydrodae.hdb.radiation_kernel.make_kernel`.
         """
         labels = self.coordinates if inputs is None else inputs
-        return replace(self, kernel=make_kernel(self, labels, outputs, length=length, band=band))
+        made = make_kernel(self, labels, outputs, length=length, band=band, limit=limit)
+        return replace(self, kernel=made)
 
     def select(self, labels: Sequence[str]) -> Self:
         """Return a copy with these coordinates only, in this order: the others are locked.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,17 @@ from hydrodae.hdb import coordinates as co
 from hydrodae.hdb.convolution import RadiationKernel
 from hydrodae.hdb.extra import read_extra, write_extra
 from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.layout import (
+    BODY,
+    BODY_NUMBERS,
+    FIT,
+    KERNEL,
+    TABLES,
+    Entry,
+    read_group,
+    read_numbers,
+    write_dataset,
+)
 from hydrodae.hdb.tables import Body, Tables
 
 if TYPE_CHECKING:
@@ -26,16 +37,15 @@ FORMAT = "hydrodae-hydro"
 FORMAT_VERSION = 1
 #: More than any table of a database holds; as in cpp/hydrodae/io/hdf5_input.cpp.
 MOST_NUMBERS = 50_000_000
-UNITS = {
-    "omega": "rad/s",
-    "added_mass": "kg, kg m, kg m2",
-    "radiation_damping": "N s/m, N s, N m s",
-    "added_mass_inf": "kg, kg m, kg m2",
-    "added_mass_inf_std": "kg, kg m, kg m2",
-    "heading": "rad",
-}
 #: Attributes of fits and kernels that are shown, and how many numbers each has.
-SHOWN = {"band": 2, "h_error_band": 1, "rest": 1, "min_eig_relative": 1, "n_states": 1}
+SHOWN = {
+    "band": 2,
+    "h_error_band": 1,
+    "h_error_between": 1,
+    "rest": 1,
+    "min_eig_relative": 1,
+    "n_states": 1,
+}
 DAMAGED = "incomplete or damaged"
 ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
@@ -87,7 +97,7 @@ def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bo
         _write_tables(f, database, kernel=kernel, single=single)
         _write_bodies(f, database)
         for name, fit in database.memory.items():
-            _write_fit(f.create_group(f"memory/{name}"), fit)
+            _write_group(f.create_group(f"memory/{name}"), FIT, fit, {})
         if database.extra:
             write_extra(f.create_group("extra"), database.extra)
     os.replace(partial, target)
@@ -138,40 +148,31 @@ def _write_tables(f: h5py.File, db: Tables, *, kernel: bool, single: bool) -> No
     for name in ROOT_TEXT:
         f.attrs[name] = str(getattr(db, name))
     f.attrs["repairs"] = "\n".join(db.repairs)
-    f.create_dataset("coordinates", data=_labels(db.coordinates))
     real, cplx = (np.float32, np.complex64) if single else (np.float64, np.complex128)
-    for name, unit in UNITS.items():
-        table = name in ("added_mass", "radiation_damping")
-        value = getattr(db, name).astype(real) if table else getattr(db, name)
-        _dataset(f, name, value, unit)
+    for name, entry in TABLES.items():
+        value = getattr(db, name.rpartition("/")[2])
+        if entry.kind != "text" and len(entry.dims) == 3:
+            value = value.astype(cplx if entry.kind == "complex" else real)
+        write_dataset(f, name, entry, value)
     f["added_mass_inf"].attrs["origin"] = db.added_mass_inf_origin
-    group = f.create_group("excitation")
-    group.attrs["split"] = "froude_krylov + diffraction" if db.excitation_split else "total only"
-    for name in ("froude_krylov", "diffraction"):
-        _dataset(group, name, getattr(db, name).astype(cplx), "N/m, N m/m")
+    split = "froude_krylov + diffraction" if db.excitation_split else "total only"
+    f["excitation"].attrs["split"] = split
     if kernel and db.kernel is not None:
-        _write_kernel(f.create_group("radiation_kernel"), db.kernel, real)
+        values = {"kernel": db.kernel.values.astype(real)}
+        _write_group(f.create_group("radiation_kernel"), KERNEL, db.kernel, values)
 
 
-def _write_kernel(group: h5py.Group, kernel: RadiationKernel, real: type) -> None:
-    group.create_dataset("inputs", data=_labels(kernel.inputs))
-    group.create_dataset("outputs", data=_labels(kernel.outputs))
-    _dataset(group, "time", kernel.time, "s")
-    _dataset(group, "kernel", kernel.values.astype(real), "N/m, N, N m")
-    _dataset(group, "added_mass_inf", kernel.added_mass_inf, "kg, kg m, kg m2")
-    for key, value in kernel.report.items():
+def _write_group(
+    group: h5py.Group,
+    layout: Mapping[str, Entry],
+    source: RadiationKernel | ExponentialMemory,
+    values: Mapping[str, Any],
+) -> None:
+    """Write a kernel or a fit: its datasets, `values` in place of those of its own, its report."""
+    for name, entry in layout.items():
+        write_dataset(group, name, entry, values[name] if name in values else getattr(source, name))
+    for key, value in source.report.items():
         group.attrs[key] = value
-
-
-def _read_kernel(group: h5py.Group) -> RadiationKernel:
-    return RadiationKernel(
-        time=_numbers(group, "time"),
-        values=_numbers(group, "kernel"),
-        inputs=_read_labels(group["inputs"]),
-        outputs=_read_labels(group["outputs"]),
-        added_mass_inf=_numbers(group, "added_mass_inf"),
-        report=_report(group),
-    )
 
 
 def _write_bodies(f: h5py.File, db: Tables) -> None:
@@ -184,101 +185,73 @@ def _write_bodies(f: h5py.File, db: Tables) -> None:
             for name in Hydrostatics.__dataclass_fields__:
                 group.attrs[name] = getattr(hs, name)
             stiffness = db.hydrostatic_stiffness(body.name)
-            _dataset(group, "hydrostatic_stiffness", stiffness, "N/m, N, N m")
+            write_dataset(group, "hydrostatic_stiffness", BODY["hydrostatic_stiffness"], stiffness)
         if body.mesh is not None:  # to be looked at: seven digits will do
-            _dataset(group, "mesh", body.mesh.astype(np.float32), "m")
-
-
-def _write_fit(group: h5py.Group, fit: ExponentialMemory) -> None:
-    group.create_dataset("inputs", data=_labels(fit.inputs))
-    group.create_dataset("outputs", data=_labels(fit.outputs))
-    for name in ("poles", "input_matrix", "output_matrix"):
-        group.create_dataset(name, data=np.asarray(getattr(fit, name), dtype=np.complex128))
-    _dataset(group, "added_mass_inf", np.asarray(fit.added_mass_inf, float), "kg, kg m, kg m2")
-    for key, value in fit.report.items():
-        group.attrs[key] = value
+            write_dataset(group, "mesh", BODY["mesh"], body.mesh.astype(np.float32))
 
 
 def _read(f: h5py.File) -> dict[str, Any]:
-    coordinates = _read_labels(f["coordinates"])
+    values = read_group(f, TABLES)
+    if missing := [name for name in TABLES if name not in values]:
+        raise DatabaseError(f"{f.filename}: /{missing[0]}: missing dataset")
+    values = {name.rpartition("/")[2]: value for name, value in values.items()}
     stored = f["radiation_kernel"] if "radiation_kernel" in f else None
     fits = f["memory"] if "memory" in f else {}
     texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
-    values: dict[str, Any] = {name: _numbers(f, name) for name in UNITS}
+    water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
     return dict(
-        coordinates=coordinates,
-        froude_krylov=_numbers(f, "excitation/froude_krylov", complex),
-        diffraction=_numbers(f, "excitation/diffraction", complex),
         excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
-        bodies=_read_bodies(f, co.bodies_of(coordinates)),
-        rho=float(f.attrs["rho"]),
-        gravity=float(f.attrs["gravity"]),
-        water_depth=float(f.attrs["water_depth"]),
+        bodies=_read_bodies(f, co.bodies_of(values["coordinates"])),
         added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
         kernel=None if stored is None else _read_kernel(stored),
         memory={name: _read_fit(name, fits[name]) for name in fits},
         extra=read_extra(f["extra"]) if "extra" in f else {},
         repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
         **texts,
+        **water,
         **values,
     )
 
 
 def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
     bodies = {}
-    for name in sorted(names, key=lambda b: int(f[f"bodies/{b}"].attrs["index"])):
-        attrs = f[f"bodies/{name}"].attrs
-        hydrostatics = None
-        if "displaced_volume" in attrs:
-            hydrostatics = Hydrostatics(
-                float(attrs["displaced_volume"]),
-                attrs["center_of_buoyancy"],
-                float(attrs["waterplane_area"]),
-                attrs["waterplane_moments"],
-            )
-        mesh = f"bodies/{name}/mesh"
-        panels = _numbers(f, mesh) if mesh in f else None
-        bodies[name] = Body(name, attrs["reference_point"], hydrostatics, panels)
+    for name in sorted(names, key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))):
+        group = f[f"bodies/{name}"]
+        known = "displaced_volume" in group.attrs
+        numbers = {
+            key: read_numbers(group, key, shape)
+            for key, shape in BODY_NUMBERS.items()
+            if known or key == "reference_point"
+        }
+        point = numbers.pop("reference_point")
+        mesh = read_group(group, BODY).get("mesh")
+        bodies[name] = Body(name, point, Hydrostatics(**numbers) if known else None, mesh)
     return bodies
+
+
+def _whole(group: h5py.Group, layout: Mapping[str, Entry]) -> dict[str, Any]:
+    """All datasets of a kernel or a fit, and its report."""
+    values = read_group(group, layout)
+    if missing := [name for name in layout if name not in values]:
+        raise DatabaseError(f"{group.file.filename}: {group.name}/{missing[0]}: missing dataset")
+    return {**values, "report": _report(group)}
+
+
+def _read_kernel(group: h5py.Group) -> RadiationKernel:
+    values = _whole(group, KERNEL)
+    time = values["time"]
+    if time.size < 8 or not np.allclose(time, np.linspace(0.0, time[-1], time.size), atol=1e-9):
+        raise DatabaseError(
+            f"{group.file.filename}: {group.name}/time: expected 8 times or more, equally spaced "
+            f"from 0 s"
+        )
+    return RadiationKernel(values=values.pop("kernel"), **values)
 
 
 def _read_fit(name: str, group: h5py.Group) -> ExponentialMemory:
     from hydrodae.memory import ExponentialMemory
 
-    return ExponentialMemory(
-        name=name,
-        inputs=_read_labels(group["inputs"]),
-        outputs=_read_labels(group["outputs"]),
-        poles=_numbers(group, "poles", complex),
-        input_matrix=_numbers(group, "input_matrix", complex),
-        output_matrix=_numbers(group, "output_matrix", complex),
-        added_mass_inf=_numbers(group, "added_mass_inf"),
-        report=_report(group),
-    )
-
-
-def _dataset(group: h5py.Group, name: str, value: Any, unit: str) -> None:
-    options = {"compression": "gzip", "shuffle": True} if np.size(value) > 64 else {}
-    group.create_dataset(name, data=value, **options).attrs["unit"] = unit
-
-
-def _labels(labels: Iterable[str]) -> np.ndarray[Any, Any]:
-    labels = list(labels)
-    long = [label for label in labels if len(label.encode("ascii", "replace")) > 32]
-    if long:
-        raise DatabaseError(f"label {long[0]!r} is longer than 32 characters: rename the body")
-    return np.array(labels, dtype="S32")
-
-
-def _numbers(group: h5py.Group, name: str, kind: type = float) -> np.ndarray[Any, Any]:
-    """Finite numbers of a dataset, as float or complex."""
-    values = np.asarray(group[name][()])
-    where = f"{group.file.filename}: {group.name.rstrip('/')}/{name}"
-    if values.dtype.kind not in ("fiu" if kind is float else "fiuc"):
-        raise DatabaseError(f"{where}: expected numbers, found {values.dtype}")
-    if not np.all(np.isfinite(values)):
-        raise DatabaseError(f"{where}: holds values that are not finite")
-    return values.astype(kind)
+    return ExponentialMemory(name=name, **_whole(group, FIT))
 
 
 def _report(group: h5py.Group) -> dict[str, Any]:
@@ -293,10 +266,6 @@ def _report(group: h5py.Group) -> dict[str, Any]:
                 f"{count} number{'s' if count > 1 else ''}"
             )
     return report
-
-
-def _read_labels(dataset: h5py.Dataset) -> tuple[str, ...]:
-    return tuple(label.decode("ascii") for label in dataset[()])
 
 
 def _text(value: Any) -> str:

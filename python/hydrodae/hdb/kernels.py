@@ -10,10 +10,15 @@ from hydrodae import irf
 from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.scales import scales
 from hydrodae.hdb.tables import Tables
+from hydrodae.hdb.transfer import TransferTables, enough
 
 Array = NDArray[np.float64]
 #: Share of int |K| dt that may be left after the memory length.
 REST = 1e-3
+#: Longest memory that is looked for [s].
+LONGEST = 600.0
+#: Times, kernel and length of `decayed_kernel`.
+_Decayed = tuple[Array, Array, float]
 
 
 def envelope_length(time: Array, kernel: Array, rest: float = REST) -> Array:
@@ -39,15 +44,50 @@ def envelope_length(time: Array, kernel: Array, rest: float = REST) -> Array:
     return np.asarray(time[np.maximum(over.sum(axis=0) - 1, 0)], dtype=float)
 
 
+def decayed_kernel(omega: Array, damping: Array, step: float, least: float = 0.0) -> _Decayed:
+    """K(t) until well after the memory length (and after `least`), and that length.
+
+    The quadrature is exact, whatever the steps of the frequencies; so no step limits the memory.
+
+    Parameters
+    ----------
+    omega : (nw,) array
+        [rad/s].
+    damping : (nw, m) array
+        B(w).
+    step : float
+        Of the time [s].
+    least : float
+        Time that must be covered one and a half times [s].
+
+    Returns
+    -------
+    time, kernel : (nt,), (nt, m) arrays
+        Up to twice the length; at most `LONGEST`, or one and a half times `least`.
+    length : float
+        The longest of `envelope_length` [s].
+    """
+    end = max(60.0, 1.5 * least)
+    while True:
+        time = np.arange(0.0, end, step)
+        kernel = irf.radiation_kernel(omega, damping, time, extrapolate=True)
+        length = float(envelope_length(time, kernel).max(initial=0.0))
+        if length <= 0.5 * end or end >= LONGEST:
+            return time, kernel, length
+        end = min(2.5 * end, LONGEST)
+
+
 def memory_length(database: Tables) -> float:
     """Length [s] of the radiation memory of the coordinates that radiate (diagonal of K).
 
-    At most what the grid resolves (`resolved_time`), beyond which the table says nothing.
+    Until a thousandth of int |K| dt is left, or H(iw) at the stored frequencies is no better.
     """
-    time, kernel = diagonal_kernels(database)
-    if kernel.shape[1] == 0:
-        return float(time[-1])
-    return float(envelope_length(time, kernel).max())
+    used = np.flatnonzero(scales(database) > 0.0)
+    w, (a, b) = database.omega, (database.added_mass, database.radiation_damping)
+    time, kernel, found = decayed_kernel(w, b[:, used, used], 0.6 / float(w[-1]))
+    size = np.abs(b[:, used, used]).max(axis=0)
+    own = TransferTables(w, a[:, used, used], b[:, used, used], size, (0.0, float(w[-1])))
+    return enough(own, time, kernel, found) if used.size else float(time[-1])
 
 
 def diagonal_kernels(database: Tables) -> tuple[Array, Array]:
@@ -64,12 +104,19 @@ def diagonal_kernels(database: Tables) -> tuple[Array, Array]:
 
 
 def resolved_time(database: Tables) -> float:
-    """Longest memory [s] that the grid resolves: pi over its largest step (first one from 0)."""
-    return float(np.pi / np.diff(np.r_[0.0, database.omega]).max())
+    """Memory [s] within which no image of the grid can be: pi over its largest step (from 0).
+
+    Steps over which no B exceeds a thousandth of its peak do not count: they hold no memory.
+    """
+    w, b = database.omega, np.abs(np.einsum("wii->wi", database.radiation_damping))
+    used = scales(database) > 0.0
+    share = np.r_[0.0, (b[:, used] / b[:, used].max(axis=0)).max(axis=1, initial=0.0)]
+    steps = np.diff(np.r_[0.0, w])[np.maximum(share[:-1], share[1:]) > REST]
+    return float(np.pi / steps.max(initial=w[0]))
 
 
 def excitation_kernel(database: Tables, time: ArrayLike) -> Array:
-    """Excitation kernel K_ex(t) = 1/pi int_0^inf Re(F e^{iwt}) dw, trapezoid on a fine spline.
+    """Excitation kernel K_ex(t) = 1/pi int_0^inf Re(F e^{iwt}) dw, exact for the spline of F.
 
     F(0) is the static limit: the heave stiffness where hydrostatics are known, else the first
     value of F; zero for the other coordinates. Nothing is added beyond the last frequency.
@@ -94,15 +141,14 @@ def excitation_kernel(database: Tables, time: ArrayLike) -> Array:
             known = None if hs is None else database.rho * database.gravity * hs.waterplane_area
             start[:, i] = database.excitation[0, :, i].real if known is None else known
     knots = np.r_[0.0, database.omega]
-    spline = CubicSpline(knots, np.concatenate([start[None], database.excitation]))
-    longest = max(np.abs(t).max(initial=1.0), 1.0)
-    count = int(np.clip(np.ceil(knots[-1] * longest / 0.4), 400, 8000)) + 1
-    w = np.linspace(0.0, knots[-1], count)
-    weight = np.full(count, w[1])
-    weight[[0, -1]] *= 0.5
-    table = (spline(w) * weight[:, None, None]).reshape(count, -1)
-    result = np.empty((t.size, table.shape[1]))
-    for rows in np.array_split(np.arange(t.size), max(1, t.size // 200)):
-        phase = np.outer(t[rows], w)
-        result[rows] = np.cos(phase) @ table.real - np.sin(phase) @ table.imag
+    table = np.concatenate([start[None], database.excitation]).reshape(knots.size, -1)
+    real, imaginary = (CubicSpline(knots, part) for part in (table.real, table.imag))
+    # a few rows at a time: (rows, nw) complex numbers are alive at once
+    rows = max(1, 400_000 // knots.size)
+    result = np.concatenate(
+        [
+            irf.spline_fourier(real, part).real - irf.spline_fourier(imaginary, part).imag
+            for part in np.split(t, np.arange(rows, t.size, rows))
+        ]
+    )
     return (result / np.pi).reshape(t.shape + start.shape)

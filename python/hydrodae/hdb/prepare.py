@@ -18,6 +18,7 @@ from hydrodae.hdb.checks.lone import MOST, lone_rows
 from hydrodae.hdb.checks.repair import irregular
 from hydrodae.hdb.coordinates import body_name, expand
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.radiation_kernel import LIMIT
 from hydrodae.hdb.scales import scaled_damping_eigenvalues
 
 if TYPE_CHECKING:
@@ -385,6 +386,7 @@ def kernel(
     loads: str | Sequence[str] | None = None,
     length: float | None = None,
     band: tuple[float, float] | None = None,
+    limit: float = LIMIT,
 ) -> HydroDatabase:
     """Store the radiation kernel K(t) for the convolution; the command `hydrodae hdb kernel`.
 
@@ -396,9 +398,11 @@ def kernel(
     loads : str or sequence of str, optional
         Coordinates whose loads it gives, likewise; default: those that move.
     length : float, optional
-        Memory [s]; default: until a thousandth of int |K| is left.
+        Memory [s]; default: until a thousandth of int |K| is left, or H in the band no better.
     band : (float, float), optional
         Frequencies that must match [rad/s].
+    limit : float
+        Largest error of H in the band [-].
 
     Returns
     -------
@@ -408,13 +412,15 @@ def kernel(
     Raises
     ------
     DatabaseError
-        Unknown coordinates, a memory too short for the grid, or too few frequencies in the band.
+        Unknown coordinates, a memory too short for the grid, too few frequencies in the band, or an
+        error of H above the limit.
     """
     return database.with_kernel(
         _labels(inputs, database),
         None if loads is None else _labels(loads, database),
         length=length,
         band=band,
+        limit=limit,
     )
 
 

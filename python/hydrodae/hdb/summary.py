@@ -64,7 +64,11 @@ def kernel_summary(kernel: RadiationKernel) -> str:
     ]
     band, error = kernel.report.get("band"), kernel.report.get("h_error_band")
     if isinstance(error, float) and isinstance(band, tuple):
-        parts.append(f"error of H {error:.2g} in {band[0]:.3g}..{band[1]:.3g} rad/s")
+        parts.append(
+            f"error of H {error:.2g} at the frequencies in {band[0]:.3g}..{band[1]:.3g} rad/s"
+        )
+    if "h_error_between" in kernel.report:
+        parts.append(f"B uncertain by {kernel.report['h_error_between']:.1e} between them")
     if "rest" in kernel.report:
         parts.append(f"{kernel.report['rest']:.1e} of int |K| left out")
     if "min_eig_relative" in kernel.report:

@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 #: Times of the kernels in a BEMIO file.
 KERNEL_TIMES = 1001
+#: Longest step of the time of a kernel times the highest frequency: 10 points a period.
+RESOLUTION = 0.6
 
 
 def write_bemio(database: HydroDatabase, path: str | Path) -> None:
@@ -53,8 +55,9 @@ def write_bemio(database: HydroDatabase, path: str | Path) -> None:
     target = Path(path)
     partial = _partial(target, outputs.BEMIO)
     end = 1.25 * memory_length(db)
-    time = np.linspace(0.0, end, KERNEL_TIMES)
-    both = np.linspace(-end, end, KERNEL_TIMES)
+    count = max(KERNEL_TIMES, int(np.ceil(end * db.omega[-1] / RESOLUTION)) + 1)
+    time = np.linspace(0.0, end, count)
+    both = np.linspace(-end, end, 2 * count - 1)
     kernel = db.radiation_kernel(time, extrapolate=True) / db.rho
     excitation = excitation_kernel(db, both) / (db.rho * db.gravity)
     with h5py.File(partial, "w") as f:

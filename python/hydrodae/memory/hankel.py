@@ -28,6 +28,8 @@ from hydrodae.memory.vector_fitting import Array, limited
 
 ROWS = 1600
 """Most rows of the Hankel matrix."""
+LONGEST = 600.0
+"""Longest memory that is realised [s]."""
 HOPEFUL = 3.0
 """A refit wins at most about this factor: starts with larger errors are passed over."""
 
@@ -111,8 +113,7 @@ def _decompose(problem: Problem) -> _Kernel:
     omega, n = problem.samples.omega[:-1], problem.size
     damping = problem.matrix(problem.samples.value[:-1].real)
     step = 0.55 * np.pi / omega[-1]
-    resolved = np.pi / np.diff(np.append(0.0, omega)).max()
-    half = int(min(resolved / step, 2 * (ROWS // n))) // 2
+    half = int(min(LONGEST / step, 2 * (ROWS // n))) // 2
     time = step * np.arange(2 * half)
     k = irf.radiation_kernel(omega, damping.reshape(omega.size, -1), time, extrapolate=True)
     k = k.reshape(-1, n, n)

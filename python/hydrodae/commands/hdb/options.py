@@ -9,6 +9,7 @@ from hydrodae.commands.arguments import parse_band
 from hydrodae.errors import CaseError
 from hydrodae.hdb import prepare
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.radiation_kernel import LIMIT
 from hydrodae.hdb.summary import fit_summary, kernel_summary
 from hydrodae.memory.verdict import CHECKS
 from hydrodae.progress import StageLine
@@ -45,12 +46,20 @@ def water_of(args: argparse.Namespace) -> WaterWords:
 
 
 def add_length_option(parser: argparse.ArgumentParser) -> None:
-    """Add --length."""
+    """Add --length and --limit."""
     parser.add_argument(
         "--length",
         metavar="T",
         type=float,
-        help="memory of the kernel [s]; default: until a thousandth of int |K| is left",
+        help="memory of the kernel [s]; default: until a thousandth of int |K| is left, or H in "
+        "the band is no better",
+    )
+    parser.add_argument(
+        "--limit",
+        metavar="E",
+        type=float,
+        default=LIMIT,
+        help=f"largest error of H in the band with which a kernel is kept (default {LIMIT:g})",
     )
 
 
@@ -94,6 +103,7 @@ def with_kernel(database: HydroDatabase, spec: str, args: argparse.Namespace) ->
         loads=args.loads or None,
         length=args.length,
         band=None if args.band is None else parse_band(args.band),
+        limit=args.limit,
     )
     assert result.kernel is not None
     print(f"kernel: {kernel_summary(result.kernel)}")

@@ -89,7 +89,7 @@ def _grid(db: HydroDatabase) -> list[Finding]:
             "info",
             "frequency grid",
             f"{w.size} frequencies {w[0]:.4g}..{w[-1]:.4g} rad/s, steps {steps.min():.3g}.."
-            f"{steps.max():.3g}; resolves a memory of about {np.pi / steps.max():.0f} s",
+            f"{steps.max():.3g}; resolves a memory of about {resolved_time(db):.3g} s",
         )
     ]
     if b.shape[1] == 0:

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from hydrodae import irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.kernels import memory_length, resolved_time
+from hydrodae.hdb.kernels import memory_length
 
 if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
@@ -75,7 +75,7 @@ def variants(
     for share in RANGES:
         yield f"up to {share:g} w_max", up_to(database, share)
     part = database.select(moving)
-    longest = min(memory_length(part), resolved_time(part))
+    longest = memory_length(part)
     for share in LENGTHS:
         yield f"memory cut at {share * longest:.3g} s", cut_memory(part, share * longest)
     for name, fit in database.memory.items():

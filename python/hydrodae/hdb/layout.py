@@ -1,0 +1,155 @@
+"""Every dataset of `hydro.h5`: its dimensions, type and unit; what reads and writes them.
+
+Letters name lengths that several datasets share; where one of them stands for the first time in a
+group, it is what the file says: n coordinates, w frequencies, h headings, i what moves, o what is
+loaded, t times, p poles, m panels. Units of tables are those of translations, of their coupling with
+rotations, and of rotations. cpp/hydrodae/io/hydro_file.cpp checks the same shapes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import h5py
+import numpy as np
+
+from hydrodae.errors import DatabaseError
+
+MASS, RATE, FORCE = "kg, kg m, kg m2", "N s/m, N s, N m s", "N/m, N m/m"
+STIFFNESS = "N/m, N, N m"
+#: What a dataset may hold, in NumPy's letters, and how an error names it.
+KINDS = {"text": ("SO", "text"), "real": ("fiu", "numbers"), "complex": ("fiuc", "numbers")}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A dataset: its dimensions (letters, or lengths that never differ), kind and unit."""
+
+    dims: tuple[str | int, ...]
+    kind: str = "real"
+    unit: str = ""
+
+
+TABLES = {
+    "coordinates": Entry(("n",), "text"),
+    "omega": Entry(("w",), unit="rad/s"),
+    "added_mass": Entry(("w", "n", "n"), unit=MASS),
+    "radiation_damping": Entry(("w", "n", "n"), unit=RATE),
+    "added_mass_inf": Entry(("n", "n"), unit=MASS),
+    "added_mass_inf_std": Entry(("n", "n"), unit=MASS),
+    "heading": Entry(("h",), unit="rad"),
+    "excitation/froude_krylov": Entry(("w", "h", "n"), "complex", FORCE),
+    "excitation/diffraction": Entry(("w", "h", "n"), "complex", FORCE),
+}
+BODY = {
+    "hydrostatic_stiffness": Entry((6, 6), unit=STIFFNESS),
+    "mesh": Entry(("m", 4, 3), unit="m"),
+}
+KERNEL = {
+    "inputs": Entry(("i",), "text"),
+    "outputs": Entry(("o",), "text"),
+    "time": Entry(("t",), unit="s"),
+    "kernel": Entry(("t", "o", "i"), unit=STIFFNESS),
+    "added_mass_inf": Entry(("o", "i"), unit=MASS),
+}
+FIT = {
+    "inputs": Entry(("i",), "text"),
+    "outputs": Entry(("o",), "text"),
+    "poles": Entry(("p",), "complex"),
+    "input_matrix": Entry(("p", "i"), "complex"),
+    "output_matrix": Entry(("o", "p"), "complex"),
+    "added_mass_inf": Entry(("o", "i"), unit=MASS),
+}
+#: Numbers of a body that are attributes of its group.
+BODY_NUMBERS: dict[str, tuple[int, ...]] = {
+    "reference_point": (3,),
+    "displaced_volume": (),
+    "center_of_buoyancy": (3,),
+    "waterplane_area": (),
+    "waterplane_moments": (5,),
+}
+
+
+def read_group(group: h5py.Group, layout: Mapping[str, Entry]) -> dict[str, Any]:
+    """Read the datasets of a group, float or complex, labels as tuples of str.
+
+    Parameters
+    ----------
+    group : h5py.Group
+    layout : dict of Entry
+        Those that the group lacks are left out.
+
+    Raises
+    ------
+    DatabaseError
+        Another type or shape than declared, or numbers that are not finite.
+    """
+    sizes: dict[str, int] = {}
+    return {
+        name: _read(group, name, entry, sizes) for name, entry in layout.items() if name in group
+    }
+
+
+def read_numbers(group: h5py.Group, name: str, shape: tuple[int, ...]) -> Any:
+    """Read an attribute that holds numbers of a shape.
+
+    Raises
+    ------
+    DatabaseError
+        It is missing, or of another type or shape.
+    """
+    where = f"{group.file.filename}: {group.name}: attribute {name}"
+    if name not in group.attrs:
+        raise DatabaseError(f"{where}: missing")
+    values = np.asarray(group.attrs[name])
+    if values.dtype.kind not in "fiu":
+        raise DatabaseError(f"{where}: expected numbers, found {values.dtype}")
+    if values.shape != shape:
+        raise DatabaseError(f"{where}: expected shape {shape}, found {values.shape}")
+    return float(values) if shape == () else values.astype(float)
+
+
+def write_dataset(group: h5py.Group, name: str, entry: Entry, value: Any) -> None:
+    """Write a dataset as it is declared; labels as texts of 32 characters."""
+    if entry.kind == "text":
+        group.create_dataset(name, data=_labels(value))
+        return
+    data = np.asarray(value)
+    options = {"compression": "gzip", "shuffle": True} if data.size > 64 else {}
+    dataset = group.create_dataset(name, data=data, **options)
+    if entry.unit:
+        dataset.attrs["unit"] = entry.unit
+
+
+def _read(group: h5py.Group, name: str, entry: Entry, sizes: dict[str, int]) -> Any:
+    where = f"{group.file.filename}: {group.name.rstrip('/')}/{name}"
+    node = group[name]
+    if not isinstance(node, h5py.Dataset) or node.shape is None:
+        raise DatabaseError(f"{where}: expected a dataset")
+    letters, called = KINDS[entry.kind]
+    if node.dtype.kind not in letters:
+        raise DatabaseError(f"{where}: expected {called}, found {node.dtype}")
+    if len(node.shape) == len(entry.dims):
+        for dim, length in zip(entry.dims, node.shape, strict=True):
+            if isinstance(dim, str):
+                sizes.setdefault(dim, length)
+    wanted = tuple(sizes.get(d, d) if isinstance(d, str) else d for d in entry.dims)
+    if node.shape != wanted:
+        text = ", ".join(map(str, wanted)) + ("," if len(wanted) == 1 else "")
+        raise DatabaseError(f"{where}: expected shape ({text}), found {node.shape}")
+    values = np.asarray(node[()])
+    if entry.kind == "text":
+        return tuple(v.decode("ascii") if isinstance(v, bytes) else str(v) for v in values)
+    if not np.all(np.isfinite(values)):
+        raise DatabaseError(f"{where}: holds values that are not finite")
+    return values.astype(complex if entry.kind == "complex" else float)
+
+
+def _labels(labels: Any) -> np.ndarray[Any, Any]:
+    labels = list(labels)
+    long = [label for label in labels if len(label.encode("ascii", "replace")) > 32]
+    if long:
+        raise DatabaseError(f"label {long[0]!r} is longer than 32 characters: rename the body")
+    return np.array(labels, dtype="S32")
