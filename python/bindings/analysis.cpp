@@ -1,11 +1,13 @@
 #include "hydrodae/analysis.h"
 
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "bindings.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/hydro/headings.h"
+#include "hydrodae/hydro/symmetry.h"
 
 namespace py = pybind11;
 
@@ -49,6 +51,28 @@ py::dict linear_model(const model::Scene& scene) {
                   "water_depth"_a = m.water_depth, "gravity"_a = m.gravity);
 }
 
+/// `hydro::add_images` on tables as Python holds them: frequency first.
+py::tuple with_images(const std::vector<std::string>& coordinates, const py::dict& points,
+                      const MatrixX& added_mass_inf, const VectorX& omega,
+                      const std::vector<MatrixX>& damping, const VectorX& heading,
+                      const std::vector<Eigen::MatrixXcd>& excitation,
+                      const std::vector<double>& water) {
+  hydro::Database db;
+  db.coordinates = coordinates;
+  for (const auto& [name, point] : points)
+    db.bodies.push_back({name.cast<std::string>(), point.cast<Vector3>(), {}});
+  db.added_mass_inf = added_mass_inf;
+  db.omega = omega;
+  db.damping = damping;
+  db.heading = heading;
+  db.excitation = excitation;
+  db.rho = water.at(0);
+  db.gravity = water.at(1);
+  db.water_depth = water.at(2);
+  hydro::add_images(db);
+  return py::make_tuple(db.heading, db.excitation);
+}
+
 } // namespace
 
 void bind_analysis(py::module_& module) {
@@ -57,6 +81,12 @@ void bind_analysis(py::module_& module) {
              "cpp/hydrodae/analysis.h.\nRaises CaseError.");
   module.def("wave_components", &wave_components, py::arg("scene"),
              "Components of all wave systems, (n, 4): frequency, heading, amplitude, phase.");
+  module.def("with_images", &with_images, py::arg("coordinates"), py::arg("points"),
+             py::arg("added_mass_inf"), py::arg("omega"), py::arg("damping"), py::arg("heading"),
+             py::arg("excitation"), py::arg("water"),
+             "Headings and excitation, one table (nw, n) a heading, with those that the symmetry "
+             "of the bodies adds; see cpp/hydrodae/hydro/symmetry.h.\n`points`: reference point of "
+             "each body; `water`: rho, gravity, depth.");
   py::class_<hydro::Headings>(module, "Headings", "See cpp/hydrodae/hydro/headings.h.")
       .def(py::init<VectorX>(), py::arg("heading"))
       .def("covered", &hydro::Headings::covered, py::arg("heading"))

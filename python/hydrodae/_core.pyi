@@ -107,6 +107,22 @@ def catenary(
 def wave_components(scene: Scene) -> NDArray[np.float64]:
     """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
 
+def with_images(
+    coordinates: Sequence[str],
+    points: Mapping[str, NDArray[np.float64]],
+    added_mass_inf: NDArray[np.float64],
+    omega: NDArray[np.float64],
+    damping: Sequence[NDArray[np.float64]],
+    heading: NDArray[np.float64],
+    excitation: Sequence[NDArray[np.complex128]],
+    water: Sequence[float],
+) -> tuple[NDArray[np.float64], list[NDArray[np.complex128]]]:
+    """Headings and excitation, one table (nw, n) a heading, with those that symmetry adds.
+
+    See cpp/hydrodae/hydro/symmetry.h. `points`: reference point of each body; `water`: rho,
+    gravity, depth.
+    """
+
 class Headings:
     """Between the headings (nh,) of a database, ascending [rad]; cpp/hydrodae/hydro/headings.h."""
 

@@ -87,6 +87,17 @@ inline std::shared_ptr<const hydro::Database> random_database(Random& random) {
   return db;
 }
 
+/// The same with headings all round.
+inline std::shared_ptr<const hydro::Database> all_round(const hydro::Database& given) {
+  auto db = std::make_shared<hydro::Database>(given);
+  db->heading = VectorX::LinSpaced(6, 0.0, 2.0 * pi);
+  db->excitation.clear();
+  for (int h = 0; h < 5; ++h)
+    db->excitation.emplace_back(10.0 * Eigen::MatrixXcd::Random(3, 12));
+  db->excitation.push_back(db->excitation.front());
+  return db;
+}
+
 /// Two bodies "a" and "b" on a joint "link" of the given type, "a" also held by the same type of
 /// joint to the ground ("anchor").
 inline model::Scene two_bodies(const joint::JointType& type, const std::vector<std::string>& motion,
@@ -377,15 +388,21 @@ inline std::vector<NamedScene> all_scenes() {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro : {"dry", "body", "mean", "yaw", "constant", "convolution"}) {
+      for (const std::string hydro :
+           {"dry", "body", "mean", "yaw", "round", "constant", "convolution"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
         model::Scene scene = two_bodies(type, motion, random);
         if (hydro != "dry")
-          add_hydro(scene, hydro == "mean" || hydro == "yaw" ? hydro : "body",
+          add_hydro(scene,
+                    hydro == "round"                    ? "yaw"
+                    : hydro == "mean" || hydro == "yaw" ? hydro
+                                                        : "body",
                     hydro == "constant" || hydro == "convolution" ? hydro : "exponential", random);
-        if (hydro == "mean" || hydro == "constant")
+        if (hydro == "round")
+          scene.database = all_round(*scene.database);
+        if (hydro == "mean" || hydro == "constant" || hydro == "round")
           scene.sea.phase = "moving";
         add_every_force(scene, random, hydro == "convolution");
         add_morison(scene);

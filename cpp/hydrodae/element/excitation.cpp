@@ -1,14 +1,18 @@
 #include "hydrodae/element/excitation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/element/hydro_axes_gradient.h"
 
 namespace hydrodae::element {
 
 namespace {
 
+constexpr double slack = 1e-4; ///< by which headings may lie off the table (headings.h) [rad]
 constexpr double noise = 1e-5; ///< of the largest: what the symmetry of a body leaves in its tables
 
 /// Memory for n numbers; allocates nothing after a first call.
@@ -17,6 +21,13 @@ VectorX& functions_memory(Index n) {
   if (memory.size() < n)
     memory.resize(n);
   return memory;
+}
+
+template <class S> S* drifting_memory(Index n) {
+  thread_local std::vector<S> memory;
+  if (std::ssize(memory) < n)
+    memory.resize(static_cast<std::size_t>(n));
+  return memory.data();
 }
 
 /// f along the hydrodynamic axes as a load on the body. In mean axes R is all that it takes.
@@ -34,16 +45,18 @@ template <class S> Vec6<S> on_body(HydroAxes axes, const HydroBody& hb, const S*
 
 } // namespace
 
-Excitation::Excitation(HydroAxes axes, std::vector<Body> bodies, int n_moving, bool split)
-    : axes_(axes), bodies_(std::move(bodies)), n_moving_(n_moving) {
+Excitation::Excitation(HydroAxes axes, std::vector<Body> bodies, bool split)
+    : axes_(axes), bodies_(std::move(bodies)) {
   type = "excitation";
   shape.port = Port::in_water;
   shape.feels_rates = false;
   work = Work::lent;
   if (split)
     parts = {"froude_krylov", "diffraction"};
-  for (const Body& b : bodies_)
+  for (const Body& b : bodies_) {
     names.push_back(b.name);
+    n_moving_ += b.moving.count();
+  }
 }
 
 void Excitation::turn(const std::vector<HydroBody>& bodies) {
@@ -51,18 +64,35 @@ void Excitation::turn(const std::vector<HydroBody>& bodies) {
     bodies_[k].wet = bodies[k];
 }
 
-/// What acts along the coordinates of U; `f`: the functions of time, where these are fixed.
+/// b_m at the yaw of the body.
 template <class S>
-Vec6<S> Excitation::force(double t, const Body& body, const S* in, const double* f) const {
-  const HydroBody& hb = body.wet;
-  Vec6<S> out = Vec6<S>::Zero(), drifting;
-  if (!drifting_.empty()) {
-    const S x = in[0] - S(body.reference[0]), y = in[1] - S(body.reference[1]);
-    drifting_(t, x, y, hb.first_moving(), hb.n_moving(), drifting.data());
+void Excitation::yaw_values(const Body& body, const S* in, YawFunctions::Values<S>& b) const {
+  if (body.yaw.count == 1) {
+    b[0] = S(1);
+    return;
   }
-  for (int c = 0; c < 6; ++c)
-    if (hb.moving[c] >= 0)
-      out[c] = drifting_.empty() ? S(f[hb.moving[c]]) : drifting[hb.moving[c] - hb.first_moving()];
+  const Mat3<S> H = yaw<S>(read_body(in)).H;
+  body.yaw.values(H(0, 0), H(1, 0), b);
+}
+
+/// What some terms make along the hydrodynamic axes; `f`: the functions of time, where these are
+/// fixed.
+template <class S>
+Vec6<S> Excitation::force(double t, const Body& body, const Terms& terms, const S* in,
+                          const YawFunctions::Values<S>& b, const double* f) const {
+  Vec6<S> out = Vec6<S>::Zero();
+  const auto add = [&](const auto* functions) {
+    for (const Term& term : terms.list)
+      out[term.coordinate] += b[static_cast<std::size_t>(term.m)] * S(*functions++);
+  };
+  if (drifting_.empty()) {
+    add(f + terms.first);
+  } else {
+    S* drifting = drifting_memory<S>(terms.count());
+    const S x = in[0] - S(body.reference[0]), y = in[1] - S(body.reference[1]);
+    drifting_(t, x, y, terms.first, terms.count(), drifting);
+    add(drifting);
+  }
   return out;
 }
 
@@ -70,11 +100,14 @@ template <class S> void Excitation::loads(double t, const S* in, S* out) const {
   VectorX& f = functions_memory(n_moving_);
   if (!fixed_.empty())
     fixed_(t, f.head(n_moving_));
+  YawFunctions::Values<S> b;
   for (const Body& body : bodies_) {
     Eigen::Map<Vec6<S>> load(out);
     load.setZero();
-    if (body.wet.moves && count() > 0)
-      load = on_body<S>(axes_, body.wet, in, force<S>(t, body, in, f.data()));
+    if (body.wet.moves && count() > 0) {
+      yaw_values(body, in, b);
+      load = on_body<S>(axes_, body.wet, in, force<S>(t, body, body.moving, in, b, f.data()));
+    }
     in += body_numbers;
     out += 6;
   }
@@ -88,29 +121,47 @@ void Excitation::evaluate(double t, const Dual* in, const double*, Dual* out) co
   loads(t, in, out);
 }
 
+/// d load / d place of a body whose waves move with it, by x and y, along the hydrodynamic axes.
+Eigen::Matrix<double, 6, 2> Excitation::by_place(double t, const Body& body, const double* in,
+                                                 const YawFunctions::Values<double>& b) const {
+  const Index n = body.moving.count();
+  double* values = drifting_memory<double>(3 * n);
+  drifting_(t, in[0] - body.reference[0], in[1] - body.reference[1], body.moving.first, n, values,
+            values + n, values + 2 * n);
+  Eigen::Matrix<double, 6, 2> out = Eigen::Matrix<double, 6, 2>::Zero();
+  Index k = n;
+  for (const Term& term : body.moving.list) {
+    const double factor = b[static_cast<std::size_t>(term.m)];
+    out(term.coordinate, 0) += factor * values[k];
+    out(term.coordinate, 1) += factor * values[n + k];
+    ++k;
+  }
+  return out;
+}
+
 void Excitation::jacobian(double t, const double* in, const double*, double* jacobian) const {
   VectorX& f = functions_memory(n_moving_);
   if (!fixed_.empty())
     fixed_(t, f.head(n_moving_));
+  YawFunctions::Values<double> b, slopes;
   for (const Body& body : bodies_) {
-    const HydroBody& hb = body.wet;
     Eigen::Map<Eigen::Matrix<double, 6, 18>> J(jacobian);
     J.setZero();
-    if (hb.moves && count() > 0) {
-      const BodyState<double> b = read_body(in);
-      const Vector6 along = force<double>(t, body, in, f.data()), still = Vector6::Zero();
-      const HydroLoadGradient d = hydro_load_gradient(axes_, hb, b, along, still);
+    if (body.wet.moves && count() > 0) {
+      const BodyState<double> state = read_body(in);
+      yaw_values(body, in, b);
+      const Vector6 along = force<double>(t, body, body.moving, in, b, f.data()),
+                    still = Vector6::Zero();
+      const HydroLoadGradient d = hydro_load_gradient(axes_, body.wet, state, along, still);
       J.middleCols<3>(3) = d.by_rotation;
-      if (!drifting_.empty()) {
-        Vector6 value, by_x, by_y; // of the coordinates that move
-        Eigen::Matrix<double, 6, 2> by_place = Eigen::Matrix<double, 6, 2>::Zero();
-        drifting_(t, in[0] - body.reference[0], in[1] - body.reference[1], hb.first_moving(),
-                  hb.n_moving(), value.data(), by_x.data(), by_y.data());
-        for (int c = 0; c < 6; ++c)
-          if (const int k = hb.moving[c] - hb.first_moving(); hb.moving[c] >= 0)
-            by_place.row(c) << by_x[k], by_y[k];
-        J.leftCols<2>() = d.L * by_place;
+      if (body.yaw.count > 1) {
+        const Yaw<double> psi = yaw<double>(state);
+        body.yaw.slopes(psi.H(0, 0), psi.H(1, 0), slopes);
+        J.middleCols<3>(3) +=
+            d.L * force<double>(t, body, body.moving, in, slopes, f.data()) * psi.s.transpose();
       }
+      if (!drifting_.empty())
+        J.leftCols<2>() = d.L * by_place(t, body, in, b);
     }
     in += body_numbers;
     jacobian += J.size();
@@ -121,33 +172,52 @@ void Excitation::energy(const double*, const double*, double* joules) const {
   std::fill_n(joules, size(), 0.0);
 }
 
+void Excitation::check_yaw(double t, const Body& body, const double* in) const {
+  constexpr double degrees = 180.0 / pi;
+  const YawFunctions& reach = body.yaw;
+  if (reach.round || !std::isfinite(reach.half))
+    return;
+  const Mat3<double> H = yaw<double>(read_body(in)).H;
+  const double psi = std::atan2(H(1, 0), H(0, 0));
+  if (!(reach.outside(psi) > slack))
+    return;
+  const auto text = [](double angle) { return rounded_text(angle * degrees, 4); };
+  throw SolverError(t,
+                    "body " + in_quotes(body.name) + " has turned to a yaw of " + text(psi) +
+                        " deg at t = " + rounded_text(t, 6) +
+                        " s: with axes = \"yaw\" the headings of the database, less those "
+                        "of the waves, cover " +
+                        text(reach.middle - reach.half) + " to " + text(reach.middle + reach.half) +
+                        " deg alone; compute it with headings all round, or use axes = \"mean\"");
+}
+
 void Excitation::report(double t, const double* in, const double*, double* loads) const {
-  const auto n_loads = static_cast<Index>(1 + parts.size()),
-             all = 6 * static_cast<Index>(bodies_.size());
   VectorX& f = functions_memory(count());
   if (!fixed_.empty())
     fixed_(t, f.head(count()));
   if (count() == 0) {
-    std::fill_n(loads, all * n_loads, 0.0);
+    std::fill_n(loads, 6 * bodies_.size() * (1 + parts.size()), 0.0);
     return;
   }
-  Index row = n_moving_;
+  YawFunctions::Values<double> b;
   for (const Body& body : bodies_) {
-    if (!drifting_.empty())
-      for (Index first = row; first < count() - 1; first += all)
-        drifting_(t, in[0] - body.reference[0], in[1] - body.reference[1], first, 6,
-                  f.data() + first);
-    const auto put = [&](const Vector6& force) {
+    check_yaw(t, body, in);
+    yaw_values(body, in, b);
+    const auto sum = [&](const Terms& terms) {
+      return force<double>(t, body, terms, in, b, f.data());
+    };
+    const auto put = [&](const Vector6& along) {
       Eigen::Map<Vector6> load(loads);
-      load = on_body<double>(axes_, body.wet, in, force);
+      load = on_body<double>(axes_, body.wet, in, along);
       loads += 6;
     };
-    put(f.segment<6>(row));
+    const Vector6 total = sum(body.moving) + sum(body.still);
+    put(total);
     if (!parts.empty()) {
-      put(f.segment<6>(row + all));
-      put(f.segment<6>(row) - f.segment<6>(row + all));
+      const Vector6 part = sum(body.froude_krylov);
+      put(part);
+      put(total - part);
     }
-    row += 6;
     in += body_numbers;
   }
 }
@@ -164,8 +234,17 @@ WavesFelt Excitation::waves() const {
       out.omega[i] = drifting_.waves()[static_cast<std::size_t>(i)].omega;
   }
   out.amplitude = C.row(C.rows() - 1).cwiseAbs2().cwiseSqrt().transpose();
-  for (Index k = 0; k < static_cast<Index>(bodies_.size()); ++k)
-    out.loads.emplace_back(C.middleRows<6>(n_moving_ + 6 * k).cwiseAbs2().cwiseSqrt());
+  YawFunctions::Values<double> b;
+  for (const Body& body : bodies_) {
+    body.yaw.values(body.wet.cos_yaw, body.wet.sin_yaw, b);
+    Eigen::MatrixXcd load = Eigen::MatrixXcd::Zero(6, C.cols());
+    for (const Terms* terms : {&body.moving, &body.still})
+      for (Index k = 0; k < terms->count(); ++k) {
+        const Term& term = terms->list[static_cast<std::size_t>(k)];
+        load.row(term.coordinate) += b[static_cast<std::size_t>(term.m)] * C.row(terms->first + k);
+      }
+    out.loads.emplace_back(load.cwiseAbs());
+  }
   return out;
 }
 
@@ -187,19 +266,21 @@ std::shared_ptr<const Elements> Excitation::calm() const {
   return out;
 }
 
-/// Least excitation of each function that is no noise of the tables: by the largest force on the
+/// Least amplitude of each function that is no noise of the tables: by the largest force on the
 /// body and, of moments, its length or the largest moment.
 VectorX Excitation::least(const VectorX& largest) const {
   VectorX out = VectorX::Zero(largest.size());
   for (const Body& body : bodies_) {
+    const Terms& terms = body.moving;
     double force = 0.0, moment = 0.0;
-    for (int c = 0; c < 6; ++c)
-      if (const int u = body.wet.moving[c]; u >= 0)
-        (c < 3 ? force : moment) = std::max(c < 3 ? force : moment, largest[u]);
-    for (int c = 0; c < 6; ++c)
-      if (const int u = body.wet.moving[c]; u >= 0)
-        out[u] = noise * (c < 3 ? std::max(force, moment / body.length)
-                                : std::max(moment, force * body.length));
+    for (Index k = 0; k < terms.count(); ++k) {
+      double& most = terms.list[static_cast<std::size_t>(k)].coordinate < 3 ? force : moment;
+      most = std::max(most, largest[terms.first + k]);
+    }
+    for (Index k = 0; k < terms.count(); ++k)
+      out[terms.first + k] = noise * (terms.list[static_cast<std::size_t>(k)].coordinate < 3
+                                          ? std::max(force, moment / body.length)
+                                          : std::max(moment, force * body.length));
   }
   return out;
 }

@@ -34,6 +34,9 @@ public:
   /// Without the phase, at the headings of the table, (nh, n_labels).
   Eigen::MatrixXcd smooth(double omega) const;
 
+  /// Where the phase is taken off the forces of a label [m].
+  const Vector3& point(std::size_t label) const { return rows_[label].point; }
+
   const Headings& headings() const { return headings_; }
 
 private:

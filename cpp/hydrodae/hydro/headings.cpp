@@ -45,7 +45,8 @@ Headings::Headings(VectorX heading, bool tested)
     --count_;
   const auto resolved = static_cast<Eigen::Index>(std::ceil(pi / gap - 1e-6)) - 1;
   order_ = std::min<Eigen::Index>((count_ - 1) / 2, round_ ? resolved : 1);
-  MatrixX values(count_, 2 * order_ + 1);
+  alternates_ = round_ && count_ % 2 == 0 && order_ == count_ / 2 - 1 && equal_steps();
+  MatrixX values(count_, functions());
   for (Eigen::Index i = 0; i < count_; ++i)
     values.row(i) = basis(heading_[i]).transpose();
   const MatrixX one = MatrixX::Identity(count_, count_);
@@ -58,14 +59,22 @@ Headings::Headings(VectorX heading, bool tested)
     misses_ = own_misses();
 }
 
+bool Headings::equal_steps() const {
+  const Eigen::Index n = heading_.size() - 1;
+  const VectorX steps = heading_.tail(n) - heading_.head(n);
+  return steps.maxCoeff() - steps.minCoeff() < same_heading;
+}
+
 VectorX Headings::basis(double heading) const {
-  VectorX out(2 * order_ + 1);
+  VectorX out(functions());
   out[0] = 1.0;
   const double from = 0.5 * (heading_[0] + heading_[heading_.size() - 1]);
   for (Eigen::Index k = 1; k <= order_; ++k) {
     out[2 * k - 1] = std::cos(static_cast<double>(k) * (heading - from));
     out[2 * k] = std::sin(static_cast<double>(k) * (heading - from));
   }
+  if (alternates_)
+    out[2 * order_ + 1] = std::cos(0.5 * static_cast<double>(count_) * (heading - from));
   return out;
 }
 

@@ -15,7 +15,8 @@ namespace hydrodae::hydro {
 /// headings of the table, and between them for any body of revolution.
 ///
 /// Headings whose last is the first, a full turn on, close a circle: the spline is periodic, and
-/// equal steps make trigonometric interpolation. Others are a fan: order one (none for two
+/// equal steps make trigonometric interpolation, with the harmonic that alternates from heading to
+/// heading of an even number of them. Others are a fan: order one (none for two
 /// headings) and a natural spline.
 class Headings {
 public:
@@ -49,14 +50,17 @@ private:
   Headings(VectorX heading, bool tested);
   std::optional<Headings> thinned() const;
   MatrixX own_misses() const;
-  VectorX basis(double heading) const; ///< 1, cos, sin, cos 2, sin 2 ... (2 order + 1,)
+  bool equal_steps() const;
+  Eigen::Index functions() const { return 2 * order_ + 1 + (alternates_ ? 1 : 0); }
+  VectorX basis(double heading) const; ///< 1, cos, sin, cos 2, sin 2 ... (functions,)
 
   VectorX heading_;
   bool round_ = false;
   Eigen::Index count_ = 0; ///< different headings: without the last of a circle
   Eigen::Index order_ = 0;
-  MatrixX harmonics_; ///< coefficients of the basis from the forces (2 order + 1, count)
-  MatrixX rest_;      ///< what these leave (count, count)
+  bool alternates_ = false; ///< cos(count b / 2) is one of the basis
+  MatrixX harmonics_;       ///< coefficients of the basis from the forces (functions, count)
+  MatrixX rest_;            ///< what these leave (count, count)
   MatrixX misses_;
   MatrixX bending_; ///< second derivatives of the spline through it (count, count) [1/rad2]
 };

@@ -137,10 +137,12 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
 std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
                                                      const std::string& directory) {
   const std::filesystem::path path = std::filesystem::path(directory) / scene.hydro->database;
+  // Axes that turn with the bodies may need any heading; symmetry is judged by the damping, too.
+  const bool turns = scene.hydro->axes == "yaw" && !scene.waves.empty();
   try {
     return std::make_shared<const hydro::Database>(
         read_hydro_file(path.lexically_normal().string(),
-                        {!scene.waves.empty(), scene.hydro->radiation == "constant",
+                        {!scene.waves.empty(), turns || scene.hydro->radiation == "constant",
                          scene.hydro->radiation == "convolution"}));
   } catch (const CaseError& error) {
     throw CaseError(scene.positions.at("hydro.database") +

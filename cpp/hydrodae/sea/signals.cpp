@@ -9,11 +9,13 @@ namespace hydrodae::sea {
 namespace {
 
 /// Largest step that keeps the error of the quintic Hermite polynomial within the tolerance.
-double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients) {
+double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients,
+                  const VectorX& whole) {
   double step = INFINITY;
   for (Eigen::Index r = 0; r < coefficients.rows(); ++r) {
     const VectorX power = coefficients.row(r).cwiseAbs2().transpose();
-    const double sigma = std::sqrt(power.sum());
+    const double own = std::sqrt(power.sum());
+    const double sigma = whole.size() > 0 ? std::max(own, whole[r]) : own;
     const double sigma_6 = std::sqrt(power.cwiseProduct(omega.array().pow(12.0).matrix()).sum());
     if (sigma_6 > 0.0)
       step = std::min(
@@ -24,10 +26,11 @@ double table_step(const VectorX& omega, const Eigen::MatrixXcd& coefficients) {
 
 } // namespace
 
-Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp)
+Signals::Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp,
+                 const VectorX& whole)
     : omega_(std::move(omega)), coefficients_(std::move(coefficients)), ramp_(ramp) {
   const Eigen::Index n = omega_.size(), rows = coefficients_.rows();
-  const double longest = table_step(omega_, coefficients_);
+  const double longest = table_step(omega_, coefficients_, whole);
   if (n <= few || !std::isfinite(longest))
     return;
   const auto cells = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(end / longest)));

@@ -17,7 +17,8 @@ Eigen::MatrixXcd frozen_coefficients(const Eigen::MatrixXcd& coefficients, const
 /// With few components the sum itself; with many, a table on equal time steps with f, f' and f''
 /// joined by quintic Hermite polynomials: two continuous derivatives. The step is chosen so that
 /// four standard deviations of the error, h^6 w^6 / 46080 of each component, are below 1e-8 of the
-/// significant value (two standard deviations) of each f_r. Outside [0, end] the sum itself.
+/// significant value (two standard deviations) of each f_r, or of what it is a part of. Outside
+/// [0, end] the sum itself.
 class Signals {
 public:
   static constexpr double tolerance = 1e-8;
@@ -29,7 +30,9 @@ public:
   /// @param coefficients C (n_signals, n)
   /// @param end the table covers 0 <= t <= end [s]
   /// @param ramp duration of the growth at the start [s]
-  Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp);
+  /// @param whole (n_signals,) root of sum |C|^2 of what each is a part of; empty: each is whole
+  Signals(VectorX omega, Eigen::MatrixXcd coefficients, double end, double ramp,
+          const VectorX& whole = {});
 
   /// The first `out.size()` of the functions at time t [s]. No allocation.
   void operator()(double t, Eigen::Ref<VectorX> out) const;

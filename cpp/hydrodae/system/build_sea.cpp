@@ -4,11 +4,10 @@
 #include <optional>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/element/excitation.h"
-#include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/excitation_terms.h"
 
 namespace hydrodae::system {
 
@@ -16,47 +15,15 @@ namespace {
 
 std::string degrees(double angle) { return number_text(angle * 180.0 / pi) + " deg"; }
 
-/// How a body meets the waves: turned by its mean yaw, where it is at the start (or, when the phase
-/// moves with it, where it is in the reference pose).
-struct Meeting {
-  double yaw = 0.0;                                                  ///< [rad]
-  Vector3 point = Vector3::Zero(), database_point = Vector3::Zero(); ///< phases are about these [m]
-};
-
 std::vector<Meeting> meetings(const model::Scene& scene, const System& s) {
   std::vector<Meeting> out(s.hydro.bodies.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const HydroBody& hb = s.hydro.bodies[i];
     const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
-    out[i] = {hb.yaw, scene.sea.phase == "fixed" ? b.position : b.reference, b.reference};
+    out[i] = {hb.yaw, follows_yaw(s, hb), scene.sea.phase == "fixed" ? b.position : b.reference,
+              b.reference};
   }
   return out;
-}
-
-/// Load on all coordinates of all bodies per metre of amplitude, phase zero at the origin.
-Eigen::VectorXcd meet(const hydro::Excitation& excitation, const std::vector<Meeting>& bodies,
-                      const sea::Component& c) {
-  const bool turned = std::any_of(bodies.begin(), bodies.end(), [](const Meeting& m) {
-    return m.yaw != 0.0 || m.point != m.database_point;
-  });
-  const auto at = [&](double omega, double heading) {
-    return excitation(omega, *excitation.headings().covered(heading));
-  };
-  Eigen::VectorXcd force = at(c.omega, c.heading - bodies.front().yaw);
-  if (!turned)
-    return force;
-  const auto ahead = [](double heading) {
-    return Vector3(std::cos(heading), std::sin(heading), 0.0);
-  };
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Meeting& m = bodies[i];
-    const double heading = c.heading - m.yaw;
-    const double lag =
-        c.wavenumber * (m.point.dot(ahead(c.heading)) - m.database_point.dot(ahead(heading)));
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    force.segment<6>(row) = std::polar(1.0, -lag) * at(c.omega, heading).segment<6>(row);
-  }
-  return force;
 }
 
 /// Refuses components that the database does not cover.
@@ -90,14 +57,90 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
   }
 }
 
-std::shared_ptr<element::Excitation> excitation_list(const System& s, bool split) {
-  std::vector<element::Excitation::Body> bodies;
-  for (const HydroBody& hb : s.hydro.bodies) {
-    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
-    bodies.push_back({b.name, hb, b.reference, b.length_scale});
+using Terms = element::Excitation::Terms;
+
+/// Functions of time of all terms, their rows in the order of the list.
+struct Functions {
+  Eigen::MatrixXcd rows;
+  VectorX whole; ///< root of sum |C|^2 of the coordinate that each row is a part of
+  Index count = 0;
+
+  /// Takes the rows of some terms of one body, `coefficients` those of all of its functions.
+  void add(const Eigen::MatrixXcd& coefficients, Terms& terms) {
+    terms.first = count;
+    const Index functions = coefficients.rows() / 6;
+    if (rows.rows() < count + terms.count() + 1) {
+      rows.conservativeResize(2 * (count + terms.count()) + 1, coefficients.cols());
+      whole.conservativeResize(rows.rows());
+    }
+    for (const element::Excitation::Term& term : terms.list) {
+      rows.row(count) = coefficients.row(term.coordinate * functions + term.m);
+      whole[count++] = coefficients.middleRows(term.coordinate * functions, functions).norm();
+    }
   }
-  return std::make_shared<element::Excitation>(s.hydro.axes, std::move(bodies), s.hydro.n_moving,
-                                               split);
+};
+
+/// The load of the waves on one body.
+struct BodyLoad {
+  Eigen::MatrixXcd total, froude_krylov; ///< coefficients of the functions of yaw
+};
+
+std::vector<std::string> labels_of(const model::Scene& scene, const System& s) {
+  std::vector<std::string> labels;
+  for (const HydroBody& hb : s.hydro.bodies)
+    for (std::string_view dof : model::coordinate_names)
+      labels.push_back(*scene.bodies[static_cast<std::size_t>(hb.body)].hydro + "." +
+                       std::string(dof));
+  return labels;
+}
+
+/// The bodies with their terms, and the functions of time of these, the elevation last.
+std::vector<element::Excitation::Body> wave_loads(const model::Scene& scene, const System& s,
+                                                  const hydro::Database& db,
+                                                  const std::vector<Meeting>& meetings,
+                                                  const std::vector<sea::Component>& all,
+                                                  Functions& functions) {
+  const std::vector<std::string> labels = labels_of(scene, s);
+  const hydro::Excitation excitation(db, db.excitation, labels);
+  std::optional<hydro::Excitation> froude_krylov;
+  if (!db.froude_krylov.empty())
+    froude_krylov.emplace(db, db.froude_krylov, labels);
+  std::vector<element::Excitation::Body> out;
+  std::vector<BodyLoad> loads;
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    const HydroBody& hb = s.hydro.bodies[i];
+    const BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
+    const YawSamples samples = yaw_samples(excitation, 6 * i, meetings[i], all);
+    element::Excitation::Body body{b.name, hb, b.reference, b.length_scale, samples.functions,
+                                   {},     {}, {}};
+    BodyLoad load;
+    load.total = yaw_coefficients(excitation, 6 * i, meetings[i], samples, all);
+    for (const element::Excitation::Term& term :
+         terms_that_matter(load.total, samples.functions, b.length_scale))
+      (hb.moving[static_cast<std::size_t>(term.coordinate)] >= 0 ? body.moving : body.still)
+          .list.push_back(term);
+    if (froude_krylov) {
+      load.froude_krylov = yaw_coefficients(*froude_krylov, 6 * i, meetings[i], samples, all);
+      body.froude_krylov.list =
+          terms_that_matter(load.froude_krylov, samples.functions, b.length_scale);
+    }
+    out.push_back(std::move(body));
+    loads.push_back(std::move(load));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    functions.add(loads[i].total, out[i].moving);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    functions.add(loads[i].total, out[i].still);
+    if (froude_krylov)
+      functions.add(loads[i].froude_krylov, out[i].froude_krylov);
+  }
+  functions.rows.conservativeResize(functions.count + 1, std::ssize(all));
+  functions.whole.conservativeResize(functions.count + 1);
+  functions.whole[functions.count] = 0.0; // the elevation is whole
+  for (std::size_t i = 0; i < all.size(); ++i)
+    functions.rows(functions.count, static_cast<Index>(i)) =
+        std::polar(all[i].amplitude, all[i].phase);
+  return out;
 }
 
 } // namespace
@@ -105,7 +148,8 @@ std::shared_ptr<element::Excitation> excitation_list(const System& s, bool split
 void add_sea(const model::Scene& scene, System& s) {
   if (scene.waves.empty() || !scene.database)
     return; // Morison elements feel the waves by themselves
-  const hydro::Database& db = *scene.database;
+  std::string symmetry;
+  const hydro::Database db = wave_tables(scene, s, symmetry);
   const HydroData& h = s.hydro;
   const std::vector<Meeting> bodies = meetings(scene, s);
   std::vector<sea::Component> all;
@@ -117,43 +161,28 @@ void add_sea(const model::Scene& scene, System& s) {
     if (!note.empty())
       s.notes.push_back(note);
   }
-  std::vector<std::string> labels;
-  for (const HydroBody& hb : h.bodies)
-    for (std::string_view dof : model::coordinate_names)
-      labels.push_back(*scene.bodies[hb.body].hydro + "." + std::string(dof));
-  const bool split = !db.froude_krylov.empty();
-  const hydro::Excitation excitation(db, db.excitation, labels);
-  std::optional<hydro::Excitation> froude_krylov;
-  if (split)
-    froude_krylov.emplace(db, db.froude_krylov, labels);
-  const auto n = static_cast<Eigen::Index>(all.size());
-  const auto rows = static_cast<Eigen::Index>(labels.size());
-  const Eigen::Index last = h.n_moving + rows * (split ? 2 : 1);
-  VectorX omega(n);
-  Eigen::MatrixXcd coefficients(last + 1, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const sea::Component& c = all[static_cast<std::size_t>(i)];
-    const std::complex<double> elevation = std::polar(c.amplitude, c.phase);
-    omega[i] = c.omega;
-    const Eigen::VectorXcd force = elevation * meet(excitation, bodies, c);
-    for (int u = 0; u < h.n_moving; ++u)
-      coefficients(u, i) = force[6 * h.coordinates[u].hydro_body + h.coordinates[u].component];
-    coefficients.col(i).segment(h.n_moving, rows) = force;
-    if (split)
-      coefficients.col(i).segment(h.n_moving + rows, rows) =
-          elevation * meet(*froude_krylov, bodies, c);
-    coefficients(last, i) = elevation;
-  }
-  auto list = excitation_list(s, split);
+  if (!symmetry.empty())
+    s.notes.push_back("axes = \"yaw\": headings that the database lacks follow from its symmetry "
+                      "about " +
+                      symmetry + "; with them there are " + degrees(db.heading[0]) + " to " +
+                      degrees(db.heading[db.heading.size() - 1]));
+  Functions functions;
+  std::vector<element::Excitation::Body> loaded = wave_loads(scene, s, db, bodies, all, functions);
+  auto list =
+      std::make_shared<element::Excitation>(h.axes, std::move(loaded), !db.froude_krylov.empty());
   if (scene.sea.phase == "fixed") {
-    list->set(sea::Signals(omega, coefficients, scene.solver.end_time, scene.sea.ramp));
+    VectorX omega(std::ssize(all));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      omega[static_cast<Index>(i)] = all[i].omega;
+    list->set(sea::Signals(std::move(omega), std::move(functions.rows), scene.solver.end_time,
+                           scene.sea.ramp, functions.whole));
   } else {
     const auto moving =
         std::count_if(h.bodies.begin(), h.bodies.end(), [](const HydroBody& b) { return b.moves; });
     s.notes.push_back("the phase of the waves follows the bodies: every evaluation sums " +
                       std::to_string(all.size()) + " wave components for " +
                       std::to_string(moving) + (moving == 1 ? " body" : " bodies"));
-    list->set(sea::DriftingSignals(std::move(all), std::move(coefficients), scene.sea.ramp));
+    list->set(sea::DriftingSignals(std::move(all), std::move(functions.rows), scene.sea.ramp));
   }
   std::vector<PortData> ports(h.bodies.size());
   for (std::size_t i = 0; i < ports.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/excitation_terms.h"
 #include "hydrodae/system/sanity.h"
 
 namespace hydrodae::system {
@@ -44,7 +45,9 @@ HeadingDoubt doubt_of(const hydro::Excitation& excitation,
     const sea::Component& c = components[i];
     const Eigen::MatrixXcd force = c.amplitude * excitation.smooth(c.omega);
     const VectorX size = force.cwiseAbs2().colwise().maxCoeff();
-    const MatrixX miss = (misses * force).cwiseAbs2();
+    MatrixX miss(misses.rows(), force.cols());
+    if (misses.size() > 0)
+      miss = (misses * force).cwiseAbs2();
     out.size = i == 0 ? size : VectorX(out.size + size);
     out.miss = i == 0 ? miss : MatrixX(out.miss + miss);
   }
@@ -83,7 +86,8 @@ std::vector<Finding> look_at_headings(const model::Scene& scene, const System& s
   if (scene.waves.empty() || !scene.database || s.hydro.coordinates.empty() ||
       scene.database->heading.size() < 2)
     return out;
-  const hydro::Database& db = *scene.database;
+  std::string symmetry;
+  const hydro::Database db = wave_tables(scene, s, symmetry);
   const std::vector<std::string> labels = moving_labels(scene, s);
   const hydro::Excitation excitation(db, db.excitation, labels);
   const hydro::Headings& headings = excitation.headings();
@@ -95,7 +99,8 @@ std::vector<Finding> look_at_headings(const model::Scene& scene, const System& s
     const auto between = [&](const sea::Component& c) {
       return std::any_of(s.hydro.bodies.begin(), s.hydro.bodies.end(), [&](const HydroBody& hb) {
         const std::optional<double> heading = headings.covered(c.heading - hb.yaw);
-        return hb.moves && heading && headings.weights(*heading).maxCoeff() < 1.0 - off_the_table;
+        return follows_yaw(s, hb) ||
+               (hb.moves && heading && headings.weights(*heading).maxCoeff() < 1.0 - off_the_table);
       });
     };
     if (!std::any_of(components.begin(), components.end(), between))

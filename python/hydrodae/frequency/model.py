@@ -169,7 +169,8 @@ class LinearModel:
         """What the database tells of the coordinates that move; None where none of them does."""
         if self.database is None or not self._model["hydro_labels"]:
             return None
-        return WaterTables(self.database, self._model)
+        hydro = case_tables(self.case).get("hydro", {})
+        return WaterTables(self.database, self._model, follows_yaw=hydro.get("axes") == "yaw")
 
     @property
     def dampers(self) -> list[Damper]:

@@ -28,18 +28,24 @@ class WaterTables:
     model : dict
         What the kernel tells of the case: `hydro_labels`, `hydro_map` (T), `hydro_yaws`,
         `hydro_points`.
+    follows_yaw : bool
+        Axes that turn with the bodies: headings that the database lacks follow from its symmetry.
     """
 
-    def __init__(self, database: HydroDatabase, model: dict[str, Any]) -> None:
+    def __init__(
+        self, database: HydroDatabase, model: dict[str, Any], *, follows_yaw: bool = False
+    ) -> None:
         self.database = database
         self._model = model
+        self._follows_yaw = follows_yaw
 
     def share(self, other: WaterTables) -> None:
         """Take over the splines of other tables of the same database and coordinates."""
         if self._model["hydro_labels"] == other._model["hydro_labels"]:
-            self.__dict__.update(
-                {name: getattr(other, name) for name in ("_radiation", "_smooth_excitation")}
-            )
+            names = ["_radiation"]
+            if self._follows_yaw == other._follows_yaw:
+                names += ["_waves", "_smooth_excitation"]
+            self.__dict__.update({name: getattr(other, name) for name in names})
 
     @cached_property
     def _labels(self) -> NDArray[np.intp]:
@@ -108,11 +114,30 @@ class WaterTables:
         return np.array([of(self.database, label.rpartition(".")[0]) for label in labels])
 
     @cached_property
+    def _waves(self) -> tuple[Array, Complex]:
+        """Headings (nh,) and the excitation there, (nw, nh, n)."""
+        db = self.database
+        if not self._follows_yaw:
+            return db.heading, db.excitation
+        points = {name: db.reference_point(name) for name in db.bodies}
+        heading, tables = _core.with_images(
+            list(db.coordinates),
+            points,
+            db.added_mass_inf,
+            db.omega,
+            list(db.radiation_damping),
+            db.heading,
+            list(np.moveaxis(db.excitation, 1, 0)),
+            [db.rho, db.gravity, db.water_depth],
+        )
+        return heading, np.stack(tables, axis=1)
+
+    @cached_property
     def _smooth_excitation(self) -> CubicSpline:
         """Excitation over frequency with the phase at the bodies taken off."""
-        db = self.database
-        lag = self._lag(db.omega, db.heading, self._points(HydroDatabase.phase_point))
-        smooth = db.excitation[:, :, self._labels] * np.exp(1j * lag)
+        db, (heading, tables) = self.database, self._waves
+        lag = self._lag(db.omega, heading, self._points(HydroDatabase.phase_point))
+        smooth = tables[:, :, self._labels] * np.exp(1j * lag)
         return CubicSpline(db.omega, smooth, bc_type="natural")
 
     def excitation(self, w: Array, heading: float) -> Complex:
@@ -140,7 +165,7 @@ class WaterTables:
 
     @cached_property
     def _headings(self) -> _core.Headings:
-        return _core.Headings(self.database.heading)
+        return _core.Headings(self._waves[0])
 
     @cached_property
     def _places(self) -> Array:
@@ -151,7 +176,7 @@ class WaterTables:
         """The heading within those of the database."""
         covered = self._headings.covered(heading)
         if covered is None:
-            low, high = np.degrees(self.database.heading[[0, -1]])
+            low, high = np.degrees(self._waves[0][[0, -1]])
             raise DatabaseError(
                 f"heading {np.degrees(heading):g} deg is outside the headings of the database, "
                 f"{low:g} to {high:g} deg"

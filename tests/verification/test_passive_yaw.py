@@ -1,0 +1,296 @@
+"""Axes that follow the yaw: waves act with the force of their heading relative to the body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+import hydrodae
+from hydrodae import _core, hdb
+from hydrodae.errors import SolverError
+from hydrodae.frequency import LinearModel
+
+Complex = NDArray[np.complex128]
+
+G = 9.81
+POINT = np.array([3.0, 1.0, -1.0])  # the centre of gravity
+BUOYANCY = np.array([3.6, 1.3, -1.2])  # where the phase of the waves is taken off
+MASS, INERTIA = 1000.0, 900.0
+ADDED, DAMPING = np.diag([300.0, 300.0, 100.0]), np.diag([60.0, 60.0, 40.0])
+STIFFNESS = np.array([600.0, 600.0, 400.0])
+OMEGA = np.array([0.5, 1.0, 1.25, 1.6])
+#: Amplitude [m], frequency [rad/s], heading and phase [deg]
+WAVES = [(0.8, 1.0, 10.0, 30.0), (0.5, 1.25, -35.0, 100.0), (0.4, 1.6, 60.0, -80.0)]
+
+
+def smooth(omega: float, heading: NDArray[np.float64]) -> Complex:
+    """Surge, sway and yaw without the phase, (nh, 3): four harmonics."""
+    b = np.asarray(heading)
+    by_frequency = np.array([1.0 + 0.3j * omega, 0.8 + 0.2j, 0.5 - 0.4j * omega])
+    return (
+        np.stack(
+            [
+                400.0 * (np.cos(b) + 0.3 * np.cos(3 * b) + 0.1),
+                500.0 * (np.sin(b) + 0.2 * np.sin(2 * b)),
+                600.0 * (np.sin(2 * b) + 0.2 * np.cos(b) + 0.1 * np.sin(4 * b)),
+            ],
+            axis=-1,
+        )
+        * by_frequency
+    )
+
+
+def write_database(path: Path, degrees: NDArray[np.float64]) -> None:
+    heading, n = np.radians(degrees), OMEGA.size
+    ahead = np.stack([np.cos(heading), np.sin(heading)])
+    force = np.array(
+        [smooth(w, heading) * np.exp(-1j * w**2 / G * BUOYANCY[:2] @ ahead)[:, None] for w in OMEGA]
+    )
+    hdb.HydroDatabase(
+        coordinates=("float.surge", "float.sway", "float.yaw"),
+        omega=OMEGA,
+        added_mass=np.tile(ADDED, (n, 1, 1)),
+        radiation_damping=np.tile(DAMPING, (n, 1, 1)),
+        added_mass_inf=ADDED,
+        added_mass_inf_std=np.zeros((3, 3)),
+        heading=heading,
+        froude_krylov=0.4 * force,
+        diffraction=0.6 * force,
+        bodies={
+            "float": hdb.Body("float", POINT, hdb.Hydrostatics(1.0, BUOYANCY, 2.0, np.zeros(5)))
+        },
+        rho=1000.0,
+        gravity=G,
+    ).write(path)
+
+
+CASE = """
+hydro = { database = "hydro.h5", axes = "yaw", radiation = "constant", frequency = 1.0 }
+solver = { end_time = 40.0, rtol = 1e-9 }
+output = { step = 0.25 }
+[[body]]
+name = "float"
+hydro = "float"
+motion = ["surge", "sway", "yaw"]
+mass = 1000.0
+center_of_gravity = [3.0, 1.0, -1.0]
+inertia = [900.0, 900.0, 900.0]
+initial = { rotation_deg = [0, 0, 25] }
+"""
+for number, (a, w, b, p) in enumerate(WAVES):
+    CASE += f"""
+[[wave]]
+name = "w{number}"
+type = "regular"
+height = {2 * a}
+period = {2 * np.pi / w!r}
+heading_deg = {b}
+phase_deg = {p}
+"""
+
+MOORING = """
+[[force]]
+name = "mooring"
+type = "mooring_matrix"
+body = "float"
+stiffness = [600.0, 600.0, 0.0, 0.0, 0.0, 400.0]
+"""
+
+
+def truth(
+    time: NDArray[np.float64], moves: bool, table: Callable[[float, float], Complex]
+) -> NDArray[np.float64]:
+    """Displacement and yaw (n, 3), integrated from the equations of motion."""
+    inertia = np.array([MASS, MASS, INERTIA]) + np.diag(ADDED)
+    arm = (BUOYANCY - POINT)[:2]
+
+    def rates(t: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        load, psi = np.zeros(3), y[2]
+        place = POINT[:2] + (y[:2] if moves else 0.0)
+        for a, w, degrees, phase in WAVES:
+            k, b = w**2 / G, np.radians(degrees)
+            relative = b - psi
+            angle = w * t + np.radians(phase)
+            angle -= k * place @ [np.cos(b), np.sin(b)]
+            angle -= k * arm @ [np.cos(relative), np.sin(relative)]
+            load += a * (table(w, relative) * np.exp(1j * angle)).real
+        c, s = np.cos(psi), np.sin(psi)
+        turned = np.array([c * load[0] - s * load[1], s * load[0] + c * load[1], load[2]])
+        return np.r_[y[3:], (turned - STIFFNESS * y[:3] - np.diag(DAMPING) * y[3:]) / inertia]
+
+    start = np.array([0.0, 0.0, np.radians(25.0), 0.0, 0.0, 0.0])
+    found = solve_ivp(rates, (0, time[-1]), start, "DOP853", time, rtol=1e-11, atol=1e-11)
+    return np.asarray(found.y[:3].T)
+
+
+def motion(results: hydrodae.Results) -> NDArray[np.float64]:
+    place = results["bodies/float/position"].values[:, :2] - POINT[:2]
+    return np.c_[place, results["bodies/float/rotation"].values[:, 2]]
+
+
+@pytest.mark.parametrize("phase", ["fixed", "moving"])
+@pytest.mark.parametrize("degrees", [np.arange(0, 361, 30), np.arange(-140, 201, 20)])
+def test_turning_float_against_its_equations(
+    tmp_path: Path, phase: str, degrees: NDArray[np.float64]
+) -> None:
+    """Three waves from three sides on a float that is 25 to 60 degrees off; circle and fan."""
+    write_database(tmp_path / "hydro.h5", degrees)
+    (tmp_path / "case.toml").write_text(CASE + MOORING)
+    results = hydrodae.run(tmp_path / "case.toml", set={"sea.phase": phase})
+    headings = _core.Headings(np.radians(degrees.astype(float)))
+
+    def table(w: float, relative: float) -> Complex:
+        if degrees[-1] - degrees[0] == 360:
+            return smooth(w, np.array(relative))
+        covered = headings.covered(relative)
+        assert covered is not None
+        return np.asarray(headings.weights(covered) @ smooth(w, np.radians(degrees)))
+
+    expected = truth(results.time, phase == "moving", table)
+    assert np.ptp(expected[:, 2]) > 0.5
+    # Loads below 1e-6 of the largest are left out; polynomials over the yaw smooth a spline's knots.
+    atol = 2e-5 if degrees[-1] - degrees[0] == 360 else 1e-4
+    np.testing.assert_allclose(motion(results), expected, atol=atol)
+    total = results["forces/excitation/float/force"].values
+    part = results["forces/froude_krylov/float/force"].values
+    np.testing.assert_allclose(part, 0.4 * total, atol=1e-6 * abs(total).max())
+
+
+def test_leaving_the_headings_stops_the_run(tmp_path: Path) -> None:
+    write_database(tmp_path / "hydro.h5", np.arange(-80, 81, 20))
+    (tmp_path / "case.toml").write_text(CASE)
+    with pytest.raises(
+        SolverError, match=r'"?float.? has turned to a yaw of .*cover -20 to 45 deg'
+    ):
+        hydrodae.run(tmp_path / "case.toml")
+
+
+def test_turning_device_and_waves_turns_the_result(tmp_path: Path) -> None:
+    """About the origin, in waves whose phase moves with the body: no axis of the world counts."""
+    write_database(tmp_path / "hydro.h5", np.arange(0, 361, 30))
+    (tmp_path / "case.toml").write_text(CASE)
+    runs = []
+    for degrees in (0.0, 130.0):
+        angle = np.radians(degrees)
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        values: dict[str, Any] = {
+            "sea.phase": "moving",
+            "body.float.initial.rotation_deg": [0.0, 0.0, 25.0 + degrees],
+            "body.float.initial.displacement": [*(turn @ POINT[:2] - POINT[:2]), 0.0],
+        }
+        for number, (_, _, heading, _) in enumerate(WAVES):
+            values[f"wave.w{number}.heading_deg"] = heading + degrees
+        results = hydrodae.run(tmp_path / "case.toml", set=values)
+        runs.append(results["bodies/float/position"].values[:, :2] @ turn)
+    np.testing.assert_allclose(runs[1], runs[0], atol=1e-6)
+
+
+@pytest.mark.parametrize("headings", [[0.0], np.arange(0.0, 361.0, 60.0)])
+def test_body_of_revolution_feels_the_same_turned_or_not(
+    tmp_path: Path, headings: list[float]
+) -> None:
+    """A cylinder whose only heading is 0, and one with all: the waves do not see its yaw."""
+    water = hdb.Water(np.linspace(1.0, 3.0, 9), depth=4.0, heading=np.radians(headings))
+    buoy = hdb.Cylinder(0.4, 0.5, -0.3)
+    hdb.cylinders({"float": (0.0, 0.0)}, buoy, water, orders=2, modes=8)[0].write(
+        tmp_path / "hydro.h5"
+    )
+    (tmp_path / "case.toml").write_text(
+        """
+        hydro = { database = "hydro.h5", axes = "yaw", radiation = "none" }
+        solver = { end_time = 6.0, rtol = 1e-9 }
+        wave = [{ name = "w", type = "regular", height = 0.1, period = 3.0, heading_deg = 20.0 }]
+        [[body]]
+        name = "float"
+        hydro = "float"
+        motion = ["surge", "sway", "yaw"]
+        mass = 500.0
+        inertia = [40.0, 40.0, 40.0]
+        center_of_gravity = [0.0, 0.0, -0.3]
+        """
+    )
+    runs = [
+        hydrodae.run(
+            tmp_path / "case.toml",
+            set={
+                "body.float.initial.rotation_deg": [0.0, 0.0, yaw],
+                "body.float.initial.angular_velocity": [0.0, 0.0, rate],
+            },
+        )
+        for yaw, rate in [(0.0, 0.0), (90.0, 0.0), (-130.0, 0.7)]
+    ]
+    force = runs[0]["forces/excitation/float/force"].values
+    assert abs(force[:, 1]).max() == pytest.approx(
+        np.tan(np.radians(20.0)) * abs(force[:, 0]).max(), rel=1e-4
+    )
+    for other in runs[1:]:
+        turned = other["forces/excitation/float/force"].values
+        np.testing.assert_allclose(turned, force, atol=1e-5 * abs(force).max())
+
+
+def test_frequency_domain_at_a_mean_yaw_is_that_of_the_turned_heading(tmp_path: Path) -> None:
+    """Held by a soft spring, turned by 25 degrees by a moment: waves come from 25 degrees less."""
+    write_database(tmp_path / "hydro.h5", np.arange(0, 361, 30))
+    (tmp_path / "case.toml").write_text(CASE)
+    twist = {"type": "constant_load", "name": "twist", "body": "float"}
+    mooring = {
+        "type": "mooring_matrix",
+        "name": "mooring",
+        "body": "float",
+        "stiffness": [600.0, 600.0, 0.0, 0.0, 0.0, 400.0],
+    }
+    found = []
+    for degrees in (0.0, 25.0):
+        load = {**twist, "moment": [0.0, 0.0, 400.0 * np.radians(degrees)]}
+        values = {
+            "force": [mooring, load],
+            "solver.start": "equilibrium",
+            "body.float.initial.rotation_deg": [0.0, 0.0, 0.0],
+        }
+        case = hydrodae.Case.read(tmp_path / "case.toml").with_values(values)
+        response = LinearModel(case).response(OMEGA, np.radians(40.0 + degrees))
+        lag = OMEGA**2 / G * (POINT[0] * np.cos(response.heading) + POINT[1] * np.sin(response.heading))  # fmt: skip # noqa: E501
+        phasors = [response[f"bodies/float/{dof}"] * np.exp(1j * lag) for dof in ("surge", "sway", "yaw")]  # fmt: skip # noqa: E501
+        angle = np.radians(degrees)
+        c, s = np.cos(angle), np.sin(angle)
+        found.append(np.array([c * phasors[0] + s * phasors[1], c * phasors[1] - s * phasors[0], phasors[2]]))  # fmt: skip # noqa: E501
+    assert abs(found[0][2]).min() > 1e-3
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-9)
+
+
+WEATHERVANING = {50: 0.68, 100: 14.59, 150: 7.58, 200: 8.96, 400: 11.05, 600: 9.95}  # [deg]
+
+
+def mean_yaws(results: hydrodae.Results) -> dict[int, float]:
+    """Means over the two periods of 8 s before each time [deg]."""
+    time = results.time
+    yaw = np.degrees(results["bodies/flap/rotation"].values[:, 2])
+    return {
+        t: float(yaw[(time > t - 16.0 + 1e-6) & (time <= t + 1e-6)].mean()) for t in WEATHERVANING
+    }
+
+
+def test_oswec_weathervanes(reference: Path, tmp_path: Path) -> None:
+    """A flap free in yaw, H 2.5 m, T 8 s, from 10 degrees; its headings are 0 to 90 degrees.
+
+    Own scipy integration with the moment F(heading - yaw); WEC-Sim differs from it by 0.4 degrees.
+    Its waves grow over 100 s by a cosine, so the sea is a record of them.
+    """
+    folder = reference / "variable" / "passive_yaw"
+    time = np.arange(-60.0, 700.0, 0.25)
+    growth = 0.5 * (1.0 - np.cos(np.pi * np.clip(time / 100.0, 0.0, 1.0)))
+    rows = np.c_[time - time[0], 1.25 * growth * np.cos(np.pi / 4.0 * time)]
+    np.savetxt(tmp_path / "sea.csv", rows, delimiter=",", header="time,elevation", comments="")
+    record = {"name": "w", "type": "measured", "file": str(tmp_path / "sea.csv"), "start": 60.0}
+    values = {"wave": [{**record, "heading_deg": 10.0}], "sea.ramp": 0.0}
+    means = mean_yaws(hydrodae.run(folder / "yaw.toml", set=values))
+    assert means == pytest.approx(WEATHERVANING, abs=0.3)
+    late = {t: mean for t, mean in WEATHERVANING.items() if t > 100}  # the ramp has another shape
+    own = mean_yaws(hydrodae.run(folder / "yaw.toml"))
+    assert {t: own[t] for t in late} == pytest.approx(late, abs=0.3)
