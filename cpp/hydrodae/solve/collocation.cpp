@@ -66,6 +66,7 @@ public:
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }
   double gap() const override { return gap_; }
+  int degree() const override { return last().stages; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
   void remember(Archive& a) override;
 

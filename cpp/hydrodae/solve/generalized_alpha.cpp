@@ -50,6 +50,7 @@ public:
   double step(double end, double bound) override;
   const VectorX& step_error() override { return step_error_; }
   void interpolate(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return 3; }
   Statistics statistics() const override { return e_.statistics; }
   const VectorX& local_error() const override { return local_error_; }
   const VectorX& inner_error() const override { return inner_error_; }

@@ -110,6 +110,7 @@ public:
   bool restart(double t, const VectorX& y0, const VectorX& yp0) override;
   const VectorX& step_error() override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return counts().last_order; }
   Statistics statistics() const override;
   void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
 
