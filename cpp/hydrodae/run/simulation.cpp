@@ -88,7 +88,7 @@ void Simulation::begin_history() {
   const std::string note = system::limit_steps(system_, options_);
   if (!note.empty())
     notes_.push_back(note);
-  history_ = std::make_unique<system::History>(regime_);
+  history_ = std::make_unique<system::History>(regime_, options_);
   history_->append(0.0, y_, yp_);
   regime_.history = history_.get();
 }
@@ -138,12 +138,12 @@ void Simulation::advance(double limit, const Inside& inside) {
   recorder_->accept();
   scale_->accept(t_, y_);
   if (history_)
-    history_->append(t_, y_, yp_);
+    history_->append(t_, y_, yp_, motion_, integrator_->degree());
   watch_steps(event, end);
   event_here_ = event;
   if (event && law_events_)
     law_events_->part(t_, y_);
-  if (event)
+  if (event || (history_ && history_->jumps()))
     restart();
   failed_ = false;
 }
@@ -196,11 +196,14 @@ bool Simulation::make_step(double end) {
     step_start_ = t_;
     if ((has_events() && approaches_events_) || methods_.more())
       at_(t_, y_start_, yp_start_);
-    bound_ = find_bound();
+    const double kink =
+        history_ ? history_->next_kink(integrator_->statistics().last_order) : INFINITY;
+    bound_ = std::min(find_bound(), kink);
     try {
-      // Fixed steps keep their length whatever is known ahead, but end at an event that was found.
-      t_ = integrator_->step(std::min(end, scene_.solver.step > 0.0 ? event_near_ : INFINITY),
-                             bound_);
+      // Fixed steps keep their length whatever is known ahead, but end at an event that was found,
+      // and where the past jumps.
+      const double known = std::min(kink, scene_.solver.step > 0.0 ? event_near_ : INFINITY);
+      t_ = integrator_->step(std::min(end, known), bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
       const SolverError told(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));

@@ -195,6 +195,9 @@ private:
   system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);
   };
+  system::History::Inside motion_ = [this](double t, VectorX& y, VectorX& yp) {
+    integrator_->follow_motion(t, y, yp);
+  };
   system::Recorder::Interpolant inside_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->look_inside(t, y, yp);
   };

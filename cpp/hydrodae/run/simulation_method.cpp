@@ -109,7 +109,8 @@ double Simulation::find_bound() {
                               number_text(step) + " s is too long for " + *limit.by +
                               ", which may be passed over; " + rounded_text(limit.time - t_) +
                               " s may do");
-  return std::min(limit.time, event_near_);
+  const double carried = history_ ? t_ + history_->longest_step() : INFINITY;
+  return std::min({limit.time, event_near_, carried});
 }
 
 /// Is a time in the middle of the last step, where the polynomial through the stages of radau, or

@@ -77,6 +77,7 @@ public:
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override { return e_.statistics; }
   double gap() const override { return gap_; }
+  int degree() const override { return last().stages; }
   int quadrature_nodes() const override { return newton_->rk().stages + 2; }
   void remember(Archive& a) override;
 

@@ -96,6 +96,8 @@ public:
   bool restart(double t, const VectorX& y, const VectorX& yp) override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
   void look_inside(double t, VectorX& y, VectorX& yp) override;
+  void follow_motion(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return pair_.order == 5 ? 4 : 7; }
   Statistics statistics() const override {
     Statistics all = e_.statistics;
     return all += space_.statistics();
@@ -387,7 +389,14 @@ template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
 }
 
 template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y, VectorX& yp) {
-  if (!idle_reactions_ || t >= t_ || done_ == 0.0)
+  if (idle_reactions_)
+    follow_motion(t, y, yp);
+  else
+    interpolate(t, y, yp);
+}
+
+template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& y, VectorX& yp) {
+  if (!Space::is_of_bodies || t >= t_ || done_ == 0.0)
     return interpolate(t, y, yp);
   follow_polynomial((t - t0_) / done_);
   y = y_;

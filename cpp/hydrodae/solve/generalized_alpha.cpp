@@ -45,6 +45,7 @@ public:
 
   double step(double end, double bound) override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return 3; }
   Statistics statistics() const override { return e_.statistics; }
   void remember(Archive& a) override {
     a(a_, y0_, yp0_, t0_, e_.statistics.last_step, e_.statistics.last_order);

@@ -109,6 +109,7 @@ public:
   double step(double end, double bound) override;
   bool restart(double t, const VectorX& y0, const VectorX& yp0) override;
   void interpolate(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return counts().last_order; }
   Statistics statistics() const override;
   void remember(Archive& a) override { a(rounding, restarts, guard); } // the order begins anew
 

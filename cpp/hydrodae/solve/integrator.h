@@ -43,6 +43,13 @@ public:
   /// end of the step.
   virtual void look_inside(double t, VectorX& y, VectorX& yp) { interpolate(t, y, yp); }
 
+  /// The same where positions and velocities alone are read: they need not meet the constraints by
+  /// more than the error of the method.
+  virtual void follow_motion(double t, VectorX& y, VectorX& yp) { interpolate(t, y, yp); }
+
+  /// Degree in time of the velocities that `interpolate` gives inside the last step.
+  virtual int degree() const = 0;
+
   virtual Statistics statistics() const = 0;
 
   /// Largest part of the next step between two times at which it asks for the loads, its ends among

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hydrodae/math/bspline.h"
+#include "hydrodae/math/chebyshev.h"
 #include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/system/mechanisms.h"
 
 namespace hydrodae::system {
 
@@ -33,9 +36,26 @@ template <class Visitor> void for_each_point(double a, double b, double longest,
     }
 }
 
+/// Of the delays of a system, with the time of the fastest body that a delayed law moves.
+Kinks find_kinks(const Regime& s, const model::SolverOptions& options) {
+  std::vector<double> delays;
+  double time = INFINITY;
+  for (const DelayData& d : s.delays) {
+    delays.push_back(d.time);
+    if (const BodyData* body = moving_body(s, joint_of(s, d.motion)))
+      time = std::min(time, body->time_scale);
+  }
+  return {std::move(delays), time, options.step > 0.0 ? options.step : options.max_step,
+          options.rtol};
+}
+
+/// Times that differ by rounding are one.
+double rounding(double t) { return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+
 } // namespace
 
-History::History(const Regime& system) : s_(system), ws_(system) {
+History::History(const Regime& system, const model::SolverOptions& options)
+    : s_(system), rtol_(options.rtol), ws_(system), kinks_(find_kinks(system, options)) {
   const Convolution& c = s_.hydro.convolution;
   n_U_ = c.empty() ? 0 : s_.hydro.n_moving;
   for (const DelayData& d : s_.delays)
@@ -43,6 +63,12 @@ History::History(const Regime& system) : s_(system), ws_(system) {
   point_value_.resize(static_cast<std::size_t>(n_U_));
   grid_ = MatrixX::Zero(c.splines.rows(), n_U_);
   piece_grid_ = MatrixX::Zero(c.splines.rows(), 2);
+  largest_ = strength_ = VectorX::Zero(n_U_);
+  for (int p = 0; p < c.n_moving_pairs; ++p) {
+    const auto [row, column] = c.pairs[static_cast<std::size_t>(p)];
+    if (const double mass = s_.hydro.added_mass(row, row); row == column && mass > 0.0)
+      strength_[row] = c.splines.col(p).cwiseAbs().maxCoeff() / mass;
+  }
   const Eigen::Index n = n_U_, m = static_cast<Eigen::Index>(c.locked.size());
   Past empty;
   empty.memory = VectorX::Zero(n);
@@ -80,30 +106,104 @@ void History::signals(double t, const VectorX& y, const VectorX& yp, Node& node)
   }
 }
 
-void History::add_points(const Node& from, const Node& to) {
+/// All signals at the Chebyshev points of a step (n_signals, n), and those of its end: one point
+/// more than the step's polynomial has, as coordinates along joints are not linear in the
+/// positions.
+MatrixX History::follow(const Node& from, Node& to, const VectorX& y, const VectorX& yp,
+                        const Inside& inside, int degree) {
+  const bool known = inside && degree >= 3;
+  const VectorX x = chebyshev_points(known ? degree + 2 : 4);
+  const Eigen::Index last = x.size() - 1;
   const double h = to.t - from.t;
-  if (n_U_ == 0 || h <= 0.0)
+  MatrixX value(from.value.size(), x.size());
+  y_ = y;
+  yp_ = yp;
+  Node node;
+  for (Eigen::Index k = 1; known && k < last; ++k) {
+    node.t = from.t + x[k] * h;
+    inside(node.t, y_, yp_);
+    signals(node.t, y_, yp_, node);
+    value.col(k) = node.value;
+  }
+  signals(to.t, y, yp, to); // the angles go on from here
+  value.col(0) = from.value;
+  value.col(last) = to.value;
+  for (Eigen::Index k = 1; !known && k < last; ++k)
+    value.col(k) = between(from, to, x[k]);
+  return value;
+}
+
+/// The cubic through both ends.
+VectorX History::between(const Node& from, const Node& to, double x) {
+  const std::array<double, 4> f = hermite(x, to.t - from.t);
+  return f[0] * from.value + f[1] * from.rate + f[2] * to.value + f[3] * to.rate;
+}
+
+void History::add_points(const Node& from, const Node& to, const MatrixX& value) {
+  if (n_U_ == 0)
     return;
+  const VectorX points = chebyshev_points(value.cols());
+  VectorX U;
   for_each_point(from.t, to.t, longest_piece * s_.hydro.convolution.step,
                  [&](double t, double weight, double x) {
-                   const std::array<double, 4> f = hermite(x, h);
+                   chebyshev_weights(points, x, weights_);
+                   U.noalias() = value.topRows(n_U_) * weights_;
                    point_time_.push_back(t);
                    for (int u = 0; u < n_U_; ++u)
-                     point_value_[static_cast<std::size_t>(u)].push_back(
-                         weight * (f[0] * from.value[u] + f[1] * from.rate[u] + f[2] * to.value[u] +
-                                   f[3] * to.rate[u]));
+                     point_value_[static_cast<std::size_t>(u)].push_back(weight * U[u]);
                  });
 }
 
-void History::append(double t, const VectorX& y, const VectorX& yp) {
+/// The cubic from a step's start to its trial end has missed e(x) = E 16 x^2 (1 - x)^2 of U, which
+/// has put |K| h 8 E / 15 into the load and, over A_inf, h times that into the velocity: of order
+/// h^6. The next step is to keep it below the tolerance of the largest velocity so far.
+void History::judge(const Node& from, const Node& to, const MatrixX& value) {
+  if (n_U_ == 0)
+    return;
+  const VectorX x = chebyshev_points(value.cols());
+  const double h = to.t - from.t;
+  VectorX missed = VectorX::Zero(n_U_);
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    missed = missed.cwiseMax((value.col(k) - between(from, to, x[k])).head(n_U_).cwiseAbs());
+    largest_ = largest_.cwiseMax(value.col(k).head(n_U_).cwiseAbs());
+  }
+  double most = 0.0;
+  for (int u = 0; u < n_U_; ++u)
+    if (largest_[u] > 0.0)
+      most = std::max(most, strength_[u] * h * h * 8.0 / 15.0 * missed[u] / (rtol_ * largest_[u]));
+  longest_ = 0.9 * h * std::pow(most, -1.0 / 6.0);
+}
+
+/// Does a delayed rate jump at the last node, by more than the tolerance?
+bool History::rates_jump(const VectorX& value) const {
+  for (Eigen::Index k = n_U_ + 1; k < value.size(); k += 2) {
+    const double before = nodes_.empty() ? 0.0 : nodes_.back().value[k];
+    if (std::abs(value[k] - before) > rtol_ * std::max(std::abs(value[k]), std::abs(before)))
+      return true;
+  }
+  return false;
+}
+
+void History::append(double t, const VectorX& y, const VectorX& yp, const Inside& inside,
+                     int degree) {
   Node node;
   node.t = t;
-  signals(t, y, yp, node);
-  if (nodes_.empty()) {
-    first_ = node.value;
-    start_ = t;
+  jumps_ = false;
+  if (nodes_.empty() || t <= last_time()) {
+    signals(t, y, yp, node);
+    if (nodes_.empty()) {
+      first_ = node.value;
+      start_ = t;
+    }
+    kinks_.add(t, rates_jump(node.value) ? 1 : 2);
   } else {
-    add_points(nodes_.back(), node);
+    const Node& from = nodes_.back();
+    const MatrixX value = follow(from, node, y, yp, inside, degree);
+    add_points(from, node, value);
+    judge(from, node, value);
+    if (!s_.delays.empty())
+      pieces_.push_back({from.t, t, value.bottomRows(value.rows() - n_U_)});
+    jumps_ = kinks_.pass(t) <= 2;
   }
   node.points = dropped_ + point_time_.size();
   nodes_.push_back(std::move(node));
@@ -113,7 +213,8 @@ void History::append(double t, const VectorX& y, const VectorX& yp) {
 }
 
 void History::remember(Archive& a) {
-  a(nodes_, first_, start_, point_time_, point_value_, dropped_, ws_.turns);
+  a(nodes_, pieces_, first_, start_, kinks_, jumps_, longest_, largest_, point_time_, point_value_,
+    dropped_, ws_.turns);
   for (Past& past : memo_)
     past.known = false;
 }
@@ -133,11 +234,14 @@ void History::forget() {
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(old_points));
     dropped_ += old_points;
   }
-  std::size_t old_nodes = 0;
-  while (old_nodes + 3 < nodes_.size() && nodes_[old_nodes + 1].t <= from - keep_)
-    ++old_nodes;
-  if (old_nodes > few || 2 * old_nodes > nodes_.size())
-    nodes_.erase(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(old_nodes));
+  const auto old_pieces =
+      std::lower_bound(pieces_.begin(), pieces_.end(), from - keep_ - rounding(from),
+                       [](const Piece& piece, double time) { return piece.to < time; }) -
+      pieces_.begin();
+  if (static_cast<std::size_t>(old_pieces) > few || 2 * old_pieces > std::ssize(pieces_))
+    pieces_.erase(pieces_.begin(), pieces_.begin() + old_pieces);
+  if (nodes_.size() > 3)
+    nodes_.erase(nodes_.begin());
 }
 
 /// The last node at or before t; the first where there is none.
@@ -239,29 +343,25 @@ void History::sum_pairs(bool locked, Eigen::Index rows, Eigen::Index piece_rows,
   }
 }
 
-/// s and s' at t - tau; before the start s(0), at rest.
+/// s and s' at t - tau; before the start s(0), at rest. A step that ends where the past jumps has
+/// what was before, and the next one, from its start on, what comes.
 std::array<double, 2> History::delayed(int delay, double t) const {
-  const double then = t - s_.delays[static_cast<std::size_t>(delay)].time;
-  const Eigen::Index k = n_U_ + 2 * delay;
-  if (then < start_)
-    return {first_[k], 0.0};
-  if (nodes_.size() == 1)
-    return {nodes_[0].value[k], nodes_[0].value[k + 1]};
-  // The last node at or before `then` that has one after it.
-  auto above = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, then,
-                                [](double time, const Node& node) { return time < node.t; });
-  while (above != nodes_.end() - 1 && above->t == (above - 1)->t)
-    ++above;
-  const Node &a = *(above - 1), &b = *above;
-  const double h = b.t - a.t;
-  if (h <= 0.0)
-    return {b.value[k], b.value[k + 1]};
-  const std::array<double, 4> f = hermite((then - a.t) / h, h);
-  std::array<double, 2> out{};
-  for (Eigen::Index m = 0; m < 2; ++m)
-    out[static_cast<std::size_t>(m)] =
-        f[0] * a.value[k + m] + f[1] * a.rate[k + m] + f[2] * b.value[k + m] + f[3] * b.rate[k + m];
-  return out;
+  const double tau = s_.delays[static_cast<std::size_t>(delay)].time, then = t - tau,
+               same = rounding(std::max(std::abs(t), tau));
+  const bool ahead = std::any_of(nodes_.rbegin(),
+                                 nodes_.rbegin() + std::min<std::ptrdiff_t>(2, std::ssize(nodes_)),
+                                 [t](const Node& node) { return node.t == t; });
+  const double from = ahead ? then + same : then - same; // in the piece that is meant
+  const Eigen::Index k = 2 * delay;
+  if (from <= start_)
+    return {first_[n_U_ + k], 0.0};
+  const auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), from,
+                                      [](const Piece& one, double time) { return one.to < time; });
+  if (piece == pieces_.end()) // patterns and poses are looked at whatever the time
+    return {nodes_.back().value[n_U_ + k], nodes_.back().value[n_U_ + k + 1]};
+  const double x = (then - piece->from) / (piece->to - piece->from);
+  chebyshev_weights(chebyshev_points(piece->value.cols()), x, weights_);
+  return {piece->value.row(k).dot(weights_), piece->value.row(k + 1).dot(weights_)};
 }
 
 void History::evaluate(double t, bool locked, Past& out) const {

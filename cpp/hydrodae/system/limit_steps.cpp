@@ -9,7 +9,6 @@
 namespace hydrodae::system {
 
 std::string limit_steps(const System& s, model::SolverOptions& options) {
-  constexpr double longest = 1.0; // w h: error of the interpolation 1/384
   double limit = INFINITY;
   std::string why;
   for (const DelayData& d : s.delays)
@@ -20,13 +19,11 @@ std::string limit_steps(const System& s, model::SolverOptions& options) {
   const bool fixed = options.step > 0.0;
   const Convolution& c = s.hydro.convolution;
   if (!c.empty() && c.frequency > 0.0) {
-    const double h =
-        (fixed ? longest : std::min(longest, std::pow(384.0 * options.rtol, 0.25))) / c.frequency;
-    if (h < limit) {
+    if (const double h = 1.0 / c.frequency; h < limit) {
       limit = h;
-      why = "what the history of the convolution carries: its error (w h)^4 / 384 at the root mean "
-            "square frequency of the kernels, " +
-            number_text(c.frequency) + " rad/s" + (fixed ? "" : ", is not to be above rtol");
+      why = "what the history of the convolution carries: 1 / w of the root mean square frequency "
+            "of the kernels, w = " +
+            number_text(c.frequency) + " rad/s";
     }
   }
   if (!std::isfinite(limit))

@@ -73,19 +73,64 @@ double convolution(const system::Regime& s, const system::History& history, doub
   return past.memory[0] + past.by_U(0, 0) * y[s.u0] + past.by_U_dot(0, 0) * yp[s.u0];
 }
 
-/// Error at the end of steps of about h, of lengths that vary by a factor of three.
-double error(double h) {
-  const system::System built = system::build(heaving());
-  const system::Regime s(built);
-  system::History history(s);
+/// Follows the motion in steps of about h, of lengths that vary by a factor of three; what it is
+/// inside them is known, or the cubic stands for it.
+void follow(const system::Regime& s, double h, bool known, system::History& history) {
+  const system::History::Inside inside = [&](double at, VectorX& y, VectorX& yp) {
+    motion(s, at, y, yp);
+  };
   VectorX y, yp;
   double t = 0.0;
   for (int k = 0; t < end - 1.5 * h; ++k) {
     motion(s, t, y, yp);
-    history.append(t, y, yp);
+    history.append(t, y, yp, known ? inside : nullptr, 7);
     t += h * (1.0 + 0.5 * std::sin(2.3 * k));
   }
+}
+
+/// Error at the end, behind steps of which the ends are known.
+double error(double h) {
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
+  system::History history(s);
+  follow(s, h, false, history);
   return std::abs(convolution(s, history, end) - exact(end));
+}
+
+/// Error at the end of the last step.
+double accepted_error(double h, bool known) {
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
+  system::History history(s);
+  follow(s, h, known, history);
+  const double t = history.last_time();
+  return std::abs(convolution(s, history, t) - exact(t));
+}
+
+/// A cart on a slide with a spring of 3 N/m and a damper of 2 N s/m that act late.
+model::Scene sliding(double delay) {
+  model::Scene scene;
+  scene.solver.end_time = 1.0;
+  model::Body body;
+  body.name = "cart";
+  body.motion = {"surge", "sway", "heave"};
+  body.mass = 1.0;
+  scene.bodies.push_back(body);
+  model::Joint slide;
+  slide.name = "slide";
+  slide.type = "prismatic";
+  slide.body_a = "ground";
+  slide.body_b = "cart";
+  slide.axis = Vector3(1, 0, 0);
+  scene.joints.push_back(slide);
+  element::PtoLinear pto;
+  pto.name = "pto";
+  pto.joint = "slide";
+  pto.stiffness = 3.0;
+  pto.damping = 2.0;
+  pto.delay = delay;
+  std::get<std::vector<element::PtoLinear>>(scene.forces).push_back(pto);
+  return scene;
 }
 
 } // namespace
@@ -119,6 +164,79 @@ TEST_CASE("the convolution with variable steps converges with order four") {
   CHECK(std::log2(coarse / middle) > 3.7);
   CHECK(std::log2(middle / fine) > 3.7);
   CHECK(error(0.025) < 1e-7);
+}
+
+TEST_CASE("of steps that are known inside the convolution is as exact as they are") {
+  CHECK(accepted_error(0.4, false) > 1e-5);
+  CHECK(accepted_error(0.4, true) < 1e-7); // of the quadrature
+}
+
+TEST_CASE("the next step is as long as the cubic at its end may be, by the last one") {
+  const system::System built = system::build(heaving());
+  const system::Regime s(built);
+  model::SolverOptions options;
+  std::array<double, 2> longest{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    options.rtol = k == 0 ? 1e-6 : 1e-12;
+    system::History history(s, options);
+    VectorX y, yp;
+    for (const double t : {pi / 2.0 / w - 0.2, pi / 2.0 / w + 0.2}) { // about the crest of U
+      motion(s, t, y, yp);
+      history.append(
+          t, y, yp, [&](double at, VectorX& q, VectorX& rate) { motion(s, at, q, rate); }, 7);
+    }
+    longest[k] = history.longest_step();
+  }
+  // Kernel 1, added mass 1: 8/15 h^2 (w h)^4 / 384 = rtol, and a tenth less.
+  const double expected = 0.9 * std::pow(384e-6 * 15.0 / 8.0 / std::pow(w, 4), 1.0 / 6.0);
+  CHECK(longest[0] == doctest::Approx(expected).epsilon(0.05));
+  CHECK(longest[0] / longest[1] == doctest::Approx(10.0));
+}
+
+TEST_CASE("kinks are passed on by every delay, a derivative higher each time") {
+  system::Kinks kinks({0.5, 0.8}, 1.0, 0.45, 1e-9);
+  kinks.add(0.0, 1);
+  CHECK(kinks.next(8) == 0.5);
+  CHECK(kinks.next(0) == INFINITY); // its order is too low to see a jump of the acceleration
+  CHECK(kinks.pass(0.3) == system::Kinks::none);
+  CHECK(kinks.pass(0.5) == 2);
+  CHECK(kinks.next(8) == 0.8);
+  CHECK(kinks.pass(0.8) == 2);
+  CHECK(kinks.next(8) == 1.0);
+  CHECK(kinks.next(1) == INFINITY);
+  CHECK(kinks.pass(1.0) == 3);
+  CHECK(kinks.next(8) == doctest::Approx(1.3)); // by both delays in either order: one instant
+  CHECK(kinks.pass(1.3) == 3);
+  CHECK(kinks.next(8) == 1.5);
+}
+
+TEST_CASE("of short delays the kinks do not matter") {
+  system::Kinks kinks({0.01}, 1.0, 0.009, 1e-6);
+  kinks.add(0.0, 2);
+  CHECK(kinks.next(8) == INFINITY);
+}
+
+TEST_CASE("a delayed rate that jumps is what it was before, and from an accepted point on what it "
+          "is") {
+  const system::System built = system::build(sliding(0.5));
+  const system::Regime s(built);
+  model::SolverOptions options;
+  options.max_step = 0.45;
+  system::History history(s, options);
+  VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
+  y[s.u0] = 0.6; // before the start it rests
+  const auto go = [&](double t) {
+    y[0] = 0.6 * t;
+    history.append(t, y, yp);
+  };
+  go(0.0);
+  go(0.4);
+  CHECK(history.next_kink(8) == 0.5);
+  CHECK(history.at(0.5).delayed[0][1] == 0.0);
+  go(0.5);
+  CHECK(history.jumps());
+  CHECK(history.at(0.5).delayed[0][1] == doctest::Approx(0.6));
+  CHECK(history.at(0.51).delayed[0][1] == doctest::Approx(0.6));
 }
 
 TEST_CASE("inside and at the ends of steps the convolution is the same before and after they are "
@@ -172,27 +290,7 @@ TEST_CASE("a long history forgets what is older than the memory") {
 }
 
 TEST_CASE("the residual feels a delayed coordinate as it was") {
-  model::Scene scene;
-  scene.solver.end_time = 1.0;
-  model::Body body;
-  body.name = "cart";
-  body.motion = {"surge", "sway", "heave"};
-  body.mass = 1.0;
-  scene.bodies.push_back(body);
-  model::Joint slide;
-  slide.name = "slide";
-  slide.type = "prismatic";
-  slide.body_a = "ground";
-  slide.body_b = "cart";
-  slide.axis = Vector3(1, 0, 0);
-  scene.joints.push_back(slide);
-  element::PtoLinear pto;
-  pto.name = "pto";
-  pto.joint = "slide";
-  pto.stiffness = 3.0;
-  pto.damping = 2.0;
-  pto.delay = 0.5;
-  std::get<std::vector<element::PtoLinear>>(scene.forces).push_back(pto);
+  const model::Scene scene = sliding(0.5);
   const system::System built = system::build(scene);
   system::Regime s(built);
   system::History history(s);
@@ -222,8 +320,7 @@ TEST_CASE("steps are limited to the delay and to what the history carries") {
   options.end_time = 100.0;
   options.rtol = 1e-6;
   CHECK(contains(system::limit_steps(s, options), "steps are at most"));
-  CHECK(options.max_step * s.hydro.convolution.frequency ==
-        doctest::Approx(0.9 * std::pow(384e-6, 0.25)));
+  CHECK(options.max_step * s.hydro.convolution.frequency == doctest::Approx(0.9));
   s.delays.push_back({0, 0.05});
   CHECK(contains(system::limit_steps(s, options), "the shortest delay"));
   CHECK(options.max_step == doctest::Approx(0.045));

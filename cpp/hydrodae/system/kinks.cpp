@@ -1,0 +1,66 @@
+#include "hydrodae/system/kinks.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hydrodae::system {
+
+namespace {
+
+constexpr int highest_order = 13; ///< of the methods that choose their steps
+
+/// Instants that differ by rounding are one.
+double rounding_of(double t) { return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+
+} // namespace
+
+/// A step h over a jump of the m-th derivative misses (h / T)^m / m! of the size of the motion,
+/// whose derivatives are that size over T^m: nothing where it is below the tolerance.
+Kinks::Kinks(std::vector<double> delays, double time, double longest, double rtol)
+    : delays_(std::move(delays)) {
+  double missed = 1.0;
+  for (int m = 1; m <= highest_order + 1; ++m) {
+    missed *= longest / (time * m);
+    if (missed > rtol)
+      highest_ = m;
+  }
+}
+
+void Kinks::expect(double t, int derivative) {
+  if (derivative > highest_)
+    return;
+  const auto at = std::lower_bound(coming_.begin(), coming_.end(), t - rounding_of(t),
+                                   [](const Kink& k, double time) { return k.t < time; });
+  if (at != coming_.end() && at->t <= t + rounding_of(t))
+    at->derivative = std::min(at->derivative, derivative);
+  else
+    coming_.insert(at, {t, derivative});
+}
+
+void Kinks::add(double t, int derivative) {
+  for (const double delay : delays_)
+    expect(t + delay, derivative + 1);
+}
+
+int Kinks::pass(double t) {
+  int lowest = none;
+  while (!coming_.empty() && coming_.front().t <= t + rounding_of(t)) {
+    const Kink kink = coming_.front();
+    coming_.erase(coming_.begin());
+    if (kink.t >= t - rounding_of(t))
+      lowest = std::min(lowest, kink.derivative);
+    add(kink.t, kink.derivative);
+  }
+  return lowest;
+}
+
+/// A method of order p sees derivatives of s up to p + 1: a jump of a higher one is below its own
+/// error.
+double Kinks::next(int order) const {
+  for (const Kink& kink : coming_)
+    if (kink.derivative <= order + 1)
+      return kink.t;
+  return INFINITY;
+}
+
+} // namespace hydrodae::system
