@@ -60,7 +60,8 @@ def content(path: Path) -> dict[str, np.ndarray]:
     with h5py.File(path) as file:
         file.visititems(
             lambda name, item: (
-                out.update({name: item[()]}) if isinstance(item, h5py.Dataset) and not name.startswith("accuracy/")
+                out.update({name: item[()]})
+                if isinstance(item, h5py.Dataset) and not name.startswith("accuracy/")
                 else None
             )
         )

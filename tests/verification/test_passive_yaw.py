@@ -154,7 +154,7 @@ def test_turning_float_against_its_equations(
 
     expected = truth(results.time, phase == "moving", table)
     assert np.ptp(expected[:, 2]) > 0.5
-    # Loads below 1e-6 of the largest are left out; polynomials over the yaw smooth a spline's knots.
+    # Loads below 1e-6 of the largest are left out; polynomials over the yaw smooth the knots.
     atol = 2e-5 if degrees[-1] - degrees[0] == 360 else 1e-4
     np.testing.assert_allclose(motion(results), expected, atol=atol)
     total = results["forces/excitation/float/force"].values

@@ -36,8 +36,8 @@ public:
   void jacobian(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                 system::JacobianParts& out);
 
-  /// The same where the pattern holds the mass matrix and the constraint rows alone: it counts as no
-  /// Jacobian.
+  /// The same where the pattern holds the mass matrix and the constraint rows alone: it counts as
+  /// no Jacobian.
   void mass_and_rows(double t, const VectorX& y, const VectorX& yp, const system::Pattern& own,
                      system::JacobianParts& out);
 

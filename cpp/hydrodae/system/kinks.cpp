@@ -10,7 +10,9 @@ namespace {
 constexpr int highest_order = 13; ///< of the methods that choose their steps
 
 /// Instants that differ by rounding are one.
-double rounding_of(double t) { return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+double rounding_of(double t) {
+  return 256.0 * std::numeric_limits<double>::epsilon() * std::abs(t);
+}
 
 } // namespace
 
