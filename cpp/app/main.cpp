@@ -97,10 +97,15 @@ bool print_accuracy(const hydrodae::RunStatistics& statistics) {
                 estimate.missing.c_str());
   bool all = true;
   for (const hydrodae::accuracy::MoverError& m : estimate.movers)
-    if (std::isfinite(m.reproducible_until)) {
-      all = false;
-      std::printf("%s: reproducible until t = %.4g s; the two runs part by 5 %% at t = %.4g s\n",
-                  m.name.c_str(), m.reproducible_until, m.parted);
+    if (std::isfinite(m.parted)) {
+      const bool reproducible = !std::isfinite(m.reproducible_until);
+      all = all && reproducible;
+      const std::string until =
+          reproducible
+              ? "error up to " + hydrodae::rounded_text(m.largest) + " of the motion"
+              : "reproducible until t = " + hydrodae::rounded_text(m.reproducible_until) + " s";
+      std::printf("%s: %s; two runs part by 5 %% at t = %.4g s\n", m.name.c_str(), until.c_str(),
+                  m.parted);
     }
   return all;
 }

@@ -83,6 +83,10 @@ _SolverStart = Literal[
     "given",
     "equilibrium",
 ]
+_SolverAccuracy = Literal[
+    "two_runs",
+    "none",
+]
 
 class BodyInitial(TypedDict, total=False):
     """Table `initial` of `body`."""
@@ -3236,8 +3240,7 @@ class Scene(SceneBase):
         baumgarte_time: float = ...,
         energy_guard: float = ...,
         branch_guard: bool = ...,
-        error_guard: float = ...,
-        step_guard: float = ...,
+        accuracy: _SolverAccuracy = ...,
         tolerance_assembly: float = ...,
         force: bool = ...,
         length_scale: float = ...,
@@ -3296,15 +3299,10 @@ class Scene(SceneBase):
         branch_guard : true or false, default true
             A run of a scene with closed loops ends as failed when its velocities jump though
             nothing strikes: at a singular pose the motion left its branch.
-        error_guard : number, default 0.1
-            A run ends as failed when the errors of its steps, carried along by the linearised
-            equations, and the energy that they miss may put the motion off by more than this
-            part of it: when twice their estimate is more, with fixed steps three times; 0: no
-            guard. Allowed: >= 0.
-        step_guard : number, optional
-            A run of fixed steps ends as failed when the estimated errors of its steps, summed
-            over ten time scales of the bodies, are more than this angle [rad], or this part of
-            a body's lever; 0: no guard. By default 0.02. Allowed: >= 0.
+        accuracy : text, default "two_runs"
+            Estimate of the error of the motion, body by body: two_runs compares the run with a
+            second one at 10 rtol, or at twice the fixed step, which runs in a second thread;
+            none: no estimate. Allowed: two_runs, none.
         tolerance_assembly : number, default 1e-06
             Joints that are out of line with each other by less than this part of the body's
             lever (its farthest joint or radius of gyration), or of one radian, count as exact:

@@ -144,13 +144,15 @@ class Kernel:
         drives: dict[str, Any],
         forces: dict[str, Any],
         controllers: dict[str, Any],
-        verify: bool = False,
+        again: dict[str, Any],
+        verify: str = "",
         checkpoint: float = -1.0,
         resume: bool = False,
     ) -> dict[str, Any]:
         assert not drives
         assert not forces
         assert not controllers
+        assert not again
         assert not verify
         self.runs += 1
         times, status, message = [0.0], "completed", ""

@@ -387,10 +387,11 @@ def test_the_executable_runs_a_case(executable, case):
     output = case.parent / "results.h5"
     run = solve(executable, case, "-o", output, "--set", "solver.end_time=2", "--quiet")
     assert run.returncode == 0, run.stderr
-    done, method = run.stdout.splitlines()
+    done, method, error = run.stdout.splitlines()
     assert done.startswith("completed at t = 2 s: ")
     assert done.endswith(f"results in {output}")
     assert method.startswith("method auto: ")
+    assert error == "at rest"
     assert run.stderr == ""
     with h5py.File(output) as file:
         assert file["time"][-1] == pytest.approx(2.0)

@@ -106,7 +106,7 @@ def first_fit(file: h5py.File) -> h5py.Group:
         ("poles", np.array([b"text"]), "poles: expected numbers, found"),
         ("poles", np.array([np.nan + 0j]), "poles: holds values that are not finite"),
         ("added_mass_inf", PAIR, "added_mass_inf: expected numbers, found"),
-        ("inputs", 1.0, "incomplete or damaged"),
+        ("inputs", 1.0, "inputs: expected text, found float64"),
     ],
 )
 def test_a_damaged_fit_is_refused(dataset: str, data: Any, message: str, database: Path) -> None:

@@ -12,9 +12,9 @@ LAYERS = [
     {"joint", "element", "control"},
     {"model"},
     {"io", "system"},
-    {"solve"},
+    {"solve", "accuracy"},
     {"run", "cosim"},
-    {"simulation.h", "analysis.h", "analysis_moorings.h", "examine.h", "run_output.h"},
+    {"simulation.h", "analysis.h", "analysis_moorings.h", "examine.h", "session"},
 ]
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 ONLY = {

@@ -165,7 +165,7 @@ def test_excitation_kernel_of_log_spaced_tables() -> None:
     w, b = np.geomspace(1e-3, 40.0, 200), 1.5
     c = RHO * GRAVITY * AREA
     db = database(w)
-    db.diffraction = (c * np.exp(-w / b) + 0j)[:, None, None]
+    db.diffraction = (c * np.exp(-w / b)).astype(complex)[:, None, None]
     t = np.array([-30.0, -2.0, 0.0, 0.7, 30.0, 200.0])
     exact = c * b / np.pi / (1.0 + (b * t) ** 2)
     assert np.abs(kernels.excitation_kernel(db, t)[:, 0, 0] - exact).max() < 1e-4 * exact.max()

@@ -33,7 +33,7 @@ def smooth(omega: float, heading: NDArray[np.float64]) -> Complex:
     """Surge, sway and yaw without the phase, (nh, 3): four harmonics."""
     b = np.asarray(heading)
     by_frequency = np.array([1.0 + 0.3j * omega, 0.8 + 0.2j, 0.5 - 0.4j * omega])
-    return (
+    return np.asarray(
         np.stack(
             [
                 400.0 * (np.cos(b) + 0.3 * np.cos(3 * b) + 0.1),
@@ -46,7 +46,7 @@ def smooth(omega: float, heading: NDArray[np.float64]) -> Complex:
     )
 
 
-def write_database(path: Path, degrees: NDArray[np.float64]) -> None:
+def write_database(path: Path, degrees: NDArray[Any]) -> None:
     heading, n = np.radians(degrees), OMEGA.size
     ahead = np.stack([np.cos(heading), np.sin(heading)])
     force = np.array(
@@ -60,8 +60,8 @@ def write_database(path: Path, degrees: NDArray[np.float64]) -> None:
         added_mass_inf=ADDED,
         added_mass_inf_std=np.zeros((3, 3)),
         heading=heading,
-        froude_krylov=0.4 * force,
-        diffraction=0.6 * force,
+        froude_krylov=(0.4 * force).astype(complex),
+        diffraction=(0.6 * force).astype(complex),
         bodies={
             "float": hdb.Body("float", POINT, hdb.Hydrostatics(1.0, BUOYANCY, 2.0, np.zeros(5)))
         },
@@ -122,7 +122,8 @@ def truth(
             load += a * (table(w, relative) * np.exp(1j * angle)).real
         c, s = np.cos(psi), np.sin(psi)
         turned = np.array([c * load[0] - s * load[1], s * load[0] + c * load[1], load[2]])
-        return np.r_[y[3:], (turned - STIFFNESS * y[:3] - np.diag(DAMPING) * y[3:]) / inertia]
+        force = turned - STIFFNESS * y[:3] - np.diag(DAMPING) * y[3:]
+        return np.concatenate([y[3:], force / inertia])
 
     start = np.array([0.0, 0.0, np.radians(25.0), 0.0, 0.0, 0.0])
     found = solve_ivp(rates, (0, time[-1]), start, "DOP853", time, rtol=1e-11, atol=1e-11)
@@ -131,7 +132,7 @@ def truth(
 
 def motion(results: hydrodae.Results) -> NDArray[np.float64]:
     place = results["bodies/float/position"].values[:, :2] - POINT[:2]
-    return np.c_[place, results["bodies/float/rotation"].values[:, 2]]
+    return np.asarray(np.c_[place, results["bodies/float/rotation"].values[:, 2]])
 
 
 @pytest.mark.parametrize("phase", ["fixed", "moving"])

@@ -1,14 +1,20 @@
 #include "hydrodae/accuracy/comparison.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+
+#include "hydrodae/system/motion_scale.h"
 
 namespace hydrodae::accuracy {
 
 namespace {
 
-/// Part of the motion from which on an error leaves nothing of it that another run would repeat.
+/// Part of the motion. An error above it is seen in any plot and in any statistic of single events;
+/// errors that grow pass from here to the whole motion within a few time constants.
 constexpr double reproducible = 0.05;
+
+constexpr std::chrono::milliseconds patience{100}; ///< between two looks for a request to stop
 
 } // namespace
 
@@ -35,15 +41,18 @@ void Comparison::moved(const VectorX& y, const std::vector<double>& turns) {
   movers_.widen(turns, turns0_, motion_);
 }
 
-void Comparison::first(double time, const VectorX& y) {
+void Comparison::first(double time, const VectorX& y, const std::function<bool()>& go_on) {
   std::unique_lock lock(mutex_);
   if (second_ended_ && second_.empty())
     return;
   first_.emplace_back(time, VectorX());
   movers_.places(y, first_.back().second);
   compare();
-  changed_.wait(lock,
-                [&] { return most_ahead_ == 0 || first_.size() < most_ahead_ || second_ended_; });
+  const auto near = [&] {
+    return most_ahead_ == 0 || first_.size() < most_ahead_ || second_ended_;
+  };
+  while (!changed_.wait_for(lock, patience, near) && go_on())
+    ;
 }
 
 bool Comparison::second(const VectorX& places) {
@@ -67,6 +76,11 @@ void Comparison::end_second() {
   changed_.notify_all();
 }
 
+bool Comparison::wait_for_second() {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, patience, [&] { return second_ended_; });
+}
+
 /// All samples that are there of both.
 void Comparison::compare() {
   while (!first_.empty() && !second_.empty()) {
@@ -80,12 +94,12 @@ void Comparison::compare() {
 }
 
 /// What errors of a group are compared with: turns with its largest motion, displacements with
-/// their own largest, but not with less than the tolerance of translations follows (MotionScale).
+/// their own largest, but with no less than the tolerance of translations follows (MotionScale).
 std::vector<Apart> Comparison::measures() const {
-  constexpr double followed = 1e-3;
   std::vector<Apart> out = motion_;
   for (Apart& m : out)
-    m = {std::max({m.moved, followed * m.both(), 1e-300}), std::max(m.both(), 1e-300)};
+    m = {std::max({m.moved, system::least_translation * m.both(), 1e-300}),
+         std::max(m.both(), 1e-300)};
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -28,7 +29,7 @@ struct MoverError {
 
 struct Estimate {
   std::string how;          ///< "a second run at rtol = 1e-05"
-  std::string missing;      ///< why there is none, or none from `until` on; empty: it is complete
+  std::string missing;      ///< why it is missing, or ends at `until`; empty: it is complete
   double until = 0.0;       ///< time up to which the runs were compared [s]
   std::vector<double> time; ///< of the samples [s]
   std::vector<MoverError> movers;
@@ -51,7 +52,8 @@ public:
   void moved(const VectorX& y, const std::vector<double>& turns);
 
   /// The next sample of the first run, at `time` [s].
-  void first(double time, const VectorX& y);
+  /// @param go_on asked while the run waits for the other one; false: it waits no longer
+  void first(double time, const VectorX& y, const std::function<bool()>& go_on);
 
   /// The next sample of the second run. False when nothing is to follow: the first has been given
   /// up.
@@ -60,6 +62,10 @@ public:
   /// No more samples of that run.
   void end_first();
   void end_second();
+
+  /// Waits for the end of the second run, for a tenth of a second at most. @returns whether it has
+  /// ended
+  bool wait_for_second();
 
   /// Of all samples that both runs have given.
   Estimate estimate(double divisor) const;

@@ -124,6 +124,7 @@ SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
   if (!method.empty()) {
     o.method = method;
     o.order = 0;
+    o.step = 0.0;
     plan.how = "a second run with " + method;
   } else if (o.step > 0.0) {
     o.step *= 2.0;
@@ -152,7 +153,7 @@ SecondRun::SecondRun(SecondRunPlan plan, accuracy::Comparison& comparison)
 
 SecondRun::~SecondRun() { give_up(); }
 
-void SecondRun::march(const std::function<bool(double)>& ask) {
+void SecondRun::march(const std::function<bool()>& ask) {
   try {
     run::Simulation simulation(plan_.scene);
     accuracy::Movers movers(simulation.regime());
@@ -167,14 +168,14 @@ void SecondRun::march(const std::function<bool(double)>& ask) {
         simulation.look(std::min(static_cast<double>(next) * dt, t), y);
         ++next;
         movers.places(y, places);
-        wanted = comparison_.second(places) && (!ask || ask(t));
+        wanted = comparison_.second(places) && (!ask || ask());
       }
     };
     sample();
     while (wanted && !given_up_ && !simulation.finished())
       simulation.advance(end, sample);
-    if (given_up_)
-      stopped_ = "the first run did not reach its end";
+    if (next <= samples)
+      stopped_ = "the runs were stopped";
     simulation.close();
   } catch (const std::exception& error) {
     const std::string text = error.what();
@@ -183,12 +184,14 @@ void SecondRun::march(const std::function<bool(double)>& ask) {
   comparison_.end_second();
 }
 
-void SecondRun::finish(const std::function<bool(double)>& ask) {
+void SecondRun::finish(const std::function<bool()>& ask) {
   comparison_.end_first();
   if (plan_.afterwards)
-    march(ask);
-  if (thread_.joinable())
-    thread_.join();
+    return march(ask);
+  while (!comparison_.wait_for_second())
+    if (!ask())
+      return give_up();
+  thread_.join();
 }
 
 void SecondRun::give_up() {

@@ -2,6 +2,7 @@
 /// The second run of a scene, by which the error of the first is estimated.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -35,8 +36,8 @@ public:
   SecondRun& operator=(const SecondRun&) = delete;
 
   /// The first run has reached its end: waits for the second, or makes it now.
-  /// @param ask called with the time reached [s] while it is made now; false: stop
-  void finish(const std::function<bool(double)>& ask);
+  /// @param ask called now and then; false: stop
+  void finish(const std::function<bool()>& ask);
 
   /// The first run has failed or was stopped: the second stops soon.
   void give_up();
@@ -46,7 +47,7 @@ public:
   accuracy::Estimate estimate(int order) const;
 
 private:
-  void march(const std::function<bool(double)>& ask);
+  void march(const std::function<bool()>& ask);
 
   SecondRunPlan plan_;
   accuracy::Comparison& comparison_;

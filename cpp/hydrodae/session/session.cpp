@@ -1,5 +1,6 @@
 #include "hydrodae/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -76,7 +77,7 @@ public:
       statistics_.status = march() ? "completed" : "interrupted";
       simulation_.close();
       if (second_ && statistics_.status == "completed")
-        second_->finish([this](double) { return !progress_ || progress_(last_sample_, end()); });
+        second_->finish([this] { return asked_to_go_on(); });
       close(statistics_.status == "completed" ? "" : "stopped on request");
     } catch (const control::Stopped& stopped) {
       statistics_.status = "interrupted";
@@ -108,6 +109,7 @@ public:
 private:
   const model::Scene& scene() const { return simulation_.scene(); }
 
+  bool asked_to_go_on() const { return !progress_ || progress_(simulation_.time(), end()); }
   double end() const { return scene().solver.end_time; }
 
   /// Steps until the end; false when the progress callback asked to stop.
@@ -151,7 +153,7 @@ private:
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
     system::watch(limits_, t, bodies);
     if (comparison_)
-      comparison_->first(t, simulation_.recorder().state());
+      comparison_->first(t, simulation_.recorder().state(), [this] { return asked_to_go_on(); });
     if (file_)
       file_->append(t, row_);
     statistics_.end_time = last_sample_ = t;
@@ -238,6 +240,11 @@ private:
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
+  const std::vector<std::string> methods = {"radau", "ida", "explicit_rk"};
+  if (!options.verify.empty() &&
+      std::find(methods.begin(), methods.end(), options.verify) == methods.end())
+    throw CaseError("--verify " + options.verify + ": expected a method that chooses its steps" +
+                    suggestion(options.verify, methods));
   const bool resumable = options.checkpoint >= 0.0 || options.resume;
   if (resumable)
     cosim::require_fmu_states(scene);

@@ -15,7 +15,6 @@ constexpr double full = 0.1;           ///< motion [levers] from which on the fu
 constexpr double rounding_error = 1e3; ///< epsilons of a position: no step's error is below
 constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
 constexpr double slack = 1.5;    ///< of a change that is worth new scales
-constexpr double least_translation = 1e-3; ///< part that is followed
 
 /// In levers.
 double translation(const BodyData& b, const VectorX& from, const VectorX& y) {

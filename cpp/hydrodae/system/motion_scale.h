@@ -7,6 +7,9 @@
 
 namespace hydrodae::system {
 
+/// Part of the motion of a group below which the tolerance of translations does not follow them.
+inline constexpr double least_translation = 1e-3;
+
 /// Keeps System::motion_scale: by group, the part of the full scales (a tenth of a body's lever)
 /// that the motion takes, between 1 and what rounding of the positions leaves. It is the largest of
 /// the displacement reached so far and, fading, of what the start and the loads let expect. And

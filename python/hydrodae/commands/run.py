@@ -109,6 +109,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _exit_code(results: Results, strict: bool) -> int:
-    """5 where `strict` asks for a reproducible motion and there is none, else 0."""
+    """5 where `strict` is set and a motion is not reproducible, else 0."""
     lost = [name for name, error in results.accuracy().items() if not error.reproducible]
     return 5 if strict and lost else 0

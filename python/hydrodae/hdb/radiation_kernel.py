@@ -123,9 +123,14 @@ def make_kernel(
         "min_eig_relative": float(eigenvalues.min() / max(eigenvalues.max(), 1e-300)),
         "rest": float((late / np.where(whole > 0.0, whole, 1.0)).max(initial=0.0)),
     }
-    if not np.hypot(report["h_error_band"], report["h_error_between"]) <= limit:
+    if not np.hypot(*_errors(report)) <= limit:
         raise DatabaseError(_refusal(tables, mass, report, limit, given))
     return RadiationKernel(time, values, inputs, labels, mass, report)
+
+
+def _errors(report: dict[str, Any]) -> tuple[float, float]:
+    """Errors of H at the stored frequencies of the band, and between them."""
+    return float(report["h_error_band"]), float(report["h_error_between"])
 
 
 def _refusal(
@@ -133,7 +138,7 @@ def _refusal(
 ) -> str:
     """Return why a kernel is refused, and what can be done."""
     low, high = report["band"]
-    stored, between = report["h_error_band"], report["h_error_between"]
+    stored, between = _errors(report)
     _, (a, b) = tables.between(mass)
     why = (
         f"radiation kernel: H(iw) = B + iw (A - A_inf) in {low:.3g}..{high:.3g} rad/s is off by "

@@ -255,8 +255,11 @@ class Recording(Mapping[str, "xarray.DataArray"]):
                 attributes = {k: _plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
             if values.ndim != 2 or values.shape[1] != 3:
                 raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
+            time, error, relative = values.T
             found[name] = MotionError(
-                *values.T,
+                time,
+                error,
+                relative,
                 motion=float(attributes["motion"]),
                 reproducible_until=float(attributes["reproducible_until"]),
                 runs_part_at=float(attributes["runs_part_at"]),

@@ -94,12 +94,14 @@ def _errors(results: Recording) -> list[str]:
         until = known.get("estimated_until")
         after = "" if until is None else f" after t = {float(until):.4g} s"
         lines.append(f"error not estimated{after}: {missing}")
-    lost = {n: e for n, e in results.accuracy().items() if not e.reproducible}
-    lines += [
-        f"{name}: reproducible until t = {error.reproducible_until:.4g} s; two runs part by 5 % at "
-        f"t = {error.runs_part_at:.4g} s"
-        for name, error in lost.items()
-    ]
+    for name, error in results.accuracy().items():
+        if not error.reproducible:
+            until = f"reproducible until t = {error.reproducible_until:.4g} s"
+        elif np.isfinite(error.runs_part_at):
+            until = f"error up to {error.relative.max():.1g} of the motion"
+        else:
+            continue
+        lines.append(f"{name}: {until}; two runs part by 5 % at t = {error.runs_part_at:.4g} s")
     return lines
 
 
