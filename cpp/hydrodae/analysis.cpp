@@ -104,6 +104,20 @@ void add_motions(const Regime& s, const system::Workspace<double>& ws, LinearMod
   });
 }
 
+/// Names of the forces whose states the linear model has: those that differential equations give.
+std::vector<std::string> owners_of_states(const Regime& s) {
+  std::vector<std::string> all(static_cast<std::size_t>(s.memory0 - s.z0)), out;
+  for (const system::ElementList& list : s.elements) {
+    const auto each = static_cast<std::size_t>(list.laws->shape.n_states);
+    for (std::size_t k = 0; k < each * list.ports.size(); ++k)
+      all[static_cast<std::size_t>(list.z0 - s.z0) + k] = list.ports[k / each].component;
+  }
+  for (std::size_t z = 0; z < all.size(); ++z)
+    if (!s.is_algebraic(s.z0 + static_cast<Index>(z)))
+      out.push_back(all[z]);
+  return out;
+}
+
 /// All reactions (6 n_joints,) of the joints that are reported.
 VectorX reactions(const Regime& s, system::Observer& observer, const VectorX& y) {
   const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
@@ -214,6 +228,7 @@ LinearModel linearize(const model::Scene& scene) {
   out.state_by_state = m.state_by_state;
   out.state_by_xi = m.state_by_xi;
   out.state_by_rate = m.state_by_rate;
+  out.state_of = owners_of_states(s);
   out.notes = system.notes;
   out.water_depth = model::water(scene).depth;
   out.gravity = model::water(scene).gravity;

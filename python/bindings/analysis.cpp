@@ -38,6 +38,7 @@ py::dict linear_model(const model::Scene& scene) {
                   "stiffness"_a = m.stiffness, "constraints"_a = m.constraints,
                   "load_by_state"_a = m.load_by_state, "state_by_state"_a = m.state_by_state,
                   "state_by_xi"_a = m.state_by_xi, "state_by_rate"_a = m.state_by_rate,
+                  "state_of"_a = m.state_of,
                   "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map,
                   "hydro_yaws"_a = m.hydro_yaws, "hydro_points"_a = m.hydro_points,
                   "motions"_a = m.motions, "motion_map"_a = m.motion_map, "dampers"_a = m.dampers,

@@ -23,7 +23,7 @@ LAYERS = [
     {"panels", "post"},
     {"plot"},
     # one database
-    {"hdb.coordinates", "hdb.dispersion", "hdb.findings", "hdb.layout"},
+    {"hdb.coordinates", "hdb.dispersion", "hdb.findings", "hdb.layout", "hdb.noise"},
     {"hdb.hydrostatics", "hdb.convolution", "hdb.bem.meshes", "hdb.extra", "hdb.interaction"},
     {"hdb.causality", "hdb.shallow"},  # relations of tables, and what a run tells
     {"hdb.mesh_statics"},

@@ -46,7 +46,15 @@ def run(arguments: argparse.Namespace) -> int:
     turns = plant.turns
     resistance, stiffness = ("N m s/rad", "N m/rad") if turns else ("N s/m", "N/m")
     print(f"joint {arguments.joint} at {found.omega:.5g} rad/s ({2 * pi / found.omega:.4g} s)")
-    print(f"  impedance    {found.impedance:.5g} {resistance}")
+    print(
+        f"  impedance    {found.impedance:.5g} {resistance}, of the device without the controller"
+    )
+    for title, names in (("left out", found.left_out), ("counted", found.counted)):
+        if names:
+            kinds = ", ".join(f"{name} ({plant.loads[name]})" for name in names)
+            print(f"  {title:<12s} {kinds}")
+    if found.left_out:
+        print("  the controller stands for what is left out: set its damping and stiffness to zero")
     if found.excitation == found.excitation:
         print(f"  excitation   {found.excitation:.5g} {'N m/m' if turns else 'N/m'}")
         print(f"  most power   {found.power:.5g} W per m2 of amplitude, |F|^2 / (8 Re Z)")

@@ -1,7 +1,8 @@
 """Impedance matching: gains of a PI controller from the device's own impedance.
 
-Along a joint the device is Z(w) s' = F(w) + u, Z from the frequency tables at its equilibrium,
-other loads of the case included. A load u = -Kp s' - Ki s with
+Along a joint the device is Z(w) s' = F(w) + u, Z from the frequency tables at its equilibrium. The
+controller stands for the power take-off, so the take-offs that the case has along the joint (types
+``pto_...``) are left out of Z; every other load counts. A load u = -Kp s' - Ki s with
 
     Kp = Re Z(w0),    Ki = w0 Im Z(w0)
 
@@ -35,6 +36,8 @@ class Matching:
         N m/rad].
     excitation : float
         |F(w0)| per metre of amplitude [N/m, N]; NaN for a case without waves.
+    left_out, counted : tuple of str
+        Forces of the case along the joint: take-offs, which Z is without, and the others.
     """
 
     omega: float
@@ -42,6 +45,8 @@ class Matching:
     gain_p: float
     gain_i: float
     excitation: float
+    left_out: tuple[str, ...] = ()
+    counted: tuple[str, ...] = ()
 
     @property
     def power(self) -> float:
@@ -77,7 +82,8 @@ def match(plant: Plant, period: float | None = None, heading: float | None = Non
     Parameters
     ----------
     plant : Plant
-        The device along a joint. A power take-off that the case already has belongs to it.
+        The device along a joint. The power take-offs that the case has along it are left out: where
+        the controller writes the load of one, set its own damping and stiffness to zero.
     period : float, optional
         Of the wave to match [s]; by default the energy period of the sea of the case.
     heading : float, optional
@@ -103,14 +109,16 @@ def match(plant: Plant, period: float | None = None, heading: float | None = Non
                 ) from None
     omega = energy_frequency(waves) if period is None and waves is not None else _rate(period)
     direction = heading if heading is not None else float(waves[0, 1]) if waves is not None else 0.0
-    z = complex(plant.impedance(omega)[0])
+    left_out = plant.take_offs
+    counted = tuple(name for name in plant.loads if name not in left_out)
+    z = complex(plant.without(left_out).impedance(omega)[0])
     if z.real <= 0.0:
         raise CaseError(
             f"the device has the resistance {z.real:.3g} at {omega:.4g} rad/s: nothing to match"
         )
     has_waves = plant.model.database is not None and plant.model.database.heading.size > 0
     force = abs(plant.excitation(omega, direction)[0]) if has_waves else np.nan
-    return Matching(omega, z, z.real, omega * z.imag, float(force))
+    return Matching(omega, z, z.real, omega * z.imag, float(force), left_out, counted)
 
 
 def _rate(period: float | None) -> float:

@@ -10,6 +10,8 @@ straight in between: y(k+1) = F y(k) + G u(k) + E0 e(k) + E1 e(k+1).
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import expm
 
 from hydrodae.case import CaseLike
+from hydrodae.case_tables import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.frequency import LinearModel
 from hydrodae.memory import ExponentialMemory
@@ -72,6 +75,25 @@ class Plant:
                 self.turns = kind == "angle"
                 return float(run.read(name))
         raise CaseError(f"joint {self.joint!r} has no coordinate")
+
+    @cached_property
+    def loads(self) -> dict[str, str]:
+        """Name and type of every force of the case along the joint."""
+        forces = case_tables(self.model.case).get("force", [])
+        return {f["name"]: f["type"] for f in forces if f.get("joint") == self.joint}
+
+    @property
+    def take_offs(self) -> tuple[str, ...]:
+        """Power take-offs of the case along the joint: forces whose type begins with ``pto_``."""
+        return tuple(name for name, kind in self.loads.items() if kind.startswith("pto_"))
+
+    def without(self, names: Sequence[str]) -> Plant:
+        """Return the same device, in the same pose, without some forces along joints."""
+        other = copy.copy(self)
+        for name in ("memory", "matrices"):
+            other.__dict__.pop(name, None)  # cached properties of the whole device
+        other.model = self.model.without_loads(names)
+        return other
 
     @cached_property
     def memory(self) -> ExponentialMemory | None:

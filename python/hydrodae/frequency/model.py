@@ -100,6 +100,26 @@ class LinearModel:
             shared.tables.share(other.tables)
         return shared
 
+    def without_loads(self, names: Sequence[str]) -> LinearModel:
+        """Return the same linearised case, in the same pose, without some forces along joints.
+
+        Their springs, dampers and states are gone; what they hold the device with at rest stays.
+
+        Parameters
+        ----------
+        names : sequence of str
+        """
+        m = self._model
+        states = [k for k, owner in enumerate(m["state_of"]) if owner in names]
+        other = self._with_laws_changed(names, states)
+        for d in self.dampers:
+            if d.name in names:
+                square = np.outer(d.row, d.row)
+                other.stiffness = other.stiffness - d.stiffness * square
+                if d.delay <= 0.0:  # else C does not hold it
+                    other.damping = other.damping - d.damping * square
+        return other
+
     def with_law_slopes_taken_out(self, names: Sequence[str]) -> LinearModel:
         """Return the same linearised case without the dampers, and bristles, of some forces.
 
@@ -108,17 +128,21 @@ class LinearModel:
         names : sequence of str
             Of forces along joints.
         """
+        other = self._with_laws_changed(names, bristles(self._model, names))
+        for d in self.dampers:
+            if d.name in names:
+                other.damping = other.damping - d.damping * np.outer(d.row, d.row)
+        return other
+
+    def _with_laws_changed(self, names: Sequence[str], states: Sequence[int]) -> LinearModel:
+        """Return a copy that does not list some forces as dampers, nor has some states."""
         other = copy.copy(self)
         m = other._model = dict(self._model)
-        for k, name in enumerate(m["dampers"]):
-            if name in names:
-                row = m["damper_map"][k]
-                other.damping = other.damping - m["damper_damping"][k] * np.outer(row, row)
-        taken = bristles(m, names)
-        m["load_by_state"] = np.delete(m["load_by_state"], taken, axis=1)
-        m["state_by_state"] = np.delete(np.delete(m["state_by_state"], taken, 0), taken, 1)
+        m["load_by_state"] = np.delete(m["load_by_state"], states, axis=1)
+        m["state_by_state"] = np.delete(np.delete(m["state_by_state"], states, 0), states, 1)
         for key in ("state_by_xi", "state_by_rate"):
-            m[key] = np.delete(m[key], taken, axis=0)
+            m[key] = np.delete(m[key], states, axis=0)
+        m["state_of"] = [owner for k, owner in enumerate(m["state_of"]) if k not in states]
         keep = [k for k, name in enumerate(m["dampers"]) if name not in names]
         for key in ("dampers", "damper_damping", "damper_stiffness", "damper_delay"):
             m[key] = [m[key][k] for k in keep]

@@ -115,7 +115,7 @@ def make_kernel(
     eigenvalues = np.linalg.eigvalsh(0.5 * (square + square.transpose(0, 2, 1)))
     late = np.abs(diagonal[long_time > time[-1]]).sum(axis=0)
     whole = np.abs(diagonal).sum(axis=0)
-    report = {
+    report: dict[str, Any] = {
         "band": tables.band,
         "h_error_band": tables.error(transfer, mass),
         "h_error_all": tables.error(transfer, mass, (0.0, np.inf)),

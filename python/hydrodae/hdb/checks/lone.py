@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.noise import cubic_miss, last_digit
 from hydrodae.hdb.scales import scales
 
 Array = NDArray[np.float64]
@@ -21,6 +22,8 @@ Array = NDArray[np.float64]
 SHARE, ALONE = 0.01, 6.0
 #: Neighbours on either side that are judged without it.
 AROUND = 3
+#: Largest miss of a cubic by rounding, over the last digit: (1 + 2/6 + 4/3) / 2 for equal steps.
+ROUNDING = 1.34
 #: Share of the frequencies in the band that may be left out of a fit.
 MOST = 0.05
 
@@ -50,8 +53,11 @@ def lone_rows(database: HydroDatabase) -> Array:
     local = np.median(np.stack([np.roll(own, s, axis=0) for s in range(-3, 4)]), axis=0)
     size = np.sqrt(local[:, :, None] * local[:, None, :])
     size[size <= 0.0] = np.inf
+    # four neighbours and the value itself, each off by half of the last digit that the table has
+    digits = [last_digit(t[square]) for t in (database.radiation_damping, database.added_mass)]
+    floor = ROUNDING * (digits[0] + w[:, None, None] * digits[1])
     off = np.zeros(found.shape)
-    off[2:-2] = _off(w, h) / size[2:-2]
+    off[2:-2] = np.maximum(cubic_miss(w, h) - floor[2:-2], 0.0) / size[2:-2]
     worst = off.max(axis=(1, 2))
     kept = np.ones(w.size, dtype=bool)
     for at in np.argsort(worst)[::-1]:
@@ -66,29 +72,10 @@ def lone_rows(database: HydroDatabase) -> Array:
     return found
 
 
-def _off(w: Array, h: NDArray[np.complex128]) -> Array:
-    """Distance of h (nw, m, m) from the cubic through two neighbours on either side."""
-    at = np.arange(2, w.size - 2)
-    nodes = at[:, None] + np.array([-2, -1, 1, 2])
-    return np.asarray(
-        np.abs(h[at] - np.einsum("wk,wkij->wij", _weights(w[at], w[nodes]), h[nodes]))
-    )
-
-
-def _weights(x: Array, nodes: Array) -> Array:
-    """Weights (n, 4) that interpolate from nodes (n, 4) to x (n,)."""
-    result = np.ones(nodes.shape)
-    for k in range(nodes.shape[1]):
-        for j in range(nodes.shape[1]):
-            if j != k:
-                result[:, k] *= (x - nodes[:, j]) / (nodes[:, k] - nodes[:, j])
-    return result
-
-
 def _off_at(w: Array, h: NDArray[np.complex128], at: int) -> float:
     """Distance of one value of h (nw,) from the cubic through its neighbours."""
     near = slice(at - 2, at + 3)
-    return float(_off(w[near], h[near, None, None])[0, 0, 0])
+    return float(cubic_miss(w[near], h[near])[0])
 
 
 def _alone(
@@ -101,7 +88,7 @@ def _alone(
     near = others[max(place - AROUND - 2, 0) : place + AROUND + 2]
     if near.size < 2 * AROUND:
         return False
-    return off > ALONE * float(_off(w[near], h[near, None, None]).max())
+    return off > ALONE * float(cubic_miss(w[near], h[near]).max())
 
 
 def lone_findings(database: HydroDatabase, band: Band) -> list[Finding]:

@@ -19,10 +19,15 @@ from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.noise import scatter
 from hydrodae.hdb.tables import Body
 
 #: Cosine of three degrees: so near an axis added mass turns no force by 60 degrees.
 NEAR_AXIS = float(np.cos(np.radians(3.0)))
+#: Force over its noise from which it is judged: the least tolerance here is 5 %.
+CLEAR = 20.0
+#: Longest k times the width of a body (`_size`) of a wave that is taken in place of the longest.
+LONG = 0.5
 
 
 @dataclass(frozen=True)
@@ -70,22 +75,47 @@ def long_wave_findings(db: HydroDatabase, band: Band | None = None) -> list[Find
 
 
 def _at_row(db: HydroDatabase, row: int) -> list[Finding]:
-    """All checks at one frequency, body by body."""
-    omega = db.omega[row : row + 1]
-    k = float(wavenumber(omega, db.water_depth, db.gravity)[0])
+    """All checks at one frequency, body by body; or at the next one above its noise."""
     found: list[Finding] = []
     for body in db.bodies.values():
-        # the heading that is most nearly along x or y
-        along = np.maximum(np.abs(np.cos(db.heading)), np.abs(np.sin(db.heading)))
-        h = int(along.argmax())
-        wave = _Wave(row, k, float(omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
-        found += _phase(db, body, wave)
-        found += _directions(db, body, row, k)
+        wave = _wave(db, row)
         if body.hydrostatics is not None and body.reference_point is not None:
             found += _heave(db, body, wave)
+            moment = _clear(db, body, row, ("pitch",))
+            found += [] if moment is None else _pitch(db, body, _wave(db, moment))
+        clear = _clear(db, body, row, ("surge", "sway"))
+        if clear is None:
+            continue
+        wave = _wave(db, clear)
+        found += _phase(db, body, wave)
+        found += _directions(db, body, clear, wave.k)
+        if body.hydrostatics is not None and body.reference_point is not None:
             found += _displacement(db, body, wave)
-            found += _pitch(db, body, wave)
     return found
+
+
+def _wave(db: HydroDatabase, row: int) -> _Wave:
+    """The wave of one frequency whose heading is most nearly along x or y."""
+    along = np.maximum(np.abs(np.cos(db.heading)), np.abs(np.sin(db.heading)))
+    h, omega = int(along.argmax()), db.omega[row : row + 1]
+    k = float(wavenumber(omega, db.water_depth, db.gravity)[0])
+    return _Wave(row, k, float(omega[0]), h, np.cos(db.heading[h]), np.sin(db.heading[h]))
+
+
+def _clear(db: HydroDatabase, body: Body, row: int, dofs: tuple[str, ...]) -> int | None:
+    """First row from `row` on where waves are long and a force is `CLEAR` times its noise.
+
+    Where no long wave makes it so large, `row` itself, or None if the force there is noise.
+    """
+    i = [n for n, label in enumerate(db.coordinates) if label in {f"{body.name}.{d}" for d in dofs}]
+    if not i:
+        return None
+    table = (db.froude_krylov if db.excitation_split else db.excitation)[:, :, i]
+    largest, noise = np.abs(table).max(axis=(1, 2)), float(scatter(db.omega, table).max())
+    k = wavenumber(db.omega, db.water_depth, db.gravity)
+    clear = np.flatnonzero((largest > CLEAR * noise) & (k * _size(db, body) < LONG))
+    clear = clear[clear >= row]
+    return int(clear[0]) if clear.size else row if largest[row] > noise else None
 
 
 def _merged(found: list[Finding]) -> list[Finding]:

@@ -17,11 +17,14 @@ from numpy.typing import NDArray
 from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.noise import scatter
 from hydrodae.hdb.readers.source import SourceData
 
 Complex = NDArray[np.complex128]
 #: So many of the lowest frequencies are looked at.
 LONGEST = 10
+#: Force over its noise from which its phase says anything.
+CLEAR = 5.0
 
 
 def correct_time_sense(data: SourceData) -> None:
@@ -104,10 +107,13 @@ def _horizontal(data: SourceData, force: Complex, body: str) -> float | None:
     label = f"{body}.{dof}"
     if label not in data.coordinates:
         return None
-    value = _local(data, force, body, h)[0, data.coordinates.index(label)]
-    if not np.isfinite(value) or value == 0.0:
+    values = _local(data, force, body, h)[:, data.coordinates.index(label)]
+    known = np.isfinite(values) & (values != 0.0)
+    omega, values = data.omega[known], values[known]
+    clear = np.flatnonzero(np.abs(values[:LONGEST]) > CLEAR * scatter(omega, values))
+    if not clear.size:
         return None
-    return float(np.sin(np.angle(value * np.sign(factor))))
+    return float(np.sin(np.angle(values[clear[0]] * np.sign(factor))))
 
 
 def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
@@ -123,7 +129,9 @@ def _vertical(data: SourceData, force: Complex, body: str) -> float | None:
     waves = (data.omega * data.radiation_damping[:, i, i])[:LONGEST]
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = value / waves
-    ratio = ratio[np.isfinite(ratio)]
+    known = np.isfinite(force[:, 0, i])
+    noise = float(scatter(data.omega[known], force[known, 0, i]))
+    ratio = ratio[np.isfinite(ratio) & (np.abs(value) > CLEAR * noise)]
     if ratio.size == 0 or np.abs(np.abs(ratio) - 1.0).min() > 0.2:
         return None
     return float(np.sign(ratio[np.abs(np.abs(ratio) - 1.0).argmin()]))

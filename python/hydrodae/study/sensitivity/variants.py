@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from hydrodae.memory import ExponentialMemory
 
 Array = NDArray[np.float64]
-STEPS, RANGES, LENGTHS = (2, 4), (0.75, 0.5), (1.0, 0.5, 0.25)
+STEPS, RANGES, LENGTHS = (2, 4), (0.75, 0.5), (1.0, 0.5, 0.25, 0.125)
 
 
 def every(database: HydroDatabase, step: int) -> HydroDatabase:

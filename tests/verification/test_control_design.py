@@ -1,0 +1,123 @@
+"""`hydrodae control design` against the impedance of the device without its power take-off.
+
+One body in heave, from the tables themselves: Z = B + i (w (m + A) - C / w).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae.cli import main
+from hydrodae.control import Plant, match
+
+MASS = 261.8e3  # kg, of cases/sphere
+PTO = '[[force]]\nname = "pto"\ntype = "pto_general"\njoint = "guide"\n'
+TAKE_OFFS = {
+    "none of its own": PTO,
+    "linear": """
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "guide"
+damping = 2.32e5
+stiffness = 4.0e4
+""",
+    "late": """
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "guide"
+damping = 2.32e5
+stiffness = 4.0e4
+delay = 0.1
+""",
+    "with a lag": """
+[[force]]
+name = "pto"
+type = "pto_lagged"
+joint = "guide"
+damping = 2.32e5
+stiffness = 4.0e4
+lag = 0.2
+load_limit = 1.0e6
+""",
+    "two of them": PTO
+    + """
+[[force]]
+name = "brake"
+type = "pto_linear"
+joint = "guide"
+damping = 1.0e5
+""",
+}
+
+
+def own_impedance(repository: Path, omega: float) -> complex:
+    """By formula, from the entries of the table at one of its frequencies."""
+    with h5py.File(repository / "cases" / "sphere" / "hydro.h5") as f:
+        labels = [label.decode() for label in f["coordinates"]]
+        i, w = labels.index("sphere.heave"), int(np.abs(f["omega"][:] - omega).argmin())
+        assert f["omega"][w] == pytest.approx(omega, rel=1e-9)
+        a, b = f["added_mass"][w, i, i], f["radiation_damping"][w, i, i]
+        c = f["bodies/sphere/hydrostatic_stiffness"][2, 2]
+    return complex(b + 1j * (omega * (MASS + a) - c / omega))
+
+
+def case_with(repository: Path, force: str) -> hydrodae.Case:
+    folder = repository / "cases" / "sphere"
+    text = (folder / "control.toml").read_text()
+    start, end = text.index("[[controller]]"), text.index("[solver]")
+    assert PTO in text
+    return hydrodae.Case.from_text((text[:start] + text[end:]).replace(PTO, force), folder)
+
+
+@pytest.mark.parametrize("kind", TAKE_OFFS)
+def test_the_take_off_is_no_part_of_the_device(repository: Path, kind: str) -> None:
+    omega = 1.2
+    found = match(Plant(case_with(repository, TAKE_OFFS[kind]), "guide"), 2.0 * np.pi / omega)
+    z = own_impedance(repository, omega)
+    # the hull floats 1 mm off the pose of the table, which the stiffness feels
+    assert abs(found.impedance - z) < 1e-4 * abs(z)
+    assert found.gain_p == pytest.approx(z.real, rel=1e-4)
+    assert found.gain_i == pytest.approx(omega * z.imag, rel=1e-4)
+    assert found.left_out == (("pto", "brake") if kind == "two of them" else ("pto",))
+    assert found.counted == ()
+
+
+def test_other_loads_count_and_are_listed(
+    repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Friction along the joint belongs to the device."""
+    extra = """
+[[force]]
+name = "seal"
+type = "friction_stribeck"
+joint = "guide"
+static = 1.0e-3
+kinetic = 1.0e-3
+creep_rate = 0.1
+stribeck_rate = 1.0
+viscous = 2.0e4
+"""
+    case = case_with(repository, TAKE_OFFS["linear"] + extra)
+    found = match(Plant(case, "guide"), 2.0 * np.pi / 1.2)
+    assert found.impedance.real == pytest.approx(
+        own_impedance(repository, 1.2).real + 2e4, rel=1e-4
+    )
+    assert (found.left_out, found.counted) == (("pto",), ("seal",))
+    path = repository / "cases" / "sphere" / "control.toml"
+    assert main(["control", "design", str(path), "--joint", "guide"]) == 0
+    told = capsys.readouterr().out
+    assert "left out     pto (pto_general)" in told
+
+
+def test_the_model_of_a_plant_keeps_its_take_off(repository: Path) -> None:
+    """Predictive control acts beside the take-off of the case, whose load counts there."""
+    plant = Plant(case_with(repository, TAKE_OFFS["linear"]), "guide")
+    whole, bare = (p.impedance(1.2)[0] for p in (plant, plant.without(["pto"])))
+    assert whole - bare == pytest.approx(2.32e5 + 4.0e4 / 1.2j, rel=1e-9)
