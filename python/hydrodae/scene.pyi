@@ -2207,6 +2207,7 @@ class ForceTypes(TypedList):
         diameter: _Numbers = ...,
         damping: _Numbers = ...,
         damping_ratio: _Numbers = ...,
+        damps_slack: bool = ...,
         bending_stiffness: _Numbers = ...,
         drag: _Numbers = ...,
         drag_axial: _Numbers = ...,
@@ -2225,7 +2226,9 @@ class ForceTypes(TypedList):
         seabed_depth: float = ...,
         seabed_stiffness: float = ...,
         seabed_damping: float = ...,
+        seabed_damps_up: bool = ...,
         seabed_friction: float = ...,
+        water_density: float = ...,
         waves: bool = ...,
     ) -> str:
         """Add `[[force]]` with the type "line".
@@ -2263,6 +2266,9 @@ class ForceTypes(TypedList):
         damping_ratio : list of numbers, optional
             In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a
             segment. Allowed: >= 0.
+        damps_slack : true or false, default false
+            Whether the axial damping acts in slack segments too, which then push and pull by
+            it, as in MoorDyn; by default it fades where the tension does.
         bending_stiffness : list of numbers, N m2, optional
             Bending stiffnesses EI; ends turn freely. Allowed: >= 0.
         drag : list of numbers, optional
@@ -2304,9 +2310,15 @@ class ForceTypes(TypedList):
             tenth of D deep. Allowed: > 0.
         seabed_damping : number, N s/m3, default 0
             Normal damping of the seabed, over the same width, on the way down. Allowed: >= 0.
+        seabed_damps_up : true or false, default false
+            Whether that damping acts on the way up too, where the seabed may pull, as in
+            MoorDyn.
         seabed_friction : number, default 0
             Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at
             rest. Allowed: >= 0.
+        water_density : number, kg/m3, optional
+            Density of the water that buoyancy, drag and added mass of the line are by; default:
+            that of the case. `check` prints where they differ. Allowed: > 0.
         waves : true or false, default true
             Whether the line feels the waves; it always feels the current.
 

@@ -223,7 +223,7 @@ template <int w> const hydrodae_law* smooth_library_law() {
 }
 
 /// Lines of two parts with bending, a buoy and a clump, partly in the air and on the bed, and one
-/// with a free end.
+/// with a free end, in other water, which is damped where it is slack and leaves the bed.
 inline std::vector<element::Line> random_lines(Random& random) {
   element::Line line;
   line.name = "line";
@@ -254,6 +254,9 @@ inline std::vector<element::Line> random_lines(Random& random) {
   element::Line hanging = line;
   hanging.name = "hanging";
   hanging.free_end = true;
+  hanging.damps_slack = true;
+  hanging.seabed_damps_up = true;
+  hanging.water_density = 800.0;
   hanging.bending_stiffness.clear();
   hanging.segments = {2, 2};
   hanging.attachment_at = {0.75, 2.9};

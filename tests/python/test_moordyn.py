@@ -186,7 +186,9 @@ def test_a_force_on_a_point_of_a_dynamic_line_is_refused(tmp_path: Path) -> None
     deck = tmp_path / "lines.txt"
     old = OLD.format(x=400.0, z=-50.0, length=205.0, depth=50.0)
     pushed = "3 Connect 200 0 -50 0 0 0 0 10 0 0\n"
-    old = old.replace("---------------------- LINE PROP", pushed + "--- LINE PROP")
+    old = old.replace("(kN)", "(N)").replace(
+        "---------------------- LINE PROP", pushed + "--- LINE PROP"
+    )
     deck.write_text(old.replace("205.0 41 2 1 p", "205.0 41 2 3 p\n2 main 205.0 41 3 1 p"))
     with pytest.raises(CaseError, match=r"point 3: its force is not carried over.*--type catenary"):
         hydrodae.mooring.read_moordyn(deck, type="line")
@@ -298,9 +300,30 @@ def test_a_bridle_has_a_point_mass_in_balance(tmp_path: Path) -> None:
         ((" 1        2 ", " 1        R1A "), r"lines.txt:\d+: line 1 ends at 'R1A'.*rods"),
         (("583.376e6", "chain.dat"), r"lines.txt:6: line type 'chain'.*'chain.dat' is a file"),
         (("chain       1 ", "wire        1 "), r"no line type 'wire'; there are: chain"),
-        (("Body1        -3", "Turbine1     -3"), r"point 3: attachment 'Turbine1'"),
+        (("Body1        -3", "Turbine1     -3"), r"turbine1: which body .*--body turbine1=NAME"),
+        (("Body1        -3", "Rod1         -3"), r"point 3: attachment 'Rod1'"),
         (("-267 ", "west "), r"lines.txt:14: expected a coordinate, a number, instead of 'west'"),
         (("--- LINES ---", "--- CABLES ---"), r"no section with the lines"),
+        (("CdAx   CaAx", "CdAx   Foo"), r"lines.txt:4: LINE TYPES: unknown column 'Foo'"),
+        (("  CaAx", "  Cat  Can"), r"lines.txt:4: LINE TYPES: two columns for the added mass acr"),
+        (("  Ca    CdAx", "  CdAx"), r"lines.txt:4: LINE TYPES: no column with the added mass acr"),
+        (
+            ("Diam   Mass/m", "0.1   Mass/m"),
+            r"lines.txt:4: LINE TYPES: expected the names of the c",
+        ),
+        (("0.05   0.0", "0.05   0.0   0.1"), r"lines.txt:6: LINE TYPES: 11 words in 10 columns"),
+        (("0.05   0.0", "0.05"), r"lines.txt:6: LINE TYPES: expected the added mass along"),
+        (("(name)     (m)    (kg/m)", "wire 0.1 1"), r"lines.txt:5: .*expected the units"),
+        (("(kg/m)   (N)", "(kg/m)   (kN)"), r"lines.txt:6: LINE TYPES: column EA is in \(kN\)"),
+        (("WtrDpth", "WtrDpht"), r"unknown option 'WtrDpht'.* is it wtrdpth\?"),
+        (("70        WtrDpth", "WtrDpth   70"), r"unknown option '70'; a value comes first"),
+        (("70        WtrDpth", "bed.txt   WtrDpth"), r"the seabed of 'bed.txt' is not flat"),
+        (("2    Free ", "1    Free "), r"lines.txt:15: '1' is there twice"),
+        (
+            ("240        15", "240        1.5"),
+            r"expected a whole number of segments instead of '1.5'",
+        ),
+        (("240        15", "0        15"), r"expected an unstretched length above 0"),
     ],
 )
 def test_what_cannot_be_read_is_said(tmp_path: Path, change: tuple[str, str], message: str) -> None:
@@ -309,6 +332,174 @@ def test_what_cannot_be_read_is_said(tmp_path: Path, change: tuple[str, str], me
     deck.write_text(RM3.replace(*change, 1))
     with pytest.raises(CaseError, match=message):
         hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
+
+
+#: The types of RM3 in the order and by the names of other files.
+ORDERS = {
+    "version 1": ("LineType Diam MassDenInAir EA BA/-zeta Can Cat Cdn Cdt",
+                  "chain 0.144 126.0 583.376e6 -0.8 1.0 0.2 1.6 0.05"),
+    "nine columns, drag first": ("Name Diam MassDen EA BA Cd Ca CdAx CaAx",
+                                 "chain 0.144 126.0 583.376e6 -0.8 1.6 1.0 0.05 0.2"),
+    "version 1 with bending": ("LineType Diam MassDenInAir EA cIntDamp EI Can Cat Cdn Cdt",
+                               "chain 0.144 126.0 583.376e6 -0.8 7.0 1.0 0.2 1.6 0.05"),
+    "lift": ("TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx Cl dF cF",
+             "chain 0.144 126.0 583.376e6 -0.8 7.0 1.6 1.0 0.05 0.2 0.8 0.08 0.18"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_columns_go_by_their_names(tmp_path: Path, order: str) -> None:
+    names, row = ORDERS[order]
+    lines = RM3.splitlines()
+    lines[3:6] = [names, " ".join(["(-)"] * len(names.split())), row + "  # a comment"]
+    deck = tmp_path / "lines.txt"
+    deck.write_text("\n".join(lines))
+    imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="line")
+    force = imported.forces[0]
+    assert (force["drag"], force["drag_axial"]) == ([1.6, 1.6], [0.05, 0.05])
+    assert (force["added_mass"], force["added_mass_axial"]) == ([1.0, 1.0], [0.2, 0.2])
+    assert ("bending_stiffness" in force) == ("7.0" in row)
+    told = [note for note in imported.notes if "MoorDyn 2 takes them by place" in note]
+    assert bool(told) == (order != "lift")
+    assert any("Cl 0.8" in note for note in imported.notes) == (order == "lift")
+
+
+def test_columns_of_lines_and_points_in_any_order_with_comments(tmp_path: Path) -> None:
+    """Also names of points with letters, blank lines, and a heading that names a section."""
+    text = RM3.replace(
+        "ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs",
+        "! as in version 1\n\nID LineType UnstrLen NumSegs AttachA AttachB Flags",
+    )
+    text = text.replace("RM3 with three lines", "--- input file with POINTS and LINES ---")
+    for k in range(1, 7):
+        before = next(row for row in text.splitlines() if row.startswith(f"{k}     chain"))
+        id, kind, a, b, length, n, _ = before.split()
+        text = text.replace(before, f"{id} {kind} {length} {n} Con{a} P{b} p % a comment")
+    deck, plain = tmp_path / "lines.txt", tmp_path / "plain.txt"
+    deck.write_text(text)
+    plain.write_text(RM3)
+    ours, theirs = (hydrodae.mooring.read_moordyn(f, bodies={"1": "spar"}) for f in (deck, plain))
+    assert ours.forces == theirs.forces
+
+
+def test_points_move_with_the_reference_pose_of_their_body(tmp_path: Path) -> None:
+    """Of a body, of coupled points and of a turbine; turned about the origin of the points."""
+    deck, out = tmp_path / "lines.txt", tmp_path / "out.toml"
+    deck.write_text(RM3)
+    command = ["mooring", "import", str(deck), "--body", "1=spar", "-o", str(out)]
+    assert main([*command, "--at", "1=2,3,-20,0,0,90"]) == 0
+    first = tables(out.read_text())["force"][0]
+    assert first["point_b"] == pytest.approx([2.0, 3.0 - 3.0, -20.0 + 11.5])
+    assert first["point_a"] == [-267.0, 0.0, -70.0]
+    note = next(row for row in out.read_text().splitlines() if "points of body 1" in row)
+    assert "(2, 3, -20) m, turned by (0, 0, 90) deg" in note
+    deck.write_text(RM3.replace("Body1", "T1").replace("11.5", "-10.0"))
+    given = {"turbine1": "spar"}
+    with pytest.raises(CaseError, match=r"turbine1: where is it\? Say --at turbine1=X,Y,Z"):
+        hydrodae.mooring.read_moordyn(deck, bodies=given)
+    moved = hydrodae.mooring.read_moordyn(deck, bodies=given, at={"turbine1": (1.0, 0.0, 0.0)})
+    assert moved.forces[0]["body_b"] == "spar"
+    assert moved.forces[0]["point_b"] == pytest.approx([-2.0, 0.0, -10.0])
+
+
+def test_a_place_for_what_no_line_ends_at_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Lines of bodies do not hear a place of coupled points."""
+    deck = tmp_path / "lines.txt"
+    deck.write_text(RM3)
+    assert main(["mooring", "import", str(deck), "--body", "1=spar", "--at", "0,0,2"]) == 2
+    assert (
+        "coupled points, but no line ends there; there is --at 1=X,Y,Z" in capsys.readouterr().err
+    )
+
+
+LAZY = """Heavy, buoyant and heavy parts
+--- LINE TYPES ---
+TypeName   Diam   Mass/m   EA     BA/-zeta  EI   Cd    Ca    CdAx   CaAx
+(name)     (m)    (kg/m)   (N)    (N-s/-)   (-)  (-)   (-)   (-)    (-)
+heavy      0.2    110.0    4e8    -1.0      0    1.0   1.0   0      0
+light      0.4    75.0     4e8    -1.0      0    1.0   1.0   0      0
+--- POINTS ---
+ID   Attachment  X     Y    Z      Mass   Volume  CdA    Ca
+(#)   (word/ID)  (m)   (m)  (m)    (kg)   (m^3)   (m^2)  (-)
+1    Fixed      -800    0   -300    0      0       0      0
+2    Free       -500    0   -290    0      0       0      0
+3    Free       -300    0   -200    0      0       0      0
+4    Coupled     0      0    0      0      0       0      0
+--- LINES ---
+ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
+(#)   (name)     (ID)     (ID)      (m)       (-)      (-)
+1     heavy       1        2        360        60       -
+2     light       2        3        240        40       -
+3     heavy       3        4        360        60       -
+--- OPTIONS ---
+1000    rho        density
+300     WtrDpth    depth
+"""
+
+
+def test_a_line_with_a_floating_part_keeps_its_seabed(tmp_path: Path) -> None:
+    """At rest as the dynamic line, whose seabed is its own, within what 160 segments leave."""
+    deck = tmp_path / "lines.txt"
+    deck.write_text(LAZY)
+    (force,) = hydrodae.mooring.read_moordyn(deck).forces
+    assert "seabed" not in force
+    line = held(force)
+    assert line.on_seabed > 50.0
+    imported = hydrodae.mooring.read_moordyn(deck, type="line")
+    case = hydrodae.Case.from_text(PLATFORM + imported.to_toml())
+    tension = float(hydrodae.Simulation(case).read(f"forces/{force['name']}/tension"))
+    assert tension == pytest.approx(line.tension, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("3        4        360", "3        4        560"),
+         r"lines.txt:17: lines 1, 2, 3: .*down on the seabed.*--type line"),
+        (("1    Fixed      -800    0   -300", "1    Fixed      -800    0   -290"),
+         r"lines.txt:17: lines 1, 2, 3: between its ends it hangs down to z = -3\d\d.*--type line"),
+    ],
+)  # fmt: skip
+def test_a_line_at_rest_that_would_lose_its_seabed_is_refused(
+    tmp_path: Path, change: tuple[str, str], message: str
+) -> None:
+    deck = tmp_path / "lines.txt"
+    assert change[0] in LAZY
+    deck.write_text(LAZY.replace(*change))
+    with pytest.raises(CaseError, match=message):
+        hydrodae.mooring.read_moordyn(deck)
+    hydrodae.mooring.read_moordyn(deck, type="line")
+
+
+def test_the_water_of_the_lines_is_that_of_the_file(tmp_path: Path) -> None:
+    """1000 kg/m3 beside 1025 of the case: the tension is that of the file, and check says so."""
+    deck = tmp_path / "lines.txt"
+    deck.write_text(LAZY)
+    tensions = []
+    for density in (1000.0, 1025.0):
+        text = PLATFORM.replace("1025.0", f"{density}\nwater_depth = 301.0")
+        imported = hydrodae.mooring.read_moordyn(deck, type="line")
+        assert imported.forces[0]["water_density"] == 1000.0
+        assert any("1000 kg/m3" in note for note in imported.notes)
+        case = hydrodae.Case.from_text(text + imported.to_toml())
+        simulation = hydrodae.Simulation(case)
+        tensions.append(float(simulation.read("forces/line1_2_3/tension")))
+    assert tensions[1] == pytest.approx(tensions[0], rel=1e-12)
+    file = tmp_path / "case.toml"
+    file.write_text(text + imported.to_toml())
+    found = str(hydrodae.check(file))
+    assert "'line1_2_3' is in water of 1000 kg/m3, the scene in 1025 kg/m3" in found
+    assert "its seabed is at z = -300 m, that of the scene at -301 m" in found
+
+
+def test_dynamic_lines_get_the_damping_of_moordyn_and_say_so(tmp_path: Path) -> None:
+    deck = tmp_path / "lines.txt"
+    deck.write_text(RM3)
+    imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="line")
+    assert all(force["damps_slack"] and force["seabed_damps_up"] for force in imported.forces)
+    assert any("damps_slack" in note and "seabed_damps_up" in note for note in imported.notes)
 
 
 def test_a_body_of_the_file_needs_one_of_the_case(tmp_path: Path) -> None:

@@ -60,8 +60,8 @@ def test_bad_lines_are_refused() -> None:
         hydrodae.catenary(1.0, 1.0, [1.0, 2.0], 1.0, 1.0)
     with pytest.raises(CaseError, match="type 'rope'"):
         hydrodae.catenary(1.0, 1.0, 1.0, 0.0, 1.0)
-    with pytest.raises(CaseError, match="seabed = false"):
-        hydrodae.catenary(1.0, 1.0, 1.0, -1.0, 1.0)
+    with pytest.raises(CaseError, match="down on the seabed"):
+        hydrodae.catenary(40.0, 5.0, [30.0, 30.0], [-1.0, 10.0], [1e4, 1e4])
     with pytest.raises(CaseError, match="below the seabed"):
         hydrodae.catenary(1.0, -1.0, 1.0, 1.0, 1.0)
 

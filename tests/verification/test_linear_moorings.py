@@ -82,7 +82,10 @@ method = "{method}"
 @pytest.mark.parametrize(
     ("speed", "reason"),
     [
-        ("-40.0, 0.0, 0.0", "a buoy between its parts, or a part above one, is down on the seabed"),
+        (
+            "-40.0, 0.0, 0.0",
+            "a buoy, a part that floats, or what is above one, is down on the seabed",
+        ),
         ("0.0, 0.0, -40.0", "m below the seabed"),
     ],
 )

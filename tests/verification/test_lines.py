@@ -188,12 +188,13 @@ def test_slow_motion_is_that_of_a_catenary() -> None:
     assert run["forces/line/tension"].values == pytest.approx(exact, rel=0.02)
 
 
-def test_what_goes_in_is_stored_or_spent() -> None:
+@pytest.mark.parametrize("more", ["", "damps_slack = true\nseabed_damps_up = true\n"])
+def test_what_goes_in_is_stored_or_spent(more: str) -> None:
     """Work on the line = change of what it stores + what water, damping and seabed take."""
     keys = chain(
         20,
         "drag = [1.2]\ndrag_axial = [0.1]\nadded_mass = [1.0]\ndamping_ratio = [0.5]\n"
-        "seabed_damping = 1e4\nseabed_friction = 0.4",
+        f"seabed_damping = 1e4\nseabed_friction = 0.4\n{more}",
     )
     text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
     run = hydrodae.run(case(text, "end_time = 24.0\nrtol = 1e-5", 0.01))
@@ -217,6 +218,91 @@ def test_the_damping_of_the_seabed_carries_nothing_at_rest() -> None:
         for c in (0.0, 1e7)
     ]
     np.testing.assert_allclose(loads[0], loads[1], rtol=1e-12)
+
+
+SNAP_N, SNAP_L, SNAP_M, SNAP_EA, SNAP_C = 12, 9.0, 20.0, 2e5, 900.0
+SNAP_A, SNAP_T = 0.3, 0.8
+
+
+def snap(damped_slack: bool) -> np.ndarray:
+    """Tension at the moving end of a straight line that slackens and snaps, by steps of RK4 [N].
+
+    T = EA max(0, strain) + C strain', as in MoorDyn, or without C where it is slack.
+    """
+    n, step = SNAP_N, SNAP_L / SNAP_N
+    w, mass, h = 2.0 * math.pi / SNAP_T, SNAP_M * SNAP_L / SNAP_N, 2e-5
+
+    def pulls(t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
+        ends = SNAP_A * math.sin(w * t), SNAP_A * w * math.cos(w * t)
+        strain = np.diff(np.concatenate([[0.0], x, [ends[0]]])) / step
+        rate = np.diff(np.concatenate([[0.0], v, [ends[1]]])) / step
+        acts = np.ones(n) if damped_slack else strain > 0.0
+        return SNAP_EA * np.maximum(strain, 0.0) + SNAP_C * rate * acts
+
+    x, v = np.zeros(n - 1), np.linspace(0.0, SNAP_A * w, n + 1)[1:-1]
+    out = []
+    for k in range(round(2.0 / h) + 1):
+        t = k * h
+        if k % 250 == 0:
+            out.append(pulls(t, x, v)[-1])
+        a = np.diff(pulls(t, x, v)) / mass
+        b = np.diff(pulls(t + 0.5 * h, x + 0.5 * h * v, v + 0.5 * h * a)) / mass
+        x, v = x + h * v + 0.5 * h * h * a, v + h * b
+    return np.array(out)
+
+
+@pytest.mark.parametrize("damped_slack", [False, True])
+def test_the_damping_of_slack_segments(damped_slack: bool) -> None:
+    """Against the same law with a hard onset; the other law is far from it."""
+    text = f"""
+[environment]
+gravity = 0.0
+[[body]]
+name = "end"
+motion = ["surge"]
+mass = 1.0
+center_of_gravity = [{SNAP_L}, 0.0, 0.0]
+[[constraint]]
+name = "moves"
+type = "coordinate"
+body = "end"
+coordinate = "surge"
+drive = {{ amplitude = {SNAP_A}, period = {SNAP_T} }}
+"""
+    keys = (
+        f'body_b = "end"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [{SNAP_L}, 0.0, 0.0]\n'
+        f"length = [{SNAP_L}]\nsegments = [{SNAP_N}]\nmass = [{SNAP_M}]\n"
+        f"stiffness = [{SNAP_EA}]\ndamping = [{SNAP_C}]\ndamps_slack = {str(damped_slack).lower()}"
+    )
+    run = hydrodae.run(case(text + line(keys), "end_time = 2.0\nrtol = 1e-5", 0.005))
+    found = run["forces/line/tension_along"].values[:, -1]
+    theirs, others = snap(damped_slack), snap(not damped_slack)
+    size = theirs.max()
+    assert np.abs(found - theirs).max() < 0.02 * size
+    assert np.abs(others - theirs).max() > 0.1 * size
+
+
+@pytest.mark.parametrize("up", [False, True])
+def test_the_damping_of_the_seabed_on_the_way_up(up: bool) -> None:
+    """What it takes is c v^2 of the nodes in contact, on the way down or both ways."""
+    k, c, width = 2e4, 2e4, 0.15
+    keys = chain(
+        20,
+        f"damping_ratio = [0.5]\nseabed_stiffness = {k}\nseabed_damping = {c}\n"
+        f"seabed_damps_up = {str(up).lower()}",
+    )
+    text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
+    run = hydrodae.run(case(text, "end_time = 20.0\nrtol = 1e-5", 0.005))
+    z = run["forces/line/position"].values.reshape(len(run.time), -1, 3)[:, 1:-1, 2]
+    v = np.gradient(z, 0.005, axis=0)
+    half_width = WEIGHT / (k * width)
+    y = np.clip((-50.0 - z) / half_width, -1.0, 1.0)
+    touch = 0.5 + 0.75 * y - 0.25 * y**3
+    fast = np.abs(v) > 0.05  # the damping sets in within 0.01 m/s
+    power = c * width * 20.0 * np.sum(touch * v**2 * (up | (v < 0.0)) * fast, axis=1)
+    taken = run["forces/line/power_seabed"].values
+    assert taken == pytest.approx(power, abs=0.03 * power.max())
+    assert power.max() > 100.0
 
 
 def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:

@@ -81,10 +81,6 @@ std::optional<Fault> fault_on_seabed(const CatenaryLine& of) {
   if (of.body_a != "ground")
     return Fault{"seabed", "the seabed is at the height of end A, so that must be on the ground; "
                            "write seabed = false for a line that hangs between two bodies"};
-  for (const double w : of.weight)
-    if (w < 0.0)
-      return Fault{"weight", "a buoyant part cannot be on the seabed; write seabed = false if the "
-                             "line does not touch it"};
   if (of.point_b[2] < of.point_a[2])
     return Fault{"point_b", "end B is below the seabed, which is at the height of end A"};
   return {};
@@ -142,9 +138,10 @@ Overload heaviest(const Catenary& line, const std::vector<double>& breaking_load
   const CatenaryHold hold = find(line, x).hold;
   Overload out;
   double V = hold.vertical; // at the upper end of the part
+  const std::size_t low = line.bed ? may_lie(line) : 0;
   for (std::size_t i = line.parts.size(); i-- > 0;) {
     const double below = V - line.parts[i].weight * line.parts[i].length;
-    const double lower = line.bed ? std::max(below, 0.0) : below; // the bed carries the rest
+    const double lower = i < low ? std::max(below, 0.0) : below; // the bed carries the rest
     const double T = std::hypot(hold.horizontal, std::max(std::abs(V), std::abs(lower)));
     const double ratio = T / breaking_load[breaking_load.size() == 1 ? 0 : i];
     if (ratio > out.ratio)
@@ -205,9 +202,10 @@ std::optional<Fault> CatenaryLine::fault() const {
   }
   const Vector3 d = point_b - point_a;
   if (std::isnan(hold(law().line, std::hypot(d[0], d[1]), d[2]).vertical))
-    return Fault{"loads", "in the reference pose a buoy between the parts is down on the seabed, "
-                          "which this type does not know; make it hold the line up, or leave it "
-                          "out"};
+    return Fault{"seabed",
+                 "in the reference pose a buoy, a part that floats, or what is above one, "
+                 "is down on the seabed, which this type does not know; use type 'line', "
+                 "or seabed = false if there is none"};
   return {};
 }
 

@@ -114,9 +114,10 @@ std::optional<Fault> Line::fault(const Surroundings& around) const {
   const auto needs_water = [](const std::vector<double>& of) {
     return std::any_of(of.begin(), of.end(), [](double x) { return x > 0.0; });
   };
-  if (around.density == 0.0 && (needs_water(diameter) || needs_water(attachment_volume)))
+  if (water_density.value_or(around.density) == 0.0 &&
+      (needs_water(diameter) || needs_water(attachment_volume)))
     return Fault{"diameter", "a line with a volume needs the density of the water: water_density "
-                             "[kg/m3] in [environment], or a hydrodynamic database"};
+                             "[kg/m3] of the line or in [environment], or a hydrodynamic database"};
   const double bed = -seabed_depth.value_or(around.water.depth);
   if (seabed && seabed_depth && *seabed_depth > 1.001 * around.water.depth)
     return Fault{"seabed_depth",
@@ -154,6 +155,10 @@ Fields<Line> Line::fields() {
       {"damping_ratio", &L::damping_ratio, "-",
        "In place of `damping`, C = ratio l sqrt(EA m): part of the critical damping of a segment.",
        false, at_least(0)},
+      {"damps_slack", &L::damps_slack, "-",
+       "Whether the axial damping acts in slack segments too, which then push and pull by it, as "
+       "in "
+       "MoorDyn; by default it fades where the tension does."},
       {"bending_stiffness", &L::bending_stiffness, "N m2",
        "Bending stiffnesses EI; ends turn "
        "freely.",
@@ -195,9 +200,15 @@ Fields<Line> Line::fields() {
        false, more_than(0)},
       {"seabed_damping", &L::seabed_damping, "N s/m3",
        "Normal damping of the seabed, over the same width, on the way down.", false, at_least(0)},
+      {"seabed_damps_up", &L::seabed_damps_up, "-",
+       "Whether that damping acts on the way up too, where the seabed may pull, as in MoorDyn."},
       {"seabed_friction", &L::seabed_friction, "-",
        "Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at rest.",
        false, at_least(0)},
+      {"water_density", &L::water_density, "kg/m3",
+       "Density of the water that buoyancy, drag and added mass of the line are by; default: that "
+       "of the case. `check` prints where they differ.",
+       false, more_than(0)},
       {"waves", &L::waves, "-", "Whether the line feels the waves; it always feels the current."},
   };
 }

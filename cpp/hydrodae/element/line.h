@@ -33,8 +33,9 @@ struct Line {
   std::vector<double> attachment_at, attachment_mass, attachment_volume, attachment_drag_area,
       attachment_added_mass;
   bool breaks = false;
+  bool damps_slack = false, seabed_damps_up = false;
   bool seabed = true;
-  std::optional<double> seabed_depth, seabed_stiffness;
+  std::optional<double> seabed_depth, seabed_stiffness, water_density;
   double seabed_damping = 0.0, seabed_friction = 0.0;
   bool waves = true;
 

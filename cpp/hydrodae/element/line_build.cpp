@@ -92,8 +92,12 @@ void attach(const Line& of, const Surroundings& around, double stretched, LineMo
 
 } // namespace
 
-LineModel line_model(const Line& of, const Surroundings& around, double first) {
+LineModel line_model(const Line& of, const Surroundings& of_case, double first) {
+  Surroundings around = of_case;
+  around.density = of.water_density.value_or(of_case.density);
   LineModel m;
+  m.damps_slack = of.damps_slack;
+  m.bed_damps_up = of.seabed_damps_up;
   m.gravity = around.gravity;
   m.wet = around.density > 0.0;
   m.free_end = of.free_end;

@@ -50,12 +50,14 @@ void add_segments(const LineView<double>& at, LineBlocks& K) {
     const SegmentPull<double> p = segment_pull<double>(at, k);
     const Matrix3 P = Matrix3::Identity() - p.e * p.e.transpose();
     const Plus<double> s = at.stretch(k, p.length);
+    const Plus<double> damped = at.damped(k, s);
     const double c = seg.damping / seg.length;
     const Vector3 turned = P * (at.velocity(k + 1) - at.velocity(k)) / p.length;
-    const Vector3 T_d = (seg.stiffness * s.slope + c * p.rate * s.curvature) / seg.length * p.e +
-                        c * s.slope * turned;
+    const Vector3 T_d =
+        (seg.stiffness * s.slope + c * p.rate * damped.curvature) / seg.length * p.e +
+        c * damped.slope * turned;
     const Matrix3 B = p.e * T_d.transpose() + p.tension / p.length * P,
-                  D = c * s.slope * p.e * p.e.transpose();
+                  D = c * damped.slope * p.e * p.e.transpose();
     const auto here = static_cast<std::size_t>(k), next = here + 1;
     K.by_place[here][3] += B;
     K.by_place[here][2] -= B;
@@ -76,7 +78,7 @@ void add_bed(const LineModel& m, const LineNode& node, const Vector3& x, const V
   const Plus<double> s = plus<double>(m.bed + node.axis_height - x[2], node.bed_width);
   if (!(s.value > 0.0))
     return;
-  const Plus<double> down = down_rate<double>(-v[2]);
+  const Plus<double> down = down_rate<double>(-v[2], m.bed_damps_up);
   const double k = node.bed_stiffness, c = node.bed_damping;
   by_x(2, 2) -= k * s.slope + c * s.curvature * down.value;
   by_v(2, 2) -= c * s.slope * down.slope;

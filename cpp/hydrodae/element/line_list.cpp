@@ -32,7 +32,8 @@ LinePowers line_powers(const LineView<double>& at, const sea::WaveField& sea, do
     if (seg.damping == 0.0)
       continue;
     const SegmentPull<double> p = segment_pull<double>(at, k);
-    out.damping += seg.damping / seg.length * p.rate * p.rate * at.stretch(k, p.length).slope;
+    out.damping +=
+        seg.damping / seg.length * p.rate * p.rate * at.damped(k, at.stretch(k, p.length)).slope;
   }
   for (int i = 0; i <= m.n(); ++i) {
     const LineNode& node = m.nodes[static_cast<std::size_t>(i)];

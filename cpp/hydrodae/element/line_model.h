@@ -3,13 +3,16 @@
 /// node 0 is end A, node N end B or free; half of each segment goes with either node.
 ///
 ///   m a = T_i+1/2 e_i+1/2 - T_i-1/2 e_i-1/2 - m g z + w rho g V z + F_water + F_bend + F_bed
-///   T       = EA s(strain) + C strain' s'(strain)       s: max(0, .), smooth; none where slack
+///   T       = EA s(strain) + C strain' s'(strain)       s: max(0, .), smooth; none where slack,
+///                                                        or with `damps_slack` C strain'
+///                                                        throughout
 ///   F_water = w (Morison's force), along and across t_i = (x_i+1 - x_i-1) / |.|    (morison.h)
 ///   F_bend  = -grad sum_i EI / l_i (1 - e_i-1/2 . e_i+1/2)
 ///   F_bed   = (k s(d) + c s'(d) p(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
 ///
-/// w: wet part of the node; d: depth of the node in the bed [m]; the bed never pulls. The end nodes
-/// have no inertia of their own: it is that of half a segment beside that of the body.
+/// w: wet part of the node; d: depth of the node in the bed [m]; p: what is above zero, smooth, so
+/// that the bed never pulls; or with `bed_damps_up` p(v) = v, and then it may. The end nodes have
+/// no inertia of their own: it is that of half a segment beside that of the body.
 
 #include <algorithm>
 #include <limits>
@@ -50,6 +53,8 @@ struct LineModel {
   double bed = -std::numeric_limits<double>::infinity(); ///< its height [m]
   bool wet = false;                                      ///< is there water?
   bool bends = false;
+  bool damps_slack = false;  ///< does C act in slack segments, too?
+  bool bed_damps_up = false; ///< does c act on the way up, too?
   bool free_end = false;
 
   int n() const { return static_cast<int>(segments.size()); }
@@ -100,6 +105,10 @@ template <class S> struct LineView {
     const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
     return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
   }
+  /// By what the damping of segment k acts, of the same s.
+  Plus<S> damped(int k, const Plus<S>& s) const {
+    return m.damps_slack && k != parted ? Plus<S>{s.value, S(1), S(0)} : s;
+  }
   /// EI / l at node k, between two segments.
   double bending(int k) const {
     return k == parted || k == parted + 1 ? 0.0 : m.nodes[static_cast<std::size_t>(k)].bending;
@@ -143,7 +152,8 @@ template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
   out.e = d / out.length;
   out.rate = out.e.cwiseProduct(at.velocity(k + 1) - at.velocity(k)).sum();
   const Plus<S> s = at.stretch(k, out.length);
-  out.tension = S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * s.slope;
+  out.tension =
+      S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
   return out;
 }
 
@@ -200,8 +210,10 @@ Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& 
 }
 
 /// p(v) of the damping of the bed, v downwards: v beyond v_s, none on the way up or at rest, so
-/// that it only takes energy. Twice differentiable.
-template <class S> Plus<S> down_rate(const S& v) {
+/// that it only takes energy and never pulls. Twice differentiable. `both`: v itself.
+template <class S> Plus<S> down_rate(const S& v, bool both) {
+  if (both)
+    return {v, S(1), S(0)};
   if (!(v > S(0)))
     return {S(0), S(0), S(0)};
   const S y = v * v / S(slip_speed * slip_speed), part = y / (S(1) + y);
@@ -215,7 +227,7 @@ Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, co
   const Plus<S> s = plus<S>(S(m.bed + node.axis_height) - x[2], node.bed_width);
   if (!(s.value > S(0)))
     return f;
-  const S down = down_rate<S>(S(-v[2])).value;
+  const S down = down_rate<S>(S(-v[2]), m.bed_damps_up).value;
   const S drag = S(-node.friction * node.bed_stiffness) * s.value /
                  sqrt(v[0] * v[0] + v[1] * v[1] + S(slip_speed * slip_speed));
   f << drag * v[0], drag * v[1],

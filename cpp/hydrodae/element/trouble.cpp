@@ -13,9 +13,8 @@ std::string trouble(std::string_view type, std::span<const double> in) {
   if (rise < 0.0)
     return "end B is " + rounded_text(-rise) +
            " m below the seabed, which is at the height of end A";
-  return "a buoy between its parts, or a part above one, is down on the seabed, which this type "
-         "does "
-         "not know";
+  return "a buoy, a part that floats, or what is above one, is down on the seabed, which this type "
+         "does not know; type 'line' does";
 }
 
 } // namespace hydrodae::element

@@ -59,15 +59,6 @@ Span hang(double H, double V, double L, double w, double EA) {
   return out;
 }
 
-/// Index of the lowest part that a buoy holds up at its upper end; without buoys the last one. What
-/// is above it hangs free of the bed, as long as it does not sag so far.
-std::size_t lowest_lifted(const Catenary& line) {
-  for (std::size_t i = 0; i < line.loads.size(); ++i)
-    if (line.loads[i] < 0.0)
-      return i;
-  return line.parts.size() - 1;
-}
-
 /// Walks down the line from the fairlead.
 struct Walk {
   const Catenary& line;
@@ -78,7 +69,8 @@ struct Walk {
   double pull = H;      ///< there
   double by_V = 0.0;    ///< d pull / dV: as V lifts the line off the bed, less friction acts
   double phi = 0.0;     ///< complementary energy [J]
-  double deepest = 0.0; ///< how far parts above a buoy sag below the fairlead [m]
+  double deepest = 0.0; ///< how far parts above what floats sag below the fairlead [m]
+  bool pressed = false; ///< does what is above press down on what floats, and that on the bed?
   CatenaryReach out = {};
 
   void add_span(const Span& a) {
@@ -92,7 +84,7 @@ struct Walk {
   void hang_whole(const LinePart& part) {
     const double w = part.weight, top = below;
     below -= w * part.length;
-    if (line.bed && below < 0.0 && top > 0.0)
+    if (line.bed && below <= 0.0 && top > 0.0)
       deepest = std::max(deepest, out.Z + hang(H, 0.0, top / w, w, part.stiffness).z);
     const Span a = hang(H, below, part.length, part.weight, part.stiffness);
     add_span(a);
@@ -102,8 +94,7 @@ struct Walk {
 
   /// Hangs as far as the vertical force lasts; the rest lies.
   void touch_down(const LinePart& part) {
-    if (below < 0.0) // the buoy above it does not bear what is above the buoy
-      out.X = std::numeric_limits<double>::quiet_NaN();
+    pressed = pressed || below < 0.0;
     const double w = part.weight, EA = part.stiffness, hung = below / w;
     if (hung > 0.0) {
       add_span(hang(H, 0.0, hung, w, EA));
@@ -130,14 +121,16 @@ struct Walk {
     out.gradient(0, 0) += taut / part.stiffness;
     out.gradient(0, 1) += by_V * taut / part.stiffness;
     lose(held * taut);
-    if (!(part.weight > 0.0)) // it would float up
-      out.X = std::numeric_limits<double>::quiet_NaN();
   }
 
   void pass_load(double weight, bool over_bed) {
     double stands = weight; // of it, on the bed
     if (!lies) {
+      const double top = below;
       below -= weight;
+      if (line.bed && !over_bed && below <= 0.0 && top > 0.0)
+        deepest = std::max(deepest, out.Z);
+      pressed = pressed || (over_bed && top < 0.0 && weight > 0.0);
       if (!over_bed || below > 0.0 || weight <= 0.0)
         return;
       stands = -below;
@@ -145,8 +138,6 @@ struct Walk {
       if (follows)
         by_V = line.friction;
       follows = false;
-    } else if (weight < 0.0) {
-      out.X = std::numeric_limits<double>::quiet_NaN();
     }
     lose(stands * line.friction);
   }
@@ -158,17 +149,17 @@ struct Walk {
   }
 
   CatenaryReach run() {
-    const std::size_t lowest = lowest_lifted(line);
+    const std::size_t low = may_lie(line);
     for (std::size_t i = line.parts.size(); i-- > 0;) {
       const LinePart& part = line.parts[i];
       if (lies)
         lie(part, part.length);
-      else if (line.bed && i <= lowest && part.weight > 0.0 && below <= part.weight * part.length)
+      else if (line.bed && i < low && below <= part.weight * part.length)
         touch_down(part);
       else
         hang_whole(part);
       if (i > 0)
-        pass_load(line.loads[i - 1], line.bed && i <= lowest);
+        pass_load(line.loads[i - 1], line.bed && i <= low);
     }
     out.anchor_horizontal = lies ? pull : H;
     out.anchor_vertical = lies ? 0.0 : below;
@@ -185,9 +176,11 @@ double weight_of(const Catenary& line) {
   return sum;
 }
 
-/// Least vertical force at the fairlead of a line on a bed: buoys may push it up.
+/// Least vertical force at the fairlead of a line on a bed: what floats may push it up.
 double least_lift(const Catenary& line) {
   double sum = 0.0;
+  for (const LinePart& part : line.parts)
+    sum += std::min(part.weight * part.length, 0.0);
   for (const double load : line.loads)
     sum += std::min(load, 0.0);
   return sum;
@@ -307,12 +300,12 @@ bool iterate(const Catenary& line, double X, double Z, double& H, double& V) {
   return false;
 }
 
-/// Do parts above a buoy sag to the bed?
+/// Do parts that float, or those above them, come down to the bed?
 bool sags_to_bed(const Catenary& line, double H, double V) {
-  if (!line.bed || lowest_lifted(line) + 1 == line.parts.size())
+  if (!line.bed || may_lie(line) == line.parts.size())
     return false;
   Walk walk{.line = line, .H = H, .V = V};
-  return walk.run().Z < walk.deepest;
+  return walk.run().Z < walk.deepest || walk.pressed;
 }
 
 CatenaryHold describe(const CatenaryReach& r, double H, double V, const Eigen::Matrix2d& stiffness,
@@ -335,6 +328,14 @@ double Catenary::length() const {
   for (const LinePart& part : parts)
     sum += part.length;
   return sum;
+}
+
+std::size_t may_lie(const Catenary& line) {
+  std::size_t n = 0;
+  while (n < line.parts.size() && line.parts[n].weight > 0.0 &&
+         (n == 0 || line.loads[n - 1] >= 0.0))
+    ++n;
+  return n;
 }
 
 CatenaryReach reach(const Catenary& line, double H, double V) {
@@ -390,7 +391,7 @@ std::vector<LinePoint> profile(const Catenary& line, const CatenaryHold& found, 
       part.length = std::min(part.length, left);
       left -= part.length;
     }
-    above.bed = line.bed && first <= lowest_lifted(line);
+    above.bed = line.bed && first < may_lie(line);
     above.parts.erase(above.parts.begin(), above.parts.begin() + static_cast<Index>(first));
     above.loads.erase(above.loads.begin(),
                       above.loads.begin() + static_cast<Index>(std::min(first, line.loads.size())));

@@ -51,8 +51,13 @@ struct CatenaryReach {
 /// @param H > 0
 CatenaryReach reach(const Catenary& line, double H, double V);
 
+/// Number of parts, from the anchor up, that may lie on a bed: those below the lowest of what
+/// floats, buoy or part. What is above hangs free of the bed.
+std::size_t may_lie(const Catenary& line);
+
 /// The balance for a fairlead at X >= 0, Z (Z >= 0 over a bed), to rounding. A line that is longer
-/// than its way down to the bed and along it has H = 0 there. Not a number where Z < 0 over a bed.
+/// than its way down to the bed and along it has H = 0 there. Not a number where Z < 0 over a bed,
+/// or where what floats, or a part above it, comes down to the bed.
 /// Pure: the same answer for the same place.
 CatenaryHold hold(const Catenary& line, double X, double Z);
 

@@ -247,6 +247,53 @@ void judge_stretch(const model::Scene& scene, std::vector<Finding>& out) {
       judge_line(line);
 }
 
+/// How far a line that feels no seabed hangs below its end A in the reference pose [m].
+double sag(const element::CatenaryLine& of) {
+  const Catenary line = of.law().line;
+  const Vector3 d = of.point_b - of.point_a;
+  const double X = std::hypot(d[0], d[1]), all = line.length();
+  std::vector<double> s;
+  for (int k = 0; k <= 1000; ++k)
+    s.push_back(all * k / 1000.0);
+  double lowest = 0.0;
+  for (const LinePoint& point : profile(line, hold(line, X, d[2]), X, s))
+    lowest = std::min(lowest, point.z);
+  return -lowest;
+}
+
+/// Lines in other water, or on another seabed, than those of the scene.
+void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
+  const model::Water water = model::water(scene);
+  const bool bottomless = !std::isfinite(water.depth);
+  const auto tell = [&](const std::string& name, bool serious, const std::string& what) {
+    out.push_back({serious, "force " + in_quotes(name) + what});
+  };
+  const auto other_bed = [&](const std::string& name, double depth) {
+    if (!bottomless && std::abs(depth - water.depth) > 1e-3 * water.depth)
+      tell(name, false,
+           ": its seabed is at z = " + rounded_text(-depth, 4) + " m, that of the scene at " +
+               rounded_text(-water.depth, 4) + " m");
+  };
+  for (const element::Line& line : std::get<std::vector<element::Line>>(scene.forces)) {
+    if (line.water_density && water.density > 0.0 && *line.water_density != water.density)
+      tell(line.name, false,
+           " is in water of " + rounded_text(*line.water_density, 6) + " kg/m3, the scene in " +
+               rounded_text(water.density, 6) + " kg/m3");
+    if (line.seabed && line.seabed_depth)
+      other_bed(line.name, *line.seabed_depth);
+  }
+  for (const auto& line : std::get<std::vector<element::CatenaryLine>>(scene.forces)) {
+    if (line.seabed)
+      other_bed(line.name, -line.point_a[2]);
+    else if (const double lowest = bottomless ? 0.0 : line.point_a[2] - sag(line);
+             lowest < -1.001 * water.depth)
+      tell(line.name, true,
+           " hangs down to z = " + rounded_text(lowest, 4) + " m, below the sea bed at " +
+               rounded_text(-water.depth, 4) +
+               " m, which it does not feel: seabed = true for an anchor there, or type 'line'");
+  }
+}
+
 } // namespace
 
 std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& s) {
@@ -256,6 +303,7 @@ std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& 
   judge_forces(Regime(s), out);
   judge_stops(scene, s, out);
   judge_stretch(scene, out);
+  judge_water(scene, out);
   return out;
 }
 

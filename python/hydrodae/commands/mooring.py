@@ -52,9 +52,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     importing.add_argument(
         "--at",
-        metavar="X,Y,Z",
-        default="0,0,0",
-        help="origin of the coupled points in the reference pose of the case [m]",
+        metavar="[N=]X,Y,Z[,ROLL,PITCH,YAW]",
+        action="append",
+        default=[],
+        help="origin of the coupled points, or of body N of the file, in the reference pose of the "
+        "case [m, deg]; default 0,0,0, and where the file has the body; repeatable",
     )
     _add_output(importing)
     importing.set_defaults(work=_import)
@@ -88,15 +90,17 @@ def _import(arguments: argparse.Namespace) -> str:
     from hydrodae.commands.arguments import parse_numbers
     from hydrodae.mooring import read_moordyn
 
-    x, y, z = parse_numbers("--at", arguments.at, 3)
+    at = {}
+    for key, text in map(_split, arguments.at):
+        at[key] = parse_numbers("--at", text, 6 if text.count(",") > 2 else 3)
     named = dict(_split(text) for text in arguments.body)
     body = named.pop("", "platform")
     return read_moordyn(
-        arguments.file, body=body, at=(x, y, z), bodies=named, type=arguments.type
+        arguments.file, body=body, at=at, bodies=named, type=arguments.type
     ).to_toml()
 
 
 def _split(text: str) -> tuple[str, str]:
-    """Number of the body in the file, empty for coupled points, and name in the case."""
-    number, equals, name = text.partition("=")
-    return (number.strip(), name.strip()) if equals else ("", text.strip())
+    """Number of the body in the file, empty for coupled points, and what is said of it."""
+    number, equals, said = text.partition("=")
+    return (number.strip(), said.strip()) if equals else ("", text.strip())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring.imported import Imported
+from hydrodae.mooring.line_at_rest import catenary
 from hydrodae.mooring.moordyn_chains import Chain, find_chains
 from hydrodae.mooring.moordyn_deck import Deck, Line, Point, read_deck
-from hydrodae.mooring.moordyn_lines import CARRIED, line_keys, lost_of
+from hydrodae.mooring.moordyn_lines import CARRIED, is_zero, line_keys, lost_of
+from hydrodae.mooring.moordyn_places import COUPLED, Places, poses
 
 Array = NDArray[np.float64]
 
@@ -25,7 +27,7 @@ def read_moordyn(
     path: str | os.PathLike[str],
     *,
     body: str = "platform",
-    at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    at: Sequence[float] | Mapping[str, Sequence[float]] | None = None,
     bodies: Mapping[str, str] | None = None,
     type: Literal["catenary", "line"] = "catenary",
 ) -> Imported:
@@ -42,10 +44,13 @@ def read_moordyn(
         The file.
     body : str
         Body of the case that coupled points (those of a vessel) belong to.
-    at : (3,) floats
-        Where the origin of the coupled points is in the reference pose, world axes [m].
+    at : (3,) or (6,) floats, or mapping from str to them, optional
+        Where the origin of the coupled points is in the reference pose of the case, world axes [m],
+        and how it is turned: roll, pitch, yaw [deg]. Of bodies of the file by their numbers:
+        ``{"1": (0, 0, -2)}``; by default they are where the file has them. Key "": coupled points.
     bodies : mapping from str, optional
-        Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``.
+        Bodies of the case for those of the file, by their numbers there: ``{"1": "float"}``; for
+        turbines of a farm ``{"turbine1": "float"}``.
     type : {"catenary", "line"}
         Lines at rest at each instant, or dynamic ones with the segments, damping, drag, added mass,
         bending and seabed of the file.
@@ -54,40 +59,54 @@ def read_moordyn(
     ------
     CaseError
         The file cannot be read, or it has something without which its moorings would be others:
-        rods that lines end at, stiffness from a table.
+        rods that lines end at, stiffness from a table, a seabed that is not flat, a line at rest on
+        a seabed in a way that `catenary` does not know.
     """
     if type not in ("catenary", "line"):
         raise CaseError(f"type: expected 'catenary' or 'line' instead of {type!r}")
     deck = read_deck(path)
-    return _Conversion(deck, body, np.array(at, float), dict(bodies or {}), type == "line").run()
+    names = {COUPLED: body} | {key.lower(): name for key, name in (bodies or {}).items()}
+    return _Conversion(deck, Places(deck, names, poses(at)), type == "line").run()
 
 
 class _Conversion:
     """From a deck to tables."""
 
-    def __init__(
-        self, deck: Deck, body: str, at: Array, bodies: dict[str, str], dynamic: bool
-    ) -> None:
-        self.deck, self.body, self.at, self.names = deck, body, at, bodies
-        self.dynamic = dynamic
+    def __init__(self, deck: Deck, places: Places, dynamic: bool) -> None:
+        self.deck, self.places, self.dynamic = deck, places, dynamic
         self.out = Imported(deck.file.name)
         self.depth, self.assumed_depth = self._depth()
 
     def run(self) -> Imported:
         deck = self.deck
         chains, junctions = find_chains(deck)
-        self.out.notes.append(
-            f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the case "
-            "sets its own in [environment]"
-        )
+        notes = self.out.notes
+        notes += deck.notes
+        if self.dynamic:
+            notes.append(
+                f"lines are in water of {deck.density:g} kg/m3 (water_density); g = "
+                f"{deck.gravity:g} m/s2 in the file, the case has its own in [environment]"
+            )
+            notes.append(
+                "damping as in MoorDyn: of segments in slack ones too (damps_slack), "
+                "of the seabed on the way up too (seabed_damps_up)"
+            )
+        else:
+            notes.append(
+                f"weights in water of {deck.density:g} kg/m3 with g = {deck.gravity:g} m/s2; the "
+                "case sets its own in [environment]"
+            )
         if self.assumed_depth:
-            self.out.notes.append(
-                f"no depth in the file: the seabed is at z = {-self.depth:g} m, the lowest anchor"
+            notes.append(
+                f"no depth down to the lowest anchor in the file: the seabed is there, at z = "
+                f"{-self.depth:g} m"
             )
         for point in junctions:
             self._junction(point)
         for chain in chains:
             self._chain(chain)
+        self.places.check()
+        notes += self.places.notes()
         self._note_types()
         if self.dynamic and not deck.option("wavekin", 0.0):
             self.out.notes.append("lines feel no waves, as in the file; waves = true lets them")
@@ -96,44 +115,19 @@ class _Conversion:
         return self.out
 
     def _depth(self) -> tuple[float, bool]:
-        """Depth of the seabed, and whether it is a guess."""
-        try:
-            depth = self.deck.option("wtrdpth", 0.0)
-        except CaseError:
-            depth = 0.0  # the file of a bathymetry
-            self.out.notes.append(
-                f"seabed {self.deck.options['wtrdpth']!r}: it is flat at the height of each anchor"
-            )
-        if depth > 0.0:
-            return depth, False
-        fixed = [p.place[2] for p in self.deck.points.values() if p.attachment == "fixed"]
-        return -min(fixed, default=0.0), True
-
-    def _owner(self, point: Point) -> tuple[str, Array]:
-        """Body of the case that a point belongs to, or ground, and its place."""
-        place = np.array(point.place)
-        if point.attachment == "fixed":
-            return "ground", place
-        if point.attachment == "coupled":
-            return self.body, self.at + place
-        if point.attachment == "free":
-            return f"point{point.id}", place
-        number = point.attachment.removeprefix("body")
-        if not point.attachment.startswith("body") or number not in self.deck.bodies:
-            raise point.row.fail(
-                f"point {point.id}: attachment {point.row.words[1]!r} is not carried over; there "
-                "are Fixed, Coupled (Vessel), Free (Connect) and the bodies of the file"
-            )
-        body = self.deck.bodies[number]
-        place = np.array(body.place) + _rotation(body.angles) @ place
-        if body.attachment == "fixed":
-            return "ground", place
-        if number not in self.names:
-            raise body.row.fail(
-                f"body {number}: which body of the case is it? Say --body {number}=NAME, in Python "
-                f'bodies={{"{number}": NAME}}'
-            )
-        return self.names[number], place
+        """Depth of the seabed, and whether it is that of the lowest anchor, as in MoorDyn."""
+        deck = self.deck
+        for key in ("wtrdpth", "seafloorfile", "bathymetry", "bathymetryfile"):
+            text = deck.options.get(key, "0")
+            if not _is_number(text) or (key != "wtrdpth" and text != "0"):
+                raise CaseError(
+                    f"{deck.file}: the seabed of {text!r} is not flat, which is not carried over; "
+                    "write one depth [m] as WtrDpth"
+                )
+        depth = deck.option("wtrdpth", 0.0)
+        fixed = [p.place[2] for p in deck.points.values() if p.attachment == "fixed"]
+        lowest = -min(fixed, default=0.0)
+        return max(depth, lowest), depth < lowest
 
     def _net_weight(self, point: Point) -> float:
         """Weight in water less the force that the file gives [N]."""
@@ -142,7 +136,7 @@ class _Conversion:
 
     def _chain(self, chain: Chain) -> None:
         deck = self.deck
-        (body_a, place_a), (body_b, place_b) = map(self._owner, chain.ends)
+        (body_a, place_a), (body_b, place_b) = map(self.places.owner, chain.ends)
         label = ("line " if len(chain.lines) == 1 else "lines ") + ", ".join(
             line.id for line in chain.lines
         )
@@ -163,24 +157,21 @@ class _Conversion:
                 }
             )
             return
-        weights = [self._weight(line) for line in chain.lines]
-        lies = body_a == "ground" and abs(place_a[2] + self.depth) <= 1e-3 * self.depth
-        if lies and min(weights) <= 0.0:
-            lies = False
-            self.out.notes.append(f"{label}: a part floats up, so that the seabed is not felt")
-        elif not lies and not self.assumed_depth:
-            self.out.notes.append(
-                f"{label}: end A is not on the seabed, z = {-self.depth:g} m, which is not felt"
-            )
+        self._line_at_rest(chain, label, (body_a, place_a), (body_b, place_b))
+
+    def _line_at_rest(
+        self, chain: Chain, label: str, a: tuple[str, Array], b: tuple[str, Array]
+    ) -> None:
+        lies = a[0] == "ground" and abs(a[1][2] + self.depth) <= 1e-3 * self.depth
         table: dict[str, Any] = {
             "type": "catenary",
             "name": "line" + "_".join(line.id for line in chain.lines),
-            "body_a": body_a,
-            "body_b": body_b,
-            "point_a": place_a.tolist(),
-            "point_b": place_b.tolist(),
+            "body_a": a[0],
+            "body_b": b[0],
+            "point_a": a[1].tolist(),
+            "point_b": b[1].tolist(),
             "length": [line.length for line in chain.lines],
-            "weight": weights,
+            "weight": [self._weight(line) for line in chain.lines],
             "stiffness": [line.type.stiffness for line in chain.lines],
         }
         loads = [self._net_weight(point) for point in chain.between]
@@ -188,11 +179,37 @@ class _Conversion:
             table["loads"] = loads
         if not lies:
             table["seabed"] = False
-        elif friction := deck.option("frictioncoefficient", 0.0):
+        elif friction := self.deck.option("frictioncoefficient", 0.0):
             table["friction"] = friction
+        self._check_at_rest(chain, label, table)
         self.out.forces.append(table)
         for point in chain.between:
             self._note_between(point)
+
+    def _check_at_rest(self, chain: Chain, label: str, table: dict[str, Any]) -> None:
+        """Refuse what a line at rest cannot do where its ends are, or say how far it hangs."""
+        row = chain.lines[0].row
+        way = np.subtract(table["point_b"], table["point_a"])
+        keys = {key: table[key] for key in ("loads", "seabed", "friction") if key in table}
+        parts = (table["length"], table["weight"], table["stiffness"])
+        try:
+            line = catenary(float(np.hypot(way[0], way[1])), float(way[2]), *parts, **keys, n=1001)
+        except CaseError as error:
+            raise row.fail(f"{label}: {error}; import it as a dynamic line, --type line") from None
+        if table.get("seabed", True):
+            return
+        lowest = table["point_a"][2] + float(line.z.min())
+        guessed = any(point.attachment == "free" for point in chain.ends)
+        if lowest < -1.001 * self.depth and self.depth > 0.0 and not guessed:
+            raise row.fail(
+                f"{label}: between its ends it hangs down to z = {lowest:.4g} m, the seabed is at "
+                f"{-self.depth:g} m, which a line at rest feels only at its anchor; import it as a "
+                "dynamic line, --type line"
+            )
+        self.out.notes.append(
+            f"{label}: end A is not on the seabed, z = {-self.depth:g} m, which is not felt; it "
+            f"hangs down to z = {lowest:.4g} m where its ends are"
+        )
 
     def _weight(self, line: Line) -> float:
         area = 0.25 * math.pi * line.type.diameter**2
@@ -257,7 +274,7 @@ class _Conversion:
     def _note_types(self) -> None:
         for line in {line.type.name: line for line in self.deck.lines}.values():
             kind = line.type
-            lost = [f"{key} {text}" for key, text in kind.others.items() if text not in _NOTHING]
+            lost = [f"{key} {text}" for key, text in kind.others.items() if not is_zero(text)]
             why = ": a line at rest has no damping, bending, drag or added mass"
             if self.dynamic:
                 lost, why = lost_of(line), ""
@@ -267,7 +284,7 @@ class _Conversion:
     def _note_bodies(self) -> None:
         for body in self.deck.bodies.values():
             if body.attachment != "fixed":
-                known = self.names.get(body.id)
+                known = body.id in self.places.used and self.places.names[body.id]
                 self.out.notes.append(
                     f"body {body.id}"
                     + (f" is {known}: mass, volume and drag are those of the case" if known else
@@ -298,13 +315,8 @@ class _Conversion:
             )
 
 
-_NOTHING = ("0", "0.0", "0.")
-
-
-def _rotation(angles_deg: tuple[float, float, float]) -> Array:
-    """Rx Ry Rz of roll, pitch and yaw, as in MoorDyn."""
-    (a, b, c), (x, y, z) = np.cos(np.radians(angles_deg)), np.sin(np.radians(angles_deg))
-    about_x = np.array([[1, 0, 0], [0, a, -x], [0, x, a]])
-    about_y = np.array([[b, 0, y], [0, 1, 0], [-y, 0, b]])
-    about_z = np.array([[c, -z, 0], [z, c, 0], [0, 0, 1]])
-    return np.asarray(about_x @ about_y @ about_z)
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
+import difflib
 import os
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 from hydrodae.errors import CaseError
-from hydrodae.mooring.moordyn_sections import Row, number, read_sections
+from hydrodae.mooring.moordyn_columns import LINES_BY_PLACE, OPTIONS, TYPES_BY_PLACE
+from hydrodae.mooring.moordyn_sections import Row, Section, number, read_sections
 
 #: Other spellings of the options that are read.
 _SPELLINGS = {
     "rhow": "rho",
     "wtrdnsty": "rho",
+    "wtrdens": "rho",
     "depth": "wtrdpth",
     "wtrdepth": "wtrdpth",
+    "waterdepth": "wtrdpth",
     "gravity": "g",
     "kb": "kbot",
     "cb": "cbot",
+    "mu_ka": "frictioncoefficient",
 }
+_ATTACHMENTS = {
+    **dict.fromkeys(("fixed", "fix", "anchor"), "fixed"),
+    **dict.fromkeys(("coupled", "cpld", "vessel", "ves", "fairlead"), "coupled"),
+    **dict.fromkeys(("free", "point", "connect", "con"), "free"),
+}
+#: Of points that belong to something with a number.
+_OWNERS = {"body": "body", "b": "body", "turbine": "turbine", "t": "turbine"}
 
 
 @dataclass(frozen=True)
@@ -29,7 +44,7 @@ class Type:
     diameter: float  #: of a cylinder of the same volume [m]
     mass: float  #: [kg/m]
     stiffness: float  #: EA [N]
-    others: dict[str, str]
+    others: dict[str, str]  #: by the names of version 2
 
 
 @dataclass(frozen=True)
@@ -37,7 +52,7 @@ class Point:
     """An end of lines."""
 
     id: str
-    attachment: str  #: lower case: fixed, coupled, free, or bodyN
+    attachment: str  #: lower case: fixed, coupled, free, bodyN, turbineN, or what else is there
     place: tuple[float, float, float]  #: [m], of bodies: from their reference points
     mass: float  #: [kg]
     volume: float  #: [m3]
@@ -82,6 +97,7 @@ class Deck:
     options: dict[str, str] = field(default_factory=dict)  #: by lower-case key
     outputs: list[str] = field(default_factory=list)
     unread: dict[str, int] = field(default_factory=dict)  #: other sections: number of lines
+    notes: list[str] = field(default_factory=list)  #: on how it was read
 
     def option(self, key: str, default: float) -> float:
         """Return a number among the options."""
@@ -114,104 +130,149 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
     file = Path(path)
     if not file.is_file():
         raise CaseError(f"{file}: no such file")
-    sections, headings, columns = read_sections(file)
+    sections = read_sections(file)
     for needed in ("types", "points", "lines"):
         if needed not in sections:
             raise CaseError(f"{file}: no section with the {needed} of a MoorDyn input file")
-    types = [_type(row) for row in sections["types"]]
-    old_points = "NODE PROP" in headings["points"] or any(
-        len(row.words) >= 12 for row in sections["points"]
-    )
-    old = old_points or "DICTIONARY" in headings["types"]
-    deck = Deck(file, 1 if old else 2)
-    deck.points = {p.id: p for p in (_point(row, old_points) for row in sections["points"])}
-    by_name = {t.name: t for t in types}
-    length_first = columns.get("lines", [])[2:3] == ["unstrlen"]  # in version 1
-    deck.lines = [_line(row, by_name, length_first) for row in sections["lines"]]
-    deck.bodies = {b.id: b for b in map(_body, sections.get("bodies", []))}
-    for row in sections.get("options", []):
-        key = row.word(1, "the key of an option").lower()
-        deck.options[_SPELLINGS.get(key, key)] = row.words[0].strip("\"'")
-    deck.outputs = [word for row in sections.get("outputs", []) for word in row.words]
-    deck.outputs = [word for word in deck.outputs if word.upper() != "END"]
+    old = "DICTIONARY" in sections["types"].heading or "NODE PROP" in sections["points"].heading
+    deck = Deck(file, 1 if old or "fx" in sections["points"].columns else 2)
+    types = _by_id((t.name, row, t) for row in sections["types"].rows for t in [_type(row)])
+    deck.points = _by_id((p.id, p.row, p) for p in map(_point, sections["points"].rows))
+    lines = _by_id((n.id, n.row, n) for n in (_line(r, types) for r in sections["lines"].rows))
+    deck.lines = list(lines.values())
+    bodies = sections.get("bodies", Section(""))
+    deck.bodies = _by_id((b.id, b.row, b) for b in map(_body, bodies.rows))
+    for row in sections.get("options", Section("")).rows:
+        key, value = _option(row)
+        deck.options[key] = value
+    outputs = [word for row in sections.get("outputs", Section("")).rows for word in row.words]
+    deck.outputs = [word for word in outputs if word.upper() != "END"]
     read = ("types", "points", "lines", "bodies", "options", "outputs")
-    deck.unread = {name: len(rows) for name, rows in sections.items() if name not in read and rows}
+    deck.unread = {n: len(s.rows) for n, s in sections.items() if n not in read and s.rows}
+    if deck.version > 1:
+        deck.notes = _other_order(sections)
     return deck
 
 
-_OTHERS_1 = ("BA", "Can", "Cat", "Cdn", "Cdt")
-_OTHERS_2 = ("BA", "EI", "Cd", "Ca", "CdAx", "CaAx", "Cl", "dF", "cF")
+_T = TypeVar("_T")
+
+
+def _by_id(found: Iterable[tuple[str, Row, _T]]) -> dict[str, _T]:
+    out: dict[str, _T] = {}
+    for id, row, what in found:
+        if id in out:
+            raise row.fail(f"{id!r} is there twice")
+        out[id] = what
+    return out
+
+
+def _option(row: Row) -> tuple[str, str]:
+    """Key and value of an option: the value comes first."""
+    if len(row.words) < 2:
+        raise row.fail(f"expected the key of an option after {row.words[0]!r}")
+    key = row.words[1].strip(",:").lower()
+    if key not in OPTIONS:
+        near = difflib.get_close_matches(key, sorted(OPTIONS), 1)
+        raise row.fail(
+            f"unknown option {row.words[1]!r}; a value comes first, then its key"
+            + (f"; is it {near[0]}?" if near else "")
+        )
+    return _SPELLINGS.get(key, key), row.words[0].strip("\"'")
+
+
+def _other_order(sections: dict[str, Section]) -> list[str]:
+    """Say where MoorDyn 2, which takes columns by their places, reads other numbers."""
+    out = []
+    for name, by_place in (("types", TYPES_BY_PLACE), ("lines", LINES_BY_PLACE)):
+        section = sections[name]
+        order = section.columns[: len(by_place)]
+        if section.rows and tuple(order) != by_place:
+            out.append(
+                f"{section.heading}: columns are taken by their names "
+                f"({' '.join(section.written)}); MoorDyn 2 takes them by place, in another order"
+            )
+    return out
+
+
+_OTHERS = ("BA", "EI", "Cd", "Ca", "CdAx", "CaAx", "Cl", "dF", "cF")
 
 
 def _type(row: Row) -> Type:
-    others = _OTHERS_1 if len(row.words) <= 9 else _OTHERS_2
-    stiffness = row.word(3, "the stiffness EA")
-    static, *dynamic = stiffness.split("|")
+    static, *dynamic = row.text("EA").split("|")
     try:
         float(static)
     except ValueError:
         raise row.fail(
-            f"line type {row.words[0]!r}: the stiffness {static!r} is a file; a line at rest "
-            "takes one number EA"
+            f"line type {row.text('name')!r}: the stiffness {static!r} is a file; a line takes one "
+            "number EA"
         ) from None
-    further = dict(zip(others, row.words[4:], strict=False))
+    further = {key: row.text(key) for key in _OTHERS if row.has(key)}
+    further["BA"], *viscous = further["BA"].split("|")
     if dynamic:
         further["dynamic EA"] = "|".join(dynamic)
+    if viscous:
+        further["dynamic BA"] = "|".join(viscous)
     return Type(
-        row.words[0],
-        row.value(1, "the diameter"),
-        row.value(2, "the mass per length"),
+        row.text("name"),
+        row.value("diameter", "the diameter"),
+        row.value("mass", "the mass per length"),
         number(row, static, "the stiffness EA"),
         further,
     )
 
 
-def _point(row: Row, old: bool) -> Point:
-    place = _three(row, 2, "a coordinate")
-    mass, volume = row.value(5, "the mass"), row.value(6, "the volume")
-    force = _three(row, 7, "a force") if old else (0.0, 0.0, 0.0)
-    last = 10 if old else 7
-    word = row.words[1].lower()
-    known = {"fix": "fixed", "anchor": "fixed", "vessel": "coupled", "ves": "coupled"}
-    known |= {"cpld": "coupled", "con": "free", "connect": "free", "point": "free"}
+def _point(row: Row) -> Point:
+    word = row.text("attachment").lower()
+    owner = re.fullmatch(r"([a-z]+)(\d+)", word)
+    attachment = _ATTACHMENTS.get(word, word)
+    if owner and owner[1] in _OWNERS:
+        attachment = _OWNERS[owner[1]] + owner[2]
     return Point(
-        row.words[0],
-        known.get(word, word),
-        place,
-        mass,
-        volume,
-        force,
-        row.value(last, "the drag area"),
-        row.value(last + 1, "the added mass coefficient"),
+        row.text("id"),
+        attachment,
+        _three(row, "xyz", "a coordinate"),
+        row.value("mass", "the mass"),
+        row.value("volume", "the volume"),
+        _three(row, ("fx", "fy", "fz"), "a force", 0.0),
+        row.value("CdA", "the drag area"),
+        row.value("Ca", "the added mass coefficient"),
         row,
     )
 
 
-def _line(row: Row, types: dict[str, Type], length_first: bool) -> Line:
-    kind = row.word(1, "the type of the line")
+def _line(row: Row, types: dict[str, Type]) -> Line:
+    kind = row.text("type")
     if kind not in types:
         raise row.fail(f"no line type {kind!r}; there are: {', '.join(types)}")
-    length, segments, a, b = (2, 3, 4, 5) if length_first else (4, 5, 2, 3)
-    count = row.value(segments, "the number of segments")
-    return Line(
-        row.words[0],
-        types[kind],
-        (row.word(a, "end A"), row.word(b, "end B")),
-        row.value(length, "the unstretched length"),
-        int(count),
-        row,
-    )
+    segments = row.value("segments", "the number of segments")
+    length = row.value("length", "the unstretched length")
+    if segments != int(segments) or segments < 1:
+        raise row.fail(f"expected a whole number of segments instead of {row.text('segments')!r}")
+    if length <= 0.0:
+        raise row.fail(f"expected an unstretched length above 0 instead of {row.text('length')!r}")
+    ends = (_end(row.text("a")), _end(row.text("b")))
+    return Line(row.text("id"), types[kind], ends, length, int(segments), row)
+
+
+def _end(word: str) -> str:
+    """Number of the point that a line ends at, as 4, P4, Point4, C4 or Con4."""
+    found = re.fullmatch(r"(?:c|con|p|point)?(\d+)", word.lower())
+    return found[1] if found else word
 
 
 def _body(row: Row) -> Body:
+    word = row.text("attachment").lower()
     return Body(
-        row.words[0],
-        row.word(1, "the attachment").lower(),
-        _three(row, 2, "a coordinate"),
-        _three(row, 5, "an angle"),
+        row.text("id"),
+        _ATTACHMENTS.get(word, word),
+        _three(row, "xyz", "a coordinate"),
+        _three(row, ("rx", "ry", "rz"), "an angle"),
         row,
     )
 
 
-def _three(row: Row, first: int, what: str) -> tuple[float, float, float]:
-    return (row.value(first, what), row.value(first + 1, what), row.value(first + 2, what))
+def _three(
+    row: Row, columns: Iterable[str], what: str, default: float | None = None
+) -> tuple[float, float, float]:
+    x, y, z = (row.value(column, what, default) for column in columns)
+    return (x, y, z)

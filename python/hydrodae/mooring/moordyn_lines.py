@@ -11,15 +11,15 @@ from hydrodae.mooring.moordyn_sections import number
 
 #: Options that these tables hold, beside those of lines at rest.
 CARRIED = ("kbot", "cbot", "wavekin")
-#: Keys of a part by the names of MoorDyn, of both versions.
+#: Keys of a part by the names of MoorDyn.
 _COEFFICIENTS = {
-    "drag": ("Cd", "Cdn"),
-    "drag_axial": ("CdAx", "Cdt"),
-    "added_mass": ("Ca", "Can"),
-    "added_mass_axial": ("CaAx", "Cat"),
-    "bending_stiffness": ("EI",),
+    "drag": "Cd",
+    "drag_axial": "CdAx",
+    "added_mass": "Ca",
+    "added_mass_axial": "CaAx",
+    "bending_stiffness": "EI",
 }
-_KNOWN = {name for names in _COEFFICIENTS.values() for name in names} | {"BA"}
+_KNOWN = {*_COEFFICIENTS.values(), "BA"}
 _BED_STIFFNESS, _BED_DAMPING = 3.0e6, 3.0e5  # MoorDyn's defaults [Pa/m, Pa s/m]
 
 
@@ -48,16 +48,21 @@ def line_keys(deck: Deck, chain: Chain, depth: float) -> dict[str, Any]:
         "stiffness": [line.type.stiffness for line in chain.lines],
         "damping": [_damping(line) for line in chain.lines],
     }
-    for key, names in _COEFFICIENTS.items():
-        values = [_coefficient(line, names) for line in chain.lines]
+    for key, name in _COEFFICIENTS.items():
+        values = [_coefficient(line, name) for line in chain.lines]
         if any(values):
             table[key] = values
+    if any(table["damping"]):
+        table["damps_slack"] = True
     table |= _attachments(chain)
     table["seabed_depth"] = depth
     table["seabed_stiffness"] = deck.option("kbot", _BED_STIFFNESS)
     table["seabed_damping"] = deck.option("cbot", _BED_DAMPING)
+    if table["seabed_damping"]:
+        table["seabed_damps_up"] = True
     if friction := deck.option("frictioncoefficient", 0.0):
         table["seabed_friction"] = friction
+    table["water_density"] = deck.density
     if not deck.option("wavekin", 0.0):
         table["waves"] = False
     return {key: value for key, value in table.items() if value != []}
@@ -68,25 +73,30 @@ def lost_of(line: Line) -> list[str]:
     return [
         f"{key} {text}"
         for key, text in line.type.others.items()
-        if key not in _KNOWN and text not in ("0", "0.0", "0.")
+        if key not in _KNOWN and not is_zero(text)
     ]
+
+
+def is_zero(text: str) -> bool:
+    """Whether this is the number 0."""
+    try:
+        return float(text) == 0.0
+    except ValueError:
+        return False
 
 
 def _damping(line: Line) -> float:
     """C [N s]; a negative BA is a part of the critical damping of a segment."""
-    ba = _coefficient(line, ("BA",))
+    ba = _coefficient(line, "BA")
     if ba >= 0.0:
         return ba
     segment = line.length / line.segments
     return -ba * segment * math.sqrt(line.type.stiffness * line.type.mass)
 
 
-def _coefficient(line: Line, names: tuple[str, ...]) -> float:
-    for name in names:
-        if name in line.type.others:
-            text = line.type.others[name]
-            return number(line.row, text, f"{name} of line type {line.type.name!r}")
-    return 0.0
+def _coefficient(line: Line, name: str) -> float:
+    text = line.type.others.get(name, "0")
+    return number(line.row, text, f"{name} of line type {line.type.name!r}")
 
 
 def _attachments(chain: Chain) -> dict[str, list[float]]:
