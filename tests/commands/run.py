@@ -138,8 +138,8 @@ def call(text: str, folder: Path, limit: float) -> tuple[int | None, str]:
 
 def outcome(command: Command, folder: Path, limit: float) -> Outcome:
     """Run a command in a folder."""
-    for start, why in LEFT_OUT.items():
-        if bare(command).startswith(start):
+    for word, why in LEFT_OUT.items():
+        if bare(command).startswith(word):
             return Outcome(command, "left out", why)
     text = command.plain
     if "HYDRODAE_REFERENCE" in environment():

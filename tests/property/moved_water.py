@@ -106,7 +106,7 @@ def moved(data: hdb.HydroDatabase, move: Move) -> hdb.HydroDatabase:
             sx, sy, sxx, syy, sxy = statics.waterplane_moments
             first = move.q[:2, :2] @ [sx, sy]
             second = move.q[:2, :2] @ [[sxx, sxy], [sxy, syy]] @ move.q[:2, :2].T
-            moments = [*first, second[0, 0], second[1, 1], second[0, 1]]
+            moments = np.array([*first, second[0, 0], second[1, 1], second[0, 1]])
             center = move.place(statics.center_of_buoyancy)
             statics = replace(statics, center_of_buoyancy=center, waterplane_moments=moments)
         bodies[name] = replace(body, reference_point=point, hydrostatics=statics, mesh=None)

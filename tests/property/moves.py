@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from hydrodae import tables
 from hydrodae.case import to_toml
@@ -219,22 +220,12 @@ def with_tensors(scene: Scene, move: Move) -> Scene:
         ixx, iyy, izz = body["inertia"]
         tensor = np.array([[ixx, ixy, izx], [ixy, iyy, iyz], [izx, iyz, izz]])
         if "principal_axes_deg" in body:
-            axes = rotation(np.radians(body.pop("principal_axes_deg")))
+            axes = Rotation.from_rotvec(body.pop("principal_axes_deg"), degrees=True).as_matrix()
             tensor = axes @ tensor @ axes.T
         tensor = move.q @ tensor @ move.q.T
         body["inertia"] = np.diag(tensor).tolist()
         body["products_of_inertia"] = [tensor[0, 1], tensor[1, 2], tensor[2, 0]]
     return scene
-
-
-def rotation(vector: Array) -> Array:
-    """Rotation matrix of a rotation vector [rad] (Rodrigues)."""
-    angle = float(np.linalg.norm(vector))
-    if angle == 0.0:
-        return np.eye(3)
-    x, y, z = vector / angle
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
 
 
 def freed(scene: Scene) -> Scene:
