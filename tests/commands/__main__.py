@@ -4,9 +4,9 @@
 
 Commands are the lines of shell blocks in README.md, docs, cases and tests/README.md, and those in
 docstrings of scripts. Each group (a page, or the folder of a case) runs in a clean copy of the
-repository. Printed are for each: how it ended, exit code, time, place. It passed, failed, lacks
-something (an extra, reference data, a program, a file of one's own), or is left out, with the
-reason. Exit code 1 if one failed. All take an hour or two.
+repository. Printed are for each: how it ended, exit code, time, place. It passed, failed, took too
+long, lacks something (an extra, reference data, a program, a file of one's own), or is left out,
+with the reason. Exit code 1 if one failed or took too long. All take an hour or two.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def main() -> int:
                 print(outcome, flush=True)
     if not options.list:
         print(", ".join(f"{number} {status}" for status, number in sorted(counts.items())))
-    return int(counts["failed"] > 0)
+    return int(counts["failed"] + counts["too long"] > 0)
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ CHANGES_FOLDER = re.compile(r"cd (\S+)$")
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a command ended: one of passed, failed, lacks, left out, and in words."""
+    """How a command ended: passed, failed, too long, lacks or left out; and in words."""
 
     command: Command
     status: str
@@ -70,17 +70,15 @@ def bare(command: Command) -> str:
 
 
 def to_run(commands: Sequence[Command]) -> dict[str, list[Command]]:
-    """Commands by group; what stands in several places is run once, sentences are not run."""
+    """Commands by group, each once in a group; those of scripts that no page has."""
     groups: dict[str, list[Command]] = {}
-    seen: set[str] = set()
+    of_pages = {bare(c) for c in commands if c.source.endswith(".md") and not c.sentence}
     for command in commands:
-        own = group(command) if command.source.endswith(".md") else ""  # `hydrodae new` twice
-        key = bare(command)
-        if command.sentence or key in seen or own + key in seen:
-            continue
-        seen |= {own + key} if re.match(r"cd |hydrodae ", key) else {key}
-        groups.setdefault(group(command), []).append(command)
-    return groups
+        own = groups.setdefault(group(command), [])
+        told = command.usage and bare(command) in of_pages
+        if not (command.sentence or told or bare(command) in map(bare, own)):
+            own.append(command)
+    return {name: found for name, found in groups.items() if found}
 
 
 def make_copy(repository: Path, folder: Path) -> None:
@@ -154,7 +152,7 @@ def outcome(command: Command, folder: Path, limit: float) -> Outcome:
         return Outcome(command, "passed", "", code, seconds)
     if code == 2 and (LACK.search(said) or command.reason.startswith("needs")):
         return Outcome(command, "lacks", said, code, seconds)
-    return Outcome(command, "failed", said, code, seconds)
+    return Outcome(command, "too long" if code is None else "failed", said, code, seconds)
 
 
 def run_group(

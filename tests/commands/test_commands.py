@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from tests.commands.find import Command, all_commands, of_page, of_script, scripts
 from tests.commands.parse import parses_arguments, problem
-from tests.commands.run import run_group
+from tests.commands.run import bare, run_group, to_run
 
 #: Scripts whose commands take seconds: they run here. All others: python -m tests.commands.
 QUICK = (
@@ -111,6 +111,15 @@ def test_what_is_missing_is_one_line(
     assert says in said
     assert "Traceback" not in said
     assert ended.returncode == (0 if "left out" in says else 2)
+
+
+def test_a_page_has_all_that_its_commands_need(commands: list[Command]) -> None:
+    """A command that another page has too runs in both; that of a docstring once."""
+    groups = to_run(commands)
+    database = "python cases/4n3la/four_nodes.py database"
+    for name in ("cases/4n3la", "cases/9n9la", "docs/sweeps.md"):
+        assert [bare(c) for c in groups[name]].count(database) == 1, name
+    assert "tests/benchmark/coordinates.py" not in groups  # docs/coordinates.md
 
 
 def test_line_numbers_are_those_of_the_page(tmp_path: Path) -> None:
