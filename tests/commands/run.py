@@ -36,6 +36,7 @@ LINKS = {
 }
 PLACEHOLDER = re.compile(r"[A-Z]{3,}(\.\w+|\.\.\.)?")
 LACK = re.compile(r"pip install|HYDRODAE_REFERENCE")
+OWN = re.compile("^needs|of one's own")
 LONG = re.compile("hour|choices? of the tests")
 CHANGES_FOLDER = re.compile(r"cd (\S+)$")
 
@@ -150,7 +151,7 @@ def outcome(command: Command, folder: Path, limit: float) -> Outcome:
     expected = 2 if command.reason.startswith("an error") else 0
     if code == expected:
         return Outcome(command, "passed", "", code, seconds)
-    if code == 2 and (LACK.search(said) or command.reason.startswith("needs")):
+    if code == 2 and (LACK.search(said) or OWN.search(command.reason)):
         return Outcome(command, "lacks", said, code, seconds)
     return Outcome(command, "too long" if code is None else "failed", said, code, seconds)
 
