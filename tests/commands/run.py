@@ -26,6 +26,8 @@ LEFT_OUT = {
     "cmake --preset": "is a part of tests/run.sh",
     "ctest": "is a part of tests/run.sh",
 }
+#: Pages whose Python blocks make what their commands read: tests/python/test_docs.py runs both.
+WITH_PYTHON = ("docs/closed_loop.md",)
 #: What a page takes as given: commands that go before, and links into the reference data.
 BEFORE = {
     "python/hydrodae/starters/README.md": ["hydrodae new point_absorber case", "cd case"],
@@ -65,8 +67,8 @@ def group(command: Command) -> str:
 
 
 def bare(command: Command) -> str:
-    """Text without its remark and the path of the environment."""
-    text = re.sub(r"\s#\s.*", "", command.plain).replace(".venv/bin/", "")
+    """Text without its remark, variables and the path of the environment."""
+    text = re.sub(r"^(\w+=\S+ )+|\s#\s.*", "", command.plain).replace(".venv/bin/", "")
     return " ".join(text.split())
 
 
@@ -178,8 +180,16 @@ def run_group(
         if (reference_data.folder() / target).exists():
             (folder / link).symlink_to(reference_data.folder() / target)
     here = folder
+    apart = [
+        c
+        for c in commands
+        if c.source in WITH_PYTHON and (not c.reason or "test_docs.py" in c.reason)
+    ]
     given = [Command(name, 0, text) for text in BEFORE.get(name, [])]
     for command in [*given, *commands]:
+        if command in apart:
+            yield Outcome(command, "left out", "needs the Python of its page: test_docs.py runs it")
+            continue
         if found := CHANGES_FOLDER.match(command.plain):
             here = here / found[1]
             continue

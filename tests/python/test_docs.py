@@ -198,11 +198,6 @@ def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:
     pytest.importorskip("fmpy", reason="needs the extra cosim")
     (tmp_path / "cases").symlink_to(repository / "cases")
     monkeypatch.chdir(tmp_path)
-    case = create("point_absorber", tmp_path / "case").read_text()
-    shutil.copy(tmp_path / "case" / "hydro.h5", tmp_path)
-    start, end = case.index("[[wave]]"), case.index("[[body]]")
-    swell = '[[wave]]\nname = "swell"\ntype = "regular"\nheight = 1.0\nperiod = 8.0\n'
-    Path("case.toml").write_text(case[:start] + swell + case[end:])
     page = repository / "docs" / "fmu.md"
     run_lines(command_lines(page), monkeypatch)
     known: dict[str, object] = {}
