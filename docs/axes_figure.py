@@ -7,7 +7,7 @@ Runs a small scene and writes docs/axes.png:
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import matplotlib
@@ -152,5 +152,6 @@ def draw(picture: Path) -> Path:
 
 
 if __name__ == "__main__":
-    to = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("axes.png")
-    print(draw(to))
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_name("axes.png"))
+    print(draw(parser.parse_args().output))

@@ -1,12 +1,15 @@
 """Write the table of `databases.md`: what a set of folders of other codes needs, and how far apart.
 
-python docs/databases_table.py FOLDER... writes the table between the marks of docs/databases.md.
+    python docs/databases_table.py REFERENCE/hdb     # or other folders, one or several
+
+Writes the table between the marks of docs/databases.md.
 Every FOLDER is one database, or holds some. Folders whose names begin alike up to the first `_`
 are taken for twins: the same bodies by several codes, compared with that of WAMIT, else the first.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from hydrodae.cli import guarded
 from hydrodae.errors import HydrodaeError
 from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.database import HydroDatabase
@@ -199,17 +203,18 @@ def table(found: list[Entry]) -> str:
     return HEAD + "\n".join(rows) + f"\n\nWithout options: {', '.join(counts)}.\n"
 
 
-def main(arguments: list[str]) -> None:
+def main() -> None:
     """Write the table into the page."""
-    if not arguments:
-        sys.exit(__doc__)
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    folders = parser.parse_args().folders
     text = PAGE.read_text()
     before, _, rest = text.partition(BEGIN)
     after = rest.partition(END)[2]
-    made = table(entries([Path(a) for a in arguments]))
+    made = table(entries(folders))
     PAGE.write_text(f"{before}{BEGIN}\n{made}{END}{after}")
     print(made)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(guarded(main))

@@ -8,6 +8,7 @@ All is made from the fields that the kernel declares beside its structs.
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -137,14 +138,13 @@ def escaped(text: str) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write or compare the files; returns the exit code."""
-    unknown = [word for word in arguments if word != "--check"]
-    if unknown:
-        print(f"docs/reference.py: unexpected argument {unknown[0]!r}", file=sys.stderr)
-        return 2
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--check", action="store_true", help="only print which are out of date")
+    check = parser.parse_args(arguments).check
     made = pages()
     old = {path for path in (ROOT / PAGES).glob("*.md")} - {ROOT / path for path in made}
     stale = [path for path, text in made.items() if not is_file_with(ROOT / path, text)]
-    if "--check" in arguments:
+    if check:
         for path in [*stale, *(path.relative_to(ROOT) for path in sorted(old))]:
             print(f"{path} is out of date: run python docs/reference.py")
         return int(bool(stale or old))

@@ -1,4 +1,6 @@
-"""Build the site of the documentation without a warning: python docs/site.py.
+"""Build the site of the documentation without a warning.
+
+    python docs/site.py          # extra: docs
 
 The pages keep their places in the repository, so that links hold here and there. They are copied
 into build/site_source with the pictures and files that they link to; mkdocs makes build/site.
@@ -6,12 +8,16 @@ into build/site_source with the pictures and files that they link to; mkdocs mak
 
 from __future__ import annotations
 
+import argparse
+import importlib.util
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+
+from hydrodae.extras import install_command
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "build" / "site_source"
@@ -43,6 +49,10 @@ def gather() -> None:
 
 def main() -> int:
     """Build the site; returns the exit code of mkdocs, which counts warnings as errors."""
+    argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0]).parse_args()
+    if importlib.util.find_spec("mkdocs") is None:
+        print(f"the site needs mkdocs: {install_command('docs')}", file=sys.stderr)
+        return 2
     gather()
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
     return subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")], check=False).returncode

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests import reference_data
 
 # one BLAS thread for each process of the tests: they share the processors
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -37,13 +38,9 @@ def reference() -> Path:
     A test that asks for it is skipped where there is none (a user's machine). A variable that
     points nowhere is an error, so that no check is lost to a typing mistake.
     """
-    named = os.environ.get("HYDRODAE_REFERENCE")
-    if named:
-        folder = Path(named)
-        if not folder.is_dir():
-            pytest.fail(f"HYDRODAE_REFERENCE = {named!r} is not a folder")
-        return folder
-    folder = ROOT.parent / "shared" / "reference"
+    folder = reference_data.folder()
     if not folder.is_dir():
+        if named := os.environ.get("HYDRODAE_REFERENCE"):
+            pytest.fail(f"HYDRODAE_REFERENCE = {named!r} is not a folder")
         pytest.skip("no reference data: set HYDRODAE_REFERENCE to its folder")
     return folder

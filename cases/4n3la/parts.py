@@ -14,6 +14,7 @@ import numpy as np
 
 import hydrodae
 from hydrodae import hdb
+from hydrodae.cli import guarded
 from hydrodae.progress import ProgressLine, StageLine
 
 DENSITY, GRAVITY, DEPTH = 1025.0, 9.81, 10.0  # kg/m3, m/s2, m
@@ -213,6 +214,11 @@ def main(layout: Layout, directory: Path) -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("what", choices=["database", "cases", "checks", "pictures"])
     what = parser.parse_args().what
+    return guarded(lambda: make(what, layout, directory))
+
+
+def make(what: str, layout: Layout, directory: Path) -> None:
+    """Make one of them in the folder of a device."""
     if what == "database":
         database(layout).write(directory / "hydro.h5")
     elif what == "cases":
@@ -227,4 +233,3 @@ def main(layout: Layout, directory: Path) -> int:
         import pictures
 
         pictures.draw(layout, directory)
-    return 0

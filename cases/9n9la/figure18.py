@@ -22,6 +22,7 @@ from nine_nodes import LAYOUT as HEX
 from numpy.typing import NDArray
 
 from hydrodae import Scene
+from hydrodae.cli import guarded
 
 SQUID_FOLDER = HERE.parent / "4n3la"
 
@@ -141,4 +142,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))

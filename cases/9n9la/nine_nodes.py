@@ -2,6 +2,8 @@
 
     python cases/9n9la/nine_nodes.py database    # hydro.h5, not in the repository
     python cases/9n9la/nine_nodes.py cases       # regular.toml and irregular.toml
+    python cases/9n9la/nine_nodes.py checks      # what the README states
+    python cases/9n9la/nine_nodes.py pictures    # regular.png, irregular.png
 
 Three devices of the kind in cases/4n3la that share every second node of the ring: C are the nodes
 with three arms, D those that two devices share, S the outer ones.

@@ -1,4 +1,6 @@
-"""Write the case of a chain of N four-bar windows: python four_bar.py N [-o CASE.toml].
+"""Write the case of a chain of N four-bar windows.
+
+    python cases/benchmarks/four_bar.py 40 [-o CASE.toml]
 
 N + 1 uprights and N couplers, uniform bars of 1 m and 1 kg, upright, B0 at +1 m/s (IFToMM A02 has
 N = 40). All bars lie in one line when the uprights are level: a singular pose.

@@ -1,9 +1,12 @@
-"""The PI controller of case.toml as another program, for case_tcp.toml with protocol "hydrodae".
+r"""The PI controller of case.toml as another program, for case_tcp.toml with protocol "hydrodae".
 
-python client.py & hydrodae-solve case_tcp.toml -o results.h5 --set controller.pi.protocol=hydrodae
+    python cases/control/client.py [PORT] & hydrodae-solve cases/control/case_tcp.toml \
+        -o results.h5 --set controller.pi.protocol=hydrodae
+
+It ends with the run.
 """
 
-import sys
+import argparse
 
 from hydrodae import tcp
 
@@ -23,4 +26,6 @@ def main(port: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 50000)
+    parser = argparse.ArgumentParser(description="A PI controller as another program.")
+    parser.add_argument("port", nargs="?", type=int, default=50000)
+    main(parser.parse_args().port)

@@ -15,6 +15,7 @@ eigenvalue comes as the root of the recursion that fits them best.
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -24,6 +25,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 import hydrodae
+from hydrodae.cli import guarded
 from hydrodae.plot import COLORS, STYLE
 
 HERE = Path(__file__).parent
@@ -170,4 +172,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

@@ -18,11 +18,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-import capytaine as cpt
 import numpy as np
 import xarray as xr
-from capytaine.bodies.dofs import DofOnSubmesh, rigid_body_dofs
-from capytaine.tools.block_circulant_matrices import NestedBlockCirculantMatrix
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
@@ -31,7 +28,16 @@ from cases.f3of.mesh import CENTER_OF_GRAVITY, PanelSize, bodies, quarter  # noq
 from cases.f3of.panels import Array, check, hydrostatics  # noqa: E402
 
 from hydrodae import hdb  # noqa: E402
+from hydrodae.extras import install_command  # noqa: E402
 from hydrodae.memory import fit_memory  # noqa: E402
+
+try:
+    import capytaine as cpt
+    from capytaine.bodies.dofs import DofOnSubmesh, rigid_body_dofs
+    from capytaine.tools.block_circulant_matrices import NestedBlockCirculantMatrix
+except ModuleNotFoundError:
+    print(f"compute_database.py needs Capytaine: {install_command('bem')}", file=sys.stderr)
+    sys.exit(2)
 
 RHO, GRAVITY = 1025.0, 9.81  # kg/m3, m/s2
 HEADINGS = np.radians([0.0, 45.0, 90.0, 135.0, 180.0])

@@ -5,6 +5,7 @@ base is fixed. Upper panel: flap 1 over the codes' curves where the reference da
 over the span of their extrema. Lower panel: flap 2, moved by the waves that flap 1 radiates (the
 codes' series of flap 2 are not in the data).
 
+    hydrodae run cases/f3of/flap_decay.toml -o build/f3of/flap_decay.h5
     python cases/f3of/figure.py build/f3of/flap_decay.h5
 """
 
@@ -18,7 +19,8 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
-from hydrodae import HydrodaeError, Results
+from hydrodae import Results
+from hydrodae.cli import guarded
 from hydrodae.curve import Curve, read_curve
 from hydrodae.plot import STYLE, draw_comparison, new_figure, save
 from hydrodae.post import turning_points
@@ -95,23 +97,18 @@ def draw(results: Results, picture: Path, end_time: float) -> Path:
     return save(figure, picture)
 
 
-def main() -> int:
-    """Draw the figure and print the comparison; returns the exit code."""
+def main() -> None:
+    """Draw the figure and print the comparison."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("results", type=Path, help="results of cases/f3of/flap_decay.toml")
     parser.add_argument("-o", "--output", type=Path, help="picture (default: RESULTS.png)")
     parser.add_argument("--end-time", type=float, default=100.0, help="s (default: 100)")
     arguments = parser.parse_args()
-    try:
-        results = Results.read(arguments.results)
-        print(comparison(results))
-        picture = arguments.output or arguments.results.with_suffix(".png")
-        print(f"picture: {draw(results, picture, arguments.end_time)}")
-    except HydrodaeError as error:
-        print(f"figure.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    results = Results.read(arguments.results)
+    print(comparison(results))
+    picture = arguments.output or arguments.results.with_suffix(".png")
+    print(f"picture: {draw(results, picture, arguments.end_time)}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))

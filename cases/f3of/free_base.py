@@ -20,6 +20,7 @@ import numpy as np
 
 import hydrodae
 from hydrodae import HydrodaeError
+from hydrodae.cli import guarded
 from hydrodae.curve import Curve, read_curve
 from hydrodae.frequency import LinearModel
 from hydrodae.plot import COLORS, STYLE, draw_comparison, new_figure, outside_legend, save
@@ -114,4 +115,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))

@@ -8,7 +8,7 @@ Base and flaps meet in open interfaces at the hinge blocks, and all are open at 
 only their union is watertight. The interfaces are vertical: integrals with n_z are exact for each
 body.
 
-    python -m cases.f3of.mesh          (in the root of the repository: panel counts, hydrostatics)
+    python -m cases.f3of.mesh    # in the root of the repository: panel counts, hydrostatics
 """
 
 from __future__ import annotations

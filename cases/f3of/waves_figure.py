@@ -2,6 +2,7 @@
 
 Made after a run of the case:
 
+    hydrodae run cases/f3of/waves.toml -o build/f3of/waves.h5
     python cases/f3of/waves_figure.py build/f3of/waves.h5
 """
 
@@ -14,7 +15,8 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
-from hydrodae import HydrodaeError, Results
+from hydrodae import Results
+from hydrodae.cli import guarded
 from hydrodae.plot import COLORS, STYLE, new_figure, outside_legend, save
 from hydrodae.post import absorbed_power, mean_absorbed_power
 
@@ -55,22 +57,17 @@ def draw(results: Results, picture: Path) -> Path:
     return save(figure, picture)
 
 
-def main() -> int:
-    """Draw the figure and print the mean powers; returns the exit code."""
+def main() -> None:
+    """Draw the figure and print the mean powers."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("results", type=Path, help="results of cases/f3of/waves.toml")
     parser.add_argument("-o", "--output", type=Path, help="picture (default: RESULTS.png)")
     arguments = parser.parse_args()
-    try:
-        results = Results.read(arguments.results)
-        print(report(results))
-        picture = arguments.output or arguments.results.with_suffix(".png")
-        print(f"picture: {draw(results, picture)}")
-    except HydrodaeError as error:
-        print(f"waves_figure.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    results = Results.read(arguments.results)
+    print(report(results))
+    picture = arguments.output or arguments.results.with_suffix(".png")
+    print(f"picture: {draw(results, picture)}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))

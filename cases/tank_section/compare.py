@@ -5,6 +5,7 @@ python cases/tank_section/compare.py
 
 from __future__ import annotations
 
+import argparse
 import csv
 from pathlib import Path
 
@@ -209,5 +210,6 @@ def draw(path: Path) -> Path:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0]).parse_args()
     print(report())
     print(f"picture: {draw(FOLDER / 'tank_section.png')}")

@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from hydrodae import hdb
+from hydrodae.cli import guarded
 from hydrodae.hdb.bem.shapes import box
 from hydrodae.hdb.tables import Body
 
@@ -101,4 +103,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

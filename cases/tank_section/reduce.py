@@ -10,9 +10,12 @@ from __future__ import annotations
 
 import argparse
 import csv
+import sys
 from pathlib import Path
 
 import numpy as np
+
+from hydrodae.cli import guarded
 
 FOLDER = Path(__file__).parent
 SOURCE = """# From github.com/KRSundsdal1/2D-ship-cross-section-in-regular-waves, commit 2465cee,
@@ -78,4 +81,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

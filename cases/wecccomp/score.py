@@ -14,6 +14,7 @@ latch is the power take-off holding with up to its limit, 60 N; it counts in f.
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -24,6 +25,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 import hydrodae
+from hydrodae.cli import guarded
 from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant
 
 HERE = Path(__file__).parent
@@ -233,4 +235,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

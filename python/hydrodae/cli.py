@@ -11,7 +11,7 @@ import os
 import platform
 import sys
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
@@ -50,9 +50,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
     parsed = _parser(given[:1]).parse_args(given)
+    return guarded(lambda: parsed.call(parsed))
+
+
+def guarded(work: Callable[[], int | None]) -> int:
+    """Exit code of a command or a script; what hydrodae raises on purpose is one message.
+
+    Parameters
+    ----------
+    work : callable
+        Returns an exit code, or None for 0.
+    """
     try:
         with _plain_warnings():
-            code: int | None = parsed.call(parsed)
+            code = work()
         _flush()
     except SolverError as error:
         return _complain(error, SOLVER_FAILURE)

@@ -15,7 +15,7 @@ rms, of forces likewise. Finished frequencies are kept in FOLDER.
 from __future__ import annotations
 
 import argparse
-import os
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -24,11 +24,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae import hdb
+from hydrodae.cli import guarded
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tests import reference_data  # noqa: E402
+
 #: |F| in surge, sway, heave of the large and of the turned box [N/m], by frequency [rad/s].
 AQUAPLUS = {
     0.2: (82594.64, 82607.05, 946274.2, 43353.29, 43584.87, 478373.7),
@@ -36,11 +41,6 @@ AQUAPLUS = {
     0.6: (266976.1, 265439.8, 722302.1, 134091.9, 139818.1, 385691.7),
     0.8: (381466.8, 377417.8, 561543.9, 212520.7, 199831.6, 285466.1),
 }
-
-
-def reference() -> Path:
-    """Folder of the reference data."""
-    return Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
 
 
 def _rms(ours: NDArray[Any], theirs: NDArray[Any]) -> float:
@@ -70,7 +70,7 @@ def compare(
 
 def cylinder(work: Path, count: int = 15) -> dict[str, float]:
     """The cylinder of WEC-Sim's example at `count` of WAMIT's frequencies, 1 to 8 rad/s."""
-    theirs = hdb.read(reference() / "hdb" / "cylinder_wamit_out", rho=1025.0)
+    theirs = hdb.read(reference_data.required("hdb", "cylinder_wamit_out"), rho=1025.0)
     asked = np.linspace(1.0, 8.0, count)
     omega = theirs.omega[[int(np.abs(theirs.omega - w).argmin()) for w in asked]]
     panels = shapes.cylinder(0.05, radius=0.35, draft=0.63)
@@ -132,4 +132,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

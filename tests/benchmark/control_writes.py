@@ -1,6 +1,6 @@
 """What a controller that is sampled fast costs, method by method.
 
-python tests/benchmark/control_writes.py
+    python tests/benchmark/control_writes.py
 
 The sphere under its PI, 2000 instants 0.01 s apart: CPU time, less that of a run without a write,
 for each instant; steps and evaluations of the equations with them. Each write makes accelerations
@@ -9,11 +9,14 @@ jump, so that a step ends there and the method goes on from it.
 
 from __future__ import annotations
 
+import argparse
+import sys
 import time
 from pathlib import Path
 from typing import Any
 
 import hydrodae
+from hydrodae.cli import guarded
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "sphere" / "control.toml"
 END, PERIOD, RUNS = 20.0, 0.01, 3
@@ -37,6 +40,7 @@ def measure(method: str, period: float) -> tuple[float, dict[str, Any]]:
 
 def main() -> None:
     """Print a table."""
+    argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0]).parse_args()
     instants = round(END / PERIOD)
     print(f"{'method':12} us/write  steps/write  residuals/write")
     for method in ("radau", "explicit_rk", "ida", "auto"):
@@ -49,4 +53,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import hydrodae
+from hydrodae.cli import guarded
 from hydrodae.plot import save
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -189,4 +191,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

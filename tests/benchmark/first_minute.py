@@ -1,12 +1,13 @@
 """How long a newcomer's way takes, from an empty folder: new, check, run, plot, view, report.
 
-python tests/benchmark/first_minute.py [KIND]
+    python tests/benchmark/first_minute.py [KIND]
 
 Each step is a process of its own, as in a terminal. Exit code 1 if they take more than a minute.
 """
 
 from __future__ import annotations
 
+import argparse
 import resource
 import subprocess
 import sys
@@ -36,8 +37,11 @@ def processor_time() -> float:
     return spent.ru_utime + spent.ru_stime
 
 
-def main(kind: str) -> int:
+def main() -> int:
     """Go the way and print the time of each step; returns the exit code."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("kind", nargs="?", default="point_absorber", help="of `hydrodae new`")
+    kind = parser.parse_args().kind
     total, work = 0.0, 0.0
     with tempfile.TemporaryDirectory() as folder:
         for arguments in steps(kind):
@@ -61,4 +65,4 @@ def main(kind: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:2] or ["point_absorber"]))
+    sys.exit(main())

@@ -27,6 +27,7 @@ import numpy as np
 
 import hydrodae
 from hydrodae import hdb
+from hydrodae.cli import guarded
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
@@ -156,4 +157,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

@@ -8,7 +8,7 @@ simulated second, and the largest error of the tension over its range against ra
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 
 import numpy as np
@@ -68,8 +68,11 @@ def run(n: int, method: str, rtol: float, end: float = 30.0) -> tuple[np.ndarray
 
 def main() -> None:
     """Print the table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("segments", nargs="*", type=int, metavar="N", default=[20, 40, 80, 160])
+    segments = parser.parse_args().segments
     print("   N  method       rtol   steps/s    ms/s   error")
-    for n in [int(x) for x in sys.argv[1:]] or [20, 40, 80, 160]:
+    for n in segments:
         exact, _, _ = run(n, "radau", 1e-6)
         for method, rtol in RUNS:
             try:

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import importlib.util
 import math
 import os
 import sys
@@ -31,6 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hydrodae
+from hydrodae.extras import install_command
 
 Series = NDArray[np.float64]
 EXCHANGE = 0.01  # between calls of MoorDyn, which keeps the velocity within one [s]
@@ -184,6 +186,9 @@ def main() -> None:
     parser.add_argument("segments", nargs="*", type=int, metavar="N")
     parser.add_argument("--end", type=float, default=30.0, help="[s]")
     arguments = parser.parse_args()
+    if importlib.util.find_spec("moordyn") is None:
+        print(f"the comparison needs MoorDyn: {install_command('peers')}", file=sys.stderr)
+        sys.exit(2)
     end = arguments.end
 
     def tension(results: hydrodae.Results) -> Series:

@@ -8,6 +8,7 @@ a process of its own with one BLAS thread; time is that of the processor.
 
 from __future__ import annotations
 
+import argparse
 import os
 import subprocess
 import sys
@@ -24,12 +25,11 @@ NAMES = (
 def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:
     """Return the table, the coordinates that move, and the options of the fit."""
     import numpy as np
+    from tests import reference_data
     from tests.verification.point_absorbers import array_table, hexagon, star
 
     from hydrodae import hdb
 
-    folder = Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-    tables = folder / "hdb"
     planar = ("surge", "heave", "pitch")
     if name == "sphere":
         options: dict[str, Any] = {"band": (0.3, 3.0), "target": 1e-4}
@@ -42,10 +42,10 @@ def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:
         table: Any = array_table(layout, np.arange(0.1, 8.01, 0.1))
         return table, list(table.coordinates), {"band": (1.0, 6.0), "uniform": 0.01}
     if name == "4n3la":
-        table = hdb.read(tables / "own" / "4n3la.nc")
+        table = hdb.read(reference_data.required("hdb", "own", "4n3la.nc"))
         return table, list(table.coordinates), {"band": (1.0, 8.0), "uniform": 0.01}
     if name.startswith("rm3"):
-        table = hdb.read(tables / "rm3_wamit", rho=1000.0)
+        table = hdb.read(reference_data.required("hdb", "rm3_wamit"), rho=1000.0)
         moving = ("heave",) if name == "rm3_heave" else planar
         options = {"band": (0.1, 1.6)}
         if name != "rm3_planar":
@@ -56,7 +56,7 @@ def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:
         "cubes_heave": ("cubes_nemoh_v3.0.2", "heave"),
         "oswec_flap": ("oswec_nemoh_v3.0.2", "pitch"),
     }[name]
-    table = hdb.read(tables / source)
+    table = hdb.read(reference_data.required("hdb", source))
     labels = [label for label in table.coordinates if label.endswith(dof)]
     return table, labels[:1] if name == "oswec_flap" else labels, {}
 
@@ -83,8 +83,17 @@ def measure(name: str) -> None:
     )
 
 
-def main(names: list[str]) -> None:
-    """Measure the tables of these names, or all."""
+def main() -> int:
+    """Measure the tables that are named, or all; exit code 2 if data of one is missing."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(NAMES)}")
+    parser.add_argument("--one", choices=NAMES, help=argparse.SUPPRESS)  # in this process
+    options = parser.parse_args()
+    if unknown := sorted(set(options.names) - set(NAMES)):
+        parser.error(f"no table {', '.join(unknown)}: {', '.join(NAMES)}")
+    if options.one:
+        measure(options.one)
+        return 0
     print(
         f"{'table':14s} {'n':>4s} {'CPU s':>8s} {'states':>7s} {'passive':>8s} {'rms band':>9s} "
         f"{'peak':>9s} {'target':>6s} {'GB':>7s}",
@@ -92,13 +101,12 @@ def main(names: list[str]) -> None:
     )
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": path}
-    for name in names or NAMES:
+    code = 0
+    for name in options.names or NAMES:
         command = [sys.executable, __file__, "--one", name]
-        subprocess.run(command, env=environment, check=True)
+        code = max(code, subprocess.run(command, env=environment, check=False).returncode)
+    return code
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--one"]:
-        measure(sys.argv[2])
-    else:
-        main(sys.argv[1:])
+    sys.exit(main())

@@ -10,19 +10,24 @@ of `hydrodae ladder`, and the solver's time per simulated second of every rung.
 from __future__ import annotations
 
 import argparse
-import os
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import hydrodae
+from hydrodae.cli import guarded
 from hydrodae.hdb.importing import import_database
 from hydrodae.memory import fit_memory
 from hydrodae.study.ladder import ladder
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tests import reference_data  # noqa: E402
+
 PLANAR = ("surge", "heave", "pitch")
 
 NODES = {"S3": (0.0, 0.0), "C1": (0.7, -1.21), "S1": (0.0, -2.42), "S2": (2.1, -1.21)}
@@ -44,11 +49,6 @@ FOUR_NODES += "[solver]\nend_time = 20.0\n" + "".join(
 )
 
 
-def reference() -> Path:
-    """Folder of the reference data."""
-    return Path(os.environ.get("HYDRODAE_REFERENCE", ROOT.parent / "shared" / "reference"))
-
-
 def sphere(_folder: Path) -> hydrodae.Case:
     """One coordinate."""
     return hydrodae.Case.read(ROOT / "cases" / "sphere" / "decay.toml")
@@ -65,7 +65,7 @@ def f3of(folder: Path) -> hydrodae.Case:
 
 def rm3(folder: Path) -> hydrodae.Case:
     """Two bodies in the plane, noisy tables; see cases/rm3/README.md."""
-    source = reference() / "hdb" / "rm3_wamit"
+    source = reference_data.required("hdb", "rm3_wamit")
     points = {"float": [0.0, 0.0, -0.72], "spar": [0.0, 0.0, -21.29]}
     database, _ = import_database(source, names=list(points), reference_points=points, rho=1000.0)
     moving = [f"{body}.{dof}" for body in points for dof in PLANAR]
@@ -79,7 +79,7 @@ def rm3(folder: Path) -> hydrodae.Case:
 def four_nodes(folder: Path) -> hydrodae.Case:
     """Four free bodies, between which waves travel."""
     points = {name: [x, y, -0.3] for name, (x, y) in NODES.items()}
-    table = reference() / "hdb" / "own" / "4n3la.nc"
+    table = reference_data.required("hdb", "own", "4n3la.nc")
     database, _ = import_database(table, reference_points=points)
     band, every = (1.0, 8.0), database.coordinates
     database.memory["all"] = fit_memory(database, inputs=every, band=band, uniform=0.01)
@@ -97,8 +97,8 @@ def main() -> None:
     parser.add_argument("--repeat", type=int, default=5, help="time is the best of N runs")
     arguments = parser.parse_args()
     for name in arguments.devices or DEVICES:
-        if name in ("rm3", "4n3la") and not reference().is_dir():
-            print(f"{name} left out: no reference data in {reference()}")
+        if name in ("rm3", "4n3la") and not reference_data.folder().is_dir():
+            print(f"{name} left out: no reference data in {reference_data.folder()}")
             continue
         with tempfile.TemporaryDirectory() as folder:
             case = DEVICES[name](Path(folder))
@@ -111,4 +111,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

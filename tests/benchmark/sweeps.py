@@ -15,12 +15,14 @@ from __future__ import annotations
 import argparse
 import os
 import resource
+import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import hydrodae
+from hydrodae.cli import guarded
 
 ROOT = Path(__file__).resolve().parents[2]
 SEA = [{"name": "sea", "type": "jonswap", "significant_height": 1.0, "peak_period": 8.0, "seed": 1}]
@@ -102,4 +104,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

@@ -1,6 +1,6 @@
 """Exchanges a second between a run and a controller over TCP/IP on this machine.
 
-python tests/benchmark/tcp_exchanges.py
+    python tests/benchmark/tcp_exchanges.py [EXCHANGES]
 
 The time of an exchange is what the run waits for an answer: two frames, two ways through the
 kernel of the operating system, and the controller; the least mean of twenty runs, as other work on
@@ -11,6 +11,7 @@ protocols, and the C program of cases/control where there is a compiler.
 
 from __future__ import annotations
 
+import argparse
 import os
 import shutil
 import socket
@@ -20,6 +21,7 @@ import tempfile
 from pathlib import Path
 
 import hydrodae
+from hydrodae.cli import guarded
 
 RUNS = 20
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,8 +61,11 @@ def measure(command: list[str], protocol: str, exchanges: int) -> tuple[float, f
     return mean, mean * float(told["controller_calls.pi"]) / float(told["wall_time"])
 
 
-def main(exchanges: int) -> int:
+def main() -> int:
     """Measure and print a line for each controller."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("exchanges", nargs="?", type=int, default=1000, help="of each run (1000)")
+    exchanges = parser.parse_args().exchanges
     python = [sys.executable, "-c", CLIENT, "PORT"]
     runs = [
         ("Python", "hydrodae", [*python, "hydrodae"]),
@@ -80,4 +85,4 @@ def main(exchanges: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
+    sys.exit(guarded(main))

@@ -8,11 +8,13 @@ WebGL is then drawn by the processor. On a busy machine the processor time tells
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import time
 from pathlib import Path
 
+from hydrodae.cli import guarded
 from hydrodae.viewer import browser
 
 SIZE = (1280, 720)
@@ -49,8 +51,11 @@ def processor_time() -> float:
 
 def main() -> None:
     """Print one line."""
-    page_file = Path(sys.argv[1])
-    seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 10.0
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("page", type=Path, metavar="PAGE.html")
+    parser.add_argument("seconds", nargs="?", type=float, default=10.0)
+    options = parser.parse_args()
+    page_file, seconds = options.page, options.seconds
     with browser.opened(page_file.read_text(encoding="utf-8"), SIZE) as page:
         page.evaluate("hydrodae.player.toggle(true)")
         time.sleep(5.0)  # it finds its resolution
@@ -66,4 +71,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded(main))

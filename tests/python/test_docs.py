@@ -163,7 +163,7 @@ def test_commands_of_the_page_for_plugins_run(repository, tmp_path, monkeypatch)
         pytest.skip("needs a C++ compiler")
     shutil.copytree(repository / "cases" / "plugin", tmp_path / "cases" / "plugin")
     (tmp_path / "cpp").symlink_to(repository / "cpp")
-    monkeypatch.chdir(tmp_path / "cases" / "plugin")
+    monkeypatch.chdir(tmp_path)
     compiler, *lines = command_lines(repository / "cases" / "plugin" / "README.md")
     subprocess.run(shlex.split(compiler), check=True)
     run_lines(lines, monkeypatch)
@@ -198,11 +198,6 @@ def test_page_for_fmus_runs(repository, tmp_path, monkeypatch) -> None:
     pytest.importorskip("fmpy", reason="needs the extra cosim")
     (tmp_path / "cases").symlink_to(repository / "cases")
     monkeypatch.chdir(tmp_path)
-    case = create("point_absorber", tmp_path / "case").read_text()
-    shutil.copy(tmp_path / "case" / "hydro.h5", tmp_path)
-    start, end = case.index("[[wave]]"), case.index("[[body]]")
-    swell = '[[wave]]\nname = "swell"\ntype = "regular"\nheight = 1.0\nperiod = 8.0\n'
-    Path("case.toml").write_text(case[:start] + swell + case[end:])
     page = repository / "docs" / "fmu.md"
     run_lines(command_lines(page), monkeypatch)
     known: dict[str, object] = {}

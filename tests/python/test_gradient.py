@@ -424,27 +424,9 @@ def test_linear_studies_need_no_memory_fit(buoy: Path, tmp_path: Path) -> None:
     assert (found["status"] == "completed").all()
 
 
-CONTROLLED = """
-title = "Cart on a spring"
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "slide"
-stiffness = 8.0
+CONTROLLED = cart(
+    "stiffness = 8.0",
+    more="""
 [[force]]
 name = "latch"
 type = "dry_friction"
@@ -458,13 +440,10 @@ inputs = ["joints/slide/displacement_rate"]
 outputs = ["forces/pto/load"]
 period = 0.1
 KEYS
-[solver]
-method = "radau"
-step = 0.02
-end_time = 1.0
-[output]
-step = 0.1
-"""
+""",
+    solver='method = "radau"\nstep = 0.02\nend_time = 1.0',
+    step=0.1,
+)
 PLACE = "joints/slide/displacement"
 
 

@@ -8,40 +8,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.verification.carts import cart
 
 import hydrodae
 from hydrodae import CaseError, Simulation
 
-CART = """
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-[[force]]
-name = "push"
-type = "constant_load"
-body = "cart"
-[solver]
-end_time = 2.0
-rtol = 1e-9
-[output]
-step = 0.05
-"""
+CART = cart(
+    "stiffness = 200.0",
+    more='[[force]]\nname = "push"\ntype = "constant_load"\nbody = "cart"',
+    solver="end_time = 2.0\nrtol = 1e-9",
+)
 METHODS: dict[str, dict[str, Any]] = {
     "auto": {},
     "ida": {},

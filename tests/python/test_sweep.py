@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.stats import t as student
+from tests.verification.carts import cart
 
 import hydrodae
 from hydrodae.starters import create
@@ -23,33 +24,16 @@ from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import read_study
 from hydrodae.study.sweep.pool import run_case
 
-CASE = """
-title = "Mass on a spring with a take-off"
-[environment]
-gravity = 0.0
-[[body]]
-name = "float"
-motion = "heave"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.velocity = [0.0, 0.0, 1.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "float"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 0.0, 1.0]
-[[force]]
-type = "pto_linear"
-name = "pto"
-joint = "guide"
-damping = 1.0
-[solver]
-end_time = 8.0
-[output]
-step = 0.02
-"""
+CASE = cart(
+    "damping = 1.0",
+    title="Mass on a spring with a take-off",
+    body="float",
+    motion="heave",
+    initial="velocity = [0.0, 0.0, 1.0]",
+    joint="guide",
+    solver="end_time = 8.0",
+    step=0.02,
+)
 SPEED = "body.float.initial.velocity"
 RESULT = '[result.x]\nchannel = "joints/guide/displacement"\n'
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.attack import suite
+from tests.verification.carts import cart
 
 import hydrodae
 from hydrodae import Simulation
@@ -18,31 +19,7 @@ from hydrodae.study.stability.grid import PASS, run_cell
 
 ROOT = Path(__file__).resolve().parents[2]
 MAP, ATTACK = grid.all_scenes(), suite.all_scenes()
-CART = """
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-[solver]
-end_time = 2.0
-[output]
-step = 0.05
-"""
+CART = cart("stiffness = 200.0", solver="end_time = 2.0")
 
 
 def outcome(scene: Scene, method: str, folder: Path, **solver: Any) -> grid.Cell:
