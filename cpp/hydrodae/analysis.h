@@ -35,7 +35,7 @@ struct LinearModel {
   MatrixX constraints;                  ///< G (n_lambda, n_u)
   MatrixX load_by_state;                ///< F_z (n_u, n_z)
   MatrixX state_by_state, state_by_xi, state_by_rate; ///< A, B, D (n_z, n_z), (n_z, n_u) twice
-  std::vector<std::string> state_of;    ///< (n_z,) forces whose states they are
+  std::vector<std::string> state_of;                  ///< (n_z,) forces whose states they are
   std::vector<std::string> hydro_labels;              ///< (m,) labels of the database that move
   MatrixX hydro_map;                                  ///< T (m, n_u)
   std::vector<double> hydro_yaws;                     ///< (m,) mean yaw of the body of each [rad]

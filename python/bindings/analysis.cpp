@@ -34,22 +34,21 @@ py::dict linear_model(const model::Scene& scene) {
   } catch (const ModelError& error) {
     throw CaseError(model::located(scene, error));
   }
-  return py::dict("coordinates"_a = m.coordinates, "mass"_a = m.mass, "damping"_a = m.damping,
-                  "stiffness"_a = m.stiffness, "constraints"_a = m.constraints,
-                  "load_by_state"_a = m.load_by_state, "state_by_state"_a = m.state_by_state,
-                  "state_by_xi"_a = m.state_by_xi, "state_by_rate"_a = m.state_by_rate,
-                  "state_of"_a = m.state_of,
-                  "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map,
-                  "hydro_yaws"_a = m.hydro_yaws, "hydro_points"_a = m.hydro_points,
-                  "motions"_a = m.motions, "motion_map"_a = m.motion_map, "dampers"_a = m.dampers,
-                  "damper_damping"_a = m.damper_damping, "damper_stiffness"_a = m.damper_stiffness,
-                  "damper_delay"_a = m.damper_delay, "damper_map"_a = m.damper_map,
-                  "reactions"_a = m.reactions, "reaction_by_xi"_a = m.reaction_by_xi,
-                  "reaction_by_lambda"_a = m.reaction_by_lambda, "bodies"_a = m.bodies,
-                  "offsets"_a = m.offsets, "rotations"_a = m.rotations, "places"_a = m.places,
-                  "moorings"_a = moorings(m), "reaction"_a = m.reaction, "notes"_a = m.notes,
-                  "water_points"_a = m.water_points, "water_loads"_a = m.water_loads,
-                  "water_depth"_a = m.water_depth, "gravity"_a = m.gravity);
+  return py::dict(
+      "coordinates"_a = m.coordinates, "mass"_a = m.mass, "damping"_a = m.damping,
+      "stiffness"_a = m.stiffness, "constraints"_a = m.constraints,
+      "load_by_state"_a = m.load_by_state, "state_by_state"_a = m.state_by_state,
+      "state_by_xi"_a = m.state_by_xi, "state_by_rate"_a = m.state_by_rate,
+      "state_of"_a = m.state_of, "hydro_labels"_a = m.hydro_labels, "hydro_map"_a = m.hydro_map,
+      "hydro_yaws"_a = m.hydro_yaws, "hydro_points"_a = m.hydro_points, "motions"_a = m.motions,
+      "motion_map"_a = m.motion_map, "dampers"_a = m.dampers, "damper_damping"_a = m.damper_damping,
+      "damper_stiffness"_a = m.damper_stiffness, "damper_delay"_a = m.damper_delay,
+      "damper_map"_a = m.damper_map, "reactions"_a = m.reactions,
+      "reaction_by_xi"_a = m.reaction_by_xi, "reaction_by_lambda"_a = m.reaction_by_lambda,
+      "bodies"_a = m.bodies, "offsets"_a = m.offsets, "rotations"_a = m.rotations,
+      "places"_a = m.places, "moorings"_a = moorings(m), "reaction"_a = m.reaction,
+      "notes"_a = m.notes, "water_points"_a = m.water_points, "water_loads"_a = m.water_loads,
+      "water_depth"_a = m.water_depth, "gravity"_a = m.gravity);
 }
 
 /// `hydro::add_images` on tables as Python holds them: frequency first.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -34,7 +35,7 @@ def longer(db: HydroDatabase) -> HydroDatabase:
     power = np.where(heave[:, None] & heave, 3, 7)
     assert translation.any()
 
-    def before(table: Array, head: Array) -> Array:
+    def before(table: NDArray[Any], head: NDArray[Any]) -> NDArray[Any]:
         return np.concatenate([head, table])
 
     ones = np.ones((new.size, 1, 1))
@@ -67,7 +68,7 @@ def noisy(db: HydroDatabase, level: float) -> HydroDatabase:
     def force(table: NDArray[np.complex128]) -> NDArray[np.complex128]:
         size = by_kind(db, np.abs(db.excitation).max(axis=(0, 1)))
         noise = random.uniform(-1.0, 1.0, (2, *table.shape))
-        return table + level * size * (noise[0] + 1j * noise[1])
+        return np.asarray(table + level * size * (noise[0] + 1j * noise[1]))
 
     return replace(
         db,
@@ -144,7 +145,7 @@ def test_errors_above_the_noise_are_still_found(sphere: HydroDatabase) -> None:
 
 
 def test_scatter_is_the_noise_and_not_the_curve() -> None:
-    w = 0.2 * np.arange(1, 31)
+    w = np.asarray(0.2 * np.arange(1, 31), dtype=np.float64)
     smooth = np.exp(1j * w) / (1.0 + w**2)
     noise = 1e-3 * np.random.default_rng(0).standard_normal((2, 30, 400))
     found = scatter(w, smooth[:, None] + noise[0] + 1j * noise[1])
