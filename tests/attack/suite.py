@@ -43,6 +43,12 @@ DEFAULTS = tuple(
 )
 #: The same in the coordinates of the joints.
 REDUCED = Method("reduced", {"method": "explicit_rk", "coordinates": "reduced", "rtol": 1e-6})
+#: Methods with error control at other tolerances.
+TOLERANCES = tuple(
+    Method(f"{name}:{rtol:.0e}", {"method": name, "rtol": rtol})
+    for rtol in (1e-4, 1e-8)
+    for name in ("auto", "ida", "radau")
+)
 RANDOM = tuple(
     f"{name}:random"
     for name in ("ida", "radau", "explicit_rk", "gauss", "lobatto_iiic", "generalized_alpha")
@@ -85,7 +91,7 @@ def random_method(column: str, scene: Scene, seed: int) -> Method:
 
 def methods_of(scene: Scene, columns: Sequence[str], seed: int) -> list[Method]:
     """Return the methods of the columns for a scene."""
-    known = {method.name: method for method in (*DEFAULTS, REDUCED)}
+    known = {method.name: method for method in (*DEFAULTS, REDUCED, *TOLERANCES)}
     return [known.get(c) or random_method(c, scene, seed) for c in columns]
 
 
@@ -100,7 +106,7 @@ def described(scene: Scene, method: Method) -> str:
 
 def columns() -> list[str]:
     """Return the names of all columns."""
-    return [*(m.name for m in DEFAULTS), REDUCED.name, *RANDOM]
+    return [*(m.name for m in (*DEFAULTS, REDUCED, *TOLERANCES)), *RANDOM]
 
 
 def ratio(cell: Cell) -> float | None:
@@ -126,8 +132,9 @@ def figures(cells: Sequence[Cell]) -> dict[str, float]:
     """Return what the suite is asked for.
 
     wrong: number of cells. default_share: of the default runs of scenes that some method passes,
-    the part that pass. estimated: completed runs with an estimate; honest_share: the part of them
-    whose true error is at most ten times the estimate.
+    the part that pass. estimated: completed runs with an estimate; within_share: the part of them
+    whose true error is a tenth of the estimate to ten times it; far: those beyond a hundredth and a
+    hundred times it.
     """
     possible = {cell.scene for cell in cells if cell.outcome == PASS}
     names = {method.name for method in DEFAULTS}
@@ -138,7 +145,8 @@ def figures(cells: Sequence[Cell]) -> dict[str, float]:
         "default_runs": len(default),
         "default_share": sum(c.outcome == PASS for c in default) / max(1, len(default)),
         "estimated": len(ratios),
-        "honest_share": sum(r <= 10.0 for r in ratios) / max(1, len(ratios)),
+        "within_share": sum(0.1 <= r <= 10.0 for r in ratios) / max(1, len(ratios)),
+        "far": sum(not 0.01 <= r <= 100.0 for r in ratios),
     }
 
 

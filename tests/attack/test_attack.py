@@ -157,7 +157,7 @@ def test_the_figures_of_a_suite() -> None:
     figures = suite.figures(cells)
     assert figures["wrong"] == 1
     assert (figures["default_runs"], figures["default_share"]) == (2, 0.5)
-    assert (figures["estimated"], figures["honest_share"]) == (2, 0.5)
+    assert (figures["estimated"], figures["within_share"]) == (2, 0.5)
 
 
 def test_the_command_writes_cells_and_figures(
