@@ -88,8 +88,9 @@ def _report(cells: Sequence[Cell], options: argparse.Namespace) -> None:
     figures = suite.figures(cells)
     print(f"{figures['wrong']:.0f} wrong; {100 * figures['default_share']:.1f} % of "
           f"{figures['default_runs']:.0f} default runs of scenes that some method passes pass; "
-          f"true error a tenth to ten times the estimate in {100 * figures['within_share']:.1f} % of "
-          f"{figures['estimated']:.0f} runs with an estimate, beyond a hundred times in "
+          "true error a tenth to ten times the estimate in "
+          f"{100 * figures['within_share']:.1f} % of {figures['estimated']:.0f} runs with "
+          "an estimate, beyond a hundred times in "
           f"{figures['far']:.0f}")  # fmt: skip
     if options.picture:
         show.write_picture(cells, options.picture, panels=4, text=suite.label)
