@@ -137,6 +137,7 @@ void Simulation::advance(double limit, const Inside& inside) {
   if (inside)
     inside();
   recorder_->accept();
+  regime_.nearby = recorder_->turns().value;
   const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->check(step);
