@@ -94,7 +94,11 @@ def spring_at_one_place(
 
 def _draw_fold(g: np.random.Generator) -> dict[str, Any]:
     mu = g.uniform(0.02, 0.3)
-    return {"mu": mu, "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0))), "kind": neighbour(g)}
+    return {
+        "mu": mu,
+        "ratio": float(np.exp(mu * np.pi * g.uniform(1.3, 3.0))),
+        "kind": neighbour(g),
+    }
 
 
 @family(KIND, _draw_fold, {"mu": 0.1, "ratio": 2.0}, {"mu": 0.2, "ratio": 4.0, "kind": "ship"})
@@ -110,7 +114,7 @@ def folded_rope(mu: float, ratio: float, kind: str | None = None) -> Scene:
     rope = {
         "type": "rope", "name": "rope", "bodies": ["a", "ground", "b"],
         "points": [[0.0, 0.0, 0.0], [0.0, 0.0, 10.0], [0.0, 0.0, 0.0]], "friction": [mu],
-        "stiffness": stiffness, "damping": 0.01 * stiffness, "pretension": tension,
+        "stiffness": stiffness, "damping": 1e-5 * stiffness, "pretension": tension,
     }  # fmt: skip
     tables = case(bodies, end, gravity=GRAVITY, forces=[rope], samples=60)
     scene = Scene(
