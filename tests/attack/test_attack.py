@@ -33,8 +33,8 @@ SAMPLE = (
     "slack_pair_2", "bistable_float_1",
     "sound_sphere_2", "misaligned_door_1", "misaligned_door_4", "submerged_pendulum_1",
     "submerged_pendulum_3", "compliant_stop_1", "pressed_incline_3", "timed_impact_2", "pi_block_2",
-    "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3", "wound_vector_1",
-    "wound_vector_3", "spring_at_one_place_1", "folded_rope_1",
+    "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3",
+    "wound_vector_1", "wound_vector_3", "spring_at_one_place_1", "folded_rope_1",
 )  # fmt: skip
 
 
