@@ -6,11 +6,11 @@
 #include "hydrodae/element/hydro_axes_gradient.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
+#include "hydrodae/observe/observer.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
-#include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae {
@@ -119,8 +119,8 @@ std::vector<std::string> owners_of_states(const Regime& s) {
 }
 
 /// All reactions (6 n_joints,) of the joints that are reported.
-VectorX reactions(const Regime& s, system::Observer& observer, const VectorX& y) {
-  const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
+VectorX reactions(const Regime& s, observe::Observer& observer, const VectorX& y) {
+  const observe::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
   VectorX out(0);
   for (std::size_t j = 0; j < s.joints.size(); ++j) {
     if (s.joints[j].hidden)
@@ -134,7 +134,7 @@ VectorX reactions(const Regime& s, system::Observer& observer, const VectorX& y)
 /// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
 /// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
 void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
-  system::Observer observer(s);
+  observe::Observer observer(s);
   for (const system::JointData& j : s.joints)
     if (!j.hidden)
       for (const char* part : {"force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z"})

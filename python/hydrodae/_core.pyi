@@ -50,6 +50,9 @@ class Scene:
 def tables() -> list[dict[str, Any]]:
     """Every table of a case file with its keys, as nested dicts."""
 
+def methods() -> list[dict[str, Any]]:
+    """Every integrator: name, orders, adapts, fixes, limits_order."""
+
 def suggestion(wanted: str, names: Sequence[str]) -> str:
     """The end of a message about an unknown name: the nearest one and all that are valid."""
 

@@ -165,8 +165,10 @@ public:
                                             ///< the Jacobian that can differ from 0; empty: all can
   std::vector<Schedule> schedules;
   std::vector<Stick> sticks; ///< of each law along a joint; empty: none ever sticks
+  int n_kinks = 0;           ///< of each law; see `kinks`
 
   std::size_t size() const { return names.size(); }
+  bool has_kinks() const { return n_kinks > 0; }
   /// Numbers of the Jacobian of one law.
   std::size_t jacobian_size() const {
     return sparsity.empty() ? static_cast<std::size_t>(shape.n_out() * shape.n_columns())
@@ -213,6 +215,11 @@ public:
   /// Laws without unknowns, with the loads of these laws at rest in calm water; null: they are the
   /// same.
   virtual std::shared_ptr<const Elements> statics() const { return nullptr; }
+
+  /// Numbers that change their sign where the load of a law, or its slope, jumps (n n_kinks,), so
+  /// that no step is to go across. At their zeros they need not be continuous.
+  virtual void kinks(double, const double* /*in*/, const double* /*signals*/,
+                     double* /*out*/) const {}
 
   // Of what feels the waves:
   virtual WavesFelt waves() const { return {}; }         ///< without any: nothing

@@ -24,6 +24,7 @@ struct EndStop {
   static constexpr std::string_view doc =
       "Compliant end stops along a joint: a hardening spring with Hunt-Crossley damping.";
   static constexpr Port port = Port::along_joint;
+  static constexpr int n_kinks = 2;
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;
@@ -62,13 +63,26 @@ struct EndStop {
       values[0] = depth(*in.x);
     }
 
+    /// It pushes where it is touched, and would not pull.
+    void kinks(const In<double>& in, double* out) const {
+      const auto pushes = [&](double u, double rate) {
+        return u > 0.0 ? std::min(u, pressed(u, rate) / stiffness) : std::max(u, -1.0);
+      };
+      out[0] = pushes(*in.x - upper, *in.v);
+      out[1] = pushes(lower - *in.x, -*in.v);
+    }
+
   private:
     double depth(double s) const { return std::max({s - upper, lower - s, 0.0}); }
 
-    template <class S> S push(const S& u, const S& rate) const {
+    template <class S> S pressed(const S& u, const S& rate) const {
       using std::exp, std::log;
       const S spring = S(stiffness) * (exponent == 1.0 ? u : exp(S(exponent) * log(u)));
-      S f = spring * (S(1) + S(damping) * rate) + S(viscous) * rate;
+      return spring * (S(1) + S(damping) * rate) + S(viscous) * rate;
+    }
+
+    template <class S> S push(const S& u, const S& rate) const {
+      S f = pressed(u, rate);
       if (f < S(0))
         return S(0);
       if (u < S(width)) {

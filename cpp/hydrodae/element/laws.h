@@ -11,6 +11,7 @@
 ///   energy(In<double>)                 optional [J]
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
+///   kinks(In<double>, double* out)     with F::n_kinks
 ///
 /// One that acts on points says how many, n_points.
 ///
@@ -80,6 +81,8 @@ public:
       work = F::work;
     if constexpr (requires { F::channels(); })
       channels = F::channels();
+    if constexpr (requires { F::n_kinks; })
+      n_kinks = F::n_kinks;
     if constexpr (requires { F::inputs(); })
       inputs = F::inputs();
     else
@@ -149,6 +152,17 @@ public:
         held += n_signals;
         out += n_out;
         values += channels.size();
+      }
+  }
+
+  void kinks([[maybe_unused]] double t, [[maybe_unused]] const double* in,
+             [[maybe_unused]] const double* held, [[maybe_unused]] double* out) const override {
+    if constexpr (requires { F::n_kinks; })
+      for (const Law& law : laws_) {
+        law.kinks(view(t, in, held), out);
+        in += n_in;
+        held += n_signals;
+        out += F::n_kinks;
       }
   }
 

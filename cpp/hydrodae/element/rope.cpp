@@ -41,6 +41,7 @@ public:
     }
     signals.assign(ropes.size(), 0.0);
     schedules = winch_schedules(ropes);
+    n_kinks = 1;
   }
 
   void evaluate(double t, const double* in, const double* held, double* out) const override {
@@ -99,6 +100,11 @@ public:
     }
   }
 
+  void kinks(double t, const double* in, const double* held, double* out) const override {
+    for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width)
+      out[k] = pull<double>(laws_[k], t, in, held[k]).tautness;
+  }
+
   bool lost_at_rest(std::size_t) const override { return false; }
 
 private:
@@ -109,6 +115,7 @@ private:
   template <class S> struct State {
     S tension;
     double free, free_rate; ///< L0, L0'
+    S tautness{0};          ///< see RopeState
   };
 
   template <class S> static Vec3<S> point(const S* in, int i) {
@@ -131,13 +138,14 @@ private:
   }
 
   template <class S> State<S> pull(const Law& law, double t, const S* in, double change) const {
-    State<S> out{S(0), law.length + change, 0.0};
+    State<S> out{S(0), law.length + change, 0.0, S(0)};
     if (law.winch.winds()) {
       const Dual now = law.winch.at(t);
       out.free = now.a + change;
       out.free_rate = now.b;
     }
     const S l = total(in);
+    out.tautness = (l - S(out.free)) / S(out.free);
     if (l > S(out.free)) {
       S rate(0);
       for (int i = 0; i + 1 < n_; ++i) {
@@ -149,6 +157,8 @@ private:
           S(out.free);
       if (T > S(0))
         out.tension = T;
+      if (T < S(law.stiffness) * out.tautness)
+        out.tautness = T / S(law.stiffness);
     }
     return out;
   }

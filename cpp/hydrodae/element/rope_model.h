@@ -40,6 +40,7 @@ template <class S> struct RopeState {
   std::array<RopeNode<S>, most_rope_nodes> nodes;
   RopePath<S> path;
   S length{0}, rate{0}, tension{0};   ///< l, l', T
+  S tautness{0};                      ///< strain, or T / EA where that is less: it pulls above 0
   double free = 0.0, free_rate = 0.0; ///< L0, L0'
 };
 
@@ -112,11 +113,14 @@ template <class S> void RopeModel::pull(double t, double change, RopeState<S>& n
   }
   const S stretch = now.length - S(now.free);
   now.tension = S(0);
+  now.tautness = stretch / S(now.free);
   if (stretch > S(0)) {
     const S T = (S(rope.stiffness) * stretch + S(rope.damping) * (now.rate - S(now.free_rate))) /
                 S(now.free);
     if (T > S(0))
       now.tension = T;
+    if (T < S(rope.stiffness) * now.tautness)
+      now.tautness = T / S(rope.stiffness);
   }
 }
 

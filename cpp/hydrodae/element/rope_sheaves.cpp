@@ -20,6 +20,7 @@ public:
     inputs = {{"length_change", "m"}};
     schedules = winch_schedules(ropes);
     signals.assign(ropes.size(), 0.0);
+    n_kinks = 1;
     channels = {
         {"tension", "N", "Tension of the rope."},
         {"length", "m", "Length of the rope along its points and sheaves."},
@@ -74,6 +75,14 @@ public:
       *values++ = now.length;
       *values++ = -now.tension * now.free_rate;
       values = std::copy_n(now.path.wrap.data() + 1, m.n_points - 2, values);
+    }
+  }
+
+  void kinks(double t, const double* in, const double* held, double* out) const override {
+    RopeState<double> now;
+    for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {
+      models_[k].see(t, in, held[k], now);
+      out[k] = now.tautness;
     }
   }
 

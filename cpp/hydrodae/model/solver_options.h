@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/model/methods.h"
 
 namespace hydrodae::model {
 
@@ -33,15 +34,11 @@ struct SolverOptions {
 
   template <class O = SolverOptions> static Fields<O> fields() {
     return {
-        {"method",
-         &O::method,
-         "-",
+        {"method", &O::method, "-",
          "Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic), generalised "
          "alpha on the Lie group, or projected explicit Runge-Kutta; auto: explicit_rk, radau or "
          "ida as suits the scene, and another of them where the one at work cannot go on.",
-         false,
-         any_value,
-         {"auto", "ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
+         false, any_value, method_names()},
         {"coordinates",
          &O::coordinates,
          "-",

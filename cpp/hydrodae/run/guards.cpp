@@ -30,10 +30,10 @@ public:
       : s_(s), guard_(std::move(guard)), watch_(watch) {}
   void check(const Step& step) override {
     guard_.check(
-        step.end, step.recorder, [&] { return watch_.near_singular(step); },
+        step.end, step.measure, [&] { return watch_.near_singular(step); },
         [&] { return reactions(s_, step.y); });
   }
-  void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
+  void finish(const Step& step) override { guard_.finish(step.end, step.measure); }
 
 private:
   const system::Regime& s_;
@@ -155,7 +155,7 @@ PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& option
 }
 
 bool PoseWatch::near_singular(const Step& step) {
-  const bool short_steps = method_ == "ida";
+  const bool short_steps = model::method_traits(method_).many_steps;
   if (!guard_ || (short_steps && ++asked_ % 4 != 0))
     return false;
   const int looks = short_steps ? 1 : 6;
@@ -173,7 +173,7 @@ std::string PoseWatch::with_remedy(std::string text, double t, const VectorX& y,
   if (!guard_ || !guard_->near_singular(t, y, yp))
     return text;
   const std::string remedy =
-      method_ == "radau" || method_ == "explicit_rk"
+      model::method_traits(method_).passes_singular_poses
           ? "; it is next to a singular pose (a dead point, or bars in line), where the motion may "
             "have no unique way on: a smaller rtol, or a little friction, may help"
           : "; it is next to a singular pose (a dead point, or bars in line): solver.method = "

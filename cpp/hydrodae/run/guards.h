@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
+#include "hydrodae/measure/measure.h"
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
-#include "hydrodae/system/recorder.h"
 
 namespace hydrodae::run {
 
@@ -19,7 +19,7 @@ struct Step {
   const VectorX& y;              ///< at its end; after an event those that go on from there
   const VectorX& yp;
   solve::Integrator& integrator; ///< gives y, y' inside the step
-  const system::Recorder& recorder;
+  const measure::Measure& measure;
 };
 
 class Guard {

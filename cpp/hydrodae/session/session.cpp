@@ -119,20 +119,20 @@ private:
     long steps_since_asked = 0;
     bool going = true;
     if (comparison_)
-      comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
+      comparison_->moved(simulation_.y(), simulation_.measured().turns().value);
     if (next_ == 0)
       going = sample(0.0);
     // A run that stops with a checkpoint has all rows up to it.
     const auto samples_inside = [&] {
       if (comparison_)
-        comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
+        comparison_->moved(simulation_.y(), simulation_.measured().turns().value);
       const double t = simulation_.time();
       while ((going || checkpoint_ >= 0.0) && next_ <= samples &&
              static_cast<double>(next_) * dt <= t * (1.0 + 1e-14))
         going = sample(std::min(static_cast<double>(next_) * dt, t)) && going;
     };
     while (going && !simulation_.finished()) {
-      simulation_.advance(end(), samples_inside);
+      simulation_.advance(end(), samples_inside, static_cast<double>(next_) * dt);
       if (file_)
         file_->flush_if_due();
       // Between samples that are far apart in steps, a request to stop is heard as well.
@@ -205,8 +205,8 @@ private:
     statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
     const std::vector<std::string> units = simulation_.unit_notes();
     statistics_.notes.insert(statistics_.notes.end(), units.begin(), units.end());
-    statistics_.mean_power_from = simulation_.recorder().averaged_from();
-    for (const system::Recorder::Absorbed& pto : simulation_.recorder().absorbed())
+    statistics_.mean_power_from = simulation_.measured().averaged_from();
+    for (const measure::Measure::Absorbed& pto : simulation_.measured().absorbed())
       statistics_.mean_power.emplace_back(pto.name, pto.mean_power);
     for (const run::Controllers::Cost& cost : simulation_.controller_costs())
       statistics_.controllers.push_back(
@@ -240,7 +240,7 @@ private:
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
-  const std::vector<std::string> methods = {"radau", "ida", "explicit_rk"};
+  const std::vector<std::string> methods = model::adaptive_methods();
   if (!options.verify.empty() &&
       std::find(methods.begin(), methods.end(), options.verify) == methods.end())
     throw CaseError("--verify " + options.verify + ": expected a method that chooses its steps" +

@@ -15,7 +15,7 @@ constexpr double usual = 1e-2; ///< part of the energy exchanged
 
 /// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
 /// times ten, or what moves at its end [J].
-double believed(const system::Recorder::Balance& before, const system::Recorder::Balance& now) {
+double believed(const measure::Balance& before, const measure::Balance& now) {
   constexpr double more = 10.0;
   return std::min(now.exchanged, std::max(more * before.exchanged, now.kinetic));
 }
@@ -75,12 +75,12 @@ void EnergyGuard::fail(double t, double error, double part, double exchanged, co
                            " J exchanged" + where);
 }
 
-void EnergyGuard::check(double t, const system::Recorder& recorder,
+void EnergyGuard::check(double t, const measure::Measure& measure,
                         const std::function<bool()>& at_singular_pose,
                         const std::function<std::string()>& reactions) const {
   if (part_ == 0.0)
     return;
-  const std::vector<system::Recorder::Balance>& mechanisms = recorder.mechanisms();
+  const std::vector<measure::Balance>& mechanisms = measure.mechanisms();
   const auto look = [&](int mechanism, double error, double exchanged) {
     if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
       return;
@@ -97,13 +97,13 @@ void EnergyGuard::check(double t, const system::Recorder& recorder,
              "step, or another method may help" +
              (singular ? " (radau and explicit_rk pass singular poses)" : "") + reactions());
   };
-  look(-1, recorder.balance_error(), believed(recorder.whole_before(), recorder.whole()));
+  look(-1, measure.whole().error, believed(measure.whole_before(), measure.whole()));
   for (std::size_t m = 0; m < mechanisms.size(); ++m)
     look(static_cast<int>(m), mechanisms[m].error,
-         believed(recorder.mechanisms_before()[m], mechanisms[m]));
+         believed(measure.mechanisms_before()[m], mechanisms[m]));
 }
 
-void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
+void EnergyGuard::finish(double t, const measure::Measure& measure) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)
     return;
@@ -115,9 +115,9 @@ void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
            " in the whole run (solver.energy_guard): the motion is not to be trusted; a smaller "
            "tolerance or max_step may help");
   };
-  look(-1, recorder.balance_error(), recorder.largest_energy());
-  for (std::size_t m = 0; m < recorder.mechanisms().size(); ++m)
-    look(static_cast<int>(m), recorder.mechanisms()[m].error, recorder.mechanisms()[m].exchanged);
+  look(-1, measure.whole().error, measure.whole().exchanged);
+  for (std::size_t m = 0; m < measure.mechanisms().size(); ++m)
+    look(static_cast<int>(m), measure.mechanisms()[m].error, measure.mechanisms()[m].exchanged);
 }
 
 } // namespace hydrodae::solve

@@ -4,8 +4,8 @@
 
 #include <functional>
 
+#include "hydrodae/measure/measure.h"
 #include "hydrodae/model/solver_options.h"
-#include "hydrodae/system/recorder.h"
 
 namespace hydrodae::solve {
 
@@ -20,7 +20,7 @@ public:
   /// than is allowed.
   /// @param at_singular_pose asked only where it matters: was the last step next to such a pose?
   /// @param reactions the largest ones, for the message
-  void check(double t, const system::Recorder& recorder,
+  void check(double t, const measure::Measure& measure,
              const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
@@ -28,7 +28,7 @@ public:
   double counts() const { return least(-1); }
 
   /// The same at the end of the run, with next to no energy too little to tell.
-  void finish(double t, const system::Recorder& recorder) const;
+  void finish(double t, const measure::Measure& measure) const;
 
 private:
   [[noreturn]] void fail(double t, double error, double part, double exchanged,

@@ -6,7 +6,11 @@
 #include "hydrodae/core/channel.h"
 #include "hydrodae/system/kinematics.h"
 
-namespace hydrodae::system {
+namespace hydrodae::observe {
+
+using system::BodyState, system::ElementList, system::ElementScratch, system::HydroData,
+    system::JointData, system::PortData, system::Regime, system::RowData, system::Turns,
+    system::Workspace;
 
 /// One force component on one body: force and moment about the centre of gravity, world axes.
 struct ComponentLoad {
@@ -49,7 +53,7 @@ public:
   /// Angles go on from these values (of an accepted step).
   void follow(const Turns& turns) { ws_.turns = turns; }
   /// Where they are at the last `observe`.
-  void read(Turns& turns) const { read_turns(s_, ws_, turns); }
+  void read(Turns& turns) const { system::read_turns(s_, ws_, turns); }
   /// Displacement of a body from its reference pose there [m; rad].
   Vector6 displacement(int body, const VectorX& y) const {
     return system::displacement<double>(s_, ws_, body, y.data());
@@ -84,4 +88,4 @@ private:
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant
 };
 
-} // namespace hydrodae::system
+} // namespace hydrodae::observe

@@ -1,9 +1,11 @@
 /// Of the observer: loads, stored energy and own channels of the laws.
 
+#include "hydrodae/observe/observer.h"
 #include "hydrodae/system/elements.h"
-#include "hydrodae/system/observer.h"
 
-namespace hydrodae::system {
+namespace hydrodae::observe {
+
+using namespace system;
 
 namespace {
 
@@ -110,4 +112,4 @@ void Observer::observe(const ElementList& list, const double* y) {
   }
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::observe

@@ -1,4 +1,4 @@
-#include "hydrodae/system/observer.h"
+#include "hydrodae/observe/observer.h"
 
 #include <algorithm>
 
@@ -6,7 +6,9 @@
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/elements.h"
 
-namespace hydrodae::system {
+namespace hydrodae::observe {
+
+using namespace system;
 
 namespace {
 
@@ -230,4 +232,4 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   return out_;
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::observe
