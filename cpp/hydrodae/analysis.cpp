@@ -43,7 +43,7 @@ void add_bodies(const Regime& s, const system::Workspace<double>& ws, const Vect
                 LinearModel& out) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const system::BodyData& b = s.bodies[i];
-    const Vector6 xi = system::displacement<double>(b, ws.bodies[i], y.data());
+    const Vector6 xi = system::displacement<double>(s, ws, static_cast<int>(i), y.data());
     out.bodies.push_back(b.name);
     out.offsets.emplace_back(xi.head<3>());
     out.places.emplace_back(ws.bodies[i].r);

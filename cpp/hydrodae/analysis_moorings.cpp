@@ -49,8 +49,8 @@ void put_apart(const Slope& at, Mooring& out) {
   const Vector3 d = out.places[1] - out.places[0];
   const Vector3 e = d.normalized();
   const Matrix3 along = e * e.transpose();
-  const Matrix3 by_place =
-      at.by_x(0) * along + at.load[0] / d.norm() * (Matrix3::Identity() - along);
+  const double across = d.isZero(0.0) ? at.by_x(0) : at.load[0] / d.norm(); // its limit at zero
+  const Matrix3 by_place = at.by_x(0) * along + across * (Matrix3::Identity() - along);
   const Matrix3 by_rate = at.by_v(0) * along;
   out.load.resize(6);
   out.load << -at.load[0] * e, at.load[0] * e;

@@ -22,6 +22,7 @@ from tests.attack import (  # noqa: F401  the modules register their families
     memories,
     moorings,
     parting,
+    poses,
     ptos,
     rest,
     scales,

@@ -34,6 +34,7 @@ SAMPLE = (
     "sound_sphere_2", "misaligned_door_1", "misaligned_door_4", "submerged_pendulum_1",
     "submerged_pendulum_3", "compliant_stop_1", "pressed_incline_3", "timed_impact_2", "pi_block_2",
     "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3",
+    "wound_vector_1", "wound_vector_3", "spring_at_one_place_1", "folded_rope_1",
 )  # fmt: skip
 
 
@@ -50,7 +51,7 @@ def test_the_suite_has_every_kind_and_a_hundred_scenes() -> None:
         "loads after rest", "drives", "small and large", "unconnected mechanisms", "impacts",
         "long runs", "turns", "start velocities", "bad memories", "misaligned hinges",
         "buoyancy", "contacts and friction", "controllers", "moorings", "power take-offs",
-        "errors that grow",
+        "errors that grow", "special poses",
     }  # fmt: skip
     assert len(SCENES) >= 100
     assert {suite.kind_of(name) for name in SAMPLE} == kinds

@@ -28,7 +28,65 @@ VectorX derivative(const Regime& s, const VectorX& y, const VectorX& yp, Index c
   return d;
 }
 
+/// Largest error of all columns by y and y'.
+void require_exact(const Regime& s, const VectorX& y, const VectorX& yp, const MatrixX& by_y,
+                   const MatrixX& by_yp) {
+  for (Index c = 0; c < s.n; ++c) {
+    CAPTURE(s.names[c]);
+    for (bool rates : {false, true}) {
+      const VectorX exact = derivative(s, y, yp, c, rates);
+      const VectorX ours = (rates ? by_yp : by_y).col(c);
+      Index worst = 0;
+      const double error =
+          ((ours - exact).array().abs() / (1.0 + exact.array().abs())).maxCoeff(&worst);
+      CAPTURE(s.row_names[worst]);
+      CAPTURE(ours[worst]);
+      CAPTURE(exact[worst]);
+      REQUIRE(error < 1e-9);
+    }
+  }
+}
+
+/// Winds all rotations that laws see up by a turn.
+void wind_up(Regime& s, const VectorX& y, const VectorX& yp) {
+  system::Workspace<double> ws(s);
+  system::unpack<double>(s, y.data(), yp.data(), ws.bodies);
+  for (std::size_t r = 0; r < s.system.rotations.size(); ++r) {
+    const Vector3 vector = system::rotation_of<double>(s, ws, static_cast<int>(r));
+    Eigen::Map<Vector3>(s.nearby.data() + s.motions.size() + 3 * r) =
+        vector + 2.0 * pi * vector.normalized();
+  }
+}
+
 } // namespace
+
+TEST_CASE("the Jacobian is exact beyond half a turn") {
+  test::Random random;
+  int wound = 0;
+  for (const test::NamedScene& named : test::all_scenes()) {
+    CAPTURE(named.name);
+    const System built = system::build(named.scene);
+    Regime s(built);
+    const auto history = test::random_history(s, random, instant);
+    const VectorX y = test::random_state(s, random);
+    const VectorX yp = VectorX::NullaryExpr(s.n, [&] { return random(); });
+    wind_up(s, y, yp);
+    system::Workspace<double> ws(s);
+    system::unpack<double>(s, y.data(), yp.data(), ws.bodies);
+    for (const system::ElementList& list : s.elements)
+      for (const system::PortData& port : list.ports)
+        if (port.followed >= 0) {
+          REQUIRE(system::rotation_of<double>(s, ws, port.followed).norm() > pi);
+          ++wound;
+        }
+    const system::Pattern pattern = system::find_pattern(s);
+    system::JacobianWorkspace scratch(s);
+    system::JacobianParts parts(pattern);
+    system::jacobian(s, pattern, scratch, instant, y.data(), yp.data(), parts);
+    require_exact(s, y, yp, test::dense(pattern, parts.by_y), test::dense(pattern, parts.by_yp));
+  }
+  CHECK(wound > 100);
+}
 
 TEST_CASE("the Jacobian is exact in all blocks") {
   test::Random random;
@@ -49,20 +107,7 @@ TEST_CASE("the Jacobian is exact in all blocks") {
     system::jacobian(s, pattern, ws, instant, y.data(), yp.data(), parts);
     const MatrixX by_y = test::dense(pattern, parts.by_y),
                   by_yp = test::dense(pattern, parts.by_yp);
-    for (Index c = 0; c < s.n; ++c) {
-      CAPTURE(s.names[c]);
-      for (bool rates : {false, true}) {
-        const VectorX exact = derivative(s, y, yp, c, rates);
-        const VectorX ours = (rates ? by_yp : by_y).col(c);
-        Index worst = 0;
-        const double error =
-            ((ours - exact).array().abs() / (1.0 + exact.array().abs())).maxCoeff(&worst);
-        CAPTURE(s.row_names[worst]);
-        CAPTURE(ours[worst]);
-        CAPTURE(exact[worst]);
-        REQUIRE(error < 1e-9);
-      }
-    }
+    require_exact(s, y, yp, by_y, by_yp);
     // The part for accelerations: its blocks of the same values.
     const system::Pattern part = system::find_pattern(s, system::Part::accelerations);
     REQUIRE(part.nonzeros() <= pattern.nonzeros());

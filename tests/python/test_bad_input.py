@@ -299,9 +299,10 @@ end_time = 10.0
         ),
         (
             "point_a = [5.0",
-            "point_a = [0.0",
-            "case.toml:43:1: force 'spring': point_a and point_b coincide in the reference pose: "
-            "the force has no direction",
+            "force = 1.0\npoint_a = [0.0",
+            "case.toml:44:1: force 'spring': point_a and point_b coincide in the reference pose: "
+            "the force has no direction there, and is not zero (a linear spring with length = 0 "
+            "is)",
         ),
         (
             "inertia = [1.0, 2.0, 2.5]",

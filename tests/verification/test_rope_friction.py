@@ -370,3 +370,32 @@ def test_bad_friction_is_refused(change: str, message: str) -> None:
     text = two_masses(M_1, M_2) + rope('["light", "ground", "heavy"]', f"stiffness = 1e4\n{change}")
     with pytest.raises(CaseError, match=message):
         run_text(text, 0.1)
+
+
+@pytest.mark.parametrize("aside", [0.0, 1e-3])
+@pytest.mark.parametrize("masses", [(12.0, 10.0), (10.0, 12.0)])
+def test_a_rope_turned_back_by_180_degrees_keeps_its_friction(
+    masses: tuple[float, float], aside: float
+) -> None:
+    """Both parts hang side by side: phi = pi, and e^(0.2 pi) = 1.87 holds 1.2; at half the friction
+    it slides at a = (m2 - E m1) g / (m2 + E m1)."""
+    points = [[0.0, 0.0, 4.0], [0.0, 0.0, 10.0], [aside, 0.0, 3.97]]
+    text = f"[environment]\ngravity = {G}\n"
+    for name, mass, place in zip("ab", masses, [points[0], points[2]], strict=True):
+        text += f'[[body]]\nname = "{name}"\nmotion = "point"\nmass = {mass}\n'
+        text += f"center_of_gravity = {place}\n"
+    keys = "stiffness = 4e4\nlength = 12.0\ndamping = 4e3\nfriction = [0, {}, 0]"
+    over = f"points = {points}\n"
+    held = run_text(text + rope('["a", "ground", "b"]', keys.format(0.2), over), 2.0)
+    assert held["forces/rope/wrap"].values.ravel() == pytest.approx(math.pi, abs=1e-3)
+    grip = np.asarray(held["forces/rope/grip"].values).ravel()
+    assert grip == pytest.approx(math.exp(0.2 * math.pi), rel=1e-3)
+    assert np.abs(height_of(held, "a") + height_of(held, "b")).max() < 0.05
+    assert np.abs(slip(held)[held.time > 1.0]).max() == 0.0
+    light, heavy = min(masses), max(masses)
+    E = math.exp(0.02 * math.pi)
+    loose = run_text(text + rope('["a", "ground", "b"]', keys.format(0.02), over), 0.8)
+    late = (loose.time > 0.4) & (loose.time < 0.7)
+    v = np.abs(velocity(loose, "a"))
+    fall = np.polyfit(loose.time[late], v[late], 1)[0]
+    assert fall == pytest.approx(G * (heavy - E * light) / (heavy + E * light), rel=0.02)

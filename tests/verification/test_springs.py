@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.blocks import METHODS, block
+from tests.verification.blocks import METHODS, block, run_text
 
-from hydrodae.errors import CaseError
+from hydrodae.errors import CaseError, SolverError
 
 
 def test_hardening_spring_keeps_its_energy() -> None:
@@ -136,3 +136,65 @@ def test_a_stop_with_a_width_stores_what_it_gives_back() -> None:
     assert run["joints/slide/displacement_rate"].values[-1] == pytest.approx(-1.0, rel=1e-7)
     with pytest.raises(CaseError, match="needs 'lower' or 'upper'"):
         block(STOP.replace("upper = 0.0", "stiffness = 1.0"), 1.0)
+
+
+AT_ONE_PLACE = """
+[environment]
+gravity = 0.0
+[[body]]
+name = "bob"
+motion = "point"
+mass = 2.0
+center_of_gravity = [1.0, 2.0, 3.0]
+initial = { displacement = START, velocity = SPEED }
+[[force]]
+type = "spring_damper"
+name = "spring"
+body_a = "ground"
+body_b = "bob"
+point_a = [1.0, 2.0, 3.0]
+point_b = [1.0, 2.0, 3.0]
+stiffness = 8.0
+"""
+
+
+def at_one_place(speed: list[float], keys: str = "", start: str = "[0, 0, 0]") -> str:
+    return AT_ONE_PLACE.replace("SPEED", str(speed)).replace("START", start) + keys
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("keys", ["", "length = 0.0\n"])
+def test_a_spring_without_length_starts_where_its_points_coincide(keys: str, method: str) -> None:
+    """Its vector -k d is smooth there: d = v sin(w t) / w in each direction."""
+    speed = np.array([1.0, -2.0, 0.5])
+    run = run_text(at_one_place(speed.tolist(), keys), 5.0, method=method, rtol=1e-8)
+    d = run["bodies/bob/position"].values - np.array([1.0, 2.0, 3.0])
+    assert np.abs(d - 0.5 * np.outer(np.sin(2.0 * run.time), speed)).max() < 1e-6
+
+
+def test_a_spring_without_length_rests_where_its_points_coincide() -> None:
+    run = run_text(at_one_place([0.0, 0.0, 0.0]), 1.0)
+    assert np.ptp(run["bodies/bob/position"].values, axis=0).max() == 0.0
+
+
+def test_a_damped_spring_leaves_the_place_of_its_points_along_its_motion() -> None:
+    """m x'' + c x' + k x = 0 along the line of the start velocity."""
+    run = run_text(at_one_place([0.6, 0.0, 0.8], "damping = 3.0\n"), 3.0, rtol=1e-10)
+    omega = math.sqrt(4.0 - 0.75**2)
+    exact = np.exp(-0.75 * run.time) * np.sin(omega * run.time) / omega
+    d = run["bodies/bob/position"].values - np.array([1.0, 2.0, 3.0])
+    assert np.abs(d - np.outer(exact, [0.6, 0.0, 0.8])).max() < 1e-6
+
+
+@pytest.mark.parametrize("keys", ["length = 0.1\n", "force = 1.0\n"])
+def test_a_spring_that_pushes_where_its_points_coincide_is_refused(keys: str) -> None:
+    with pytest.raises(CaseError, match="force 'spring': point_a and point_b coincide"):
+        run_text(at_one_place([1.0, 0.0, 0.0], keys), 1.0)
+
+
+def test_a_spring_that_starts_at_one_place_only_is_refused_by_name() -> None:
+    """The reference pose has a direction, the start has none."""
+    text = at_one_place([0.0, 0.0, 0.0], "length = 0.1\n", "[-1.0, 0.0, 0.0]")
+    text = text.replace("point_b = [1.0, 2.0, 3.0]", "point_b = [2.0, 2.0, 3.0]")
+    with pytest.raises((CaseError, SolverError), match="'spring': its points are at one place"):
+        run_text(text, 1.0)

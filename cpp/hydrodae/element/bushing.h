@@ -17,7 +17,8 @@ namespace hydrodae::element {
 /// d: place of the point of B seen from that of A [m], theta: rotation vector of B against A [rad],
 /// both zero in the reference pose; d', omega: relative velocities. Where theta is large, or K
 /// couples rotations, a rotation vector is no exact coordinate of a moment: energy is kept to
-/// second order in theta.
+/// second order in theta. Beyond half a turn it goes on about the axis that it has; a rotation
+/// without an axis of its own ends the run there.
 struct Bushing {
   static constexpr std::string_view type = "bushing";
   static constexpr std::string_view doc =

@@ -11,7 +11,8 @@ namespace hydrodae::element {
 ///
 ///   F = F0 - K xi - C [v; w]      xi = [r - r_ref; rotation vector of R R_ref^T], earth axes
 ///
-/// F holds the force [N] and the moment about the centre of gravity [N m].
+/// F holds the force [N] and the moment about the centre of gravity [N m]. Beyond half a turn the
+/// rotation vector goes on about the axis that it has; a rotation without one ends the run there.
 struct MooringMatrix {
   static constexpr std::string_view type = "mooring_matrix";
   static constexpr Port port = Port::on_body;

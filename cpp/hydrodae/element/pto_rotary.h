@@ -16,7 +16,9 @@ namespace hydrodae::element {
 ///
 /// u: what a controller asks for, else zero. theta: rotation vector of B against A [rad], zero in
 /// the reference pose; omega: relative angular velocity. Without u the power C omega . omega is
-/// absorbed. About several axes at once the spring keeps energy to second order in theta.
+/// absorbed. About several axes at once the spring keeps energy to second order in theta. Beyond
+/// half a turn theta goes on about the axis that it has, by any number of turns; a rotation without
+/// an axis of its own ends the run there.
 struct PtoRotary {
   static constexpr std::string_view type = "pto_rotary";
   static constexpr std::string_view doc = "Linear power take-off on relative roll, pitch and yaw "

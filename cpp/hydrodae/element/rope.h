@@ -48,8 +48,12 @@ struct Rope {
   /// across.
   std::vector<std::pair<std::string, Vector3>> ends() const;
 
+  /// Length along its points and sheaves in the reference pose [m].
+  double distance() const;
   /// Unstretched length that does not follow a winch [m].
   double free_length() const;
+  /// Are two points in a row at one place in the reference pose?
+  bool has_point_twice() const;
 
   /// Ropes of one shape make one list: as many points, sheaves, and places with friction, and all
   /// have breaking loads, or all break, or none.

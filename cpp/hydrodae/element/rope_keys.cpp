@@ -60,19 +60,29 @@ RopePath<double> reference_path(const Rope& rope) {
 
 } // namespace
 
-double Rope::free_length() const {
-  double distance = 0.0;
+double Rope::distance() const {
+  double sum = 0.0;
   if (is_plain()) {
     for (std::size_t i = 1; i < points.size(); ++i)
-      distance += (points[i] - points[i - 1]).norm();
-  } else {
-    const RopePath<double> path = reference_path(*this);
-    for (int k = 0; k < path.n_spans; ++k)
-      distance += path.spans[static_cast<std::size_t>(k)].length;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      distance += has_sheave(i) ? radii[i] * path.wrap[i] : 0.0;
+      sum += (points[i] - points[i - 1]).norm();
+    return sum;
   }
-  return pretension ? distance / (1.0 + *pretension / stiffness) : length.value_or(distance);
+  const RopePath<double> path = reference_path(*this);
+  for (int k = 0; k < path.n_spans; ++k)
+    sum += path.spans[static_cast<std::size_t>(k)].length;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sum += has_sheave(i) ? radii[i] * path.wrap[i] : 0.0;
+  return sum;
+}
+
+double Rope::free_length() const {
+  if (length)
+    return *length;
+  return pretension ? distance() / (1.0 + *pretension / stiffness) : distance();
+}
+
+bool Rope::has_point_twice() const {
+  return std::adjacent_find(points.begin(), points.end()) != points.end();
 }
 
 std::size_t Rope::shape() const {
@@ -160,10 +170,6 @@ std::optional<Fault> Rope::fault() const {
     return Fault{"points", "a rope takes 100 points at most: each feels all others"};
   if (bodies.size() != points.size())
     return Fault{"bodies", "a rope needs as many names in 'bodies' as 'points'"};
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if ((points[i] - points[i - 1]).norm() == 0.0)
-      return Fault{"points", "two points in a row are at one place in the reference pose: the "
-                             "rope has no direction between them"};
   if (breaks && !breaking_load)
     return Fault{"breaks", "a rope that breaks needs its 'breaking_load'"};
   if (length && pretension)
@@ -174,6 +180,10 @@ std::optional<Fault> Rope::fault() const {
     return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
   if (const std::optional<Fault> wrong = fault_of_lists(*this))
     return wrong;
+  if (has_point_twice() && !(is_plain() && !has_friction() && length && *length > distance()))
+    return Fault{"points", "two points in a row are at one place in the reference pose: the rope "
+                           "has no direction between them, unless it is slack there (of points "
+                           "without radii and friction, 'length' above their distance)"};
   if (is_plain() && !has_friction())
     return {};
   if (points.size() > most_with_sheaves)

@@ -113,13 +113,16 @@ template <class S> S angle_about(const Vec3<S>& axis, const Vec3<S>& a, const Ve
   return angle < S(-0.5 * pi) ? angle + S(2.0 * pi) : angle;
 }
 
-/// Between two directions, in [0, pi].
+/// Between two directions, in [0, pi]. At both ends of that range it has no derivative; the mean of
+/// those around is zero.
 template <class S> S angle_between(const Vec3<S>& a, const Vec3<S>& b) {
   using std::atan2;
   using std::sqrt;
   const Vec3<S> c = cross(a, b);
   const S square = dot(c, c);
-  return square > S(0) ? S(atan2(sqrt(square), dot(a, b))) : S(0);
+  if (square > S(0))
+    return atan2(sqrt(square), dot(a, b));
+  return dot(a, b) < S(0) ? S(pi) : S(0);
 }
 
 /// The path over n nodes, of which those stay aside that the rope has left.

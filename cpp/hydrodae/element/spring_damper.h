@@ -16,8 +16,9 @@ namespace hydrodae::element {
 ///   f = -k d - k2 d^2 - k3 d^3 - ... - F(d) - c s' + f0      [N], f > 0 pushes them apart
 ///
 /// s: distance of the points [m], d = s - s0; F: a curve through measured points, straight beyond
-/// its ends. A negative k pushes away from s0. The points are given in the reference pose. The law
-/// is not defined where they coincide.
+/// its ends. A negative k pushes away from s0. The points are given in the reference pose. Where
+/// they coincide the force has no direction; it has to be zero there, as of a linear spring with s0
+/// = 0, whose vector -k (r_B - r_A) is smooth. Its damper then acts along the motion.
 struct SpringDamper {
   static constexpr std::string_view type = "spring_damper";
   static constexpr Port port = Port::along_distance;
@@ -75,6 +76,14 @@ struct SpringDamper {
   /// A program may change it while it runs.
   static std::vector<Signal> inputs() { return {{"force", "N"}}; }
   std::array<double, n_signals> start_signals() const { return {force}; }
+
+  /// Does it rest where its points coincide?
+  bool rests_at_zero() const {
+    const double s = 0.0, v = 0.0;
+    double f = 0.0, none = 0.0;
+    law()(In<double>{0.0, &s, &v, &none, &force}, Out<double>{&f, &none});
+    return f == 0.0;
+  }
 
   /// What is wrong with it, if anything.
   std::optional<Fault> fault() const {

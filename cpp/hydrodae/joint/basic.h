@@ -81,25 +81,52 @@ Row<S> perp_row(const Marker& A, const Marker& B, int i, int j, const Geometry<S
   return row;
 }
 
+/// Gradient of a . (B - A) with a held in the world, given along the axes of body A:
+///   [-a_W, a x s_A, a_W, s_B x a_B]
+template <class S>
+Vec12<S> apart_gradient(const Marker& A, const Marker& B, const Geometry<S>& g, const Vec3<S>& a) {
+  const Vec3<S> a_W = g.R_A * a;
+  Vec12<S> gradient;
+  gradient << -a_W, cross<S>(a, A.point.cast<S>()), a_W,
+      cross<S>(B.point.cast<S>(), g.N.transpose() * a);
+  return gradient;
+}
+
 /// g = (d.d / L - L) / 2, d = B - A:  G = [-d_W, d_A x s_A, d_W, s_B x d_B] / L
 template <class S>
 Row<S> distance_row(const Marker& A, const Marker& B, double length, const Geometry<S>& g) {
-  const Vec3<S> d_A = g.e - A.point.cast<S>(), d_W = g.R_A * d_A;
-  Row<S> row;
-  row.value = S(0.5) * (dot<S>(d_A, d_A) / S(length) - S(length));
-  row.gradient << -d_W, cross<S>(d_A, A.point.cast<S>()), d_W,
-      cross<S>(B.point.cast<S>(), g.N.transpose() * d_A);
-  row.gradient /= S(length);
-  return row;
+  const Vec3<S> d = g.e - A.point.cast<S>();
+  return {S(0.5) * (dot<S>(d, d) / S(length) - S(length)),
+          apart_gradient<S>(A, B, g, d) / S(length)};
 }
 
-/// s = |B - A| [m]; not defined where the points coincide.
+/// s = |B - A| [m]. Where the points coincide it has no gradient: zero here, see
+/// `parting_gradient`.
 template <class S> Row<S> stretch_row(const Marker& A, const Marker& B, const Geometry<S>& g) {
   using std::sqrt;
-  Row<S> row = distance_row<S>(A, B, 1.0, g); // (s^2 - 1) / 2 and its gradient
-  row.value = sqrt(S(2) * row.value + S(1));
-  row.gradient /= row.value;
-  return row;
+  const Vec3<S> d = g.e - A.point.cast<S>();
+  const S square = dot<S>(d, d);
+  if (!(value_of(square) != 0.0))
+    return {S(0), Vec12<S>::Zero()};
+  const S s = sqrt(square);
+  return {s, apart_gradient<S>(A, B, g, d) / s};
+}
+
+/// Gradient of s where the points coincide and part by the velocities u (12 numbers): along their
+/// motion, its limit on the way there; zero at rest.
+template <class S>
+Vec12<S> parting_gradient(const Marker& A, const Marker& B, const Geometry<S>& g,
+                          const Vec12<S>& u) {
+  using std::sqrt;
+  Vec3<S> rate;
+  for (int k = 0; k < 3; ++k)
+    rate[k] = apart_gradient<S>(A, B, g, Vec3<S>(Vector3::Unit(k).template cast<S>()))
+                  .cwiseProduct(u)
+                  .sum();
+  const S square = dot<S>(rate, rate);
+  if (value_of(square) == 0.0)
+    return Vec12<S>::Zero();
+  return apart_gradient<S>(A, B, g, rate) / sqrt(square);
 }
 
 /// Gradient of a function of the place e of B's marker seen from A, whose gradient there is a:

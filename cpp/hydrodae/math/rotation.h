@@ -109,15 +109,15 @@ inline Vector4 quaternion_from_rotation_vector(const Vector3& theta) {
   return p;
 }
 
-/// d(rotation vector)/d(phi), phi in body axes: J = I + [t]x/2 + (1/|t|^2 -
-/// (1+cos|t|)/(2|t|sin|t|)) [t]x^2 (Sola, Deray, Atchuthan, arXiv:1812.01537, eq. 144: inverse
-/// right Jacobian of SO(3)).
+/// d(rotation vector)/d(phi), phi in body axes: J = I + [t]x/2 + (1 - h cot h) [t/|t|]x^2, h =
+/// |t|/2 (Sola, Deray, Atchuthan, arXiv:1812.01537, eq. 144: inverse right Jacobian of SO(3)). Also
+/// beyond half a turn; at full turns it has no value across the axis.
 inline Matrix3 rotation_vector_gradient(const Vector3& theta) {
   const double angle = theta.norm();
   const Matrix3 k = skew<double>(theta);
+  const double half = 0.5 * angle;
   const double c = angle < 1e-3 ? 1.0 / 12.0 + angle * angle / 720.0
-                                : 1.0 / (angle * angle) -
-                                      (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+                                : (1.0 - half / std::tan(half)) / (angle * angle);
   return Matrix3::Identity() + 0.5 * k + c * k * k;
 }
 

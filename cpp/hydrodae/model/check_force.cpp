@@ -52,9 +52,15 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
   } else if constexpr (requires { force.body_a; }) {
     check_ends(scene, entry, force.body_a, force.body_b);
     if constexpr (requires { force.point_a; })
-      if (coincide(force.point_a, force.point_b))
-        refuse(entry, "point_b",
-               "point_a and point_b coincide in the reference pose: the force has no direction");
+      if (coincide(force.point_a, force.point_b)) {
+        bool rests = std::is_same_v<Force, element::CatenaryLine>; // it hangs there
+        if constexpr (requires { force.rests_at_zero(); })
+          rests = force.rests_at_zero();
+        if (!rests)
+          refuse(entry, "point_b",
+                 "point_a and point_b coincide in the reference pose: the force has no direction "
+                 "there, and is not zero (a linear spring with length = 0 is)");
+      }
   }
   if constexpr (requires { force.bodies; }) {
     std::vector<std::string> names = names_of(scene.bodies);

@@ -6,6 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/run/turn_check.h"
 #include "hydrodae/solve/energy_guard.h"
 #include "hydrodae/solve/saddle_point.h"
 
@@ -210,6 +211,8 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
     guards.push_back(std::make_unique<DriftCheck>(system, *watch));
   if (has_pressed_friction(system))
     guards.push_back(std::make_unique<JamCheck>(system, pattern));
+  if (auto turns = make_turn_check(system, options.rtol))
+    guards.push_back(std::move(turns));
   return guards;
 }
 

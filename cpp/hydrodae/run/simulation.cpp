@@ -136,6 +136,7 @@ void Simulation::advance(double limit, const Inside& inside) {
   if (inside)
     inside();
   recorder_->accept();
+  regime_.nearby = recorder_->turns().value;
   scale_->accept(t_, y_);
   if (history_)
     history_->append(t_, y_, yp_, motion_, integrator_->degree());

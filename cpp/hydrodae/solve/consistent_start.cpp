@@ -6,6 +6,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/trouble.h"
 
 namespace hydrodae::solve {
 
@@ -110,6 +111,8 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   system::Workspace<double> ws(s);
   VectorX r(s.n);
   system::residual<double>(s, ws, 0.0, y.data(), yp.data(), r.data());
+  if (const std::string why = system::unknown_load(s, ws); !why.empty())
+    throw SolverError(0.0, "no accelerations at the start: " + why);
   check_constraints(s, y, r);
   Equations equations(s, pattern, 1.0);
   SaddlePoint saddle(equations);

@@ -105,7 +105,7 @@ void Equations::mass_and_rows(double t, const VectorX& y, const VectorX& yp,
 }
 
 void Equations::accept(double t, const VectorX& y, const VectorX& yp) {
-  if (system.motions.empty())
+  if (system.motions.empty() && system.system.rotations.empty())
     return;
   system::accept_turns(system, t, y.data(), yp.data(), workspace_);
   jacobian_workspace_.state.turns = workspace_.turns;

@@ -228,7 +228,7 @@ template <class Sink> void Assembly<Sink>::add(const ElementList& list) {
         law<6, 12>(d, bodies, J, shape, z);
       } else {
         PortGradient<1, 12> d;
-        motion_gradient(s, ws.state, port, *rows, *load, d);
+        motion_gradient(s, ws.state, port, *rows, *load, *J, d);
         law<1, 12>(d, bodies, J, shape, z);
         if (shape.n_reaction > 0)
           law_by_reaction(port, d, J, shape, z);

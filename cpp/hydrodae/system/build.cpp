@@ -11,6 +11,7 @@
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/initial_pose.h"
 #include "hydrodae/system/mechanisms.h"
+#include "hydrodae/system/turning.h"
 
 namespace hydrodae::system {
 
@@ -82,6 +83,7 @@ void number(System& s) {
   s.n_rows = 0;
   for_each_row(s, [&](Row& row, bool) { row.number = s.n_rows++; });
   set_groups(s);
+  follow_rotations(s);
 }
 
 bool System::has_waves() const {

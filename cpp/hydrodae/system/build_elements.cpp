@@ -273,6 +273,7 @@ void set_hydrostatics(const model::Scene& scene, System& s) {
     list = s.elements.insert(s.elements.end(), ElementList());
   list->laws = std::make_shared<const element::Laws<element::Hydrostatics>>(forces);
   list->ports = ports;
+  follow_rotations(s);
 }
 
 } // namespace hydrodae::system

@@ -3,6 +3,7 @@
 /// bodies (element/elements.h says what each port is).
 
 #include <algorithm>
+#include <limits>
 
 #include "hydrodae/system/history.h"
 
@@ -52,9 +53,8 @@ void see_markers(const Regime& s, const Workspace<S>& ws, const PortData& port, 
   const joint::Vec12<S> u = joint_velocity<S>(j, ws.bodies);
   relative_rows<S>(j, g, rows);
   const Mat3<S> axes = j.A.axes.template cast<S>();
-  const Mat3<S> turned = axes.transpose() * g.N * j.B.axes.template cast<S>();
   const Vec3<S> place = axes.transpose() * (g.e - j.A.point.template cast<S>()),
-                turn = rotation_vector<S>(quaternion_of<S>(turned));
+                turn = rotation_of<S>(s, ws, port.followed);
   for (int i = 0; i < 3; ++i) {
     x[i] = place[i];
     x[3 + i] = turn[i];
@@ -123,7 +123,7 @@ void gather(const Regime& s, const ElementList& list, const Workspace<S>& ws, co
     S *x = in, *v = in + shape.width;
     if (shape.port == element::Port::on_body) {
       const BodyState<S>& state = ws.bodies[port.body];
-      const Vec6<S> xi = displacement<S>(port.turn, s.bodies[port.body], state, y);
+      const Vec6<S> xi = displacement<S>(s, ws, port.body, port.turn, port.followed, y);
       const Vec6<S> velocity = twist<S>(state);
       std::copy(xi.data(), xi.data() + 6, x);
       std::copy(velocity.data(), velocity.data() + 6, v);
@@ -167,6 +167,11 @@ void add_load(const Regime& s, const element::Shape& shape, const PortData& port
   add_to_bodies<S>(s.joints[port.joint], sum, ws.loads);
 }
 
+/// Does a law along the distance of two points pull where these coincide at rest, in no direction?
+template <class S> bool pulls_nowhere(const S& x, const S& load, const joint::Vec12<S>& row) {
+  return x == S(0) && !(load == S(0)) && row.cwiseProduct(row).sum() == S(0);
+}
+
 /// Loads of one list into `ws.loads`, and the rows z' - h(x, v, z) = 0 of its states, -h = 0 of its
 /// algebraic unknowns.
 template <class S>
@@ -177,10 +182,14 @@ void add_loads(const Regime& s, const ElementList& list, Workspace<S>& ws, const
   gather<S>(s, list, ws, y, scratch);
   const double* held = s.held(list, ws.time, scratch.held);
   list.laws->evaluate(ws.time, scratch.in.data(), held, scratch.out.data());
-  const S* out = scratch.out.data();
+  S* out = scratch.out.data();
+  const S* in = scratch.in.data();
   const joint::Vec12<S>* rows = scratch.rows.data();
   Index z = list.z0;
   for (const PortData& port : list.ports) {
+    if (element::is_along(shape.port) && pulls_nowhere<S>(*in, *out, *rows))
+      *out = S(std::numeric_limits<double>::quiet_NaN());
+    in += shape.n_in();
     add_load<S>(s, shape, port, out, rows, ws);
     const int rates = shape.n_states - shape.n_algebraic;
     for (int k = 0; k < shape.n_states; ++k, ++z)

@@ -130,11 +130,15 @@ void Forcing::add_waves(const Regime& s) {
       take(waves.amplitude.cwiseAbs2());
     for (std::size_t k = 0; k < list.ports.size(); ++k) {
       const PortData& port = list.ports[k];
+      if (port.body < 0) // a line in the water: its loads reach bodies through its ends only
+        continue;
       const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
-      if (waves.loads.empty())
+      if (waves.loads.empty()) {
         expect(b, false, std::sqrt(2.0) * waves.amplitude.norm());
+        continue;
+      }
       VectorX moved = VectorX::Zero(waves.omega.size()); // squares, in levers or rad
-      for (int c = 0; c < 6 && !waves.loads.empty(); ++c)
+      for (int c = 0; c < 6; ++c)
         if (const double mass = mass_along(s, port, c); mass > 0.0) {
           const VectorX answer =
               response(waves.loads[k].row(c).transpose(), waves.omega, b.time_scale) / mass;

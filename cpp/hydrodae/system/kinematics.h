@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
-#include "hydrodae/system/regime.h"
+#include "hydrodae/system/turning.h"
 
 namespace hydrodae::system {
 
-using element::BodyState;
 using element::to_tangent;
 using element::to_world;
 
 struct Past;
 
-/// Coordinates and rates of all motions at the last accepted step, angles followed over turns.
+/// Coordinates and rates of all motions at the last accepted step, then vectors and angular
+/// velocities of the rotations, three numbers each; angles followed over turns.
 struct Turns {
   double time = 0.0;
   bool known = false; ///< else the values are near those of the start, and the rates are not known
@@ -64,9 +64,8 @@ template <class S> struct Workspace {
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
         elements(s.elements.begin(), s.elements.end()) {
-    turns.rate.assign(s.motions.size(), 0.0);
-    for (const MotionData& m : s.motions)
-      turns.value.push_back(m.start);
+    turns.value = start_turns(s);
+    turns.rate.assign(turns.value.size(), 0.0);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const BodyData& body = s.bodies[i];
       BodyState<S>& state = bodies[i];
@@ -107,38 +106,40 @@ void unpack(const System& s, const S* y, const S* yp, std::vector<BodyState<S>>&
   }
 }
 
-/// Displacement from the reference pose: [r - r_ref; rotation vector], earth axes [m; rad].
+/// A followed rotation as a vector [rad]: of its turns that to which the rates at the last accepted
+/// step and now lead.
+template <class S> Vec3<S> rotation_of(const System& s, const Workspace<S>& ws, int rotation) {
+  const RotationData& r = s.rotations[rotation];
+  const std::size_t at = s.motions.size() + 3 * static_cast<std::size_t>(rotation);
+  Vector3 near = Eigen::Map<const Vector3>(ws.turns.value.data() + at);
+  if (const double since = ws.time - ws.turns.time; ws.turns.known && since != 0.0)
+    near += 0.5 * since *
+            (Eigen::Map<const Vector3>(ws.turns.rate.data() + at) +
+             values<S>(spin_of<S>(s, r, ws.bodies)));
+  return nearest_rotation<S>(attitude_of<S>(s, r, ws.bodies), near);
+}
+
+/// Displacement of a body from its reference pose, turned by the quaternion `turn`: [r - r_ref;
+/// rotation vector], earth axes [m; rad]; `rotation`: in System::rotations, or -1.
 template <class S>
-Vec6<S> displacement(const BodyData& body, const BodyState<S>& state, const S* y) {
+Vec6<S> displacement(const System& s, const Workspace<S>& ws, int body, const Vector4& turn,
+                     int rotation, const S* y) {
+  const BodyData& b = s.bodies[body];
   Vec6<S> xi;
-  xi.template head<3>() = state.r - body.reference.template cast<S>();
-  if (body.rotation == BodyData::Rotation::about_axis) {
+  xi.template head<3>() = ws.bodies[body].r - b.reference.template cast<S>();
+  if (rotation >= 0) {
+    xi.template tail<3>() = rotation_of<S>(s, ws, rotation);
+  } else if (b.rotation == BodyData::Rotation::about_axis) {
     xi.template tail<3>().setZero();
-    xi[3 + body.axis] = y[body.q0 + body.n_translations];
+    xi[3 + b.axis] = y[b.q0 + b.n_translations] - S(2.0 * std::atan2(turn[1 + b.axis], turn[0]));
   } else {
-    xi.template tail<3>() = rotation_vector<S>(state.p);
+    xi.template tail<3>() = rotation_vector<S>(over<S>(ws.bodies[body].p, turn.template cast<S>()));
   }
   return xi;
 }
-
-/// The same from a reference pose turned by the quaternion `turn`.
 template <class S>
-Vec6<S> displacement(const Vector4& turn, const BodyData& body, const BodyState<S>& state,
-                     const S* y) {
-  Vec6<S> xi = displacement<S>(body, state, y);
-  if (turn[0] == 1.0)
-    return xi;
-  if (body.rotation == BodyData::Rotation::about_axis) {
-    xi[3 + body.axis] -= S(2.0 * std::atan2(turn[1 + body.axis], turn[0]));
-    return xi;
-  }
-  const Vec4<S>& p = state.p; // p o conj(turn)
-  const Vec3<S> a = p.template tail<3>(), b = -turn.template tail<3>().template cast<S>();
-  const S w = S(turn[0]);
-  Vec4<S> relative;
-  relative << p[0] * w - a.cwiseProduct(b).sum(), p[0] * b + w * a + cross<S>(a, b);
-  xi.template tail<3>() = rotation_vector<S>(relative);
-  return xi;
+Vec6<S> displacement(const System& s, const Workspace<S>& ws, int body, const S* y) {
+  return displacement<S>(s, ws, body, {1, 0, 0, 0}, s.bodies[body].followed, y);
 }
 
 /// [v; w] in world axes.
@@ -148,28 +149,7 @@ template <class S> Vec6<S> twist(const BodyState<S>& state) {
   return out;
 }
 
-/// Poses of the two bodies of a joint, seen through its markers; the ground is body -1.
-template <class S>
-joint::Geometry<S> joint_geometry(const JointData& j, const std::vector<BodyState<S>>& states) {
-  const Vec3<S> origin = Vec3<S>::Zero();
-  const Mat3<S> identity = Mat3<S>::Identity();
-  const bool a = j.A.body >= 0, b = j.B.body >= 0;
-  return joint::geometry<S>(j.B, a ? states[j.A.body].r : origin, a ? states[j.A.body].R : identity,
-                            b ? states[j.B.body].r : origin, b ? states[j.B.body].R : identity);
-}
-
-/// (v_A, w_A, v_B, w_B) of a joint.
-template <class S>
-joint::Vec12<S> joint_velocity(const JointData& j, const std::vector<BodyState<S>>& states) {
-  joint::Vec12<S> u = joint::Vec12<S>::Zero();
-  if (j.A.body >= 0)
-    u.template head<6>() << states[j.A.body].v, states[j.A.body].w;
-  if (j.B.body >= 0)
-    u.template tail<6>() << states[j.B.body].v, states[j.B.body].w;
-  return u;
-}
-
-/// Their rates.
+/// (v_A, w_A, v_B, w_B)' of a joint.
 template <class S>
 joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodyState<S>>& states) {
   joint::Vec12<S> a = joint::Vec12<S>::Zero();
@@ -185,7 +165,10 @@ joint::Vec12<S> joint_acceleration(const JointData& j, const std::vector<BodySta
 template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>& ws, int motion) {
   const MotionData& m = s.motions[motion];
   const JointData& j = s.joints[m.joint];
-  joint::Row<S> row = joint::motion_row<S>(m.motion, j.A, j.B, joint_geometry<S>(j, ws.bodies));
+  const joint::Geometry<S> g = joint_geometry<S>(j, ws.bodies);
+  joint::Row<S> row = joint::motion_row<S>(m.motion, j.A, j.B, g);
+  if (m.motion.kind == joint::FreeMotion::Kind::stretches && joint::value_of(row.value) == 0.0)
+    row.gradient = joint::parting_gradient<S>(j.A, j.B, g, joint_velocity<S>(j, ws.bodies));
   if (!m.motion.is_angle())
     return row;
   const auto k = static_cast<std::size_t>(motion);
@@ -199,19 +182,34 @@ template <class S> joint::Row<S> motion_row(const System& s, const Workspace<S>&
   return row;
 }
 
+/// Where all motions and rotations are, after `unpack` at time `ws.time`.
+inline void read_turns(const System& s, const Workspace<double>& ws, Turns& out) {
+  out.value.clear();
+  out.rate.clear();
+  for (std::size_t m = 0; m < s.motions.size(); ++m) {
+    const joint::Row<double> row = motion_row<double>(s, ws, static_cast<int>(m));
+    const JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
+    out.value.push_back(row.value);
+    out.rate.push_back(row.gradient.dot(joint_velocity<double>(j, ws.bodies)));
+  }
+  for (std::size_t r = 0; r < s.rotations.size(); ++r) {
+    const Vector3 vector = rotation_of<double>(s, ws, static_cast<int>(r)),
+                  spin = spin_of<double>(s, s.rotations[r], ws.bodies);
+    out.value.insert(out.value.end(), vector.begin(), vector.end());
+    out.rate.insert(out.rate.end(), spin.begin(), spin.end());
+  }
+  out.time = ws.time;
+  out.known = true;
+}
+
 /// Moves `turns` on to an accepted state at time t.
 inline void accept_turns(const System& s, double t, const double* y, const double* yp,
                          Workspace<double>& ws) {
   unpack<double>(s, y, yp, ws.bodies);
   ws.time = t;
-  for (std::size_t m = 0; m < s.motions.size(); ++m) {
-    const joint::Row<double> row = motion_row<double>(s, ws, static_cast<int>(m));
-    const JointData& j = s.joints[static_cast<std::size_t>(s.motions[m].joint)];
-    ws.turns.value[m] = row.value;
-    ws.turns.rate[m] = row.gradient.dot(joint_velocity<double>(j, ws.bodies));
-  }
-  ws.turns.time = t;
-  ws.turns.known = true;
+  Turns now;
+  read_turns(s, ws, now);
+  ws.turns = std::move(now);
 }
 
 /// Adds a load or shift (12 numbers of a joint) to its two bodies.

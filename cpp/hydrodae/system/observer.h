@@ -48,6 +48,12 @@ public:
 
   /// Angles go on from these values (of an accepted step).
   void follow(const Turns& turns) { ws_.turns = turns; }
+  /// Where they are at the last `observe`.
+  void read(Turns& turns) const { read_turns(s_, ws_, turns); }
+  /// Displacement of a body from its reference pose there [m; rad].
+  Vector6 displacement(int body, const VectorX& y) const {
+    return system::displacement<double>(s_, ws_, body, y.data());
+  }
 
 private:
   void add_load(const Vector6& world_load);

@@ -13,15 +13,21 @@ template <int w, int n> struct PortGradient {
 };
 
 /// s of a motion: W = ds/dxi, d(W u) = (T^T u) . dxi, turn = f T. A delayed law feels the present
-/// only where there is no past.
+/// only where there is no past. Where two points coincide T has no bound, but that of a load which
+/// is zero there, f = f_s s, has the limit f T = f_s (d2(s^2 / 2)/dxi2 - W^T W).
+/// @param load, slope  f and f_s
 inline void motion_gradient(const Regime& s, const Workspace<double>& ws, const PortData& port,
-                            const joint::Vector12& row, double load, PortGradient<1, 12>& out) {
+                            const joint::Vector12& row, double load, double slope,
+                            PortGradient<1, 12>& out) {
   const JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
-  const joint::Matrix12 T =
-      joint::motion_curvature(s.motions[static_cast<std::size_t>(port.motion)].motion, j.A, j.B,
-                              joint_geometry<double>(j, ws.bodies));
+  const joint::FreeMotion& motion = s.motions[static_cast<std::size_t>(port.motion)].motion;
+  const joint::Geometry<double> g = joint_geometry<double>(j, ws.bodies);
+  const joint::Matrix12 T = joint::motion_curvature(motion, j.A, j.B, g);
   out.W = row.transpose();
   out.turn = load * T;
+  if (motion.kind == joint::FreeMotion::Kind::stretches &&
+      joint::stretch_row<double>(j.A, j.B, g).value == 0.0)
+    out.turn = slope * (joint::distance_curvature(j.A, j.B, 1.0, g) - row * row.transpose());
   if (port.delay < 0) {
     out.x_xi = out.v_u = out.W;
     out.v_xi = (T.transpose() * joint_velocity<double>(j, ws.bodies)).transpose();

@@ -72,16 +72,10 @@ std::vector<Recorder::Absorbed> Recorder::absorbed() const {
   return out;
 }
 
-/// All motions where the observer is.
+/// All motions and rotations where the observer is.
 void Recorder::take_turns() {
+  observer_.read(turns_);
   turns_.time = end_;
-  turns_.known = true;
-  turns_.value.clear();
-  turns_.rate.clear();
-  for (const auto& [value, rate] : observer_.observation().motions) {
-    turns_.value.push_back(value);
-    turns_.rate.push_back(rate);
-  }
 }
 
 /// By component; where there are several mechanisms then by load, and of each mechanism's rows.

@@ -163,7 +163,7 @@ void Recorder::fill_bodies(double*& out) {
     const Eigen::Quaterniond q(state.R);
     for (double c : {q.w(), q.x(), q.y(), q.z()})
       *out++ = c;
-    put(out, displacement<double>(b, state, y_.data()).tail<3>());
+    put(out, observer_.displacement(static_cast<int>(i), y_).tail<3>());
     if (b.n_active > 0) {
       put(out, state.v);
       put(out, state.R * state.w);

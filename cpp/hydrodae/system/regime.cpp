@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/turning.h"
 
 namespace hydrodae::system {
 
@@ -50,8 +51,7 @@ Regime::Regime(const System& s)
     static_loads.push_back(element.static_load);
   for (const CouplerData& c : couplers)
     rates.push_back(c.drive.constant);
-  for (const MotionData& m : motions)
-    nearby.push_back(m.start);
+  nearby = start_turns(s);
   lay_out(*this);
 }
 

@@ -81,9 +81,9 @@ struct Regime {
   std::vector<std::vector<Lag>> lags; ///< of the first signals of each list; empty: none has one
   std::vector<double> static_loads;   ///< (n_switches,) of dry friction
   std::vector<double> rates;          ///< (n_couplers,) constant part of drives at velocity level
-  std::vector<double> nearby; ///< (n_motions,) coordinates near those now: they tell the turn
-  VectorX motion_scale;       ///< (n_groups,) part of the full scales that its motion takes
-  VectorX translation_scale;  ///< (n_groups,) of which its translations take so much
+  std::vector<double> nearby;         ///< Turns::value near those now: they tell the turn
+  VectorX motion_scale;               ///< (n_groups,) part of the full scales that its motion takes
+  VectorX translation_scale;          ///< (n_groups,) of which its translations take so much
 
   // What follows from that: the layout of y and of the residual.
   Index n = 0;                        ///< unknowns

@@ -53,6 +53,7 @@ struct BodyData {
   double lever = 1.0;           ///< [m], turns lengths into angles
   bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
   double time_scale = 1.0;      ///< [s], turns lengths into velocities
+  int followed = -1;            ///< its rotation in System::rotations; -1: not free, or locked
   int mechanism = -1;           ///< of bodies that constraint rows hold together; -1: cannot move
   int group = -1; ///< of bodies that move each other in any way: by rows, forces, or the water
 };
@@ -90,6 +91,13 @@ struct MotionData {
   double start = 0.0; ///< near the value at the start: tells the turn of an angle
 };
 
+/// A rotation that a law or the results see as a vector: of a body from its reference pose turned
+/// by `turn`, or of marker B of a joint against marker A. Followed over turns as angles are.
+struct RotationData {
+  int body = -1, joint = -1;
+  Vector4 turn{1, 0, 0, 0};
+};
+
 /// What a motion is to be at the start; met by the assembly together with the joints.
 struct MotionStart {
   int motion = 0;
@@ -118,6 +126,7 @@ struct PortData {
   int delay = -1;           ///< in System::delays, -1: none
   int body = -1;            ///< in System::bodies
   int joint = -1;           ///< in System::joints; of a motion: its own
+  int followed = -1;        ///< in System::rotations, of what it sees as a vector; -1: nothing
   Vector4 turn{1, 0, 0, 0}; ///< the law's reference pose over that of the body, a quaternion
   std::vector<joint::Marker> points; ///< of Port::points
 
@@ -212,6 +221,7 @@ struct System {
   std::vector<BodyData> bodies;
   std::vector<JointData> joints;
   std::vector<MotionData> motions;
+  std::vector<RotationData> rotations;
   std::vector<CouplerData> couplers;
   std::vector<SwitchData> switches;
   std::vector<MarkerData> markers;

@@ -26,7 +26,11 @@ std::string unknown_load(const Regime& s, const Workspace<double>& ws) {
       const double* in = ws.elements[i].in.data() + law * n_in;
       if (!all_finite({in, n_in}) || all_finite({ws.elements[i].out.data() + law * n_out, n_out}))
         continue;
-      const std::string why = element::trouble(laws.type, {in, n_in});
+      const bool nowhere =
+          element::is_along(laws.shape.port) && *in == 0.0 && ws.elements[i].rows[law].isZero(0.0);
+      const std::string why = nowhere
+                                  ? "its points are at one place, where its force has no direction"
+                                  : element::trouble(laws.type, {in, n_in});
       return std::string(laws.type) + " " + in_quotes(laws.names[law]) + ": " +
              (why.empty() ? "its load is no number" : why);
     }

@@ -147,9 +147,9 @@ const std::vector<BadInput> bad_inputs = {
     {"body_b = \"weight\"\npoint_a = [5.0", "body_b = \"wheight\"\npoint_a = [5.0",
      "case.toml:54:1: force 'spring': body_b = 'wheight' is no body; did you mean 'weight'? "
      "(valid: ground, wheel, weight)"},
-    {"point_a = [5.0", "point_a = [0.0",
-     "case.toml:56:1: force 'spring': point_a and point_b coincide in the reference pose: the "
-     "force has no direction"},
+    {"point_a = [5.0", "force = 1.0\npoint_a = [0.0",
+     "case.toml:57:1: force 'spring': point_a and point_b coincide in the reference pose: the "
+     "force has no direction there, and is not zero (a linear spring with length = 0 is)"},
     {"body = \"wheel\"", "body = \"wheal\"",
      "case.toml:62:1: force 'wind': body = 'wheal' is no body; did you mean 'wheel'? (valid: "
      "wheel, weight)"},

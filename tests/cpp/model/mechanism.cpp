@@ -326,8 +326,10 @@ TEST_CASE("forces between bodies have two ends and a direction") {
   CHECK(verdict(scene) == "force.spring.body_b: force 'spring': joins 'ground' with itself");
   spring.body_b = "a";
   spring.point_b = spring.point_a;
+  spring.force = 1.0;
   CHECK(verdict(scene) == "force.spring.point_b: force 'spring': point_a and point_b coincide in "
-                          "the reference pose: the force has no direction");
+                          "the reference pose: the force has no direction there, and is not zero "
+                          "(a linear spring with length = 0 is)");
   springs.clear();
   auto& loads = std::get<std::vector<element::ConstantLoad>>(scene.forces);
   loads.resize(1);
