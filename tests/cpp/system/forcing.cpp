@@ -23,6 +23,7 @@ period = 8.0
 name = "idle"
 motion = ["surge"]
 mass = 1.0
+center_of_gravity = [0.0, 10.0, 0.0]
 [[force]]
 type = "line"
 name = "line"
