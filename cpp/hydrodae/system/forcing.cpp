@@ -130,6 +130,8 @@ void Forcing::add_waves(const Regime& s) {
       take(waves.amplitude.cwiseAbs2());
     for (std::size_t k = 0; k < list.ports.size(); ++k) {
       const PortData& port = list.ports[k];
+      if (port.body < 0) // between points: what moves is a line
+        continue;
       const BodyData& b = s.bodies[static_cast<std::size_t>(port.body)];
       if (waves.loads.empty())
         expect(b, false, std::sqrt(2.0) * waves.amplitude.norm());
