@@ -1,5 +1,7 @@
 #include "hydrodae/analysis.h"
 
+#include <array>
+
 #include "hydrodae/analysis_moorings.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
@@ -131,13 +133,31 @@ VectorX reactions(const Regime& s, observe::Observer& observer, const VectorX& y
   return out;
 }
 
+constexpr std::array<const char*, 6> wrench_names = {"force.x",  "force.y",  "force.z",
+                                                     "moment.x", "moment.y", "moment.z"};
+
+/// What holds the coordinates that bodies do not have.
+void add_supports(const Regime& s, const VectorX& y, LinearModel& out) {
+  system::Observer observer(s);
+  const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
+  out.support.resize(0);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    if (s.bodies[i].n_active == 6)
+      continue;
+    for (const char* part : wrench_names)
+      out.supports.push_back("bodies/" + s.bodies[i].name + "/support_" + part);
+    out.support.conservativeResize(out.support.size() + 6);
+    out.support.tail<6>() = o.supports[i];
+  }
+}
+
 /// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
 /// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
 void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
   observe::Observer observer(s);
   for (const system::JointData& j : s.joints)
     if (!j.hidden)
-      for (const char* part : {"force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z"})
+      for (const char* part : wrench_names)
         out.reactions.push_back("joints/" + j.name + "/reaction_" + part);
   out.reaction = reactions(s, observer, y);
   out.reaction_by_xi.resize(out.reaction.size(), s.n_u);
@@ -246,6 +266,7 @@ LinearModel linearize(const model::Scene& scene) {
     out.notes.push_back("the linear model is without the controller " + in_quotes(c.name) +
                         ": what it writes stays as the case has it");
   add_reactions(s, y, out);
+  add_supports(s, y, out);
   return out;
 }
 

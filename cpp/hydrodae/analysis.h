@@ -60,7 +60,9 @@ struct LinearModel {
   std::vector<Vector3> offsets, rotations; ///< per body, from the reference pose [m], [rad]
   std::vector<Vector3> places;             ///< of the centres of gravity [m]
   std::vector<Mooring> moorings;
-  VectorX reaction; ///< (6 n_joints,) in equilibrium [N], [N m]
+  VectorX reaction;                  ///< (6 n_joints,) in equilibrium [N], [N m]
+  std::vector<std::string> supports; ///< "bodies/pile/support_force.x", of bodies held by axes
+  VectorX support;                   ///< the same in equilibrium, world axes [N], [N m]
   std::vector<std::string> notes;
 };
 

@@ -214,8 +214,8 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
     const VectorX speed = y.segment(s.u0, s.n_u).cwiseProduct(time).cwiseQuotient(size);
     const VectorX rate =
         yp.segment(s.u0, s.n_u).cwiseProduct(time).cwiseProduct(time).cwiseQuotient(size);
-    const double fast = std::max(1.0, speed.cwiseAbs().maxCoeff()),
-                 hard = std::max(1.0, rate.cwiseAbs().maxCoeff());
+    const double fast = std::max(1.0, speed.lpNorm<Eigen::Infinity>()),
+                 hard = std::max(1.0, rate.lpNorm<Eigen::Infinity>());
     bool grown = false;
     for (Index k = 0; k < s.n_u; ++k)
       if (never[static_cast<std::size_t>(k)] &&

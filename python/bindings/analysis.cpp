@@ -47,7 +47,8 @@ py::dict linear_model(const model::Scene& scene) {
       "reaction_by_xi"_a = m.reaction_by_xi, "reaction_by_lambda"_a = m.reaction_by_lambda,
       "bodies"_a = m.bodies, "offsets"_a = m.offsets, "rotations"_a = m.rotations,
       "places"_a = m.places, "moorings"_a = moorings(m), "reaction"_a = m.reaction,
-      "notes"_a = m.notes, "water_points"_a = m.water_points, "water_loads"_a = m.water_loads,
+      "supports"_a = m.supports, "support"_a = m.support, "notes"_a = m.notes,
+      "water_points"_a = m.water_points, "water_loads"_a = m.water_loads,
       "water_depth"_a = m.water_depth, "gravity"_a = m.gravity);
 }
 

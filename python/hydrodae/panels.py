@@ -126,7 +126,8 @@ def overview(results: Results) -> list[Panel]:
     """Panels of the standard picture over time: what of it the file has.
 
     Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, sizes of
-    the reactions of the joints, loads of the constraints, tensions, energies.
+    what holds bodies that cannot move and of the reactions of the joints, loads of the constraints,
+    tensions, energies.
     """
     if not len(results.time):
         return []
@@ -137,8 +138,15 @@ def overview(results: Results) -> list[Panel]:
         Panel("body displacement\nfrom the start", "m", _from_start(_moving(results, "position"))),
         Panel("body rotation", "deg", _moving(results, "rotation")),
         _power(results),
-        scaled(Panel("reaction force", "N", _sizes(results, "reaction_force"))),
-        scaled(Panel("reaction moment", "N m", _sizes(results, "reaction_moment"))),
+        *(
+            scaled(Panel(kind, unit, _sizes(results, names)))
+            for kind, unit, names in (
+                ("support force", "N", _of_fixed(results, "support_force")),
+                ("support moment", "N m", _of_fixed(results, "support_moment")),
+                ("reaction force", "N", results.channels("joints/*/reaction_force")),
+                ("reaction moment", "N m", results.channels("joints/*/reaction_moment")),
+            )
+        ),
         *(scaled(panel) for panel in gather(_constraint_loads(results))),
         scaled(Panel("tension", "N", _tensions(results))),
         _energy(results),
@@ -221,14 +229,21 @@ def _coordinates(results: Results, kind: str) -> list[Line]:
     return found
 
 
-def _sizes(results: Results, quantity: str) -> list[Line]:
-    """Magnitudes of a vector of all joints that carry some of it."""
+def _of_fixed(results: Results, quantity: str) -> list[str]:
+    """Channels of a quantity of the bodies that cannot move."""
+    names = results.channels(f"bodies/*/{quantity}")
+    return [name for name in names if name.rpartition("/")[0] + "/velocity" not in results]
+
+
+def _sizes(results: Results, names: Iterable[str]) -> list[Line]:
+    """Magnitudes of those of these vectors that are not zero."""
     found = []
-    for name in results.channels(f"joints/*/{quantity}"):
+    for name in names:
         values = np.linalg.norm(results[name].to_numpy(), axis=1)
         if values.max() > 0.0:
+            _, owner, quantity = name.split("/")
             unit = str(results[name].attrs.get("unit", "-"))
-            found.append(Line(name.split("/")[1], quantity.replace("_", " "), unit, values))
+            found.append(Line(owner, quantity.replace("_", " "), unit, values))
     return found
 
 

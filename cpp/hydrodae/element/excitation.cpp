@@ -125,16 +125,15 @@ void Excitation::evaluate(double t, const Dual* in, const double*, Dual* out) co
 Eigen::Matrix<double, 6, 2> Excitation::by_place(double t, const Body& body, const double* in,
                                                  const YawFunctions::Values<double>& b) const {
   const Index n = body.moving.count();
-  double* values = drifting_memory<double>(3 * n);
-  drifting_(t, in[0] - body.reference[0], in[1] - body.reference[1], body.moving.first, n, values,
-            values + n, values + 2 * n);
+  double* by_x = drifting_memory<double>(2 * n);
+  double* by_y = by_x + n;
+  drifting_.slopes(t, in[0] - body.reference[0], in[1] - body.reference[1], body.moving.first, n,
+                   by_x, by_y);
   Eigen::Matrix<double, 6, 2> out = Eigen::Matrix<double, 6, 2>::Zero();
-  Index k = n;
   for (const Term& term : body.moving.list) {
     const double factor = b[static_cast<std::size_t>(term.m)];
-    out(term.coordinate, 0) += factor * values[k];
-    out(term.coordinate, 1) += factor * values[n + k];
-    ++k;
+    out(term.coordinate, 0) += factor * *by_x++;
+    out(term.coordinate, 1) += factor * *by_y++;
   }
   return out;
 }

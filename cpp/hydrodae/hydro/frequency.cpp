@@ -61,12 +61,13 @@ Excitation::Excitation(const Database& database, const std::vector<Eigen::Matrix
   }
 }
 
-Eigen::MatrixXcd Excitation::smooth(double omega) const {
-  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(db_.heading.size(), std::ssize(rows_));
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t h = 0; h < rows_[r].real.size(); ++h)
-      out(static_cast<Eigen::Index>(h), static_cast<Eigen::Index>(r)) = {
-          rows_[r].real[h](omega)[0], rows_[r].imaginary[h](omega)[0]};
+Eigen::MatrixXcd Excitation::smooth(double omega, Eigen::Index first, Eigen::Index count) const {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(db_.heading.size(), count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const Row& row = rows_[static_cast<std::size_t>(first + r)];
+    for (std::size_t h = 0; h < row.real.size(); ++h)
+      out(static_cast<Eigen::Index>(h), r) = {row.real[h](omega)[0], row.imaginary[h](omega)[0]};
+  }
   return out;
 }
 

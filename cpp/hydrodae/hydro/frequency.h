@@ -32,7 +32,10 @@ public:
   Eigen::VectorXcd operator()(double omega, double heading) const;
 
   /// Without the phase, at the headings of the table, (nh, n_labels).
-  Eigen::MatrixXcd smooth(double omega) const;
+  Eigen::MatrixXcd smooth(double omega) const { return smooth(omega, 0, std::ssize(rows_)); }
+
+  /// The same of some successive labels alone, (nh, count).
+  Eigen::MatrixXcd smooth(double omega, Eigen::Index first, Eigen::Index count) const;
 
   /// Where the phase is taken off the forces of a label [m].
   const Vector3& point(std::size_t label) const { return rows_[label].point; }

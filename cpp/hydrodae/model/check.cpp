@@ -98,8 +98,6 @@ void check(const Scene& scene) {
       throw ModelError("body.ground.name", "'ground' is the name of the fixed world");
     check_body(scene, body);
   }
-  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), moves))
-    throw ModelError("body", "every body is fixed: nothing can move");
   for (const Joint& joint : scene.joints)
     check_joint(scene, joint);
   for (const Constraint& constraint : scene.constraints)

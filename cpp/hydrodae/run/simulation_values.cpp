@@ -10,7 +10,9 @@ namespace hydrodae::run {
 void Simulation::sample(double t, std::span<double> row) {
   const auto closed = [this](double at, VectorX& y, VectorX& yp) {
     at_(at, y, yp);
-    if (closing_)
+    if (closing_ && at_rest())
+      closing_->hold(at, y, yp);
+    else if (closing_)
       closing_->close(at, y);
   };
   recorder_->sample(t, closed, row.first(recorder_->width()));

@@ -283,6 +283,8 @@ void refuse_motion(const Regime& s, const VectorX& y) {
 } // namespace
 
 LinearMatrices balance(const Regime& s, VectorX& y) {
+  if (s.n_u == 0) // nothing can move
+    return linear_matrices(s, system::find_pattern(s), y);
   Search search(s);
   search.refuse_rounding(y);
   const VectorX start = y;

@@ -141,8 +141,10 @@ private:
 
   N_Vector new_vector() const {
     N_Vector v = made(N_VNew_Serial(system.n, context.get()), "N_VNew_Serial");
-    if (system.n_error_groups() > 1)
+    if (system.n_error_groups() != 1)
       v->ops->nvwrmsnormmask = norm_by_group; // its clones take it over
+    if (system.n == 0)                        // where nothing can move: SUNDIALS' own is 0 / 0
+      v->ops->nvwrmsnorm = [](N_Vector, N_Vector) { return 0.0; };
     return v;
   }
   void start(const model::SolverOptions& options, const VectorX& y0, const VectorX& yp0);

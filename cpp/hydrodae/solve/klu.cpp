@@ -175,6 +175,8 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   m.values.resize(row.size());
   m.scaled.resize(row.size());
   const SuiteSparse_long n = m.size();
+  if (n == 0) // where nothing can move
+    return;
   m.chosen = !order.row.empty();
   if (order.row.empty()) {
     m.symbolic = klu_l_analyze(n, m.start.data(), m.row.data(), &m.common);
@@ -191,6 +193,8 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
 
 template <class Scalar> Elimination SparseLu<Scalar>::elimination() const {
   const Impl& m = *impl_;
+  if (!m.symbolic)
+    return {};
   const SuiteSparse_long n = m.symbolic->n;
   const SuiteSparse_long* row = m.numeric ? m.numeric->Pnum : m.symbolic->P;
   return {{row, row + n}, {m.symbolic->Q, m.symbolic->Q + n}};
@@ -202,7 +206,7 @@ template <class Scalar> SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = defaul
 template <class Scalar> std::vector<Scalar>& SparseLu<Scalar>::values() { return impl_->values; }
 
 template <class Scalar> bool SparseLu<Scalar>::factorise(bool careful) {
-  return impl_->factorise(careful);
+  return impl_->size() == 0 || impl_->factorise(careful);
 }
 
 template <class Scalar> bool SparseLu<Scalar>::refactorise() {
@@ -211,6 +215,8 @@ template <class Scalar> bool SparseLu<Scalar>::refactorise() {
 
 template <class Scalar> void SparseLu<Scalar>::solve(Scalar* b) {
   Impl& m = *impl_;
+  if (m.size() == 0)
+    return;
   for (std::size_t i = 0; i < m.factor.size(); ++i)
     b[i] *= m.factor[i];
   if constexpr (is_real<Scalar>)

@@ -50,4 +50,16 @@ void SampleClosing::close(double t, VectorX& y) {
   y.head(s_.z0) = closed_.head(s_.z0);
 }
 
+void SampleClosing::hold(double t, VectorX& y, VectorX& yp) {
+  closed_ = y;
+  rates_ = yp;
+  if (!saddle_)
+    saddle_.emplace(equations_);
+  linearised_ = false;
+  if (!saddle_->accelerations(t, closed_, rates_))
+    return;
+  y = closed_;
+  yp = rates_;
+}
+
 } // namespace hydrodae::solve

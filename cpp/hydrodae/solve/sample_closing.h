@@ -26,6 +26,10 @@ public:
   /// succeed (a singular one) they stay.
   void close(double t, VectorX& y);
 
+  /// Reactions and accelerations of a scene at rest, from the loads at t: steps are as long as the
+  /// motion allows, and where there is none the multipliers between their ends follow no load.
+  void hold(double t, VectorX& y, VectorX& yp);
+
 private:
   bool open(double t, const VectorX& y, const VectorX& yp);
 

@@ -85,7 +85,7 @@ NewtonResult StageNewton::iterate(double t, double h, const VectorX& y0, const V
   const Index n_q = e_.system.n_q;
   const double floor =
       rounding *
-      std::max(1.0 / e_.rtol, y0.head(n_q).cwiseAbs().cwiseProduct(w.head(n_q)).maxCoeff());
+      std::max(1.0 / e_.rtol, y0.head(n_q).cwiseProduct(w.head(n_q)).lpNorm<Eigen::Infinity>());
   contraction = 0.0;
   for (iterations = 1; iterations <= most; ++iterations) {
     if (!residuals(t, h, y0, Z) || !solve())

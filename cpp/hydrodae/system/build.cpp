@@ -119,8 +119,6 @@ System build(const model::Scene& scene, bool with_excitation) {
   set_coupler_offsets(scene, s);
   find_mechanisms(s);
   number(s);
-  if (s.n_u == 0)
-    throw ModelError("body", "nothing can move: every body of the scene is fixed");
   assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
            body_starts(scene));
   find_reactions(s);

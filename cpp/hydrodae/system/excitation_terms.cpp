@@ -106,7 +106,7 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
         along[k] = lever[0] * std::cos(relative) + lever[1] * std::sin(relative);
       }
     }
-    Eigen::MatrixXcd force = weights * table.smooth(c.omega).middleCols<6>(first);
+    Eigen::MatrixXcd force = weights * table.smooth(c.omega, first, 6);
     const double lag =
         c.wavenumber * (body.point[0] * std::cos(heading) + body.point[1] * std::sin(heading));
     for (Index k = 0; k < n; ++k)

@@ -31,10 +31,10 @@ public:
   /// Largest displacement so far from the start, by group in levers or rad (n_groups,).
   const VectorX& reached() const { return reached_; }
 
-  /// Has nothing moved by more than rounding?
+  /// Has nothing moved by more than rounding? So it is where nothing can move.
   bool at_rest() const {
     constexpr double none = 1e-10; // levers or rad
-    return reached_.size() > 0 && reached_.maxCoeff() < none;
+    return s_.lambda0 == 0 || (reached_.size() > 0 && reached_.maxCoeff() < none);
   }
 
   /// Groups whose motion is below what rounding lets the tolerance follow.

@@ -63,6 +63,7 @@ def of_equilibrium(found: Equilibrium) -> dict[str, Any]:
         "offsets": found.offsets,
         "rotations": found.rotations,
         "reactions": found.reactions,
+        "supports": found.supports,
         "tensions": found.tensions,
         "moorings": {
             "bodies": stiffness.bodies,

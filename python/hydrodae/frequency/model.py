@@ -65,6 +65,7 @@ class LinearModel:
         self.places = dict(zip(model["bodies"], np.array(model["places"]), strict=True))
         self.moorings: list[dict[str, Any]] = model["moorings"]
         self.reactions = dict(zip(model["reactions"], model["reaction"], strict=True))
+        self.supports = dict(zip(model["supports"], model["support"], strict=True))
         self.notes: list[str] = model["notes"]
         self._model = model
         # A basis of the motions that the constraints leave, coordinates in their own units.

@@ -28,6 +28,7 @@ def summary(results: Recording) -> str:
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
     lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    lines += _loads(results)
     lines += _power(results)
     lines += _controllers(results)
     lines += _impacts(results)
@@ -121,6 +122,40 @@ def _power(results: Recording) -> list[str]:
         parts.append(f"in all {known['mean_power_absorbed']:,.4g} W")
     since = known.get("mean_power_from", 0.0)
     return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
+
+
+def _loads(results: Recording) -> list[str]:
+    """What holds bodies that cannot move, and all that holds a scene at rest: mean and extremes."""
+    names = results.channels("bodies/*/support_*")
+    if results.statistics.get("at_rest"):
+        names += [
+            *results.channels("joints/*/reaction_*"),
+            *results.channels("constraints/*/reaction"),
+        ]
+    else:
+        names = [name for name in names if name.rpartition("/")[0] + "/velocity" not in results]
+    start = float(results.statistics.get("mean_power_from", 0.0))
+    kept = results.time >= min(start, results.end_time)
+    lines = []
+    for name in names:
+        channel = results[name]
+        values = channel.to_numpy().reshape(len(results.time), -1)
+        components = [f".{c}" for c in "xyz"] if values.shape[1] == 3 else [""]
+        for component, series in zip(components, values.T, strict=True):
+            if series.any():
+                mean = f"mean {series[kept].mean():.4g} {channel.attrs['unit']}"
+                lines.append((name + component, f"{mean}, {_range(results, series)}"))
+    width = max((len(name) for name, _ in lines), default=0)
+    head = f"  loads of supports{f', means after {start:g} s' * (start > 0)}:"
+    return [head, *(f"    {name:{width}}  {text}" for name, text in lines)] if lines else []
+
+
+def _range(results: Recording, values: np.ndarray) -> str:
+    low, high = int(np.argmin(values)), int(np.argmax(values))
+    if values[low] == values[high]:
+        return "constant"
+    ends = (f"{values[i]:.4g} at {results.time[i]:.2f} s" for i in (low, high))
+    return " to ".join(ends)
 
 
 def _controllers(results: Recording) -> list[str]:

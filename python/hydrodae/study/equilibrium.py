@@ -33,6 +33,9 @@ class Equilibrium:
     reactions : dict of float
         By channel, such as "joints/hinge/reaction_force.x": on body B, in the axes of marker A
         [N, N m].
+    supports : dict of float
+        By channel, such as "bodies/pile/support_force.x": what holds the coordinates that a body
+        does not have, on the body, about its centre of gravity, world axes [N, N m].
     moorings : list of Hold
         Ropes, lines, springs between two points and mooring matrices, with their tensions.
     stiffness : MooringStiffness
@@ -48,6 +51,7 @@ class Equilibrium:
     offsets: dict[str, Array]
     rotations: dict[str, Array]
     reactions: dict[str, float]
+    supports: dict[str, float]
     moorings: list[Hold]
     stiffness: MooringStiffness
     modes: list[Mode]
@@ -83,17 +87,12 @@ class Equilibrium:
         for name, offset in self.offsets.items():
             rotation = np.degrees(self.rotations[name])
             lines.append(f"    {name:16} {_numbers(offset, 5)};  {_numbers(rotation, 5)}")
-        joints = sorted({name.split("/")[1] for name in self.reactions}, key=str)
-        if joints:
-            lines.append(
-                "  reactions on body B, axes of marker A: force x, y, z [N]; moment x, y, z [N m]"
-            )
-        for joint in joints:
-            values = [
-                [self.reactions[f"joints/{joint}/reaction_{kind}.{axis}"] for axis in "xyz"]
-                for kind in ("force", "moment")
-            ]
-            lines.append(f"    {joint:16} {_numbers(values[0], 1)};  {_numbers(values[1], 1)}")
+        lines += _wrenches(self.reactions, "reactions on body B, axes of marker A", "reaction")
+        lines += _wrenches(
+            self.supports,
+            "what holds the coordinates that bodies do not have, about their centres of gravity",
+            "support",
+        )
         if self.moorings:
             lines += self._moored()
         lines += [f"  note: {note}" for note in self.notes]
@@ -159,11 +158,26 @@ def equilibrium(case: CaseLike, *, set: Mapping[str, Any] | None = None) -> Equi
         offsets=model.offsets,
         rotations=model.rotations,
         reactions=model.reactions,
+        supports=model.supports,
         moorings=moorings,
         stiffness=mooring_stiffness(model, moorings),
         modes=model.modes() if moorings else [],
         notes=model.notes,
     )
+
+
+def _wrenches(values: Mapping[str, float], title: str, kind: str) -> list[str]:
+    """A line for each owner of six channels, under a title."""
+    heads = sorted({name.rpartition(f"/{kind}_")[0] for name in values})
+    lines = []
+    for head in heads:
+        force, moment = (
+            [values[f"{head}/{kind}_{part}.{axis}"] for axis in "xyz"]
+            for part in ("force", "moment")
+        )
+        owner = head.partition("/")[2]
+        lines.append(f"    {owner:16} {_numbers(force, 1)};  {_numbers(moment, 1)}")
+    return [f"  {title}: force x, y, z [N]; moment x, y, z [N m]", *lines] if lines else []
 
 
 def _numbers(values: object, digits: int) -> str:
