@@ -30,6 +30,7 @@ Breaking::Breaking(std::vector<std::shared_ptr<const Elements>> whole, std::vect
   channels = first.channels;
   n_values_ = first.channel_size();
   n_kinks = first.n_kinks;
+  side_at = first.side_at;
   channels.push_back({"tension_ratio", "-", "Largest tension over breaking load."});
   if (breaks_) {
     shape.n_signals += Parting::n_signals;

@@ -47,13 +47,18 @@ struct PtoGeneral {
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
       const S f = wanted(in), limit = limit_at(*in.v);
-      *out.load = f > limit ? limit : f < -limit ? -limit : f;
+      *out.load = in.beyond(0, room(f, limit)) ? f : f > S(0) ? limit : -limit;
     }
 
     /// Where a limit begins to hold, and ends.
     void kinks(const In<double>& in, double* out) const {
-      const double limit = limit_at(*in.v);
-      *out = std::isfinite(limit) ? 1.0 - std::abs(wanted(in)) / limit : 1.0;
+      *out = room(wanted(in), limit_at(*in.v));
+    }
+
+    /// Part of the limit that is left.
+    template <class S> static S room(const S& f, const S& limit) {
+      using std::abs;
+      return limit < S(INFINITY) ? S(1) - abs(f) / limit : S(1);
     }
 
     /// Without limits.

@@ -1,6 +1,8 @@
 #pragma once
-/// Kinks of laws: where a rope goes taut or slack, a compliant stop is touched, a limit holds. No
-/// step goes across one, so that the error test of the method, and its order, hold on both sides.
+/// Kinks of laws: where a rope goes taut or slack, a compliant stop is touched, a limit holds.
+/// Until the event a law stays what it is on its side, continued beyond the kink, so that a step
+/// that tries to cross sees smooth equations; then the step is cut there. The error test of a
+/// method, and its order, hold on both sides.
 
 #include <memory>
 #include <vector>
@@ -20,19 +22,23 @@ public:
   std::size_t count() const override { return side_.size(); }
   void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
 
-  /// At an event at t [s]: notes on which side each one is from now on.
+  /// At an event at t [s]: the laws are on the sides that their numbers tell from now on.
   void settle(double t, const VectorX& y);
 
-  void remember(Archive& a) { a(side_); }
+  /// At the end of a step without one: those that were on the kink may have left it.
+  void accept(double t, const VectorX& y);
+
+  void remember(Archive& a);
 
 private:
   using View = LawView<element::Elements>;
   explicit Kinks(system::Regime& regime);
   void look(double t, const VectorX& y, double* out);
+  void write();
 
   system::Regime& s_;
   View view_;
-  std::vector<double> side_; ///< 1, -1; 0: on the kink at the start
+  std::vector<double> side_; ///< 1, -1; 0: on the kink so far
   std::vector<double> now_, room_;
 };
 

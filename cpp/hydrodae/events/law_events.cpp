@@ -15,6 +15,11 @@ std::vector<Source*> LawEvents::sources() const {
   return out;
 }
 
+void LawEvents::accept(double t, const VectorX& y) {
+  if (kinks_)
+    kinks_->accept(t, y);
+}
+
 void LawEvents::part(double t, const VectorX& y) {
   if (partings_)
     partings_->part(t, y);

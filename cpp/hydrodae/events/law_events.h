@@ -18,6 +18,9 @@ public:
   /// Those that there are.
   std::vector<Source*> sources() const;
 
+  /// At the end of a step without event.
+  void accept(double t, const VectorX& y);
+
   /// At an event at t [s]: lets part what does so.
   void part(double t, const VectorX& y);
 

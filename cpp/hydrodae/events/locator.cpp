@@ -14,6 +14,7 @@ namespace {
 constexpr int most_degree = 16; ///< beyond it Bernstein coefficients lose digits
 constexpr int halvings = 20;    ///< of a step: roots nearer than 1e-6 of it count as one
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double noise = 4.0 * epsilon; ///< of Bernstein coefficients, of the largest sample
 
 /// Chebyshev points of the second kind on [0, 1], and the matrix from values there to Bernstein
 /// coefficients.
@@ -154,15 +155,20 @@ private:
 
   /// What the polynomial finds in [start, stop] and the margin confirms.
   std::optional<Root> of_polynomial(std::size_t k, double start, double stop) {
-    Piece piece{basis_.to_bernstein * values_.row(static_cast<Index>(k)).transpose()};
+    const auto values = values_.row(static_cast<Index>(k)).transpose();
+    Piece piece{basis_.to_bernstein * values};
+    piece.b.array() += noise * values.cwiseAbs().maxCoeff();
     if ((piece.b.array() > 0.0).all() || !(start < stop))
       return std::nullopt;
     if (stop < 1.0)
       piece = piece.split(stop)[0];
     if (start > 0.0)
       piece = piece.after(start);
-    double seen = start; // positive there
-    while (const auto dip = first_dip(piece, halvings)) {
+    double seen = start;                                     // positive there
+    for (Index tries = 0; tries < piece.b.size(); ++tries) { // it has no more roots
+      const auto dip = first_dip(piece, halvings);
+      if (!dip)
+        break;
       const double at_dip = margin(k, *dip);
       if (!(at_dip > 0.0))
         return between(k, seen, margin(k, seen), *dip, at_dip);
@@ -174,11 +180,7 @@ private:
       if (!(deep < piece.to))
         break;
       piece = piece.after(deep);
-      if (piece.b[0] < 0.0) // the margin is positive there
-        piece.b[0] = 0.0;
-      if (const auto again = first_dip(piece, halvings);
-          again && *again - deep <= 2.0 * (piece.to - deep) * std::ldexp(1.0, -halvings))
-        break; // the polynomial is too far off to go on with
+      piece.b[0] = std::max(piece.b[0], 0.0); // the margin is positive there
     }
     return std::nullopt;
   }

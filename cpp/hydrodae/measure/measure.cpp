@@ -7,7 +7,7 @@ namespace hydrodae::measure {
 
 Measure::Measure(const system::Regime& system, double t0, const VectorX& y, const VectorX& yp)
     : s_(system), observer_(system), t_(t0), end_(t0), y_(y), yp_(yp) {
-  const observe::Observation& o = observer_.observe(t0, y, yp);
+  const Observation& o = observer_.observe(t0, y, yp);
   power_ = powers();
   work_ = end_work_ = std::vector<double>(power_.size(), 0.0);
   now_.whole.start = o.kinetic + o.kinetic_added_mass;
@@ -106,11 +106,11 @@ void Measure::take_turns() {
 
 /// By component; where there are several mechanisms then by load, and of each mechanism's rows.
 std::vector<double> Measure::powers() const {
-  const observe::Observation& o = observer_.observation();
+  const Observation& o = observer_.observation();
   std::vector<double> out = o.powers;
   if (s_.n_mechanisms <= 1)
     return out;
-  for (const observe::ComponentLoad& load : o.loads)
+  for (const ComponentLoad& load : o.loads)
     out.push_back(load.power);
   out.insert(out.end(), o.mechanism_constraints.begin(), o.mechanism_constraints.end());
   return out;
@@ -118,7 +118,7 @@ std::vector<double> Measure::powers() const {
 
 /// Change of the kinetic energy of each mechanism's bodies minus the work of all loads on them.
 void Measure::balance_mechanisms() {
-  const observe::Observation& o = observer_.observation();
+  const Observation& o = observer_.observation();
   const std::size_t loads = o.powers.size(), rows = loads + o.loads.size();
   for (std::size_t m = 0; m < now_.mechanisms.size(); ++m) {
     Balance& b = now_.mechanisms[m];
@@ -169,7 +169,7 @@ std::vector<double> Measure::work_at(double t) const {
 }
 
 double Measure::balance_error(const std::vector<double>& work) const {
-  const observe::Observation& o = observer_.observation();
+  const Observation& o = observer_.observation();
   double total_work = 0.0;
   for (std::size_t k = 0; k < o.powers.size(); ++k)
     // The fluid's kinetic energy is on the left-hand side already; parts are in their whole.
@@ -180,7 +180,7 @@ double Measure::balance_error(const std::vector<double>& work) const {
 
 /// Of the scene at the end of the step, with the largest values so far.
 void Measure::take_balance() {
-  const observe::Observation& o = observer_.observation();
+  const Observation& o = observer_.observation();
   Balance& b = now_.whole;
   const double moving = o.kinetic + o.kinetic_added_mass;
   b.error = balance_error(end_work_);
@@ -199,7 +199,7 @@ void Measure::accept() {
 }
 
 void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {
-  const observe::Observation& o = observer_.observe(t_, y, yp);
+  const Observation& o = observer_.observe(t_, y, yp);
   power_ = powers();
   end_ = t_;
   take_turns();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "hydrodae/observe/observer.h"
+#include "hydrodae/measure/observer.h"
 
 namespace hydrodae::measure {
 
@@ -93,8 +93,8 @@ public:
   double start() const { return t_; }
   double end() const { return end_; }
   /// What is observed at a state in it, and from what the work there is counted.
-  observe::Observer& observer() { return observer_; }
-  const observe::Observer& observer() const { return observer_; }
+  Observer& observer() { return observer_; }
+  const Observer& observer() const { return observer_; }
   /// Work of each component until the time at which the observer is [J].
   std::vector<double> work_at(double t) const;
   /// Kinetic energies gained there minus the work of all forces [J].
@@ -123,7 +123,7 @@ private:
   std::vector<double> powers() const;
 
   const system::Regime& s_;
-  observe::Observer observer_;
+  Observer observer_;
   double t_, end_; ///< start and end of the step [s]
   /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
   std::vector<double> power_, work_;

@@ -8,6 +8,9 @@
 
 namespace hydrodae::observe {
 
+using measure::ComponentLoad, measure::Observation;
+using system::BodyState, system::Regime;
+
 /// Fills rows of the results from what a Measure has summed and its observer sees. It changes
 /// nothing that a run goes on from.
 class Recorder {

@@ -44,9 +44,7 @@ public:
 class PoseWatch {
 public:
   /// @param y pose of the start, taken for a regular one
-  /// @param wanted some guard will ask
-  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y,
-            bool wanted);
+  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y);
 
   /// Of short steps one in four is looked at, since the way through such a pose takes more; long
   /// ones are looked at inside, too.

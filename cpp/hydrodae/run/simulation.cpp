@@ -155,6 +155,8 @@ void Simulation::advance(double limit, const Inside& inside, double next_look) {
   event_here_ = event;
   if (event)
     law_events_->part(t_, y_);
+  else
+    law_events_->accept(t_, y_);
   if (event || (history_ && history_->jumps()))
     restart();
   failed_ = false;

@@ -38,9 +38,9 @@ TEST_CASE("the first root of random polynomials is found, however near the next 
     for (int k = 0; k < degree; ++k)
       roots.push_back(t0 + (t1 - t0) * place(random));
     if (degree > 2 && trial % 3 == 0) // two that are near
-      roots[1] = roots[0] + 3e-6 * (t1 - t0) * (1.0 + place(random));
+      roots[1] = roots[0] + 3e-5 * (t1 - t0) * (1.0 + place(random));
     std::sort(roots.begin(), roots.end());
-    if (degree > 2 && roots[1] - roots[0] < 2e-6 * (t1 - t0))
+    if (degree > 2 && roots[1] - roots[0] < 2e-5 * (t1 - t0))
       continue; // they count as one that does not cross
     const auto found = first_root(margin(roots, std::pow(10.0, size(random))), 1, t0, t1, degree);
     REQUIRE(found);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hydrodae/core/error.h"
-#include "hydrodae/observe/observer.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
 #include "support.h"
@@ -42,7 +42,7 @@ std::vector<Vector6> reactions(const system::System& built) {
   const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s), yp;
   solve::consistent_start(s, pattern, y, yp);
-  observe::Observer observer(s);
+  measure::Observer observer(s);
   return observer.observe(0.0, y, yp).reactions;
 }
 

@@ -1,9 +1,9 @@
 /// Of the observer: added mass and radiation.
 
-#include "hydrodae/observe/observer.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/system/hydrodynamics.h"
 
-namespace hydrodae::observe {
+namespace hydrodae::measure {
 
 using namespace system;
 
@@ -50,4 +50,4 @@ void Observer::observe(const HydroData& h, const double* y) {
   }
 }
 
-} // namespace hydrodae::observe
+} // namespace hydrodae::measure

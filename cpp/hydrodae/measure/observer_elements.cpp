@@ -1,9 +1,9 @@
 /// Of the observer: loads, stored energy and own channels of the laws.
 
-#include "hydrodae/observe/observer.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/system/elements.h"
 
-namespace hydrodae::observe {
+namespace hydrodae::measure {
 
 using namespace system;
 
@@ -112,4 +112,4 @@ void Observer::observe(const ElementList& list, const double* y) {
   }
 }
 
-} // namespace hydrodae::observe
+} // namespace hydrodae::measure

@@ -1,4 +1,4 @@
-#include "hydrodae/observe/observer.h"
+#include "hydrodae/measure/observer.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/elements.h"
 
-namespace hydrodae::observe {
+namespace hydrodae::measure {
 
 using namespace system;
 
@@ -232,4 +232,4 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   return out_;
 }
 
-} // namespace hydrodae::observe
+} // namespace hydrodae::measure

@@ -6,7 +6,7 @@
 #include "hydrodae/core/channel.h"
 #include "hydrodae/system/kinematics.h"
 
-namespace hydrodae::observe {
+namespace hydrodae::measure {
 
 using system::BodyState, system::ElementList, system::ElementScratch, system::HydroData,
     system::JointData, system::PortData, system::Regime, system::RowData, system::Turns,
@@ -88,4 +88,4 @@ private:
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant
 };
 
-} // namespace hydrodae::observe
+} // namespace hydrodae::measure
