@@ -259,9 +259,10 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
   space_.follow();
   for (;;) {
     const double left = end - t_, wanted = h_;
-    double h = std::min({h_, left, fixed_ ? left : bound - t_});
-    if (left - h < 0.1 * h)
-      h = left;
+    const double allowed = fixed_ ? left : std::min(left, bound - t_);
+    double h = std::min(h_, allowed);
+    if (allowed - h < 0.1 * h) // no sliver of a step behind it
+      h = allowed;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail(failed ? "the local error stays too large however short the step"
                   : "the step has become too short");
