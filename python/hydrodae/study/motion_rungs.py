@@ -107,25 +107,9 @@ def motion_rungs(
     truth = float(np.std(record))
     factor = np.degrees(1.0) if run.units[row].startswith("deg") else 1.0
 
-    def linear() -> _Found:
-        model = LinearModel(case)
-        begin = perf_counter()
-        deviation = model.irregular()[0][name]
-        spent = perf_counter() - begin
-        phasors = np.empty(len(waves), dtype=complex)
-        for heading in np.unique(waves[:, 1]):
-            mine = waves[:, 1] == heading
-            phasors[mine] = model.response(waves[mine, 0], float(heading))[name]
-        return _Found(deviation, spent, phasors)
-
-    def in_sea() -> _Found:
-        found = spectral(case)
-        phasors = found.values[:, found.names.index(name)]
-        return _Found(found.standard_deviation[name], found.time, phasors)
-
-    def rung(title: str, solve: Callable[[], _Found]) -> MotionRung:
+    def rung(title: str, solve: Callable[[Case, str, Array], _Found]) -> MotionRung:
         try:
-            found = solve()
+            found = solve(case, name, waves)
         except (CaseError, DatabaseError) as problem:
             return MotionRung(title, reason=str(problem).split("\n", 1)[0])
         same = factor * record_of(found.phasors, waves, run.time[kept])
@@ -135,8 +119,8 @@ def motion_rungs(
 
     interval = std_interval(record) if sampled else NONE
     return [
-        rung("linear", linear),
-        rung("spectral", in_sea),
+        rung("linear", _linear),
+        rung("spectral", _spectral),
         MotionRung(
             "time domain",
             float(statistics["solver_time"]),
@@ -145,6 +129,24 @@ def motion_rungs(
             no_interval="" if sampled or np.isinf(period) else too_short,
         ),
     ]
+
+
+def _linear(case: Case, name: str, waves: Array) -> _Found:
+    model = LinearModel(case)
+    begin = perf_counter()
+    deviation = model.irregular()[0][name]
+    spent = perf_counter() - begin
+    phasors = np.empty(len(waves), dtype=complex)
+    for heading in np.unique(waves[:, 1]):
+        mine = waves[:, 1] == heading
+        phasors[mine] = model.response(waves[mine, 0], float(heading))[name]
+    return _Found(deviation, spent, phasors)
+
+
+def _spectral(case: Case, name: str, _waves: Array) -> _Found:
+    found = spectral(case)
+    phasors = found.values[:, found.names.index(name)]
+    return _Found(found.standard_deviation[name], found.time, phasors)
 
 
 def paired_interval(values: Array, reference: Array) -> Interval:
