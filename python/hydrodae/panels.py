@@ -159,7 +159,7 @@ def spectra(results: Results) -> list[Panel]:
 
     None where there are no waves, or too few samples.
     """
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     kept = results.time >= start
     if "sea/elevation" not in results or np.count_nonzero(kept) < FEWEST:
         return []
@@ -261,7 +261,7 @@ def _power(results: Results) -> Panel:
         mean = results.statistics.get(f"mean_power_absorbed.{line.label}")
         lines.append(line if mean is None else replace(line, level=float(mean)))
     panel = scaled(Panel("absorbed power", "W", lines))
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     panel.note = f"level, dashed: mean after {start:g} s" if start else "dashed: mean"
     panel.lines = [
         line
