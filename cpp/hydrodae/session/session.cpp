@@ -154,7 +154,7 @@ private:
     simulation_.sample(t, row_);
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
     system::watch(limits_, t, bodies);
-    sea_sample_.take(t, simulation_.recorder().averaged_from(), row_);
+    sea_sample_.take(t, simulation_.measured().averaged_from(), row_);
     if (comparison_)
       comparison_->first(t, simulation_.recorder().state(), [this] { return asked_to_go_on(); });
     if (file_)
