@@ -110,6 +110,13 @@ def catenary(
 def wave_components(scene: Scene) -> NDArray[np.float64]:
     """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
 
+SAMPLING_SPANS: int
+SAMPLING_FEWEST: int
+SAMPLING_PERIODS: float
+
+def mean_interval(values: NDArray[np.float64]) -> tuple[float, float] | None:
+    """95 % interval of the mean of a process, of which the values are a sample; None of too few."""
+
 def with_images(
     coordinates: Sequence[str],
     points: Mapping[str, NDArray[np.float64]],

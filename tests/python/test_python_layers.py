@@ -17,7 +17,7 @@ LAYERS = [
     {"errors", "extras", "processes", "progress", "tcp", "units", "version"},
     {"names", "outputs", "starters"},
     {"_core"},  # the compiled kernel, which raises what stands in errors
-    {"curve", "damaged", "irf", "tables"},
+    {"curve", "damaged", "irf", "sampling", "tables"},
     {"infinity"},
     {"memory", "results", "schema"},
     {"panels", "post"},
