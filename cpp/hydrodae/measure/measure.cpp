@@ -1,6 +1,7 @@
 #include "hydrodae/measure/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hydrodae::measure {
@@ -23,27 +24,52 @@ Measure::Measure(const system::Regime& system, double t0, const VectorX& y, cons
 void Measure::begin(double t, const Interpolant& at) {
   before_ = now_;
   end_ = t;
-  const std::size_t last = rule_.nodes.size() - 1;
+  nodes_ = rule_.nodes;
+  const std::size_t last = nodes_.size() - 1;
   powers_.resize(last + 1);
   powers_[0] = power_;
-  for (std::size_t node = 1; node < last; ++node) {
-    const double time = t_ + (t - t_) * rule_.nodes[node];
+  for (std::size_t node = 1; node <= last; ++node) {
+    const double time = node == last ? t : t_ + (t - t_) * nodes_[node];
     at(time, y_, yp_);
     observer_.observe(time, y_, yp_);
     powers_[node] = powers();
   }
-  at(t, y_, yp_);
-  observer_.observe(t, y_, yp_);
-  powers_[last] = powers();
   end_work_ = work_;
   for (std::size_t node = 0; node <= last; ++node)
     add_work(rule_.weights[node], powers_[node]);
-  if (mean_from_ > t_ && mean_from_ <= t) {
-    at(mean_from_, y_, yp_);
-    observer_.observe(mean_from_, y_, yp_);
-    now_.mean_work = work_at(mean_from_);
+  take_mean(at);
+  take_end();
+}
+
+void Measure::begin_by_past(double t, const Interpolant& at) {
+  constexpr std::size_t wanted = 2; // ends of steps before the last two
+  if (past_.size() < wanted)
+    return begin(t, at);
+  before_ = now_;
+  end_ = t;
+  at(t, y_, yp_);
+  observer_.observe(t, y_, yp_);
+  nodes_ = {1.0, 0.0};
+  powers_ = {powers(), power_};
+  for (const Past& past : past_) {
+    nodes_.push_back((past.time - t_) / (t - t_));
+    powers_.push_back(past.power);
   }
-  take_end(t, at);
+  end_work_ = work_at(t);
+  take_mean(at);
+  take_end();
+}
+
+/// The work at the time from which means are taken, if that is in this step. Leaves the observer at
+/// the end of the step, where it was.
+void Measure::take_mean(const Interpolant& at) {
+  if (!(mean_from_ > t_ && mean_from_ <= end_))
+    return;
+  at(mean_from_, y_, yp_);
+  observer_.observe(mean_from_, y_, yp_);
+  now_.mean_work = work_at(mean_from_);
+  at(end_, y_, yp_);
+  observer_.observe(end_, y_, yp_);
 }
 
 void Measure::begin(double t, std::span<const double> weights, const StageState& stage,
@@ -58,10 +84,12 @@ void Measure::begin(double t, std::span<const double> weights, const StageState&
   for (std::size_t i = 1; i < weights.size(); ++i)
     if (weights[i] != 0.0) {
       const double time = stage(i, y_, yp_);
-      observer_.observe(time, y_, yp_);
+      observer_.observe_powers(time, y_, yp_);
       add_work(weights[i], powers());
     }
-  take_end(t, at);
+  at(t, y_, yp_);
+  observer_.observe(t, y_, yp_);
+  take_end();
 }
 
 void Measure::add_work(double weight, const std::vector<double>& powers) {
@@ -69,10 +97,8 @@ void Measure::add_work(double weight, const std::vector<double>& powers) {
     end_work_[k] += (end_ - t_) * weight * powers[k];
 }
 
-/// Leaves the observer at t.
-void Measure::take_end(double t, const Interpolant& at) {
-  at(t, y_, yp_);
-  observer_.observe(t, y_, yp_);
+/// The observer is there.
+void Measure::take_end() {
   end_power_ = powers();
   take_balance();
   balance_mechanisms();
@@ -138,27 +164,33 @@ void Measure::balance_mechanisms() {
 }
 
 /// With t = t_ + x h: the integral of the polynomial through the powers at the nodes and at t,
-/// h sum_k P_k int_0^x L_k, by the rule itself on [0, x].
+/// where the observer is, h sum_k P_k int_0^x L_k, by Gauss's rule.
 std::vector<double> Measure::work_at(double t) const {
   if (!(t > t_ && end_ > t_))
     return work_;
-  if (t >= end_)
+  if (powers_.empty())
     return end_work_;
+  // Of 5 points on [0, 1]: exact up to degree 9.
+  static constexpr std::array<double, 5> places = {0.046910077030668, 0.230765344947158, 0.5,
+                                                   0.769234655052842, 0.953089922969332};
+  static constexpr std::array<double, 5> weights = {0.118463442528095, 0.239314335249683,
+                                                    0.284444444444444, 0.239314335249683,
+                                                    0.118463442528095};
   const double x = (t - t_) / (end_ - t_);
-  std::vector<double> nodes = rule_.nodes;
+  std::vector<double> nodes = nodes_;
   const auto apart = [&](double node) { return std::abs(node - x) > 1e-3; };
   const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them
   if (own)
     nodes.push_back(x);
-  const std::vector<double> power = powers();
+  const std::vector<double> power = own ? powers() : std::vector<double>();
   std::vector<double> work = work_;
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     double weight = 0.0;
-    for (std::size_t node = 0; node < rule_.nodes.size(); ++node) {
-      double value = x * rule_.weights[node];
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      double value = x * weights[k];
       for (std::size_t i = 0; i < nodes.size(); ++i)
         if (i != j)
-          value *= (x * rule_.nodes[node] - nodes[i]) / (nodes[j] - nodes[i]);
+          value *= (x * places[k] - nodes[i]) / (nodes[j] - nodes[i]);
       weight += value;
     }
     const std::vector<double>& P = j < powers_.size() ? powers_[j] : power;
@@ -192,6 +224,9 @@ void Measure::take_balance() {
 }
 
 void Measure::accept() {
+  constexpr std::size_t kept = 2;
+  past_.insert(past_.begin(), {t_, power_});
+  past_.resize(std::min(past_.size(), kept));
   t_ = end_;
   work_ = end_work_;
   power_ = end_power_;
@@ -201,6 +236,7 @@ void Measure::accept() {
 void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {
   const Observation& o = observer_.observe(t_, y, yp);
   power_ = powers();
+  past_.clear();
   end_ = t_;
   take_turns();
   observer_.follow(now_.turns);
@@ -214,7 +250,7 @@ void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<d
 }
 
 void Measure::remember(Archive& a) {
-  a(t_, end_, power_, work_, now_, rule_);
+  a(t_, end_, power_, work_, now_, rule_, past_);
   if (!a.saves()) {
     before_ = now_;
     observer_.follow(now_.turns);

@@ -48,6 +48,9 @@ public:
   /// Fills `observation()` from t, y, y'. No allocation after the first call.
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
+
+  /// Fills the loads of `observation()` and their powers alone, where reactions do no work.
+  void observe_powers(double t, const VectorX& y, const VectorX& yp);
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
   /// Angles go on from these values (of an accepted step).
@@ -60,6 +63,9 @@ public:
   }
 
 private:
+  void begin(double t, const VectorX& y, const VectorX& yp);
+  const element::Elements& observe_loads(const ElementList& list, const double* y);
+  void observe_loads(const HydroData& hydro, const double* y) { observe(hydro, y); }
   void add_load(const Vector6& world_load);
   void observe_weight();
   void observe(const ElementList& list, const double* y);

@@ -200,7 +200,10 @@ void Simulation::measure_step(double next_look) {
     return;
   }
   choose_quadrature();
-  measure_->begin(t_, inside_);
+  if (model::method_traits(options_.method).many_steps)
+    measure_->begin_by_past(t_, inside_);
+  else
+    measure_->begin(t_, inside_);
 }
 
 /// Throws SolverError where the step is proved wrong.
