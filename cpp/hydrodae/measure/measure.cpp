@@ -55,7 +55,7 @@ void Measure::begin_by_past(double t, const Interpolant& at) {
     nodes_.push_back((past.time - t_) / (t - t_));
     powers_.push_back(past.power);
   }
-  end_work_ = work_at(t);
+  end_work_ = work_inside(1.0);
   take_mean(at);
   take_end();
 }
@@ -163,20 +163,21 @@ void Measure::balance_mechanisms() {
   }
 }
 
-/// With t = t_ + x h: the integral of the polynomial through the powers at the nodes and at t,
-/// where the observer is, h sum_k P_k int_0^x L_k, by Gauss's rule.
 std::vector<double> Measure::work_at(double t) const {
   if (!(t > t_ && end_ > t_))
     return work_;
-  if (powers_.empty())
-    return end_work_;
+  return t >= end_ || powers_.empty() ? end_work_ : work_inside((t - t_) / (end_ - t_));
+}
+
+/// With t = t_ + x h: the integral of the polynomial through the powers at the nodes and at t,
+/// where the observer is, h sum_k P_k int_0^x L_k, by Gauss's rule.
+std::vector<double> Measure::work_inside(double x) const {
   // Of 5 points on [0, 1]: exact up to degree 9.
   static constexpr std::array<double, 5> places = {0.046910077030668, 0.230765344947158, 0.5,
                                                    0.769234655052842, 0.953089922969332};
   static constexpr std::array<double, 5> weights = {0.118463442528095, 0.239314335249683,
                                                     0.284444444444444, 0.239314335249683,
                                                     0.118463442528095};
-  const double x = (t - t_) / (end_ - t_);
   std::vector<double> nodes = nodes_;
   const auto apart = [&](double node) { return std::abs(node - x) > 1e-3; };
   const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them

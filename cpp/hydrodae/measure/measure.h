@@ -121,6 +121,7 @@ private:
     }
   };
   void add_work(double weight, const std::vector<double>& powers);
+  std::vector<double> work_inside(double x) const;
   void take_mean(const Interpolant& at);
   void take_end();
   void take_balance();

@@ -127,7 +127,7 @@ solve::Statistics Simulation::statistics() const {
   return all;
 }
 
-void Simulation::advance(double limit, const Inside& inside, double next_look) {
+void Simulation::advance(double limit, const Inside& inside) {
   if (finished() || !(limit > t_))
     return;
   require_going();
@@ -141,7 +141,7 @@ void Simulation::advance(double limit, const Inside& inside, double next_look) {
   failed_ = true; // until the step is accepted by all
   const double last = std::min(limit, options_.end_time);
   const double end = controllers_ ? controllers_->limit(last) : last;
-  const bool event = take_step(end, inside ? next_look : INFINITY);
+  const bool event = take_step(end);
   if (controllers_)
     controllers_->accept(t_, y_, yp_);
   if (inside)
@@ -171,12 +171,12 @@ void Simulation::require_going() const {
 /// One step that no guard proves wrong, and what it adds to the sums. Under "auto" the next
 /// method makes a step that is.
 /// @returns whether it ends in an event
-bool Simulation::take_step(double end, double next_look) {
+bool Simulation::take_step(double end) {
   for (;;) {
     const Clock::time_point before = Clock::now();
     const bool event = make_step(end);
     solver_time_ += seconds_since(before);
-    measure_step(next_look);
+    measure_step();
     at_(t_, y_, yp_);
     if (closing_)
       closing_->accept(t_, y_, yp_);
@@ -192,10 +192,18 @@ bool Simulation::take_step(double end, double next_look) {
   }
 }
 
-/// The work over the step: by the stages of the method, if it can and nobody looks inside.
-void Simulation::measure_step(double next_look) {
+/// Does the step hold an output sample? By the case alone, so that the sums of a run are the same
+/// whoever drives it.
+bool Simulation::has_samples() const {
+  constexpr double rounding = 1e-12;
+  const double dt = scene_.output.step;
+  return (std::floor(step_start_ / dt * (1.0 + rounding)) + 1.0) * dt <= t_ * (1.0 + rounding);
+}
+
+/// The work over the step: by the stages of the method, if it can and there are no samples.
+void Simulation::measure_step() {
   const std::span<const double> weights = integrator_->stage_weights();
-  if (t_ < next_look && !cut_ && !weights.empty()) {
+  if (!has_samples() && !cut_ && !weights.empty()) {
     measure_->begin(t_, weights, stage_, inside_);
     return;
   }

@@ -55,8 +55,7 @@ public:
   /// friction, or to `limit` [s], where it ends exactly. Does nothing at the end of the run, or
   /// where `limit` is not later than the time. Throws SolverError when the step cannot be made, or
   /// a guard does not trust the motion; only `restore` goes on from there.
-  /// @param next_look  before it `inside` asks for no time inside a step [s]
-  void advance(double limit = INFINITY, const Inside& inside = {}, double next_look = 0.0);
+  void advance(double limit = INFINITY, const Inside& inside = {});
 
   /// The guards' last look, at the end of the run. Throws SolverError.
   void finish();
@@ -145,8 +144,9 @@ private:
   void find_sources();
   void make_closing();
   void fall_back(const SolverError& error);
-  bool take_step(double end, double next_look);
-  void measure_step(double next_look);
+  bool take_step(double end);
+  bool has_samples() const;
+  void measure_step();
   void check_step(bool event);
   void take_back();
   void watch_steps(bool event, double end);

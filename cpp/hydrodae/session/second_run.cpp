@@ -173,7 +173,7 @@ void SecondRun::march(const std::function<bool()>& ask) {
     };
     sample();
     while (wanted && !given_up_ && !simulation.finished())
-      simulation.advance(end, sample, static_cast<double>(next) * dt);
+      simulation.advance(end, sample);
     if (next <= samples)
       stopped_ = "the runs were stopped";
     simulation.close();

@@ -134,7 +134,7 @@ private:
         going = sample(std::min(static_cast<double>(next_) * dt, t)) && going;
     };
     while (going && !simulation_.finished()) {
-      simulation_.advance(end(), samples_inside, static_cast<double>(next_) * dt);
+      simulation_.advance(end(), samples_inside);
       if (file_)
         file_->flush_if_due();
       // Between samples that are far apart in steps, a request to stop is heard as well.
