@@ -3304,9 +3304,10 @@ class Scene(SceneBase):
             Time in which index 1 takes back a gap (Baumgarte); 0: never. Allowed: >= 0.
         energy_guard : number, optional
             A run ends as failed when the energy balance is off by more than this part of the
-            energy exchanged; 0: no guard. By default 0.01. Mechanisms that drives guide
-            altogether may miss ten times as much, since their reactions take and give it.
-            Allowed: >= 0.
+            energy exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop
+            0.01 sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion
+            is lost there. Mechanisms that drives guide altogether may miss ten times as much,
+            since their reactions take and give it. Allowed: >= 0.
         branch_guard : true or false, default true
             A run of a scene with closed loops ends as failed when its velocities jump though
             nothing strikes: at a singular pose the motion left its branch.

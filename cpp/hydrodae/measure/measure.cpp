@@ -24,12 +24,11 @@ Measure::Measure(const system::Regime& system, double t0, const VectorX& y, cons
 void Measure::begin(double t, const Interpolant& at) {
   before_ = now_;
   end_ = t;
-  nodes_ = rule_.nodes;
-  const std::size_t last = nodes_.size() - 1;
+  const std::size_t last = rule_.nodes.size() - 1;
   powers_.resize(last + 1);
   powers_[0] = power_;
   for (std::size_t node = 1; node <= last; ++node) {
-    const double time = node == last ? t : t_ + (t - t_) * nodes_[node];
+    const double time = node == last ? t : t_ + (t - t_) * rule_.nodes[node];
     at(time, y_, yp_);
     observer_.observe(time, y_, yp_);
     powers_[node] = powers();
@@ -37,25 +36,6 @@ void Measure::begin(double t, const Interpolant& at) {
   end_work_ = work_;
   for (std::size_t node = 0; node <= last; ++node)
     add_work(rule_.weights[node], powers_[node]);
-  take_mean(at);
-  take_end();
-}
-
-void Measure::begin_by_past(double t, const Interpolant& at) {
-  constexpr std::size_t wanted = 2; // ends of steps before the last two
-  if (past_.size() < wanted)
-    return begin(t, at);
-  before_ = now_;
-  end_ = t;
-  at(t, y_, yp_);
-  observer_.observe(t, y_, yp_);
-  nodes_ = {1.0, 0.0};
-  powers_ = {powers(), power_};
-  for (const Past& past : past_) {
-    nodes_.push_back((past.time - t_) / (t - t_));
-    powers_.push_back(past.power);
-  }
-  end_work_ = work_inside(1.0);
   take_mean(at);
   take_end();
 }
@@ -178,7 +158,7 @@ std::vector<double> Measure::work_inside(double x) const {
   static constexpr std::array<double, 5> weights = {0.118463442528095, 0.239314335249683,
                                                     0.284444444444444, 0.239314335249683,
                                                     0.118463442528095};
-  std::vector<double> nodes = nodes_;
+  std::vector<double> nodes = rule_.nodes;
   const auto apart = [&](double node) { return std::abs(node - x) > 1e-3; };
   const bool own = std::all_of(nodes.begin(), nodes.end(), apart); // else next to one of them
   if (own)
@@ -225,9 +205,6 @@ void Measure::take_balance() {
 }
 
 void Measure::accept() {
-  constexpr std::size_t kept = 2;
-  past_.insert(past_.begin(), {t_, power_});
-  past_.resize(std::min(past_.size(), kept));
   t_ = end_;
   work_ = end_work_;
   power_ = end_power_;
@@ -237,7 +214,6 @@ void Measure::accept() {
 void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<double>& work) {
   const Observation& o = observer_.observe(t_, y, yp);
   power_ = powers();
-  past_.clear();
   end_ = t_;
   take_turns();
   observer_.follow(now_.turns);
@@ -251,7 +227,7 @@ void Measure::restart(const VectorX& y, const VectorX& yp, const std::optional<d
 }
 
 void Measure::remember(Archive& a) {
-  a(t_, end_, power_, work_, now_, rule_, past_);
+  a(t_, end_, power_, work_, now_, rule_);
   if (!a.saves()) {
     before_ = now_;
     observer_.follow(now_.turns);

@@ -48,11 +48,6 @@ public:
   void begin(double t, std::span<const double> weights, const StageState& stage,
              const Interpolant& at);
 
-  /// The same by the powers at the ends of this step and of those before, as multistep methods sum
-  /// up their own rates (Adams and Moulton, of order 4; less after a restart). Nothing inside the
-  /// step is looked at.
-  void begin_by_past(double t, const Interpolant& at);
-
   /// Closes the step: work and turns are carried over.
   void accept();
 
@@ -134,16 +129,7 @@ private:
   double t_, end_; ///< start and end of the step [s]
   /// Per component, at t_; with several mechanisms then per load and per mechanism its rows.
   std::vector<double> power_, work_;
-  /// Powers at `nodes_`, places of the step of which 0 is its start and 1 its end; empty: by its
-  /// stages.
-  std::vector<std::vector<double>> powers_;
-  std::vector<double> nodes_;
-  struct Past {
-    double time = 0.0; ///< [s]
-    std::vector<double> power;
-    void remember(Archive& a) { a(time, power); }
-  };
-  std::vector<Past> past_;                   ///< ends of steps before the last, the latest first
+  std::vector<std::vector<double>> powers_;  ///< at the nodes of the step; empty: by its stages
   std::vector<double> end_power_, end_work_; ///< at the end of the step
   double mean_from_ = 0.0;                   ///< [s]
   Sums now_, before_;

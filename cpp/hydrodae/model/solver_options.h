@@ -89,9 +89,10 @@ struct SolverOptions {
          at_least(0, longest_time)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01. Mechanisms that drives guide altogether may "
-         "miss "
-         "ten times as much, since their reactions take and give it.",
+         "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
+         "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
+         "there. Mechanisms that drives guide altogether may miss ten times as much, since their "
+         "reactions take and give it.",
          false, at_least(0, 1e6)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "

@@ -26,16 +26,19 @@ std::string reactions(const system::Regime& s, const VectorX& y) {
 
 class EnergyCheck : public Guard {
 public:
-  EnergyCheck(const system::Regime& s, const model::SolverOptions& options)
-      : s_(s), guard_(s, options) {}
+  EnergyCheck(const system::Regime& s, solve::EnergyGuard guard, PoseWatch& watch)
+      : s_(s), guard_(std::move(guard)), watch_(watch) {}
   void check(const Step& step) override {
-    guard_.check(step.end, step.measure, [&] { return reactions(s_, step.y); });
+    guard_.check(
+        step.end, step.measure, [&] { return watch_.near_singular(step); },
+        [&] { return reactions(s_, step.y); });
   }
   void finish(const Step& step) override { guard_.finish(step.end, step.measure); }
 
 private:
   const system::Regime& s_;
   solve::EnergyGuard guard_;
+  PoseWatch& watch_;
 };
 
 class BranchCheck : public Guard {
@@ -144,9 +147,10 @@ bool has_pressed_friction(const system::Regime& s) {
 
 } // namespace
 
-PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y)
+PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y,
+                     bool wanted)
     : s_(s), method_(options.method) {
-  if (solve::has_loop(s))
+  if (wanted && solve::has_loop(s))
     guard_ = std::make_unique<solve::PoseGuard>(s, y);
 }
 
@@ -194,9 +198,10 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
+  solve::EnergyGuard energy(system, options);
   const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
-  watch = std::make_unique<PoseWatch>(system, options, y);
-  guards.push_back(std::make_unique<EnergyCheck>(system, options));
+  watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);
+  guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
   if (options.step <= 0.0 && system.lambda0 > 0)
     guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   if (options.branch_guard)

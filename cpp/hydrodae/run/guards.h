@@ -44,7 +44,9 @@ public:
 class PoseWatch {
 public:
   /// @param y pose of the start, taken for a regular one
-  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y);
+  /// @param wanted some guard will ask
+  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y,
+            bool wanted);
 
   /// Of short steps one in four is looked at, since the way through such a pose takes more; long
   /// ones are looked at inside, too.

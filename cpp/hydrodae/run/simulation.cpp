@@ -208,10 +208,7 @@ void Simulation::measure_step() {
     return;
   }
   choose_quadrature();
-  if (model::method_traits(options_.method).many_steps)
-    measure_->begin_by_past(t_, inside_);
-  else
-    measure_->begin(t_, inside_);
+  measure_->begin(t_, inside_);
 }
 
 /// Throws SolverError where the step is proved wrong.

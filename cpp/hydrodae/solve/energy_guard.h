@@ -13,10 +13,15 @@ class EnergyGuard {
 public:
   EnergyGuard(const system::Regime& system, const model::SolverOptions& options);
 
+  /// Is less allowed at singular poses of closed loops than elsewhere?
+  bool minds_singular_poses() const { return at_singular_ < part_; }
+
   /// Throws SolverError when the balance of the scene, or of one of its mechanisms, is off by more
   /// than is allowed.
+  /// @param at_singular_pose asked only where it matters: was the last step next to such a pose?
   /// @param reactions the largest ones, for the message
   void check(double t, const measure::Measure& measure,
+             const std::function<bool()>& at_singular_pose,
              const std::function<std::string()>& reactions) const;
 
   /// Energy below which an exchange tells nothing: that of errors within the tolerance [J].
@@ -33,7 +38,7 @@ private:
   std::string members(std::size_t mechanism) const;
 
   const system::Regime& s_;
-  double rtol_, part_;
+  double rtol_, part_, at_singular_;
   std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
 };
 
