@@ -9,11 +9,10 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
-from cycler import cycler
 from matplotlib.figure import Figure
 
 from hydrodae import outputs
@@ -30,6 +29,8 @@ from hydrodae.panels import (
     select,
     spectra,
 )
+from hydrodae.support.style import COLORS as COLORS
+from hydrodae.support.style import STYLE as STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,35 +38,8 @@ if TYPE_CHECKING:
 
     from hydrodae.results import Results
 
-#: Colours that stay apart for the colour-blind (after Okabe and Ito 2008). Black is ours.
-COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#8C510A"]
-
 #: Lines that differ by less, relative to their span, cannot be told apart in a picture.
 _SAME = 0.005
-
-#: Settings of every picture; hold them around own drawing with ``matplotlib.rc_context(STYLE)``.
-STYLE: Any = {
-    "axes.axisbelow": True,
-    "axes.edgecolor": "#555555",
-    "axes.grid": True,
-    "axes.labelsize": 9,
-    "axes.prop_cycle": cycler(color=COLORS),
-    "axes.spines.right": False,
-    "axes.spines.top": False,
-    "axes.titlelocation": "left",
-    "axes.titlesize": 10,
-    "figure.dpi": 150,
-    "font.size": 9,
-    "grid.color": "#E4E4E4",
-    "grid.linewidth": 0.6,
-    "legend.fontsize": 8,
-    "legend.frameon": False,
-    "lines.linewidth": 1.2,
-    "xtick.color": "#555555",
-    "xtick.labelcolor": "black",
-    "ytick.color": "#555555",
-    "ytick.labelcolor": "black",
-}
 
 
 def plot_overview(results: Results) -> Figure:

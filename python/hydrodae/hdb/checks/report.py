@@ -19,7 +19,7 @@ from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.findings import CheckReport
 from hydrodae.hdb.kernels import diagonal_kernels, envelope_length
 from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
-from hydrodae.plot import COLORS, STYLE
+from hydrodae.support.style import COLORS, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
