@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 
 CAPTURE = pytest.CaptureFixture[str]
 
@@ -55,7 +55,7 @@ def test_a_run_imports_no_study_and_no_database() -> None:
         "assert not slow, slow"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert "hydrodae.simulate" in done.stdout
+    assert "hydrodae.simulation.simulate" in done.stdout
     assert "hydrodae.hdb" not in done.stdout
     assert "hydrodae.study" not in done.stdout
 

@@ -12,12 +12,12 @@ from scipy.interpolate import CubicSpline
 
 import hydrodae
 from hydrodae import _core, hdb
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import HydrodaeError
-from hydrodae.frequency import LinearModel
-from hydrodae.hdb.all_round import closed, goes_round
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.database.all_round import closed, goes_round
+from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.hdb.relations.headings import Headings
+from hydrodae.linear import LinearModel
 
 CASE = """
 [hydro]

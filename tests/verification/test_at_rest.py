@@ -11,8 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae import cli, hdb
-from hydrodae.panels import overview
+from hydrodae import hdb
+from hydrodae.commands import cli
+from hydrodae.pictures.panels import overview
 
 G = 9.81
 METHODS = {

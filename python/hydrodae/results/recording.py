@@ -15,8 +15,8 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.damaged import opened
 from hydrodae.errors import HydrodaeError
+from hydrodae.support.damaged import opened
 
 if TYPE_CHECKING:
     import xarray

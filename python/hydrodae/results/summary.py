@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.results.recording import Recording, ResultsError
-from hydrodae.units import displayed
+from hydrodae.support.units import displayed
 
 
 def summary(results: Recording) -> str:

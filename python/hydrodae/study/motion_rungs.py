@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.study.reference import Solution
 from hydrodae.study.spectral import spectral
 
@@ -100,7 +100,7 @@ def _rung(name: str, solve: Callable[[], tuple[float, float]], truth: float) -> 
 
 
 def _ramp(case: Case) -> float:
-    from hydrodae.case_tables import case_tables
+    from hydrodae.case.contents import case_tables
 
     return float(case_tables(case).get("sea", {}).get("ramp", 0.0))
 

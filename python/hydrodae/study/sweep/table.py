@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import stdtrit
 
-from hydrodae import outputs
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
+from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     import xarray as xr
