@@ -6,6 +6,8 @@ All imports count, those inside functions and those for type checkers as well.
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -133,3 +135,35 @@ def test_a_wrong_import_is_seen_wherever_it_stands(tmp_path: Path) -> None:
     found = read_imports(package)
     assert wrong_layers(found) == ["case imports linear", "errors imports case"]
     assert {"case", "linear"} <= set(circle(found)) or {"case", "errors"} <= set(circle(found))
+
+
+def test_databases_need_no_kernel() -> None:
+    """All of hdb is imported, and a name of it used, where the compiled kernel is not there."""
+    code = """
+import sys
+sys.modules["hydrodae._core"] = None
+from importlib import import_module
+from pkgutil import walk_packages
+import hydrodae.hdb
+for module in walk_packages(hydrodae.hdb.__path__, "hydrodae.hdb."):
+    import_module(module.name)
+for name in hydrodae.hdb.__all__:
+    getattr(hydrodae.hdb, name)
+try:
+    hydrodae.tables.tables()
+except ImportError:
+    print("done")
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.stdout == "done\n", run.stderr
+
+
+def test_importing_the_package_is_cheap() -> None:
+    """Nor needs a controller that is another program any library."""
+    code = """
+import sys
+import hydrodae, hydrodae.control.tcp
+dear = {"numpy", "scipy", "h5py", "matplotlib", "xarray", "hydrodae._core"} & set(sys.modules)
+assert not dear, dear
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
