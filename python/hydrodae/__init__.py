@@ -110,6 +110,7 @@ _LATER = {
 #: Modules that are called by `hydrodae.NAME` after `import hydrodae`, and where they are.
 _MODULES = {
     "arrays": "case.arrays",
+    "case": "case",
     "control": "control",
     "fmu": "fmu",
     "frequency": "linear",

@@ -72,7 +72,7 @@ def test_planes_of_symmetry_close_the_circle(degrees: NDArray[np.float64]) -> No
 def test_one_plane_doubles_the_fan() -> None:
     """Buoys one behind the other at unequal distance from the origin: the plane y = 0 alone."""
     places = {"bow": (2.0, 0.0), "stern": (-1.0, 0.0)}
-    heading, force = images(cylinders(np.arange(0, 61, 20), places))
+    heading, force = images(cylinders(np.arange(0.0, 61.0, 20.0), places))
     np.testing.assert_allclose(heading, np.arange(-60, 61, 20), atol=1e-9)
     exact = cylinders(heading, places).excitation
     np.testing.assert_allclose(force, exact, atol=1e-6 * abs(exact).max())
@@ -113,7 +113,7 @@ center_of_gravity = [0.0, -1.5, -0.3]
 
 
 def test_frequency_domain_and_runs_use_them_with_yaw_axes_only(tmp_path: Path) -> None:
-    cylinders(np.arange(0, 91, 30), TWINS).write(tmp_path / "hydro.h5")
+    cylinders(np.arange(0.0, 91.0, 30.0), TWINS).write(tmp_path / "hydro.h5")
     (tmp_path / "case.toml").write_text(CASE)
     results = hydrodae.run(tmp_path / "case.toml")
     assert any("plane y = 0 and the plane x = 0" in note for note in results.notes)
@@ -122,7 +122,7 @@ def test_frequency_domain_and_runs_use_them_with_yaw_axes_only(tmp_path: Path) -
     cylinders([-20.0], TWINS).write(tmp_path / "hydro.h5")
     exact = LinearModel(tmp_path / "case.toml").excitation(np.array([2.0]), heading)[0]
     np.testing.assert_allclose(force, exact, atol=1e-2 * abs(exact).max())  # 30 degrees apart
-    cylinders(np.arange(0, 91, 30), TWINS).write(tmp_path / "hydro.h5")
+    cylinders(np.arange(0.0, 91.0, 30.0), TWINS).write(tmp_path / "hydro.h5")
     mean = hydrodae.Case.read(tmp_path / "case.toml").with_values({"hydro.axes": "mean"})
     with pytest.raises(DatabaseError, match="-20 deg is outside the headings"):
         LinearModel(mean).excitation(np.array([2.0]), heading)
