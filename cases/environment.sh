@@ -9,7 +9,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
 debian_packages=(
   build-essential cmake ninja-build pkg-config git                     # tools
   libeigen3-dev libsundials-dev libsuitesparse-dev libtomlplusplus-dev # mathematics, case files
-  libhdf5-dev libaec-dev zlib1g-dev libssl-dev                         # results, file hashes
+  libhdf5-dev libaec-dev zlib1g-dev                                    # results
   libminizip-dev libpugixml-dev                                        # FMUs
   python3 python3-venv python3-dev
 )

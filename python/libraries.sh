@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 dnf install -y epel-release dnf-plugins-core
 dnf config-manager --set-enabled crb
-dnf install -y eigen3-devel hdf5-devel libaec-devel minizip-compat-devel openssl-devel pugixml-devel \
+dnf install -y eigen3-devel hdf5-devel libaec-devel minizip-compat-devel pugixml-devel \
   suitesparse-devel zlib-devel
 
 fetch() { curl -sSfL "https://github.com/$1/archive/refs/tags/v$2.tar.gz" | tar xz -C "$work"; }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <iostream>
 #include <new>
+#include <optional>
 
 #include "arguments.h"
 #include "hydrodae/core/error.h"
@@ -57,19 +58,40 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// "mean absorbed power: pto1 1.2 W, pto2 3.4 W, in all 4.6 W"
+/// " 1234 W (1100 to 1380)", without the part that is not known.
+void print_mean(double power, const std::optional<hydrodae::Interval>& interval) {
+  std::printf(" %.4g W", power);
+  if (interval)
+    std::printf(" (%.3g to %.3g)", interval->low, interval->high);
+}
+
+/// "mean absorbed power after 30 s: pto1 1200 W (1100 to 1310), pto2 3.4 W (3.1 to 3.8), in all
+/// 1203 W (1100 to 1310); in brackets: 95 % interval of the sea state"
 void print_power(const hydrodae::RunStatistics& statistics) {
+  if (statistics.mean_power.empty())
+    return;
   double total = 0.0;
-  const char* between = "mean absorbed power:";
-  for (const auto& [name, power] : statistics.mean_power) {
-    std::printf("%s %s %.4g W", between, name.c_str(), power);
+  std::printf("mean absorbed power");
+  if (statistics.mean_power_from > 0.0)
+    std::printf(" after %.6g s", statistics.mean_power_from);
+  const char* between = ":";
+  for (std::size_t k = 0; k < statistics.mean_power.size(); ++k) {
+    const auto& [name, power] = statistics.mean_power[k];
+    std::printf("%s %s", between, name.c_str());
+    print_mean(power, statistics.mean_power_interval.empty() ? std::nullopt
+                                                             : statistics.mean_power_interval[k]);
     between = ",";
     total += power;
   }
-  if (statistics.mean_power.size() > 1)
-    std::printf(", in all %.4g W", total);
-  if (!statistics.mean_power.empty())
-    std::printf("\n");
+  if (statistics.mean_power.size() > 1) {
+    std::printf(", in all");
+    print_mean(total, statistics.total_power_interval);
+  }
+  if (statistics.total_power_interval)
+    std::printf("; in brackets: 95 %% interval of the sea state");
+  else if (!statistics.interval_missing.empty())
+    std::printf("; %s", statistics.interval_missing.c_str());
+  std::printf("\n");
 }
 
 /// "controller pi: 2000 calls, 12 us each"

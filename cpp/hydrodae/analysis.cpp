@@ -6,13 +6,13 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/element/hydro_axes_gradient.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
-#include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
 
 namespace hydrodae {
@@ -121,8 +121,8 @@ std::vector<std::string> owners_of_states(const Regime& s) {
 }
 
 /// All reactions (6 n_joints,) of the joints that are reported.
-VectorX reactions(const Regime& s, system::Observer& observer, const VectorX& y) {
-  const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
+VectorX reactions(const Regime& s, measure::Observer& observer, const VectorX& y) {
+  const measure::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
   VectorX out(0);
   for (std::size_t j = 0; j < s.joints.size(); ++j) {
     if (s.joints[j].hidden)
@@ -138,8 +138,8 @@ constexpr std::array<const char*, 6> wrench_names = {"force.x",  "force.y",  "fo
 
 /// What holds the coordinates that bodies do not have.
 void add_supports(const Regime& s, const VectorX& y, LinearModel& out) {
-  system::Observer observer(s);
-  const system::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
+  measure::Observer observer(s);
+  const measure::Observation& o = observer.observe(0.0, y, VectorX::Zero(s.n));
   out.support.resize(0);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     if (s.bodies[i].n_active == 6)
@@ -154,7 +154,7 @@ void add_supports(const Regime& s, const VectorX& y, LinearModel& out) {
 /// Reactions are linear in lambda; by the pose their axes turn: central differences, whose error
 /// (h^2 = 1e-10 of the static reaction) is far below what linear theory means.
 void add_reactions(const Regime& s, const VectorX& y, LinearModel& out) {
-  system::Observer observer(s);
+  measure::Observer observer(s);
   for (const system::JointData& j : s.joints)
     if (!j.hidden)
       for (const char* part : wrench_names)

@@ -10,11 +10,11 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/cosim/fmu.h"
 #include "hydrodae/model/motion.h"
+#include "hydrodae/observe/recorder.h"
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
-#include "hydrodae/system/recorder.h"
 
 namespace hydrodae {
 
@@ -274,7 +274,8 @@ std::string examine(const model::Scene& scene) {
   const System built = system::build(scene);
   system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
-  const system::Recorder named(s, 0.0, system::initial_state(s), VectorX::Zero(s.n)); // or refuses
+  measure::Measure measure(s, 0.0, system::initial_state(s), VectorX::Zero(s.n));
+  const observe::Recorder named(s, measure); // or refuses
   std::ostringstream out;
   out << model::summary(scene) << "  unknowns: " << s.n << " = " << s.n_q << " positions + "
       << s.n_u << " velocities + " << s.n_z << " states + " << s.n_lambda << " + " << s.n_mu

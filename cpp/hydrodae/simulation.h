@@ -2,12 +2,14 @@
 /// The one public entry point: a scene in, a results file out.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hydrodae/accuracy/comparison.h"
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/math/sampling.h"
 #include "hydrodae/model/scene.h"
 
 namespace hydrodae {
@@ -38,6 +40,12 @@ struct RunStatistics {
   /// [s].
   std::vector<std::pair<std::string, double>> mean_power;
   double mean_power_from = 0.0;
+  double sea_period = 0.0; ///< energy period of an irregular sea [s]; 0 without one
+  /// 95 % intervals of these means and of their sum [W], see `mean_interval`. Empty without an
+  /// irregular sea, and where `interval_missing` says why.
+  std::vector<std::optional<Interval>> mean_power_interval;
+  std::optional<Interval> total_power_interval;
+  std::string interval_missing;
   /// Calls of each controller that is a Python function or another program, and their mean wall
   /// time without the first, which waits for the program [s].
   struct ControllerCost {

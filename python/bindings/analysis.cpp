@@ -8,6 +8,7 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/hydro/headings.h"
 #include "hydrodae/hydro/symmetry.h"
+#include "hydrodae/math/sampling.h"
 
 namespace py = pybind11;
 
@@ -74,6 +75,12 @@ py::tuple with_images(const std::vector<std::string>& coordinates, const py::dic
   return py::make_tuple(db.heading, db.excitation);
 }
 
+std::optional<std::pair<double, double>> as_pair(const std::optional<Interval>& interval) {
+  if (!interval)
+    return std::nullopt;
+  return std::pair{interval->low, interval->high};
+}
+
 } // namespace
 
 void bind_analysis(py::module_& module) {
@@ -82,6 +89,15 @@ void bind_analysis(py::module_& module) {
              "cpp/hydrodae/analysis.h.\nRaises CaseError.");
   module.def("wave_components", &wave_components, py::arg("scene"),
              "Components of all wave systems, (n, 4): frequency, heading, amplitude, phase.");
+  module.def(
+      "mean_interval",
+      [](const std::vector<double>& values) { return as_pair(mean_interval(values)); },
+      py::arg("values"),
+      "95 % interval of the mean of the process that the values, at equal steps, are a sample of; "
+      "None of too\nfew. See cpp/hydrodae/math/sampling.h.");
+  module.attr("SAMPLING_SPANS") = sampling_spans;
+  module.attr("SAMPLING_FEWEST") = sampling_fewest;
+  module.attr("SAMPLING_PERIODS") = sampling_periods;
   module.def("with_images", &with_images, py::arg("coordinates"), py::arg("points"),
              py::arg("added_mass_inf"), py::arg("omega"), py::arg("damping"), py::arg("heading"),
              py::arg("excitation"), py::arg("water"),

@@ -6,6 +6,7 @@
 
 #include "bindings.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/model/methods.h"
 
 namespace py = pybind11;
 
@@ -62,6 +63,23 @@ void bind_tables(py::module_& module) {
         return list;
       },
       "Every table of a case file with its keys, as nested dicts.");
+  module.def(
+      "methods",
+      [] {
+        py::list list;
+        for (const model::MethodTraits& m : model::methods()) {
+          py::dict out;
+          out["name"] = m.name;
+          out["orders"] = m.orders;
+          out["adapts"] = m.adapts;
+          out["fixes"] = m.fixes;
+          out["limits_order"] = m.limits_order;
+          list.append(out);
+        }
+        return list;
+      },
+      "Every integrator: name, orders that it may be given, whether it adapts its steps, fixes "
+      "them, and has a highest order.");
   module.def(
       "suggestion",
       [](const std::string& wanted, const std::vector<std::string>& names) {

@@ -50,6 +50,9 @@ class Scene:
 def tables() -> list[dict[str, Any]]:
     """Every table of a case file with its keys, as nested dicts."""
 
+def methods() -> list[dict[str, Any]]:
+    """Every integrator: name, orders, adapts, fixes, limits_order."""
+
 def suggestion(wanted: str, names: Sequence[str]) -> str:
     """The end of a message about an unknown name: the nearest one and all that are valid."""
 
@@ -106,6 +109,13 @@ def catenary(
 
 def wave_components(scene: Scene) -> NDArray[np.float64]:
     """Components of all wave systems, (n, 4): frequency, heading, amplitude, phase."""
+
+SAMPLING_SPANS: int
+SAMPLING_FEWEST: int
+SAMPLING_PERIODS: float
+
+def mean_interval(values: NDArray[np.float64]) -> tuple[float, float] | None:
+    """95 % interval of the mean of a process, of which the values are a sample; None of too few."""
 
 def with_images(
     coordinates: Sequence[str],

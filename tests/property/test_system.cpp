@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/system/observer.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
 
@@ -88,14 +88,14 @@ TEST_CASE("added mass conserves energy in all axes: power of its load is minus d
     VectorX rest = yp;
     rest.head(s.n_q).setZero();
     yp.head(s.n_q) = -evaluate(s, ws, y, rest).head(s.n_q);
-    system::Observer observer(s);
+    measure::Observer observer(s);
     auto fluid = [&](double h) { // kinetic energy of the fluid along the motion
       const VectorX moved = y + h * yp;
       return observer.observe(0.0, moved, yp).kinetic_added_mass;
     };
     const double h = 1e-5;
     const double rate = (fluid(h) - fluid(-h)) / (2.0 * h);
-    const system::Observation& o = observer.observe(0.0, y, yp);
+    const measure::Observation& o = observer.observe(0.0, y, yp);
     const auto index = std::find(o.components.begin(), o.components.end(), "added_mass_inf");
     const double power = o.powers[index - o.components.begin()];
     CHECK(power == doctest::Approx(-rate).epsilon(1e-7));

@@ -69,7 +69,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Results:
 
 
 def test_energy_lines_are_named(run: Results) -> None:
-    panel = overview(run)[-1]
+    panel = next(panel for panel in overview(run) if panel.quantity == "energy")
     labels = [line.label for line in panel.lines]
     assert "work of pto" in labels
     assert "kinetic" in labels

@@ -12,6 +12,8 @@ LAYERS = [
     {"joint", "element", "control"},
     {"model"},
     {"io", "system"},
+    {"measure", "events"},
+    {"observe"},
     {"solve", "accuracy"},
     {"run", "cosim"},
     {"simulation.h", "analysis.h", "analysis_moorings.h", "examine.h", "session"},

@@ -18,17 +18,17 @@ import pytest
 LAYERS = [
     {"errors"},  # what the kernel raises as well
     {"support", "starters"},
-    # one database, and results, neither of which needs the kernel
-    {"results", "hdb.relations", "hdb.hull"},
+    # one database, which needs no kernel
+    {"hdb.relations", "hdb.hull"},
     {"hdb.memory"},
     {"hdb.database"},
     {"hdb.bem", "hdb.checks", "hdb.interaction", "hdb.readers"},
     {"hdb.preparation"},
-    {"hdb", "pictures"},
+    {"hdb"},
     {"_core"},  # the compiled kernel
-    # one case
-    {"case"},
-    {"linear", "simulation"},
+    # one case and its results
+    {"case", "results"},
+    {"linear", "pictures", "simulation"},
     {"control", "fmu", "mooring"},
     # many runs of a case, and what people ask about it
     {"study", "viewer"},

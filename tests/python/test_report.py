@@ -54,7 +54,7 @@ def flap(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of the flap, beside its case."""
     folder = tmp_path_factory.mktemp("report") / "flap"
     case = create("flap", folder)
-    values = {"solver.end_time": 60.0, "wave.sea.significant_height": 2.25}
+    values = {"solver.end_time": 240.0, "wave.sea.significant_height": 2.25}
     hydrodae.run(case, folder / "case.h5", set=values)
     return folder
 
@@ -82,9 +82,11 @@ def test_report_of_a_run_holds_all_and_needs_no_other_file(flap: Path) -> None:
         hashlib.sha256((flap / "hydro.h5").read_bytes()).hexdigest()
     ]
     assert rows["its sha256"] == [hashlib.sha256((flap / "case.h5").read_bytes()).hexdigest()]
-    assert rows["absorbed power"][:2] == ["pto", "kW"]
-    power = results.statistics["mean_power_absorbed"] / 1e3
-    assert float(rows["absorbed power"][2]) == pytest.approx(power, rel=0.05)
+    assert rows["absorbed power"][:2] == ["pto", "MW"]
+    power = results.statistics["mean_power_absorbed"] / 1e6
+    mean, _, interval = rows["absorbed power"][2].partition(" ")
+    assert float(mean) == pytest.approx(power, rel=0.05)
+    assert " to " in interval
     assert "mobility: 1 " in text
     assert any(row[-1] == "Hs 2.25 m, Tp 9 s" for row in page.rows)  # as it was run
     assert "wave.sea.significant_height = 2.25" in text

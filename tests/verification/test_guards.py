@@ -80,12 +80,16 @@ def test_rows_that_always_follow_from_others_are_no_singular_pose(name: str, rto
     hydrodae.run(BENCHMARKS / f"{name}.toml", set={"solver.rtol": rtol})
 
 
-@pytest.mark.parametrize("name", ["n_four_bar_2", "slider_crank_equal"])
-def test_little_energy_lost_at_a_singular_pose_stops_a_multi_step_method(name: str) -> None:
-    with pytest.raises(hydrodae.SolverError, match=r"J exchanged, at a singular pose") as stop:
-        hydrodae.run(BENCHMARKS / f"{name}.toml", set={"solver.method": "ida", "solver.rtol": 1e-4})
-    lost = abs(float(str(stop.value).split("is off by ")[1].split()[0]))
-    assert lost < 0.1  # J, of 30 to 70
+@pytest.mark.parametrize("rtol", [1e-6, 1e-5])
+def test_a_multi_step_method_that_passes_singular_poses_goes_on(rtol: float) -> None:
+    """It loses a hundred-thousandth of the energy there, and tells how far off it is."""
+    scene = BENCHMARKS / "n_four_bar_2.toml"
+    found = hydrodae.run(scene, set={"solver.method": "ida", "solver.rtol": rtol})
+    truth = hydrodae.run(scene, set={"solver.method": "radau", "solver.rtol": 1e-11})
+    place = "bodies/top0/position"
+    error = np.abs(found[place].values - truth[place].values).max()
+    estimate = found.accuracy()["top0"].error.max()
+    assert 0.1 < estimate / error < 10.0
 
 
 @pytest.mark.parametrize(("formulation", "rtol"), [("index_1", 7.7e-4), ("index_2", 2.5e-3)])

@@ -29,6 +29,8 @@ Breaking::Breaking(std::vector<std::shared_ptr<const Elements>> whole, std::vect
   inputs = first.inputs;
   channels = first.channels;
   n_values_ = first.channel_size();
+  n_kinks = first.n_kinks;
+  side_at = first.side_at;
   channels.push_back({"tension_ratio", "-", "Largest tension over breaking load."});
   if (breaks_) {
     shape.n_signals += Parting::n_signals;
@@ -146,8 +148,26 @@ Overload Breaking::overload(std::size_t law, double t, const double* in, const d
 
 bool Breaking::may_rub() const { return rubbing(whole_.front()); }
 
-bool Breaking::agrees(std::size_t law, double t, const double* in, const double* held) const {
-  return has_parted(held) || rubbing(whole_[law])->agrees(0, t, in, held);
+int Breaking::n_rubs() const { return rubbing(whole_.front())->n_rubs(); }
+
+void Breaking::rubs(std::size_t law, double t, const double* in, const double* held,
+                    double* out) const {
+  if (has_parted(held))
+    std::fill_n(out, n_rubs(), 1.0);
+  else
+    rubbing(whole_[law])->rubs(0, t, in, held, out);
+}
+
+void Breaking::kinks(double t, const double* in, const double* held, double* out) const {
+  for (const std::shared_ptr<const Elements>& one : whole_) {
+    if (has_parted(held))
+      std::fill_n(out, n_kinks, -1.0);
+    else
+      one->kinks(t, in, held, out);
+    in += shape.n_in();
+    held += shape.n_signals;
+    out += n_kinks;
+  }
 }
 
 bool Breaking::settle(std::size_t law, double t, const double* in, double* held) const {

@@ -29,6 +29,7 @@ public:
   void energy(const double* in, const double* held, double* joules) const override;
   void observe(double t, const double* in, const double* held, const double* out,
                double* values) const override;
+  void kinks(double t, const double* in, const double* held, double* out) const override;
   bool lost_at_rest(std::size_t law) const override { return whole_[law]->lost_at_rest(0); }
   std::shared_ptr<const Elements> started(const double* in) const override;
   std::shared_ptr<const Elements> statics() const override;
@@ -37,7 +38,9 @@ public:
   Overload overload(std::size_t law, double t, const double* in, const double* held) const override;
 
   bool may_rub() const override;
-  bool agrees(std::size_t law, double t, const double* in, const double* held) const override;
+  int n_rubs() const override;
+  void rubs(std::size_t law, double t, const double* in, const double* held,
+            double* out) const override;
   bool settle(std::size_t law, double t, const double* in, double* held) const override;
 
 private:

@@ -98,11 +98,17 @@ struct Schedule {
 
 /// What one law sees.
 template <class S> struct In {
-  double t;              ///< [s]
-  const S *x, *v;        ///< (width,)
-  const S* z;            ///< (n_states,)
-  const double* signals; ///< (n_signals,)
-  const S* r = nullptr;  ///< (n_reaction,) force and moment [N, N m]
+  double t;                      ///< [s]
+  const S *x, *v;                ///< (width,)
+  const S* z;                    ///< (n_states,)
+  const double* signals;         ///< (n_signals,)
+  const S* r = nullptr;          ///< (n_reaction,) force and moment [N, N m]
+  const double* sides = nullptr; ///< (n_kinks,) see Elements::kinks
+
+  /// Is the law on the positive side of kink k, whose number is `now`?
+  bool beyond(int k, const S& now) const {
+    return sides && sides[k] != 0.0 ? sides[k] > 0.0 : now > S(0);
+  }
 };
 
 /// What it answers.
@@ -165,8 +171,11 @@ public:
                                             ///< the Jacobian that can differ from 0; empty: all can
   std::vector<Schedule> schedules;
   std::vector<Stick> sticks; ///< of each law along a joint; empty: none ever sticks
+  int n_kinks = 0;           ///< of each law; see `kinks`
+  int side_at = 0;           ///< place among the signals of a law of the sides of its kinks
 
   std::size_t size() const { return names.size(); }
+  bool has_kinks() const { return n_kinks > 0; }
   /// Numbers of the Jacobian of one law.
   std::size_t jacobian_size() const {
     return sparsity.empty() ? static_cast<std::size_t>(shape.n_out() * shape.n_columns())
@@ -213,6 +222,12 @@ public:
   /// Laws without unknowns, with the loads of these laws at rest in calm water; null: they are the
   /// same.
   virtual std::shared_ptr<const Elements> statics() const { return nullptr; }
+
+  /// Numbers that change their sign where the load of a law, or its slope, jumps (n n_kinks,). Its
+  /// signals hold the side of each, 1 or -1: there the law is what it is on that side, smoothly
+  /// continued, until the event; 0: it is as the numbers say. Where they jump need not be at zero.
+  virtual void kinks(double, const double* /*in*/, const double* /*signals*/,
+                     double* /*out*/) const {}
 
   // Of what feels the waves:
   virtual WavesFelt waves() const { return {}; }         ///< without any: nothing

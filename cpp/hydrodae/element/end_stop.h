@@ -24,6 +24,7 @@ struct EndStop {
   static constexpr std::string_view doc =
       "Compliant end stops along a joint: a hardening spring with Hunt-Crossley damping.";
   static constexpr Port port = Port::along_joint;
+  static constexpr int n_kinks = 2;
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;
@@ -38,11 +39,12 @@ struct EndStop {
     double lower, upper, stiffness, exponent, damping, viscous, width;
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      const S above = *in.x - S(upper), below = S(lower) - *in.x;
       *out.load = S(0);
-      if (*in.x > S(upper))
-        *out.load = -push(*in.x - S(upper), *in.v);
-      else if (*in.x < S(lower))
-        *out.load = push(S(lower) - *in.x, -*in.v);
+      if (in.beyond(0, pushes(above, *in.v)))
+        *out.load -= push(above, *in.v);
+      if (in.beyond(1, pushes(below, -*in.v)))
+        *out.load += push(below, -*in.v);
     }
 
     /// Of the spring: int k u^n r(u) du.
@@ -62,20 +64,39 @@ struct EndStop {
       values[0] = depth(*in.x);
     }
 
+    void kinks(const In<double>& in, double* out) const {
+      out[0] = pushes(*in.x - upper, *in.v);
+      out[1] = pushes(lower - *in.x, -*in.v);
+    }
+
   private:
     double depth(double s) const { return std::max({s - upper, lower - s, 0.0}); }
 
+    /// How far it is beyond where it begins to push: where it is touched, and would not pull [m or
+    /// rad].
+    template <class S> S pushes(const S& u, const S& rate) const {
+      if (!(u > S(0)))
+        return u > S(-1) ? u : S(-1);
+      const S pressed = load(u, rate) / S(stiffness);
+      return pressed < u ? pressed : u;
+    }
+
+    /// Without the width, continued oddly to u < 0.
+    template <class S> S load(const S& u, const S& rate) const {
+      using std::abs, std::exp, std::log;
+      const S size = abs(u);
+      S spring = S(stiffness) * u;
+      if (exponent != 1.0)
+        spring = size > S(0) ? spring * exp(S(exponent - 1.0) * log(size)) : S(0);
+      return spring * (S(1) + S(damping) * rate) + S(viscous) * rate;
+    }
+
     template <class S> S push(const S& u, const S& rate) const {
-      using std::exp, std::log;
-      const S spring = S(stiffness) * (exponent == 1.0 ? u : exp(S(exponent) * log(u)));
-      S f = spring * (S(1) + S(damping) * rate) + S(viscous) * rate;
-      if (f < S(0))
-        return S(0);
-      if (u < S(width)) {
-        const S x = u / S(width);
-        f *= x * x * (S(3) - S(2) * x);
-      }
-      return f;
+      const S f = load(u, rate);
+      if (!(u < S(width)))
+        return f;
+      const S x = u > S(0) ? u / S(width) : S(0);
+      return f * x * x * (S(3) - S(2) * x);
     }
   };
   Law law() const {

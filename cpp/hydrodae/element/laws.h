@@ -11,6 +11,7 @@
 ///   energy(In<double>)                 optional [J]
 ///   observe(In, Out, double* values)   with F::channels()
 ///   lost_at_rest()                     optional
+///   kinks(In<double>, double* out)     with F::n_kinks
 ///
 /// One that acts on points says how many, n_points.
 ///
@@ -53,6 +54,11 @@ template <class F> constexpr int reaction_of() {
   return 0;
 }
 
+template <class F> constexpr int kinks_of() {
+  if constexpr (requires { F::n_kinks; })
+    return F::n_kinks;
+  return 0;
+}
 template <class F> constexpr int points_of() {
   if constexpr (requires { F::n_points; })
     return F::n_points;
@@ -64,7 +70,8 @@ public:
   using Law = std::remove_cvref_t<decltype(std::declval<const F&>().law())>;
   static constexpr int w = width(F::port, points_of<F>()), nz = states_of<F>(),
                        nr = reaction_of<F>(), n_in = 2 * w + nr + nz, n_out = w + nz,
-                       n_signals = signals_of<F>();
+                       n_kinks_of_law = kinks_of<F>(), n_named = signals_of<F>(),
+                       n_signals = n_named + n_kinks_of_law;
 
   Laws() {
     type = F::type;
@@ -80,10 +87,11 @@ public:
       work = F::work;
     if constexpr (requires { F::channels(); })
       channels = F::channels();
+    n_kinks = n_kinks_of_law;
+    side_at = n_named;
     if constexpr (requires { F::inputs(); })
       inputs = F::inputs();
-    else
-      inputs.resize(n_signals);
+    inputs.resize(n_signals);
   }
   explicit Laws(const std::vector<F>& forces) : Laws() {
     for (const F& force : forces)
@@ -97,7 +105,8 @@ public:
       for (const double value : force.start_signals())
         signals.push_back(value);
     else
-      signals.resize(signals.size() + n_signals, 0.0);
+      signals.resize(signals.size() + n_named, 0.0);
+    signals.resize(signals.size() + n_kinks_of_law, 0.0);
     if constexpr (requires { force.sticks(); })
       sticks.push_back(force.sticks());
     if constexpr (nz > 0)
@@ -152,6 +161,17 @@ public:
       }
   }
 
+  void kinks([[maybe_unused]] double t, [[maybe_unused]] const double* in,
+             [[maybe_unused]] const double* held, [[maybe_unused]] double* out) const override {
+    if constexpr (n_kinks_of_law > 0)
+      for (const Law& law : laws_) {
+        law.kinks(view(t, in, held), out);
+        in += n_in;
+        held += n_signals;
+        out += n_kinks_of_law;
+      }
+  }
+
   bool lost_at_rest([[maybe_unused]] std::size_t law) const override {
     if constexpr (requires { laws_[law].lost_at_rest(); })
       return laws_[law].lost_at_rest();
@@ -162,7 +182,7 @@ private:
   using Jacobian = Eigen::Matrix<double, n_out, n_in, n_out == 1 ? Eigen::RowMajor : 0>;
 
   template <class S> static In<S> view(double t, const S* in, const double* held) {
-    return {t, in, in + w, in + 2 * w + nr, held, in + 2 * w};
+    return {t, in, in + w, in + 2 * w + nr, held, in + 2 * w, held ? held + n_named : nullptr};
   }
 
   template <class S> void each(double t, const S* in, const double* held, S* out) const {

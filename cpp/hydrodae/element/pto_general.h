@@ -28,7 +28,7 @@ struct PtoGeneral {
       "Power take-off along a joint: springs and dampers linear, by a power or by measured points, "
       "constant load, limits of load and power, efficiencies.";
   static constexpr Port port = Port::along_joint;
-  static constexpr int n_signals = 4;
+  static constexpr int n_signals = 4, n_kinks = 1;
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;
@@ -46,6 +46,23 @@ struct PtoGeneral {
     Curve spring, damper;
 
     template <class S> void operator()(const In<S>& in, const Out<S>& out) const {
+      const S f = wanted(in), limit = limit_at(*in.v);
+      *out.load = in.beyond(0, room(f, limit)) ? f : f > S(0) ? limit : -limit;
+    }
+
+    /// Where a limit begins to hold, and ends.
+    void kinks(const In<double>& in, double* out) const {
+      *out = room(wanted(in), limit_at(*in.v));
+    }
+
+    /// Part of the limit that is left.
+    template <class S> static S room(const S& f, const S& limit) {
+      using std::abs;
+      return limit < S(INFINITY) ? S(1) - abs(f) / limit : S(1);
+    }
+
+    /// Without limits.
+    template <class S> S wanted(const In<S>& in) const {
       using std::abs, std::exp, std::log, std::sqrt;
       const double c = in.signals[0], k = in.signals[1], s0 = in.signals[2];
       const S &s = *in.x, &v = *in.v, speed = abs(v);
@@ -58,8 +75,13 @@ struct PtoGeneral {
         f -= spring(s);
       if (!damper.empty())
         f -= damper(v);
-      const S limit = speed * S(most) > S(power) ? S(power) / speed : S(most);
-      *out.load = f > limit ? limit : f < -limit ? -limit : f;
+      return f;
+    }
+
+    template <class S> S limit_at(const S& rate) const {
+      using std::abs;
+      const S speed = abs(rate);
+      return speed * S(most) > S(power) ? S(power) / speed : S(most);
     }
 
     /// Of the springs; what a limit takes from them is not theirs.

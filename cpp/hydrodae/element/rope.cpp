@@ -30,8 +30,9 @@ public:
   explicit RopeList(const std::vector<Rope>& ropes)
       : n_(static_cast<int>(ropes.front().points.size())) {
     type = Rope::type;
-    shape = {Port::points, 3 * n_, 0, 1};
-    inputs = {{"length_change", "m"}};
+    shape = {Port::points, 3 * n_, 0, 2};
+    inputs = {{"length_change", "m"}, {}};
+    n_kinks = side_at = 1;
     channels = {{"tension", "N", "Tension of the rope."},
                 {"length", "m", "Length of the rope along its points."},
                 {"winch_power", "W", "Power that the winch gives."}};
@@ -39,7 +40,7 @@ public:
       names.push_back(rope.name);
       laws_.push_back({rope.stiffness, rope.damping, rope.free_length(), Winch(rope)});
     }
-    signals.assign(ropes.size(), 0.0);
+    signals.assign(2 * ropes.size(), 0.0);
     schedules = winch_schedules(ropes);
   }
 
@@ -56,8 +57,8 @@ public:
       const int w = shape.width;
       Eigen::Map<MatrixX> J(jacobian, w, 2 * w);
       J.setZero();
-      const State<double> now = pull<double>(laws_[k], t, in, held[k]);
-      if (now.tension > 0.0) {
+      const State<double> now = pull<double>(laws_[k], t, in, held + 2 * k);
+      if (now.pulls) {
         const double c = laws_[k].damping / now.free;
         for (int i = 0; i < n_; ++i)
           for (int j = 0; j < n_; ++j) {
@@ -82,7 +83,7 @@ public:
 
   void energy(const double* in, const double* held, double* joules) const override {
     for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width) {
-      const double free = laws_[k].length + held[k]; // a winch works on it besides
+      const double free = laws_[k].length + held[2 * k]; // a winch works on it besides
       const double stretch = std::max(0.0, total<double>(in) - free);
       joules[k] =
           !laws_[k].winch.winds() ? 0.5 * laws_[k].stiffness * stretch * stretch / free : 0.0;
@@ -92,11 +93,16 @@ public:
   void observe(double t, const double* in, const double* held, const double*,
                double* values) const override {
     for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width, values += 3) {
-      const State<double> now = pull<double>(laws_[k], t, in, held[k]);
+      const State<double> now = pull<double>(laws_[k], t, in, held + 2 * k);
       values[0] = now.tension;
       values[1] = total<double>(in);
       values[2] = -now.tension * now.free_rate;
     }
+  }
+
+  void kinks(double t, const double* in, const double* held, double* out) const override {
+    for (std::size_t k = 0; k < laws_.size(); ++k, in += 2 * shape.width)
+      out[k] = pull<double>(laws_[k], t, in, held + 2 * k).tautness;
   }
 
   bool lost_at_rest(std::size_t) const override { return false; }
@@ -109,6 +115,8 @@ private:
   template <class S> struct State {
     S tension;
     double free, free_rate; ///< L0, L0'
+    S tautness{0};          ///< see RopeState
+    bool pulls = false;
   };
 
   template <class S> static Vec3<S> point(const S* in, int i) {
@@ -130,34 +138,36 @@ private:
     return sum;
   }
 
-  template <class S> State<S> pull(const Law& law, double t, const S* in, double change) const {
-    State<S> out{S(0), law.length + change, 0.0};
+  template <class S>
+  State<S> pull(const Law& law, double t, const S* in, const double* held) const {
+    State<S> out{S(0), law.length + held[0], 0.0, S(0), false};
     if (law.winch.winds()) {
       const Dual now = law.winch.at(t);
-      out.free = now.a + change;
+      out.free = now.a + held[0];
       out.free_rate = now.b;
     }
-    const S l = total(in);
-    if (l > S(out.free)) {
+    const S strain = (total(in) - S(out.free)) / S(out.free);
+    S T = S(0);
+    if (strain > S(0) || held[1] > 0.0) {
       S rate(0);
       for (int i = 0; i + 1 < n_; ++i) {
         const Vec3<S> d = point(in, i + 1) - point(in, i);
         rate += d.cwiseProduct(velocity(in, i + 1) - velocity(in, i)).sum() / size<S>(d);
       }
-      const S T =
-          (S(law.stiffness) * (l - S(out.free)) + S(law.damping) * (rate - S(out.free_rate))) /
-          S(out.free);
-      if (T > S(0))
-        out.tension = T;
+      T = S(law.stiffness) * strain + S(law.damping) * (rate - S(out.free_rate)) / S(out.free);
     }
+    out.tautness = tautness_of(strain, T / S(law.stiffness));
+    out.pulls = rope_pulls(out.tautness, held[1]);
+    if (out.pulls)
+      out.tension = T;
     return out;
   }
 
   template <class S> void each(double t, const S* in, const double* held, S* out) const {
     for (std::size_t k = 0; k < laws_.size(); ++k) {
-      const State<S> now = pull(laws_[k], t, in, held[k]);
+      const State<S> now = pull(laws_[k], t, in, held + 2 * k);
       std::fill_n(out, shape.width, S(0));
-      for (int i = 0; i + 1 < n_ && now.tension > S(0); ++i) {
+      for (int i = 0; i + 1 < n_ && now.pulls; ++i) {
         const Vec3<S> d = point(in, i + 1) - point(in, i);
         const S part = now.tension / size<S>(d);
         for (int c = 0; c < 3; ++c) {

@@ -179,8 +179,18 @@ public:
   }
 
   bool may_rub() const override { return rough_; }
-  bool agrees(std::size_t law, double t, const double* in, const double* held) const override {
-    return change(law, t, in, held).place < 0;
+  int n_rubs() const override { return 2 * models_.front().n_places(); }
+  void rubs(std::size_t law, double t, const double* in, const double* held,
+            double* out) const override {
+    CapstanState<double> now;
+    std::array<double, most_rope_nodes> v;
+    see(law, t, in, held, now);
+    models_[law].slips(t, in, states_of(in), held, now, v.data());
+    for (int p = 0; p < models_[law].n_places(); ++p) {
+      const Room room = room_at(now, p, held[CapstanModel::way_at(p)], v[p]);
+      *out++ = room.forward;
+      *out++ = room.backward;
+    }
   }
   /// One place at a time, the first that does not agree.
   bool settle(std::size_t law, double t, const double* in, double* held) const override {
@@ -204,26 +214,37 @@ private:
 
   const double* states_of(const double* in) const { return in + 2 * shape.width; }
 
+  struct Room { ///< until it slips forward or backward; where it slips, until it sticks
+    double forward = 1.0, backward = 1.0;
+  };
+  static Room room_at(const CapstanState<double>& now, int p, double way, double v) {
+    constexpr double little = 1e-9, least = 1e-13; // of the strain beyond that of slip, and strain
+    const RopePlace<double>& place = now.places[p];
+    if (way != 0.0)
+      return {v == 0.0 ? 1.0 : way * v, 1.0};
+    if (!place.touched)
+      return {-1.0, 1.0};
+    const double E = (1.0 + little) * place.grip, before = now.parts[p].strain,
+                 after = now.parts[p + 1].strain;
+    return {E * before + least - after, E * after + least - before};
+  }
+
   /// The first place that does not do as the signals say.
   Change change(std::size_t k, double t, const double* in, const double* held) const {
-    constexpr double little = 1e-9, least = 1e-13; // of the strain beyond that of slip, and strain
     const CapstanModel& m = models_[k];
     CapstanState<double> now;
     std::array<double, most_rope_nodes> v;
     see(k, t, in, held, now);
     m.slips(t, in, states_of(in), held, now, v.data());
     for (int p = 0; p < m.n_places(); ++p) {
-      const RopePlace<double>& place = now.places[p];
-      const double way = held[CapstanModel::way_at(p)], E = (1.0 + little) * place.grip;
-      const double before = now.parts[p].strain, after = now.parts[p + 1].strain;
-      if (way == 0.0 && !place.touched)
+      const double way = held[CapstanModel::way_at(p)];
+      const Room room = room_at(now, p, way, v[p]);
+      if (way == 0.0 && room.forward < 0.0)
         return {p, Rub::forward};
-      if (way == 0.0 && after > E * before + least)
-        return {p, Rub::forward};
-      if (way == 0.0 && before > E * after + least)
+      if (way == 0.0 && room.backward < 0.0)
         return {p, Rub::backward};
-      if (way * v[p] < 0.0)
-        return {p, Rub::stick, place.before - states_of(in)[p]};
+      if (room.forward < 0.0)
+        return {p, Rub::stick, now.places[p].before - states_of(in)[p]};
     }
     return {};
   }

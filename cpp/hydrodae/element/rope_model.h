@@ -35,11 +35,22 @@ struct Winch {
   }
 };
 
+/// The number of the kink of a rope: its strain, or T / EA where that is less, as of a rope whose
+/// damper would push. It pulls above 0.
+template <class S> S tautness_of(const S& strain, const S& by_tension) {
+  return strain > S(0) && by_tension < strain ? by_tension : strain;
+}
+/// @param side  of the kink; 0: not known
+template <class S> bool rope_pulls(const S& tautness, double side) {
+  return side != 0.0 ? side > 0.0 : tautness > S(0);
+}
+
 /// Where a rope runs, and how it pulls.
 template <class S> struct RopeState {
   std::array<RopeNode<S>, most_rope_nodes> nodes;
   RopePath<S> path;
   S length{0}, rate{0}, tension{0};   ///< l, l', T
+  S tautness{0};                      ///< see tautness_of
   double free = 0.0, free_rate = 0.0; ///< L0, L0'
 };
 
@@ -55,12 +66,12 @@ public:
   double length = 0.0; ///< L0 without the winch [m]
   int n_points = 0, width = 0;
 
-  /// @param change  of the unstretched length [m]
-  template <class S> void see(double t, const S* in, double change, RopeState<S>& now) const {
+  /// @param held  change of the unstretched length [m], side of the kink
+  template <class S> void see(double t, const S* in, const double* held, RopeState<S>& now) const {
     see_nodes(in, in + width, now.nodes.data());
     lay_rope<S>(now.nodes.data(), n_points, now.path);
     measure(now);
-    pull(t, change, now);
+    pull(t, held, now);
   }
   /// Loads on the points.
   template <class S> void load(const RopeState<S>& now, S* out) const;
@@ -68,7 +79,7 @@ public:
 
 private:
   template <class S> void measure(RopeState<S>& now) const;
-  template <class S> void pull(double t, double change, RopeState<S>& now) const;
+  template <class S> void pull(double t, const double* held, RopeState<S>& now) const;
 };
 
 template <class S> void RopeModel::see_nodes(const S* x, const S* v, RopeNode<S>* nodes) const {
@@ -102,22 +113,19 @@ template <class S> void RopeModel::measure(RopeState<S>& now) const {
   }
 }
 
-template <class S> void RopeModel::pull(double t, double change, RopeState<S>& now) const {
-  now.free = length + change;
+template <class S> void RopeModel::pull(double t, const double* held, RopeState<S>& now) const {
+  now.free = length + held[0];
   now.free_rate = 0.0;
   if (winch.winds()) {
     const Dual at = winch.at(t);
-    now.free = at.a + change;
+    now.free = at.a + held[0];
     now.free_rate = at.b;
   }
-  const S stretch = now.length - S(now.free);
-  now.tension = S(0);
-  if (stretch > S(0)) {
-    const S T = (S(rope.stiffness) * stretch + S(rope.damping) * (now.rate - S(now.free_rate))) /
-                S(now.free);
-    if (T > S(0))
-      now.tension = T;
-  }
+  const S strain = (now.length - S(now.free)) / S(now.free);
+  const S T =
+      S(rope.stiffness) * strain + S(rope.damping) * (now.rate - S(now.free_rate)) / S(now.free);
+  now.tautness = tautness_of(strain, T / S(rope.stiffness));
+  now.tension = rope_pulls(now.tautness, held[1]) ? T : S(0);
 }
 
 /// A force at a point of contact, on the two points that stand for a sheave: at its centre C and at

@@ -16,10 +16,11 @@ public:
       names.push_back(rope.name);
     }
     const RopeModel& first = models_.front();
-    shape = {Port::points, first.width, 0, 1};
-    inputs = {{"length_change", "m"}};
+    shape = {Port::points, first.width, 0, 2};
+    inputs = {{"length_change", "m"}, {}};
     schedules = winch_schedules(ropes);
-    signals.assign(ropes.size(), 0.0);
+    signals.assign(2 * ropes.size(), 0.0);
+    n_kinks = side_at = 1;
     channels = {
         {"tension", "N", "Tension of the rope."},
         {"length", "m", "Length of the rope along its points and sheaves."},
@@ -44,7 +45,7 @@ public:
       for (int column = 0; column < shape.n_in(); ++column) {
         Dual& varied = x[static_cast<std::size_t>(column)];
         varied.b = 1.0;
-        models_[k].see(t, x.data(), held[k], now);
+        models_[k].see(t, x.data(), held + 2 * k, now);
         models_[k].load(now, y.data());
         varied.b = 0.0;
         for (int row = 0; row < shape.n_out(); ++row)
@@ -57,7 +58,7 @@ public:
     RopeState<double> now;
     for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {
       const RopeModel& m = models_[k];
-      m.see(0.0, in, held[k], now);
+      m.see(0.0, in, held + 2 * k, now);
       const double stretch = std::max(0.0, now.length - now.free);
       joules[k] = m.winch.winds() ? 0.0 // a winch works on it besides
                                   : 0.5 * m.rope.stiffness * stretch * stretch / now.free;
@@ -69,11 +70,19 @@ public:
     RopeState<double> now;
     for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {
       const RopeModel& m = models_[k];
-      m.see(t, in, held[k], now);
+      m.see(t, in, held + 2 * k, now);
       *values++ = now.tension;
       *values++ = now.length;
       *values++ = -now.tension * now.free_rate;
       values = std::copy_n(now.path.wrap.data() + 1, m.n_points - 2, values);
+    }
+  }
+
+  void kinks(double t, const double* in, const double* held, double* out) const override {
+    RopeState<double> now;
+    for (std::size_t k = 0; k < size(); ++k, in += shape.n_in()) {
+      models_[k].see(t, in, held + 2 * k, now);
+      out[k] = now.tautness;
     }
   }
 
@@ -83,7 +92,7 @@ private:
   template <class S> void each(double t, const S* in, const double* held, S* out) const {
     RopeState<S> now;
     for (std::size_t k = 0; k < size(); ++k) {
-      models_[k].see(t, in, held[k], now);
+      models_[k].see(t, in, held + 2 * k, now);
       models_[k].load(now, out);
       in += shape.n_in();
       out += shape.n_out();

@@ -12,9 +12,15 @@ public:
 
   virtual bool may_rub() const { return true; }
 
-  /// Do all places stick or slip as the signals say?
+  /// Numbers of `rubs` of each law.
+  virtual int n_rubs() const = 0;
+
+  /// How far each place is from doing else than the signals say; at zero it changes, below it
+  /// should have.
   /// @param in, signals  of this law, as in Elements::evaluate
-  virtual bool agrees(std::size_t law, double t, const double* in, const double* signals) const = 0;
+  /// @param out  (n_rubs,)
+  virtual void rubs(std::size_t law, double t, const double* in, const double* signals,
+                    double* out) const = 0;
 
   /// Writes into the signals what sticks and what slips.
   /// @returns whether there is anything new

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/check.h"
+#include "hydrodae/model/methods.h"
 
 namespace hydrodae::model {
 
@@ -44,10 +47,12 @@ void check_counts(const Scene& scene) {
       check_count(scene, "force." + pto.name + ".delay", pto.delay, most_steps, "steps");
 }
 
-struct Orders {
-  int low, high;
-  bool odd;
-};
+/// "5 or 8", "1, 3, .. 19".
+std::string in_words(const std::vector<int>& orders) {
+  const std::string first = std::to_string(orders[0]), second = std::to_string(orders[1]);
+  return orders.size() == 2 ? first + " or " + second
+                            : first + ", " + second + ", .. " + std::to_string(orders.back());
+}
 
 void check_order(const SolverOptions& o) {
   if (o.order == 0)
@@ -55,33 +60,27 @@ void check_order(const SolverOptions& o) {
   if (o.method == "auto")
     refuse_solver("order", "\"auto\" takes methods at orders of their own; name the method whose "
                            "order it is, such as method = \"radau\"");
-  if (o.method == "ida")
-    refuse_solver("order", "ida varies its order; solver.max_order limits it");
-  if (o.method == "generalized_alpha")
-    refuse_solver("order", "generalized_alpha is always of order 2");
-  if (o.method == "explicit_rk" && o.order != 5 && o.order != 8)
-    refuse_solver("order", "explicit_rk has order 5 or 8");
-  const Orders orders = o.method == "radau"   ? Orders{1, 19, true}
-                        : o.method == "gauss" ? Orders{2, 20, false}
-                                              : Orders{2, 18, false};
-  if (o.method != "explicit_rk" &&
-      (o.order < orders.low || o.order > orders.high || (o.order % 2 == 1) != orders.odd))
-    refuse_solver("order", o.method + (orders.odd ? " has odd orders, " : " has even orders, ") +
-                               std::to_string(orders.low) + " to " + std::to_string(orders.high));
+  const MethodTraits& method = method_traits(o.method);
+  if (method.orders.empty())
+    refuse_solver("order", std::string(method.one_order));
+  if (std::find(method.orders.begin(), method.orders.end(), o.order) == method.orders.end())
+    refuse_solver("order", o.method + " has order " + in_words(method.orders));
 }
 
 void check_step(const SolverOptions& o) {
-  const bool fixed =
-      o.method == "gauss" || o.method == "lobatto_iiic" || o.method == "generalized_alpha";
-  if (fixed && o.step == 0.0)
-    refuse_solver("step", o.method + " has a fixed step: give solver.step [s]");
-  if (o.method == "auto" && o.step > 0.0)
-    refuse_solver("step",
-                  "\"auto\" takes methods that choose their steps by rtol; for a fixed step "
-                  "name the method, such as method = \"generalized_alpha\"; "
-                  "solver.max_step limits them");
-  if (o.method == "ida" && o.step > 0.0)
-    refuse_solver("step", "ida chooses its steps by rtol; solver.max_step limits them");
+  if (o.method == "auto") {
+    if (o.step > 0.0)
+      refuse_solver("step",
+                    "\"auto\" takes methods that choose their steps by rtol; for a fixed step "
+                    "name the method, such as method = \"generalized_alpha\"; "
+                    "solver.max_step limits them");
+  } else {
+    const MethodTraits& method = method_traits(o.method);
+    if (!method.adapts && o.step == 0.0)
+      refuse_solver("step", o.method + " has a fixed step: give solver.step [s]");
+    if (!method.fixes && o.step > 0.0)
+      refuse_solver("step", o.method + " chooses its steps by rtol; solver.max_step limits them");
+  }
   if (o.step > 0.0 && o.max_step > 0.0)
     refuse_solver("max_step", "has no meaning beside a fixed step");
   if (o.step > o.end_time)
@@ -93,23 +92,19 @@ void check_formulation(const SolverOptions& o) {
   if (!stabilised && o.method == "auto")
     refuse_solver("formulation", "\"auto\" keeps to \"stabilised\", as all its methods do; for "
                                  "comparisons name the method, \"ida\" or \"radau\"");
-  if (!stabilised && (o.method == "generalized_alpha" || o.method == "explicit_rk"))
+  if (!stabilised && !method_traits(o.method).drifting)
     refuse_solver("formulation", o.method + " has its own: only \"stabilised\" here");
   if (o.baumgarte_time > 0.0 && o.formulation != "index_1")
     refuse_solver("baumgarte_time", "belongs to formulation \"index_1\"");
-  if (o.force)
+  if (o.formulation != "index_3" || o.force)
     return;
-  if (o.method == "gauss" && o.formulation == "index_3")
-    refuse_solver("formulation", "Gauss methods diverge on index 3, as they are not stiffly "
-                                 "accurate; solver.force (--force) runs it none the less");
-  if (o.method == "ida" && o.formulation == "index_3")
-    refuse_solver("formulation", "BDF on index 3 loses two to three digits and often stops: its "
-                                 "error test sees the velocities like multipliers; solver.force "
-                                 "(--force) runs it none the less");
+  if (const std::string_view why = method_traits(o.method).fails_index_3; !why.empty())
+    refuse_solver("formulation",
+                  std::string(why) + "; solver.force (--force) runs it none the less");
 }
 
 void check_coordinates(const SolverOptions& o) {
-  if (o.coordinates == "reduced" && o.method != "auto" && o.method != "explicit_rk")
+  if (o.coordinates == "reduced" && o.method != "auto" && !method_traits(o.method).reduces)
     refuse_solver("coordinates", "\"reduced\" goes with method = \"explicit_rk\" only; " +
                                      o.method + " takes coordinates = \"bodies\"");
 }
@@ -123,10 +118,10 @@ void check_solver(const Scene& scene) {
   check_formulation(o);
   check_coordinates(o);
   check_counts(scene);
-  if (o.method != "ida" && o.max_order != 5)
-    refuse_solver("max_order",
-                  "belongs to ida; " +
-                      (o.method == "auto" ? "name the method" : o.method + " takes solver.order"));
+  const bool named = o.method != "auto";
+  if (o.max_order != 5 && !(named && method_traits(o.method).limits_order))
+    refuse_solver("max_order", "belongs to ida; " +
+                                   (named ? o.method + " takes solver.order" : "name the method"));
 }
 
 } // namespace hydrodae::model

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hydrodae/core/field.h"
+#include "hydrodae/model/methods.h"
 
 namespace hydrodae::model {
 
@@ -33,15 +34,11 @@ struct SolverOptions {
 
   template <class O = SolverOptions> static Fields<O> fields() {
     return {
-        {"method",
-         &O::method,
-         "-",
+        {"method", &O::method, "-",
          "Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic), generalised "
          "alpha on the Lie group, or projected explicit Runge-Kutta; auto: explicit_rk, radau or "
          "ida as suits the scene, and another of them where the one at work cannot go on.",
-         false,
-         any_value,
-         {"auto", "ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}},
+         false, any_value, method_names()},
         {"coordinates",
          &O::coordinates,
          "-",
@@ -92,10 +89,9 @@ struct SolverOptions {
          at_least(0, longest_time)},
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
-         "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
-         "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
-         "there. Mechanisms that drives guide altogether may miss ten times as much, since their "
-         "reactions take and give it.",
+         "exchanged; 0: no guard. By default 0.01. Mechanisms that drives guide altogether may "
+         "miss "
+         "ten times as much, since their reactions take and give it.",
          false, at_least(0, 1e6)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/sea/record.h"
@@ -77,6 +78,17 @@ std::vector<sea::Component> wave_components(const Scene& scene) {
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
+}
+
+double irregular_period(const Scene& scene) {
+  double variance = 0.0, lengths = 0.0;
+  for (const sea::Wave& wave : scene.waves)
+    if (wave.type != "regular")
+      for (const sea::Component& c : wave_components(scene, wave)) {
+        variance += c.amplitude * c.amplitude;
+        lengths += c.amplitude * c.amplitude / c.omega;
+      }
+  return variance > 0.0 ? 2.0 * std::numbers::pi * lengths / variance : 0.0;
 }
 
 } // namespace hydrodae::model

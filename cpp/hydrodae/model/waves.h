@@ -15,4 +15,8 @@ std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave&
 /// Those of all wave systems.
 std::vector<sea::Component> wave_components(const Scene& scene);
 
+/// Energy period m_{-1} / m_0 of all wave systems that are a sample of a sea: irregular or measured
+/// ones [s]; 0 without any.
+double irregular_period(const Scene& scene);
+
 } // namespace hydrodae::model

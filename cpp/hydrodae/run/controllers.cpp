@@ -265,7 +265,7 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     one.swings.resize(one.out.size());
     one.law = make_law(c, terminals, regime);
     if (one.law->hears_crossings())
-      one.watch = std::make_unique<RateWatch>(regime, terminals.inputs.front().name);
+      one.crossing = std::make_unique<events::Crossing>(regime, terminals.inputs.front().name);
     if (c.lag > 0.0)
       for (const Input* input : one.inputs)
         input->follow(c.lag);
@@ -296,23 +296,17 @@ bool Controllers::is_due(double t, bool event) const {
          });
 }
 
-bool Controllers::hear_crossings() const {
-  return std::any_of(all_.begin(), all_.end(), [](const One& one) { return one.watch != nullptr; });
-}
-
-std::optional<double> Controllers::locate(double t0, double t1, int nodes,
-                                          const system::Recorder::Interpolant& at) {
-  std::optional<double> first;
-  for (One& one : all_)
-    if (one.watch)
-      if (const auto crossing = one.watch->locate(t0, first.value_or(t1), nodes, at))
-        first = crossing;
-  return first;
+std::vector<events::Source*> Controllers::sources() const {
+  std::vector<events::Source*> out;
+  for (const One& one : all_)
+    if (one.crossing)
+      out.push_back(one.crossing.get());
+  return out;
 }
 
 void Controllers::accept(double t, const VectorX& y, const VectorX& yp) {
   for (One& one : all_)
-    if (one.watch && one.watch->accept(t, y, yp))
+    if (one.crossing && one.crossing->accept(t, y, yp))
       one.law->crossed(t);
 }
 
@@ -409,8 +403,8 @@ void Controllers::finish(const std::string& error) {
 
 void Controllers::One::remember(Archive& a) {
   a(next, count, out, late, swings, *law);
-  if (watch)
-    a(*watch);
+  if (crossing)
+    a(*crossing);
 }
 
 void Controllers::remember(Archive& a) {

@@ -10,9 +10,9 @@
 
 #include "hydrodae/control/law.h"
 #include "hydrodae/core/channel.h"
+#include "hydrodae/events/crossings.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/run/inputs.h"
-#include "hydrodae/run/rate_watch.h"
 #include "hydrodae/run/swing_watch.h"
 
 namespace hydrodae::run {
@@ -51,12 +51,8 @@ public:
 
   bool is_due(double t, bool event) const;
 
-  /// Does one hear where a rate crosses zero?
-  bool hear_crossings() const;
-
-  /// The first such crossing in (t0, t1] of a step; see RateWatch.
-  std::optional<double> locate(double t0, double t1, int nodes,
-                               const system::Recorder::Interpolant& at);
+  /// Where rates cross zero that one hears.
+  std::vector<events::Source*> sources() const;
 
   /// At the end of an accepted step.
   void accept(double t, const VectorX& y, const VectorX& yp);
@@ -102,7 +98,7 @@ private:
     std::vector<SwingWatch> swings;                          ///< of each answer
     std::deque<std::pair<double, std::vector<double>>> late; ///< answers that do not hold yet
     Cost cost;
-    std::unique_ptr<RateWatch> watch; ///< null: it hears no crossing
+    std::unique_ptr<events::Crossing> crossing; ///< null: it hears no crossing
 
     bool is_due(double t, bool event) const;
     void sample(double t, std::span<const double> row);

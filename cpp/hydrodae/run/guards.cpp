@@ -26,19 +26,16 @@ std::string reactions(const system::Regime& s, const VectorX& y) {
 
 class EnergyCheck : public Guard {
 public:
-  EnergyCheck(const system::Regime& s, solve::EnergyGuard guard, PoseWatch& watch)
-      : s_(s), guard_(std::move(guard)), watch_(watch) {}
+  EnergyCheck(const system::Regime& s, const model::SolverOptions& options)
+      : s_(s), guard_(s, options) {}
   void check(const Step& step) override {
-    guard_.check(
-        step.end, step.recorder, [&] { return watch_.near_singular(step); },
-        [&] { return reactions(s_, step.y); });
+    guard_.check(step.end, step.measure, [&] { return reactions(s_, step.y); });
   }
-  void finish(const Step& step) override { guard_.finish(step.end, step.recorder); }
+  void finish(const Step& step) override { guard_.finish(step.end, step.measure); }
 
 private:
   const system::Regime& s_;
   solve::EnergyGuard guard_;
-  PoseWatch& watch_;
 };
 
 class BranchCheck : public Guard {
@@ -147,15 +144,14 @@ bool has_pressed_friction(const system::Regime& s) {
 
 } // namespace
 
-PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y,
-                     bool wanted)
+PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y)
     : s_(s), method_(options.method) {
-  if (wanted && solve::has_loop(s))
+  if (solve::has_loop(s))
     guard_ = std::make_unique<solve::PoseGuard>(s, y);
 }
 
 bool PoseWatch::near_singular(const Step& step) {
-  const bool short_steps = method_ == "ida";
+  const bool short_steps = model::method_traits(method_).many_steps;
   if (!guard_ || (short_steps && ++asked_ % 4 != 0))
     return false;
   const int looks = short_steps ? 1 : 6;
@@ -173,7 +169,7 @@ std::string PoseWatch::with_remedy(std::string text, double t, const VectorX& y,
   if (!guard_ || !guard_->near_singular(t, y, yp))
     return text;
   const std::string remedy =
-      method_ == "radau" || method_ == "explicit_rk"
+      model::method_traits(method_).passes_singular_poses
           ? "; it is next to a singular pose (a dead point, or bars in line), where the motion may "
             "have no unique way on: a smaller rtol, or a little friction, may help"
           : "; it is next to a singular pose (a dead point, or bars in line): solver.method = "
@@ -198,10 +194,9 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
-  solve::EnergyGuard energy(system, options);
   const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
-  watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);
-  guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
+  watch = std::make_unique<PoseWatch>(system, options, y);
+  guards.push_back(std::make_unique<EnergyCheck>(system, options));
   if (options.step <= 0.0 && system.lambda0 > 0)
     guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   if (options.branch_guard)

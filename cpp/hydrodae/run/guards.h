@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "hydrodae/core/archive.h"
+#include "hydrodae/measure/measure.h"
 #include "hydrodae/solve/guards.h"
 #include "hydrodae/solve/integrator.h"
-#include "hydrodae/system/recorder.h"
 
 namespace hydrodae::run {
 
@@ -19,7 +19,7 @@ struct Step {
   const VectorX& y;              ///< at its end; after an event those that go on from there
   const VectorX& yp;
   solve::Integrator& integrator; ///< gives y, y' inside the step
-  const system::Recorder& recorder;
+  const measure::Measure& measure;
 };
 
 class Guard {
@@ -44,9 +44,7 @@ public:
 class PoseWatch {
 public:
   /// @param y pose of the start, taken for a regular one
-  /// @param wanted some guard will ask
-  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y,
-            bool wanted);
+  PoseWatch(const system::Regime& system, const model::SolverOptions& options, const VectorX& y);
 
   /// Of short steps one in four is looked at, since the way through such a pose takes more; long
   /// ones are looked at inside, too.

@@ -112,7 +112,7 @@ void MethodChoice::accept(double h, double rate, bool own) {
 }
 
 bool MethodChoice::labours() const {
-  return more() && method() == "explicit_rk" && short_steps_ >= many;
+  return more() && model::method_traits(method()).bounded_stability && short_steps_ >= many;
 }
 
 SolverError MethodChoice::labour(double t) const {

@@ -53,17 +53,28 @@ Simulation::Simulation(Start start, model::Scene&& scene)
     switching_ = std::make_unique<solve::Switching>(regime_, options_.rtol);
     switching_->settle(0.0, y_, yp_);
   }
-  law_events_ = LawEvents::make(regime_, y_);
+  law_events_ = std::make_unique<events::LawEvents>(regime_, y_);
   formulate();
   begin_history();
   choose_method();
   make_integrator();
   if (options_.coordinates == "reduced")
     notes_.push_back(system::JointTree(system_).in_words(regime_));
-  recorder_ = std::make_unique<system::Recorder>(regime_, 0.0, y_, yp_);
-  recorder_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
+  measure_ = std::make_unique<measure::Measure>(regime_, 0.0, y_, yp_);
+  recorder_ = std::make_unique<observe::Recorder>(regime_, *measure_);
+  measure_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
   guards_ = make_guards(regime_, pattern_, options_, y_, poses_);
   make_channels();
+  find_sources();
+}
+
+void Simulation::find_sources() {
+  if (controllers_)
+    sources_ = controllers_->sources();
+  for (events::Source* source : law_events_->sources())
+    sources_.push_back(source);
+  if (switching_)
+    sources_.push_back(switching_.get());
 }
 
 /// The start is found on the stabilised equations; then the formulation may change.
@@ -135,15 +146,17 @@ void Simulation::advance(double limit, const Inside& inside) {
     controllers_->accept(t_, y_, yp_);
   if (inside)
     inside();
-  recorder_->accept();
-  regime_.nearby = recorder_->turns().value;
+  measure_->accept();
+  regime_.nearby = measure_->turns().value;
   scale_->accept(t_, y_);
   if (history_)
     history_->append(t_, y_, yp_, motion_, integrator_->degree());
   watch_steps(event, end);
   event_here_ = event;
-  if (event && law_events_)
+  if (event)
     law_events_->part(t_, y_);
+  else
+    law_events_->accept(t_, y_);
   if (event || (history_ && history_->jumps()))
     restart();
   failed_ = false;
@@ -155,7 +168,7 @@ void Simulation::require_going() const {
                               " s; it goes on from a state that is restored only");
 }
 
-/// One step that no guard proves wrong, and what the recorder makes of it. Under "auto" the next
+/// One step that no guard proves wrong, and what it adds to the sums. Under "auto" the next
 /// method makes a step that is.
 /// @returns whether it ends in an event
 bool Simulation::take_step(double end) {
@@ -163,8 +176,7 @@ bool Simulation::take_step(double end) {
     const Clock::time_point before = Clock::now();
     const bool event = make_step(end);
     solver_time_ += seconds_since(before);
-    choose_quadrature();
-    recorder_->begin(t_, inside_);
+    measure_step();
     at_(t_, y_, yp_);
     if (closing_)
       closing_->accept(t_, y_, yp_);
@@ -180,9 +192,31 @@ bool Simulation::take_step(double end) {
   }
 }
 
+/// Does the step hold an output sample? By the case alone, so that the sums of a run are the same
+/// whoever drives it.
+bool Simulation::has_samples() const {
+  constexpr double rounding = 1e-12;
+  const double dt = scene_.output.step;
+  return (std::floor(step_start_ / dt * (1.0 + rounding)) + 1.0) * dt <= t_ * (1.0 + rounding);
+}
+
+/// The work over the step: by the stages of the method, if it can and there are no samples.
+void Simulation::measure_step() {
+  const std::span<const double> weights = integrator_->stage_weights();
+  if (!has_samples() && !cut_ && !weights.empty()) {
+    measure_->begin(t_, weights, stage_, inside_);
+    return;
+  }
+  choose_quadrature();
+  if (model::method_traits(options_.method).many_steps)
+    measure_->begin_by_past(t_, inside_);
+  else
+    measure_->begin(t_, inside_);
+}
+
 /// Throws SolverError where the step is proved wrong.
 void Simulation::check_step(bool event) {
-  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *recorder_};
+  const Step step{step_start_, t_, event, y_, yp_, *integrator_, *measure_};
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->check(step);
 }
@@ -195,7 +229,7 @@ bool Simulation::make_step(double end) {
   for (;;) {
     last_start_ = step_start_;
     step_start_ = t_;
-    if ((has_events() && approaches_events_) || methods_.more())
+    if ((!sources_.empty() && approaches_events_) || methods_.more())
       at_(t_, y_start_, yp_start_);
     const double kink =
         history_ ? history_->next_kink(integrator_->statistics().last_order) : INFINITY;
@@ -215,6 +249,7 @@ bool Simulation::make_step(double end) {
     }
     const std::optional<double> event = locate();
     if (!event || !inside_of_step(*event)) {
+      cut_ = event && *event < t_;
       t_ = event.value_or(t_);
       return event.has_value();
     }
@@ -227,22 +262,22 @@ void Simulation::restart() {
   const Clock::time_point before = Clock::now();
   std::optional<double> struck;
   follow_turns();
-  if (law_events_)
-    law_events_->settle(t_, y_);
+  law_events_->settle(t_, y_);
   if (switching_)
     struck = switching_->settle(t_, y_, yp_);
   else
     struck = consistency().restore(t_, y_, yp_);
-  if (struck && law_events_ && law_events_->settle(t_, y_) && !switching_)
+  if (struck && law_events_->settle(t_, y_) && !switching_)
     consistency().restore(t_, y_, yp_);
-  recorder_->restart(y_, yp_, struck);
+  measure_->restart(y_, yp_, struck);
   if (history_)
     history_->append(t_, y_, yp_);
   if (!finished()) {
-    if (switching_ || !integrator_->restart(t_, y_, yp_)) { // else the layout of y is the same
-      before_start_ += integrator_->statistics();
+    if (switching_) { // rows come and go
       pattern_ = system::find_pattern(regime_);
-      make_integrator();
+      renew_integrator();
+    } else {
+      restart_integrator();
     }
     restart_guards();
   }
@@ -257,32 +292,32 @@ solve::Consistency& Simulation::consistency() {
 
 /// What is made from now on knows on which turn the angles are.
 void Simulation::follow_turns() {
-  const system::Turns& turns = recorder_->turns();
+  const system::Turns& turns = measure_->turns();
   regime_.nearby = turns.value;
   if (switching_)
     switching_->follow(turns);
 }
 
 void Simulation::restart_guards() {
-  const Step step{t_, t_, false, y_, yp_, *integrator_, *recorder_};
+  const Step step{t_, t_, false, y_, yp_, *integrator_, *measure_};
   poses_->restart(y_);
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->restart(step);
 }
 
 void Simulation::finish() {
-  const Step step{step_start_, t_, false, y_, yp_, *integrator_, *recorder_};
+  const Step step{step_start_, t_, false, y_, yp_, *integrator_, *measure_};
   for (const std::unique_ptr<Guard>& guard : guards_)
     guard->finish(step);
 }
 
 double Simulation::relative_balance_error() const {
-  const double exchanged = recorder_->largest_energy();
-  return exchanged > 0.0 ? recorder_->relative_balance_error() * exchanged / energy_scale() : 0.0;
+  const double exchanged = measure_->whole().exchanged;
+  return exchanged > 0.0 ? measure_->relative_balance_error() * exchanged / energy_scale() : 0.0;
 }
 
 double Simulation::energy_scale() const {
-  return std::max(recorder_->largest_energy(), solve::EnergyGuard(regime_, options_).counts());
+  return std::max(measure_->whole().exchanged, solve::EnergyGuard(regime_, options_).counts());
 }
 
 } // namespace hydrodae::run

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "hydrodae/core/channel.h"
+#include "hydrodae/events/law_events.h"
+#include "hydrodae/measure/measure.h"
 #include "hydrodae/model/scene.h"
+#include "hydrodae/observe/recorder.h"
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/run/guards.h"
 #include "hydrodae/run/impacts.h"
 #include "hydrodae/run/inputs.h"
-#include "hydrodae/run/law_events.h"
 #include "hydrodae/run/method_choice.h"
 #include "hydrodae/run/state.h"
 #include "hydrodae/solve/consistent_start.h"
@@ -97,7 +99,8 @@ public:
   const system::System& system() const { return system_; }
   const system::Regime& regime() const { return regime_; }
   const std::vector<std::string>& notes() const { return notes_; } ///< of the start
-  const system::Recorder& recorder() const { return *recorder_; }
+  const observe::Recorder& recorder() const { return *recorder_; }
+  const measure::Measure& measured() const { return *measure_; }
   const ImpactOutput& impacts() const { return impacts_; }
   const MethodChoice& methods() const { return methods_; }
   const solve::Switching* switching() const { return switching_.get(); }
@@ -128,7 +131,6 @@ private:
   void begin_history();
   void make_channels();
   bool make_step(double end);
-  bool has_events() const;
   std::optional<double> locate();
   double find_bound();
   bool inside_of_step(double t) const;
@@ -137,9 +139,14 @@ private:
   void choose_method();
   void use_method();
   void make_integrator();
+  void renew_integrator();
+  void restart_integrator();
+  void find_sources();
   void make_closing();
   void fall_back(const SolverError& error);
   bool take_step(double end);
+  bool has_samples() const;
+  void measure_step();
   void check_step(bool event);
   void take_back();
   void watch_steps(bool event, double end);
@@ -168,18 +175,21 @@ private:
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
   std::unique_ptr<Controllers> controllers_;    ///< null: none
+  bool cut_ = false;                            ///< the last step ends before that of the method
   bool event_here_ = false;                     ///< the last step has ended in an event
   bool written_ = false;                        ///< inputs that the motion does not know yet
   bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
   std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
-  std::unique_ptr<LawEvents> law_events_;       ///< where ropes or lines part, or ropes slip
+  std::unique_ptr<events::LawEvents> law_events_;
+  std::vector<events::Source*> sources_;            ///< of events: all there are
   std::unique_ptr<solve::Consistency> consistency_; ///< null: none was needed since a restore
   std::unique_ptr<system::History> history_;        ///< where loads depend on the past
   std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps
   std::unique_ptr<system::MotionScale> scale_;      ///< adapts the tolerances
   std::unique_ptr<solve::Integrator> integrator_;
   std::unique_ptr<solve::SampleClosing> closing_; ///< null: no rows, or rows that drift
-  std::unique_ptr<system::Recorder> recorder_;
+  std::unique_ptr<measure::Measure> measure_;
+  std::unique_ptr<observe::Recorder> recorder_;
   std::unique_ptr<PoseWatch> poses_;
   std::vector<std::unique_ptr<Guard>> guards_;
   std::vector<Channel> channels_;
@@ -192,13 +202,16 @@ private:
   double bound_ = INFINITY;      ///< beyond which the last step was not to go [s]
   VectorX y_start_, yp_start_;   ///< at the start of the step
   int quadrature_nodes_ = 3;
-  system::Recorder::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
+  events::Interpolant at_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->interpolate(t, y, yp);
   };
   system::History::Inside motion_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->follow_motion(t, y, yp);
   };
-  system::Recorder::Interpolant inside_ = [this](double t, VectorX& y, VectorX& yp) {
+  measure::Measure::StageState stage_ = [this](std::size_t i, VectorX& y, VectorX& yp) {
+    return integrator_->stage(i, y, yp);
+  };
+  events::Interpolant inside_ = [this](double t, VectorX& y, VectorX& yp) {
     integrator_->look_inside(t, y, yp);
   };
 };

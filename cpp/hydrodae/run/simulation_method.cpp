@@ -30,7 +30,7 @@ void Simulation::choose_method() {
 /// Whatever depends on the method is that of the one at work.
 void Simulation::use_method() {
   options_.method = methods_.method();
-  approaches_events_ = options_.method == "radau" || options_.step > 0.0;
+  approaches_events_ = model::method_traits(options_.method).coarse_inside || options_.step > 0.0;
   if (poses_)
     poses_->use(options_.method);
 }
@@ -51,55 +51,59 @@ void Simulation::make_integrator() {
   }
 }
 
+void Simulation::renew_integrator() {
+  before_start_ += integrator_->statistics();
+  make_integrator();
+}
+
+/// The method goes on from y_, y'_, which have the layout of the last step.
+void Simulation::restart_integrator() {
+  if (!integrator_->restart(t_, y_, yp_))
+    renew_integrator();
+}
+
 /// Samples of formulations that drift show their drift.
 void Simulation::make_closing() {
   closing_.reset();
   if (regime_.n_lambda > 0 && regime_.formulation == system::Formulation::stabilised)
-    closing_ =
-        std::make_unique<solve::SampleClosing>(regime_, pattern_, options_.method != "explicit_rk");
+    closing_ = std::make_unique<solve::SampleClosing>(
+        regime_, pattern_, !model::method_traits(options_.method).projects_rates);
 }
 
 /// The next method goes on from the last accepted instant, as this one has met an error there. What
 /// the guards have seen stays. Throws SolverError where none is left.
 void Simulation::fall_back(const SolverError& error) {
   methods_.next(error);
-  before_start_ += integrator_->statistics();
   event_near_ = INFINITY;
   follow_turns();
   use_method();
-  make_integrator();
+  renew_integrator();
 }
 
 /// Goes back to the start of the last step.
 void Simulation::take_back() {
-  recorder_->take_back();
+  measure_->take_back();
   t_ = step_start_;
   y_ = y_start_;
   yp_ = yp_start_;
 }
 
-bool Simulation::has_events() const {
-  return switching_ || law_events_ || (controllers_ && controllers_->hear_crossings());
-}
-
 /// The first event inside the last step, if any.
 std::optional<double> Simulation::locate() {
-  const int nodes = quadrature_nodes_ + 2;
-  std::optional<double> first;
-  if (controllers_)
-    first = controllers_->locate(step_start_, t_, nodes, at_);
-  if (law_events_)
-    if (const auto event = law_events_->locate(step_start_, first.value_or(t_), nodes, at_))
-      first = event;
-  if (switching_)
-    if (const auto event = switching_->locate(step_start_, first.value_or(t_), nodes, at_))
-      return event;
-  return first;
+  if (sources_.empty())
+    return std::nullopt;
+  const int degree = integrator_->degree() + 1; // of the positions
+  const auto event = events::locate(sources_, step_start_, t_, degree, at_);
+  if (!event && switching_) {
+    at_(t_, y_, yp_);
+    switching_->accept(t_, y_, yp_);
+  }
+  return event;
 }
 
 /// No step may pass over what is known ahead of time, nor over an event that was found.
 double Simulation::find_bound() {
-  const system::Forcing::Limit limit = forcing_->limit(recorder_->turns(), integrator_->gap());
+  const system::Forcing::Limit limit = forcing_->limit(measure_->turns(), integrator_->gap());
   if (event_near_ - t_ <= step_edge * (t_ - last_start_)) // no sliver of a step
     event_near_ = INFINITY;
   const double step = scene_.solver.step;
@@ -124,13 +128,12 @@ bool Simulation::inside_of_step(double t) const {
 
 /// Takes the last step back, and lets the next ones end at the event.
 void Simulation::approach(double event) {
-  before_start_ += integrator_->statistics();
   t_ = step_start_;
   event_near_ = event;
   follow_turns();
   y_ = y_start_;
   yp_ = yp_start_;
-  make_integrator();
+  restart_integrator();
 }
 
 /// Steps that end where something made them end tell nothing of the method.
@@ -150,7 +153,7 @@ void Simulation::choose_quadrature() {
     return;
   quadrature_nodes_ = nodes;
   const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
-  recorder_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
+  measure_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 
 } // namespace hydrodae::run

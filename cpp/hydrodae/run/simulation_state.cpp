@@ -28,8 +28,7 @@ void Simulation::remember(Archive& a) {
   for (const Input& input : inputs_)
     if (system::Lag* lag = input.lag())
       a(*lag);
-  if (law_events_)
-    a(*law_events_);
+  a(*law_events_);
   if (modes.size() != system_.switches.size())
     throw Error("the state has other switches than the scene");
   for (std::size_t k = 0; k < modes.size() && !a.saves(); ++k)
@@ -48,7 +47,7 @@ State Simulation::state() {
   before_start_ = statistics(); // counts of this integrator end here, as those of any other
   save(out.memory, "run", *this);
   before_start_ = before;
-  save(out.memory, "recorder", *recorder_);
+  save(out.memory, "measure", *measure_);
   save(out.memory, "scales", *scale_);
   save(out.memory, "integrator", *integrator_);
   save(out.memory, "poses", *poses_);
@@ -83,7 +82,7 @@ void Simulation::set(const State& state) {
   yp_ = state.yp;
   restore(memory, "run", *this); // the modes of the switches with it
   use_method();
-  restore(memory, "recorder", *recorder_);
+  restore(memory, "measure", *measure_);
   if (switching_) {
     system::lay_out(regime_);
     restore(memory, "switching", *switching_);

@@ -16,7 +16,7 @@ public:
       : s_(s), allowed_(borne * rtol), ws_(s), axes_(3 * s.system.rotations.size(), 0.0) {}
 
   void check(const Step& step) override {
-    const system::Turns& turns = step.recorder.turns();
+    const system::Turns& turns = step.measure.turns();
     std::vector<bool> lost(s_.system.rotations.size());
     bool any = false;
     for (std::size_t r = 0; r < lost.size(); ++r)

@@ -21,6 +21,38 @@ io::Attributes header(const model::Scene& scene, const std::vector<std::string>&
           {"notes", lines_of(notes)}};
 }
 
+namespace {
+
+void write_interval(const std::string& of, const std::optional<Interval>& interval,
+                    io::Attributes& out) {
+  if (!interval)
+    return;
+  out["mean_power_low" + of] = interval->low;
+  out["mean_power_high" + of] = interval->high;
+}
+
+void write_power(const RunStatistics& s, io::Attributes& out) {
+  if (s.sea_period > 0.0)
+    out["sea_period"] = s.sea_period;
+  double total = 0.0;
+  for (std::size_t k = 0; k < s.mean_power.size(); ++k) {
+    const auto& [name, power] = s.mean_power[k];
+    out["mean_power_absorbed." + name] = power;
+    if (k < s.mean_power_interval.size())
+      write_interval("." + name, s.mean_power_interval[k], out);
+    total += power;
+  }
+  if (s.end_time > s.mean_power_from)
+    out["mean_power_from"] = s.mean_power_from;
+  if (!s.mean_power.empty())
+    out["mean_power_absorbed"] = total;
+  write_interval("", s.total_power_interval, out);
+  if (!s.interval_missing.empty())
+    out["mean_power_interval_missing"] = s.interval_missing;
+}
+
+} // namespace
+
 io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
                           const run::Simulation& done) {
   io::Attributes out{{"steps", std::int64_t{s.steps}},
@@ -49,15 +81,7 @@ io::Attributes attributes(const RunStatistics& s, const model::Scene& scene,
     out["estimated_error_time"] = worst->when;
     out["estimated_until"] = s.accuracy.until;
   }
-  double total = 0.0;
-  for (const auto& [name, power] : s.mean_power) {
-    out["mean_power_absorbed." + name] = power;
-    total += power;
-  }
-  if (!s.mean_power.empty()) {
-    out["mean_power_absorbed"] = total;
-    out["mean_power_from"] = s.mean_power_from;
-  }
+  write_power(s, out);
   for (const RunStatistics::ControllerCost& c : s.controllers) {
     out["controller_calls." + c.name] = std::int64_t{c.calls};
     out["controller_mean_time." + c.name] = c.mean_time;

@@ -14,6 +14,7 @@
 #include "hydrodae/run/checkpoint.h"
 #include "hydrodae/run/simulation.h"
 #include "hydrodae/session/output.h"
+#include "hydrodae/session/sea_sample.h"
 #include "hydrodae/session/second_run.h"
 #include "hydrodae/system/linear_limits.h"
 
@@ -33,7 +34,8 @@ class Session {
 public:
   Session(const model::Scene& scene, const Progress& progress)
       : progress_(progress), simulation_(scene),
-        limits_(system::linear_limits(scene, simulation_.system())), row_(simulation_.width()) {
+        limits_(system::linear_limits(scene, simulation_.system())),
+        sea_sample_(scene, simulation_.channels()), row_(simulation_.width()) {
     statistics_.unknowns = simulation_.regime().n;
     statistics_.nonzeros = simulation_.nonzeros();
     statistics_.notes = simulation_.notes();
@@ -96,7 +98,7 @@ public:
 
   /// What the rows so far have left behind.
   void remember(Archive& a) {
-    a(next_, last_sample_, limits_);
+    a(next_, last_sample_, limits_, sea_sample_);
     double solver = simulation_.solver_time() + solver_before_,
            wall = seconds_since(started_) + wall_before_;
     a(solver, wall);
@@ -119,13 +121,13 @@ private:
     long steps_since_asked = 0;
     bool going = true;
     if (comparison_)
-      comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
+      comparison_->moved(simulation_.y(), simulation_.measured().turns().value);
     if (next_ == 0)
       going = sample(0.0);
     // A run that stops with a checkpoint has all rows up to it.
     const auto samples_inside = [&] {
       if (comparison_)
-        comparison_->moved(simulation_.y(), simulation_.recorder().turns().value);
+        comparison_->moved(simulation_.y(), simulation_.measured().turns().value);
       const double t = simulation_.time();
       while ((going || checkpoint_ >= 0.0) && next_ <= samples &&
              static_cast<double>(next_) * dt <= t * (1.0 + 1e-14))
@@ -152,6 +154,7 @@ private:
     simulation_.sample(t, row_);
     const std::vector<system::BodyState<double>>& bodies = simulation_.recorder().bodies();
     system::watch(limits_, t, bodies);
+    sea_sample_.take(t, simulation_.measured().averaged_from(), row_);
     if (comparison_)
       comparison_->first(t, simulation_.recorder().state(), [this] { return asked_to_go_on(); });
     if (file_)
@@ -205,9 +208,10 @@ private:
     statistics_.notes.insert(statistics_.notes.end(), limits.begin(), limits.end());
     const std::vector<std::string> units = simulation_.unit_notes();
     statistics_.notes.insert(statistics_.notes.end(), units.begin(), units.end());
-    statistics_.mean_power_from = simulation_.recorder().averaged_from();
-    for (const system::Recorder::Absorbed& pto : simulation_.recorder().absorbed())
+    statistics_.mean_power_from = simulation_.measured().averaged_from();
+    for (const measure::Measure::Absorbed& pto : simulation_.measured().absorbed())
       statistics_.mean_power.emplace_back(pto.name, pto.mean_power);
+    sea_sample_.write(statistics_);
     for (const run::Controllers::Cost& cost : simulation_.controller_costs())
       statistics_.controllers.push_back(
           {cost.name, cost.calls,
@@ -227,6 +231,7 @@ private:
   Clock::time_point started_ = Clock::now(), last_checkpoint_ = started_;
   run::Simulation simulation_;
   system::LinearLimits limits_;
+  SeaSample sea_sample_;
   std::string path_;
   std::unique_ptr<io::ResultsFile> file_;
   std::vector<double> row_;
@@ -240,7 +245,7 @@ private:
 };
 
 void check_options(const model::Scene& scene, const std::string& path, const RunOptions& options) {
-  const std::vector<std::string> methods = {"radau", "ida", "explicit_rk"};
+  const std::vector<std::string> methods = model::adaptive_methods();
   if (!options.verify.empty() &&
       std::find(methods.begin(), methods.end(), options.verify) == methods.end())
     throw CaseError("--verify " + options.verify + ": expected a method that chooses its steps" +

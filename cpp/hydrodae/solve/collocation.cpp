@@ -17,12 +17,6 @@ namespace {
 
 constexpr int fewest = 3, most_stages = 7; ///< of radau when it chooses: order 5, 9, 13
 
-Family family_of(const std::string& method) {
-  if (method == "gauss")
-    return Family::gauss;
-  return method == "radau" ? Family::radau_iia : Family::lobatto_iiic;
-}
-
 int stages_of(Family family, int order) {
   switch (family) {
   case Family::radau_iia:
@@ -52,11 +46,10 @@ VectorX position_rates(const system::Regime& s, const VectorX& y) {
 
 class Collocation : public Integrator {
 public:
-  Collocation(const system::Regime& system, const system::Pattern& pattern,
+  Collocation(Family family, const system::Regime& system, const system::Pattern& pattern,
               const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
       : s_(system), pattern_(condensed(system, pattern)), e_(system, pattern_, options.rtol),
-        family_(family_of(options.method)), fixed_(options.step > 0.0),
-        chooses_order_(options.order == 0 && !fixed_),
+        family_(family), fixed_(options.step > 0.0), chooses_order_(options.order == 0 && !fixed_),
         project_(family_ == Family::gauss && system.formulation == system::Formulation::stabilised),
         max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
         guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp), y0_(y),
@@ -535,11 +528,23 @@ void Collocation::remember(Archive& a) {
 
 } // namespace
 
-std::unique_ptr<Integrator> make_collocation(const system::Regime& system,
-                                             const system::Pattern& pattern,
-                                             const model::SolverOptions& options, double t0,
-                                             const VectorX& y, const VectorX& yp) {
-  return std::make_unique<Collocation>(system, pattern, options, t0, y, yp);
+std::unique_ptr<Integrator> make_radau(const system::Regime& system, const system::Pattern& pattern,
+                                       const model::SolverOptions& options, double t0,
+                                       const VectorX& y, const VectorX& yp) {
+  return std::make_unique<Collocation>(Family::radau_iia, system, pattern, options, t0, y, yp);
+}
+
+std::unique_ptr<Integrator> make_gauss(const system::Regime& system, const system::Pattern& pattern,
+                                       const model::SolverOptions& options, double t0,
+                                       const VectorX& y, const VectorX& yp) {
+  return std::make_unique<Collocation>(Family::gauss, system, pattern, options, t0, y, yp);
+}
+
+std::unique_ptr<Integrator> make_lobatto_iiic(const system::Regime& system,
+                                              const system::Pattern& pattern,
+                                              const model::SolverOptions& options, double t0,
+                                              const VectorX& y, const VectorX& yp) {
+  return std::make_unique<Collocation>(Family::lobatto_iiic, system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

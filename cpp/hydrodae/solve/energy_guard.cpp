@@ -15,25 +15,15 @@ constexpr double usual = 1e-2; ///< part of the energy exchanged
 
 /// Energy exchanged, as far as a wrong step cannot have made it up: what was exchanged before it,
 /// times ten, or what moves at its end [J].
-double believed(const system::Recorder::Balance& before, const system::Recorder::Balance& now) {
+double believed(const measure::Balance& before, const measure::Balance& now) {
   constexpr double more = 10.0;
   return std::min(now.exchanged, std::max(more * before.exchanged, now.kinetic));
-}
-
-/// Part of the energy exchanged that may be missing at a singular pose of a loop, where energy and
-/// motion are lost together; of the motion, relative to its size, measured ten times (slider crank
-/// with equal bars) to 200 times as much (two four-bar windows, ten seconds). Allowed are errors of
-/// some sqrt(rtol), of some hundredths with fixed steps.
-double guard_at_singular_poses(const model::SolverOptions& options) {
-  return options.step > 0.0 ? 5e-4
-                            : std::min(usual, 1e-2 * std::sqrt(std::max(options.rtol, 1e-6)));
 }
 
 } // namespace
 
 EnergyGuard::EnergyGuard(const system::Regime& system, const model::SolverOptions& options)
     : s_(system), rtol_(options.rtol), part_(options.energy_guard.value_or(usual)),
-      at_singular_(options.energy_guard ? part_ : guard_at_singular_poses(options)),
       guided_(system::guided_mechanisms(system)) {}
 
 /// Where drives guide all, the energy tells of the reactions, which are a derivative less exact,
@@ -75,35 +65,28 @@ void EnergyGuard::fail(double t, double error, double part, double exchanged, co
                            " J exchanged" + where);
 }
 
-void EnergyGuard::check(double t, const system::Recorder& recorder,
-                        const std::function<bool()>& at_singular_pose,
+void EnergyGuard::check(double t, const measure::Measure& measure,
                         const std::function<std::string()>& reactions) const {
   if (part_ == 0.0)
     return;
-  const std::vector<system::Recorder::Balance>& mechanisms = recorder.mechanisms();
+  const std::vector<measure::Balance>& mechanisms = measure.mechanisms();
   const auto look = [&](int mechanism, double error, double exchanged) {
-    if (std::abs(error) <= std::min(part_, at_singular_) * exchanged)
+    const double part = allowed(mechanism);
+    if (std::abs(error) - least(mechanism) <= part * exchanged)
       return;
-    const double missing = std::abs(error) - least(mechanism), part = allowed(mechanism);
-    if (missing <= std::min(part, at_singular_) * exchanged)
-      return;
-    const bool singular = missing <= part * exchanged;
-    if (singular && !at_singular_pose())
-      return;
-    fail(t, error, singular ? at_singular_ : part, exchanged,
+    fail(t, error, part, exchanged,
          mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)),
-         std::string(singular ? ", at a singular pose" : "") +
-             " (solver.energy_guard): the motion is not to be trusted; a smaller tolerance or "
-             "step, or another method may help" +
-             (singular ? " (radau and explicit_rk pass singular poses)" : "") + reactions());
+         " (solver.energy_guard): the motion is not to be trusted; a smaller tolerance or step, or "
+         "another method may help" +
+             reactions());
   };
-  look(-1, recorder.balance_error(), believed(recorder.whole_before(), recorder.whole()));
+  look(-1, measure.whole().error, believed(measure.whole_before(), measure.whole()));
   for (std::size_t m = 0; m < mechanisms.size(); ++m)
     look(static_cast<int>(m), mechanisms[m].error,
-         believed(recorder.mechanisms_before()[m], mechanisms[m]));
+         believed(measure.mechanisms_before()[m], mechanisms[m]));
 }
 
-void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
+void EnergyGuard::finish(double t, const measure::Measure& measure) const {
   constexpr double little = 1e-2; // of what counts as too little during the run
   if (part_ == 0.0)
     return;
@@ -115,9 +98,9 @@ void EnergyGuard::finish(double t, const system::Recorder& recorder) const {
            " in the whole run (solver.energy_guard): the motion is not to be trusted; a smaller "
            "tolerance or max_step may help");
   };
-  look(-1, recorder.balance_error(), recorder.largest_energy());
-  for (std::size_t m = 0; m < recorder.mechanisms().size(); ++m)
-    look(static_cast<int>(m), recorder.mechanisms()[m].error, recorder.mechanisms()[m].exchanged);
+  look(-1, measure.whole().error, measure.whole().exchanged);
+  for (std::size_t m = 0; m < measure.mechanisms().size(); ++m)
+    look(static_cast<int>(m), measure.mechanisms()[m].error, measure.mechanisms()[m].exchanged);
 }
 
 } // namespace hydrodae::solve

@@ -4,8 +4,8 @@
 
 #include <functional>
 
+#include "hydrodae/measure/measure.h"
 #include "hydrodae/model/solver_options.h"
-#include "hydrodae/system/recorder.h"
 
 namespace hydrodae::solve {
 
@@ -13,22 +13,17 @@ class EnergyGuard {
 public:
   EnergyGuard(const system::Regime& system, const model::SolverOptions& options);
 
-  /// Is less allowed at singular poses of closed loops than elsewhere?
-  bool minds_singular_poses() const { return at_singular_ < part_; }
-
   /// Throws SolverError when the balance of the scene, or of one of its mechanisms, is off by more
   /// than is allowed.
-  /// @param at_singular_pose asked only where it matters: was the last step next to such a pose?
   /// @param reactions the largest ones, for the message
-  void check(double t, const system::Recorder& recorder,
-             const std::function<bool()>& at_singular_pose,
+  void check(double t, const measure::Measure& measure,
              const std::function<std::string()>& reactions) const;
 
   /// Energy below which an exchange tells nothing: that of errors within the tolerance [J].
   double counts() const { return least(-1); }
 
   /// The same at the end of the run, with next to no energy too little to tell.
-  void finish(double t, const system::Recorder& recorder) const;
+  void finish(double t, const measure::Measure& measure) const;
 
 private:
   [[noreturn]] void fail(double t, double error, double part, double exchanged,
@@ -38,7 +33,7 @@ private:
   std::string members(std::size_t mechanism) const;
 
   const system::Regime& s_;
-  double rtol_, part_, at_singular_;
+  double rtol_, part_;
   std::vector<bool> guided_; ///< by mechanism: joints and drives leave it no motion of its own
 };
 

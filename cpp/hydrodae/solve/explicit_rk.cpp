@@ -98,6 +98,10 @@ public:
   void look_inside(double t, VectorX& y, VectorX& yp) override;
   void follow_motion(double t, VectorX& y, VectorX& yp) override;
   int degree() const override { return pair_.order == 5 ? 4 : 7; }
+  std::span<const double> stage_weights() const override {
+    return idle_reactions_ && done_ > 0.0 ? pair_.b : std::span<const double>();
+  }
+  double stage(std::size_t i, VectorX& y, VectorX& yp) override;
   Statistics statistics() const override {
     Statistics all = e_.statistics;
     return all += space_.statistics();
@@ -121,6 +125,7 @@ private:
   double longest_at_rest(double err);
   void extend();
   void follow_polynomial(double x);
+  void normalise(VectorX& y) const;
   [[noreturn]] void fail(const std::string& reason);
 
   const Pair& pair_;
@@ -254,9 +259,10 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
   space_.follow();
   for (;;) {
     const double left = end - t_, wanted = h_;
-    double h = std::min({h_, left, fixed_ ? left : bound - t_});
-    if (left - h < 0.1 * h)
-      h = left;
+    const double allowed = fixed_ ? left : std::min(left, bound - t_);
+    double h = std::min(h_, allowed);
+    if (allowed - h < 0.1 * h) // no sliver of a step behind it
+      h = allowed;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
       fail(failed ? "the local error stays too large however short the step"
                   : "the step has become too short");
@@ -395,6 +401,24 @@ template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y,
     interpolate(t, y, yp);
 }
 
+template <class Space> double ExplicitRk<Space>::stage(std::size_t i, VectorX& y, VectorX& yp) {
+  const auto s = static_cast<std::size_t>(pair_.stages);
+  set_stage(x0_, done_, static_cast<int>(i), pair_.a.subspan(i * s));
+  y = y_;
+  yp = yp_;
+  y.head(n_) = stage_.head(n_);
+  yp.head(n_) = k_.col(static_cast<Index>(i));
+  normalise(y);
+  return t0_ + pair_.c[i] * done_;
+}
+
+/// Quaternions of free bodies.
+template <class Space> void ExplicitRk<Space>::normalise(VectorX& y) const {
+  for (const system::BodyData& b : e_.system.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
 template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& y, VectorX& yp) {
   if (!Space::is_of_bodies || t >= t_ || done_ == 0.0)
     return interpolate(t, y, yp);
@@ -403,9 +427,7 @@ template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& 
   yp = yp_;
   y.head(n_) = inside_.head(n_);
   yp.head(n_) = inside_xp_.head(n_);
-  for (const system::BodyData& b : e_.system.bodies)
-    if (b.rotation == system::BodyData::Rotation::free)
-      y.segment<4>(b.q0 + b.n_translations).normalize();
+  normalise(y);
 }
 
 template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
@@ -419,9 +441,7 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
   if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
       !space_.leave(t, inside_, inside_xp_, y, yp))
     fail("no finite accelerations inside the step");
-  for (const system::BodyData& b : e_.system.bodies)
-    if (b.rotation == system::BodyData::Rotation::free)
-      y.segment<4>(b.q0 + b.n_translations).normalize();
+  normalise(y);
 }
 
 } // namespace

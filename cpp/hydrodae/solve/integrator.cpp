@@ -1,5 +1,7 @@
 #include "hydrodae/solve/integrator.h"
 
+#include <map>
+
 #include "hydrodae/core/error.h"
 #include "hydrodae/solve/collocation.h"
 #include "hydrodae/solve/explicit_rk.h"
@@ -12,13 +14,12 @@ std::unique_ptr<Integrator> make_integrator(const system::Regime& system,
                                             const system::Pattern& pattern,
                                             const model::SolverOptions& options, double t0,
                                             const VectorX& y, const VectorX& yp) {
-  if (options.method == "ida")
-    return make_ida(system, pattern, options, t0, y, yp);
-  if (options.method == "explicit_rk")
-    return make_explicit_rk(system, pattern, options, t0, y, yp);
-  if (options.method == "generalized_alpha")
-    return make_generalized_alpha(system, pattern, options, t0, y, yp);
-  return make_collocation(system, pattern, options, t0, y, yp);
+  static const std::map<std::string, decltype(&make_ida)> makers = {
+      {"radau", make_radau}, {"explicit_rk", make_explicit_rk},
+      {"ida", make_ida},     {"generalized_alpha", make_generalized_alpha},
+      {"gauss", make_gauss}, {"lobatto_iiic", make_lobatto_iiic},
+  };
+  return makers.at(options.method)(system, pattern, options, t0, y, yp);
 }
 
 } // namespace hydrodae::solve

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,12 @@ public:
 
   /// Degree in time of the velocities that `interpolate` gives inside the last step.
   virtual int degree() const = 0;
+
+  /// Weights with which the method's own stages sum up a quadrature over the last step, and the
+  /// state of stage i > 0, whose time it returns [s]; the first stage is the start of the step.
+  /// Empty: it has none, or not all loads follow from positions, velocities and states there.
+  virtual std::span<const double> stage_weights() const { return {}; }
+  virtual double stage(std::size_t, VectorX&, VectorX&) { return 0.0; }
 
   virtual Statistics statistics() const = 0;
 

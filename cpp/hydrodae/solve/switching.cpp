@@ -12,7 +12,6 @@ namespace hydrodae::solve {
 
 namespace {
 
-constexpr int bisections = 60;
 constexpr long watch = 1000; ///< events; see `count`
 
 } // namespace
@@ -93,8 +92,9 @@ void Switching::resume(double t, const VectorX& y, const VectorX& yp) {
 
 /// y, y' at t, with the loads that belong to the pose and velocities: those of the integrator are
 /// of lower order, or oscillate.
-void Switching::look(double t, const Interpolant& at) {
-  at(t, y_, yp_);
+void Switching::look(double t, const VectorX& y, const VectorX& yp) {
+  y_ = y;
+  yp_ = yp;
   if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
     fail(t, "no finite accelerations inside the step");
   unpack(t, y_, yp_);
@@ -134,30 +134,50 @@ double Switching::gap(std::size_t k) const {
   return std::min(element.upper - s, s - element.lower);
 }
 
-/// How far the switch is from having to change; negative when it is past that.
-double Switching::margin(std::size_t k, const VectorX& y) const {
+/// How far the switch is from having to change, either way; negative when it is past that.
+void Switching::margins_of(std::size_t k, double* out) const {
+  constexpr double never = 1.0;
   const Data& element = s_.switches[k];
   const Size& size = size_[k];
+  const double spare = 2.0 * resting * size.load;
+  out[1] = never;
   switch (s_.mode(element)) {
   case State::open: {
+    if (element.kind != Kind::stop) {
+      out[0] = never;
+      return;
+    }
     // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
+    const Motion m = motion(element);
     const double scale = motion_scale(element);
-    const bool slow = approach(k) <= rtol_ * scale * size.rate;
-    return gap(k) + depth_[k] + (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length;
+    const auto left = [&](double gap, double rate) {
+      const bool slow = rate <= rtol_ * scale * size.rate;
+      return std::min(gap + depth_[k] +
+                          (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length,
+                      size.length);
+    };
+    out[0] = left(element.upper - m.value, m.rate);
+    out[1] = left(m.value - element.lower, -m.rate);
+    return;
   }
   case State::upper:
-    return -load(element, y) + 2.0 * resting * size.load;
+    out[0] = -load(element, y_) + spare;
+    return;
   case State::lower:
-    return load(element, y) + 2.0 * resting * size.load;
+    out[0] = load(element, y_) + spare;
+    return;
   case State::stick:
-    return system::sticking_load(s_, element, y.data()) + 2.0 * resting * size.load -
-           std::abs(load(element, y));
+    out[0] = system::sticking_load(s_, element, y_.data()) + spare;
+    out[1] = out[0] + load(element, y_);
+    out[0] -= load(element, y_);
+    return;
   case State::forward:
-    return motion(element).rate + resting * size.rate;
+    out[0] = motion(element).rate + resting * size.rate;
+    return;
   case State::backward:
-    break;
+    out[0] = -motion(element).rate + resting * size.rate;
+    return;
   }
-  return -motion(element).rate + resting * size.rate;
 }
 
 /// Rate at which an open stop closes [m/s or rad/s], towards the bound that is nearer.
@@ -167,67 +187,21 @@ double Switching::approach(std::size_t k) const {
   return element.upper - m.value < m.value - element.lower ? m.rate : -m.rate;
 }
 
-/// The first time in (a, b] after which `past` stays true, given that it is true at b.
-double Switching::bisect(double a, double b, const Interpolant& at,
-                         const std::function<bool()>& past) {
-  for (int i = 0; i < bisections && b - a > 1e-15 * std::max(std::abs(b), time_scale_); ++i) {
-    const double middle = 0.5 * (a + b);
-    look(middle, at);
-    (past() ? b : a) = middle;
-  }
-  return b;
-}
-
-/// The first time in (a, b] at which a margin is lost, where one is at b.
-std::optional<double> Switching::first_root(double a, double b, const Interpolant& at) {
-  std::optional<double> first;
-  for (std::size_t k = 0; k < size_.size(); ++k) {
-    look(b, at);
-    if (margin(k, y_) >= 0.0)
-      continue;
-    b = bisect(a, b, at, [&] { return margin(k, y_) < 0.0; });
-    first = b;
-  }
-  return first;
-}
-
-std::optional<double> Switching::locate(double t0, double t1, int nodes, const Interpolant& at) {
-  const auto count = size_.size();
-  std::vector<double> speed(count);
-  double a = t0;
+void Switching::margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) {
   const Stabilised lock(s_);
-  look(a, at);
-  for (std::size_t k = 0; k < count; ++k)
-    speed[k] = approach(k);
-  for (int node = 1; node <= nodes; ++node) {
-    const double b = node == nodes ? t1 : t0 + (t1 - t0) * node / nodes;
-    look(b, at);
-    bool lost = false;
-    std::vector<double> now(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      lost = lost || margin(k, y_) < 0.0;
-      now[k] = approach(k);
-    }
-    if (lost)
-      return first_root(a, b, at);
-    // An open stop may have been passed and left within the interval: look where it is nearest.
-    for (std::size_t k = 0; k < count; ++k) {
-      if (s_.switches[k].kind != Kind::stop || s_.holds(s_.switches[k]) || speed[k] <= 0.0 ||
-          now[k] >= 0.0)
-        continue;
-      const double nearest = bisect(a, b, at, [&] { return approach(k) < 0.0; });
-      if (const auto root = first_root(a, nearest, at))
-        return root;
-    }
-    speed = now;
-    a = b;
-  }
-  for (std::size_t k = 0; k < count; ++k)
+  look(t, y, yp);
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    margins_of(k, out.data() + 2 * k);
+}
+
+void Switching::accept(double t, const VectorX& y, const VectorX& yp) {
+  const Stabilised lock(s_);
+  look(t, y, yp);
+  for (std::size_t k = 0; k < size_.size(); ++k)
     if (depth_[k] > 0.0 && gap(k) >= 0.0)
       depth_[k] = 0.0;
-  system::accept_turns(s_, t1, y_.data(), yp_.data(), ws_);
-  present_->equations.accept(t1, y_, yp_);
-  return std::nullopt;
+  system::accept_turns(s_, t, y_.data(), yp_.data(), ws_);
+  present_->equations.accept(t, y_, yp_);
 }
 
 } // namespace hydrodae::solve

@@ -11,27 +11,28 @@
 /// whose load is bounded, there are none. Where friction and restitution together would give energy
 /// (Kane and Levinson, J. Applied Mechanics 52 (1985) 976), all rebounds are lowered alike.
 
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "hydrodae/core/archive.h"
+#include "hydrodae/events/source.h"
 #include "hydrodae/solve/saddle_point.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::solve {
 
-class Switching {
+class Switching : public events::Source {
 public:
-  /// y and y' at a time inside the last step.
-  using Interpolant = std::function<void(double t, VectorX& y, VectorX& yp)>;
-
   /// Everything open. Throws ModelError when the start is beyond a stop.
   Switching(system::Regime& system, double rtol);
 
-  /// The first time in (t0, t1] at which a switch has to change [s], if there is one. `nodes`:
-  /// into how many parts the step is cut to look for it.
-  std::optional<double> locate(double t0, double t1, int nodes, const Interpolant& at);
+  /// Two margins for each switch: of an open stop its gaps, of what holds its load, of what slips
+  /// its rate.
+  std::size_t count() const override { return 2 * size_.size(); }
+  void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
+
+  /// A step that ends at t [s] is accepted without an event of its own.
+  void accept(double t, const VectorX& y, const VectorX& yp);
 
   /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
   /// loads. Changes the layout of the regime; y, y' come out in the new one, consistent. Throws
@@ -115,16 +116,14 @@ private:
     double length = 1.0, rate = 1.0, load = 1.0;
   };
 
-  void look(double t, const Interpolant& at);
+  void look(double t, const VectorX& y, const VectorX& yp);
   void unpack(double t, const VectorX& y, const VectorX& yp);
   Motion motion(const Data& element) const;
   double motion_scale(const Data& element) const;
   double load(const Data& element, const VectorX& y) const;
   double gap(std::size_t k) const;
-  double margin(std::size_t k, const VectorX& y) const;
+  void margins_of(std::size_t k, double* out) const;
   double approach(std::size_t k) const;
-  std::optional<double> first_root(double a, double b, const Interpolant& at);
-  double bisect(double a, double b, const Interpolant& at, const std::function<bool()>& past);
   bool touches(std::size_t k) const;
   std::optional<double> impacts(double t, VectorX& y, VectorX& yp);
   SaddlePoint::Strike strike(double t, SaddlePoint& saddle, const VectorX& u, VectorX& y,

@@ -14,7 +14,7 @@ namespace {
 constexpr double full = 0.1;           ///< motion [levers] from which on the full scales hold
 constexpr double rounding_error = 1e3; ///< epsilons of a position: no step's error is below
 constexpr double settled = 20.0; ///< time scales after which what was reached tells the motion
-constexpr double slack = 1.5;    ///< of a change that is worth new scales
+constexpr double slack_of_scales = 1.5; ///< of a change that is worth new scales
 
 /// In levers.
 double translation(const BodyData& b, const VectorX& from, const VectorX& y) {
@@ -106,7 +106,7 @@ void MotionScale::expect(const BodyData& body, bool translation, double motion) 
 bool MotionScale::update(double t) {
   bool changed = false;
   const auto set = [&](double& scale, double wanted) {
-    if (t > 0.0 && wanted < slack * scale && wanted > scale / slack)
+    if (t > 0.0 && wanted < slack_of_scales * scale && wanted > scale / slack_of_scales)
       return;
     changed = changed || scale != wanted;
     scale = wanted;

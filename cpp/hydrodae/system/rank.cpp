@@ -17,7 +17,7 @@ constexpr double rank_tolerance = 1e-9; ///< of the largest pivot
 constexpr double damping = 1e-12;       ///< of the normal equations, whose diagonal is one
 constexpr double certain = 1e-3;        ///< pivot of those above which a row is independent
 constexpr double surely_certain = 1e-8; ///< the same where that leaves too many in doubt
-constexpr std::size_t most_doubtful = 200;
+constexpr std::size_t most_doubtful_rows = 200;
 
 /// The rows and columns of one component. `place` has one entry per row of `matrix`: scratch.
 SparseMatrix block(const SparseMatrix& matrix, const Component& part, std::vector<Index>& place) {
@@ -122,7 +122,7 @@ std::vector<RankedRow> sparse_rows(SparseMatrix part) {
   std::vector<RankedRow> rows;
   std::vector<Index> known, doubtful;
   double limit = certain;
-  if (static_cast<std::size_t>((pivots.array() <= limit).count()) > most_doubtful)
+  if (static_cast<std::size_t>((pivots.array() <= limit).count()) > most_doubtful_rows)
     limit = surely_certain;
   for (Index i = 0; i < part.rows(); ++i) {
     (pivots[i] > limit ? known : doubtful).push_back(i);

@@ -62,12 +62,12 @@ _TcpRole = Literal[
 ]
 _SolverMethod = Literal[
     "auto",
-    "ida",
     "radau",
+    "explicit_rk",
+    "ida",
+    "generalized_alpha",
     "gauss",
     "lobatto_iiic",
-    "generalized_alpha",
-    "explicit_rk",
 ]
 _SolverCoordinates = Literal[
     "bodies",
@@ -3268,8 +3268,8 @@ class Scene(SceneBase):
             Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic),
             generalised alpha on the Lie group, or projected explicit Runge-Kutta; auto:
             explicit_rk, radau or ida as suits the scene, and another of them where the one at
-            work cannot go on. Allowed: auto, ida, radau, gauss, lobatto_iiic,
-            generalized_alpha, explicit_rk.
+            work cannot go on. Allowed: auto, radau, explicit_rk, ida, generalized_alpha, gauss,
+            lobatto_iiic.
         coordinates : text, default "bodies"
             Unknowns of the motion: those of all bodies, with multipliers for all joints; or
             reduced, those of the joints of a tree, with multipliers only for what closes loops
@@ -3304,10 +3304,9 @@ class Scene(SceneBase):
             Time in which index 1 takes back a gap (Baumgarte); 0: never. Allowed: >= 0.
         energy_guard : number, optional
             A run ends as failed when the energy balance is off by more than this part of the
-            energy exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop
-            0.01 sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion
-            is lost there. Mechanisms that drives guide altogether may miss ten times as much,
-            since their reactions take and give it. Allowed: >= 0.
+            energy exchanged; 0: no guard. By default 0.01. Mechanisms that drives guide
+            altogether may miss ten times as much, since their reactions take and give it.
+            Allowed: >= 0.
         branch_guard : true or false, default true
             A run of a scene with closed loops ends as failed when its velocities jump though
             nothing strikes: at a singular pose the motion left its branch.

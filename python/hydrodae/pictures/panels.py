@@ -35,7 +35,8 @@ class Line:
     @property
     def span(self) -> float:
         """Largest minus smallest value."""
-        return float(np.ptp(self.values)) if len(self.values) else 0.0
+        known = self.values[np.isfinite(self.values)]
+        return float(np.ptp(known)) if len(known) else 0.0
 
 
 @dataclass
@@ -47,6 +48,7 @@ class Panel:
     lines: list[Line] = field(default_factory=list)
     note: str = ""
     omega: NDArray[np.float64] | None = None  #: rad/s, of spectra; else the lines are over time
+    decades: bool = False  #: whether the values are drawn on a logarithmic axis
 
     @property
     def label(self) -> str:
@@ -127,7 +129,7 @@ def overview(results: Results) -> list[Panel]:
 
     Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, sizes of
     what holds bodies that cannot move and of the reactions of the joints, loads of the constraints,
-    tensions, energies.
+    tensions, energies, estimated errors.
     """
     if not len(results.time):
         return []
@@ -150,6 +152,7 @@ def overview(results: Results) -> list[Panel]:
         *(scaled(panel) for panel in gather(_constraint_loads(results))),
         scaled(Panel("tension", "N", _tensions(results))),
         _energy(results),
+        _errors(results),
     ]
     return [panel for panel in panels if panel.lines]
 
@@ -159,7 +162,7 @@ def spectra(results: Results) -> list[Panel]:
 
     None where there are no waves, or too few samples.
     """
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     kept = results.time >= start
     if "sea/elevation" not in results or np.count_nonzero(kept) < FEWEST:
         return []
@@ -261,7 +264,7 @@ def _power(results: Results) -> Panel:
         mean = results.statistics.get(f"mean_power_absorbed.{line.label}")
         lines.append(line if mean is None else replace(line, level=float(mean)))
     panel = scaled(Panel("absorbed power", "W", lines))
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     panel.note = f"level, dashed: mean after {start:g} s" if start else "dashed: mean"
     panel.lines = [
         line
@@ -305,3 +308,15 @@ def _energy(results: Results) -> Panel:
         for line in lines
     ]
     return scaled(Panel("energy", "J", lines))
+
+
+def _errors(results: Results) -> Panel:
+    """Estimated error of each body and line as a part of its motion, where the run has one."""
+    lines = []
+    for name, error in results.accuracy().items():
+        values = np.full(len(results.time), np.nan)
+        known = np.where(error.relative > 0.0, error.relative, np.nan)
+        values[: len(known)] = known[: len(values)]
+        if np.isfinite(values).any():
+            lines.append(Line(name, "estimated error,\npart of the motion", "-", values))
+    return Panel("estimated error,\npart of the motion", "-", lines, decades=True)

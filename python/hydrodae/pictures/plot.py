@@ -216,6 +216,8 @@ def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
         if line.level is not None:
             axes.axhline(line.level, color=drawn.get_color(), linestyle="--", linewidth=1.0)
     axes.set_ylabel(panel.label)
+    if panel.decades:
+        axes.set_yscale("log")
     if panel.omega is not None:
         axes.set_ylim(bottom=0.0)
     if [line.label for line in panel.lines] != [panel.quantity.partition("\n")[0]]:

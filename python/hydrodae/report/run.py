@@ -16,7 +16,7 @@ from hydrodae.pictures.plot import plot_overview
 from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs, sketch
 from hydrodae.results import Results
-from hydrodae.results.series import statistics
+from hydrodae.results.series import Statistics, statistics
 from hydrodae.support.version import version
 
 
@@ -85,27 +85,46 @@ def _digest(path: str) -> str:
 
 
 def _since(results: Results) -> str:
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     return f"from {start:g} s on" if start else "of the whole run"
 
 
 def _statistics(results: Results) -> str:
     """Moments and waves of what the overview draws, in its units."""
     rows = []
-    start = float(results.statistics.get("mean_power_from", 0.0))
+    start = results.settled
     for panel in overview(results):
         if panel.quantity == "energy":
             continue
         for line in panel.lines:
             kept = line.label.partition(", mean")[0]
+            since = min(start, results.end_time)
             s = statistics(
-                kept, panel.unit, results.time, line.values, min(start, results.end_time)
+                kept, panel.unit, results.time, line.values, since, results.is_sample(since)
             )
             what = panel.quantity.replace("\n", " ")
-            row = [s.mean, s.std, s.min, s.max, s.waves.mean_period, s.waves.significant_height]
+            shown = [_with_interval(s, name) for name in ("mean", "std", "min", "max")]
+            row = [*shown, s.waves.mean_period, s.waves.significant_height]
             rows.append([what, kept, panel.unit, *row])
-    head = ["quantity", "of", "unit", "mean", "std", "least", "largest"]
-    return page.table([*head, "mean period [s]", "significant height"], rows)
+    head = ["quantity", "of", "unit", "mean", "std", "least seen", "largest seen"]
+    drawn = page.table([*head, "mean period [s]", "significant height"], rows)
+    why = _INTERVALS if results.is_sample(start) else results.too_short(start).capitalize()
+    return drawn + (page.paragraph(why) if why else "")
+
+
+_INTERVALS = (
+    "In brackets: 95 % intervals of the sea state, of which the run is one sample. Of an extreme: "
+    "of its average over records of this length."
+)
+
+
+def _with_interval(s: Statistics, name: str) -> float | str:
+    """A number, with its sampling interval where it has one."""
+    value = float(getattr(s, name))
+    if name not in s.intervals:
+        return value
+    low, high = s.intervals[name]
+    return f"{value:.4g} ({low:.3g} to {high:.3g})"
 
 
 def _solver(results: Results) -> Iterator[tuple[str, object]]:

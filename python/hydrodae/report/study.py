@@ -18,6 +18,8 @@ from hydrodae.pictures.plot import STYLE
 from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
+from hydrodae.study.sweep.measures import ENDS
+from hydrodae.study.sweep.table import half_percent
 from hydrodae.support.version import version
 
 #: What is drawn first, if it is there.
@@ -39,11 +41,12 @@ def report_of_study(path: str | os.PathLike[str], study: xr.Dataset) -> str:
 def _sections(path: Path, study: xr.Dataset) -> Iterator[str]:
     yield page.section("Outcome", page.text_block(text(study)))
     names = [str(name) for name in study.data_vars if study[name].dtype.kind == "f"]
+    ends = [f"{name}{end}" for name in names for end in ENDS]
     names.sort(key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST))
     for name in names:
         values = study[name]
-        if values.ndim == 2 and min(values.shape) > 1 and name not in _TOLD_ONLY:
-            drawn = page.picture(matrix(values, name), name)
+        if values.ndim == 2 and min(values.shape) > 1 and name not in (*_TOLD_ONLY, *ends):
+            drawn = page.picture(matrix(values, name, half_percent(study, name)), name)
             yield page.section(_title(name, values), drawn)
     yield page.section(
         "Ranges",
@@ -84,22 +87,30 @@ def about(path: Path, study: xr.Dataset, rung: str = "") -> Iterator[str]:
 
 
 @matplotlib.rc_context(STYLE)
-def matrix(values: xr.DataArray, name: str) -> Figure:
-    """Draw a quantity over two keys as coloured cells with their numbers."""
+def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) -> Figure:
+    """Draw a quantity over two keys as coloured cells with their numbers.
+
+    Below a number stands half the width of its 95 % interval [%], where `half` has it.
+    """
     down, across = (str(d) for d in values.dims)
     numbers = values.to_numpy()
     prefix, factor = _prefix(numbers)
     figure = Figure(
-        figsize=(min(10.0, 2.5 + 0.75 * numbers.shape[1]), 1.4 + 0.32 * numbers.shape[0]),
+        figsize=(
+            min(10.0, 2.5 + 0.75 * numbers.shape[1]),
+            1.4 + (0.32 if half is None else 0.48) * numbers.shape[0],
+        ),
         layout="constrained",
     )
     axes = figure.subplots()
     image = axes.imshow(numbers / factor, cmap="viridis", aspect="auto", origin="lower")
     axes.grid(visible=False)
     middle = 0.4 * np.nanmin(numbers / factor) + 0.6 * np.nanmax(numbers / factor)
+    percent = np.full(numbers.shape, np.nan) if half is None else half.to_numpy()
     for (i, j), value in np.ndenumerate(numbers / factor):
+        near = f"\n\u00b1{percent[i, j]:.2g} %" if np.isfinite(percent[i, j]) else ""
         color = "black" if value > middle else "white"
-        axes.text(j, i, f"{value:.3g}", ha="center", va="center", fontsize=8, color=color)
+        axes.text(j, i, f"{value:.3g}{near}", ha="center", va="center", fontsize=8, color=color)
     axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])
     axes.set_yticks(range(numbers.shape[0]), [_short(v) for v in values[down].to_numpy()])
     axes.set_xlabel(across.replace("_", " "))

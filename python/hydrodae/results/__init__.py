@@ -132,8 +132,8 @@ class Results(Recording):
         name : str
             A channel, or a component of one: "joints/hinge1/angle", "bodies/base/position.z".
         start : float, s, optional
-            First sample that counts; default: where mean powers are taken from, the end of the
-            ramp, or 0 in a run without power take-offs.
+            First sample that counts; default: `settled`, the end of the ramp. In an irregular
+            sea statistics from there on have 95 % intervals.
 
         Raises
         ------
@@ -143,11 +143,19 @@ class Results(Recording):
             No sample is left.
         """
         if start is None:
-            start = float(self.statistics.get("mean_power_from", 0.0))
+            start = self.settled
         series = self._series(name)
         try:
             unit = str(series.attrs.get("unit", "-"))
-            return statistics(name, unit, self.time, series.to_numpy(), start)
+            return statistics(
+                name,
+                unit,
+                self.time,
+                series.to_numpy(),
+                start,
+                self.is_sample(start),
+                self.too_short(start),
+            )
         except ValueError as error:
             raise ResultsError(f"{self.path}: {error}") from None
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import HydrodaeError
+from hydrodae.results.sampling import FEWEST, PERIODS
 from hydrodae.support.damaged import opened
 
 if TYPE_CHECKING:
@@ -285,6 +286,31 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     def statistics(self) -> dict[str, Any]:
         """Counts of the solver, tolerances and wall times [s]."""
         return dict(self._statistics)
+
+    @property
+    def settled(self) -> float:
+        """Time that statistics begin at [s]: the end of the ramp of the sea, 0 without waves."""
+        return float(self._statistics.get("mean_power_from", 0.0))
+
+    def is_sample(self, start: float) -> bool:
+        """Return whether the run from `start` [s] on is a sample of an irregular sea.
+
+        Not in still water, nor in regular waves, which vary by no chance; nor with a part of the
+        ramp; nor where `too_short` has a reason.
+        """
+        irregular = "sea_period" in self._statistics
+        return irregular and start >= self.settled and not self.too_short(start)
+
+    def too_short(self, start: float) -> str:
+        """Return why the run from `start` [s] on has no interval of its sea, or nothing."""
+        if "sea_period" not in self._statistics:
+            return ""
+        least = PERIODS * float(self._statistics["sea_period"])
+        if self.end_time - start < least:
+            return f"too short for an interval of the sea state, which needs {least:.3g} s"
+        if (count := int(np.count_nonzero(self._time >= start))) < FEWEST:
+            return f"too few samples for an interval of the sea state: {count} of {FEWEST}"
+        return ""
 
     def __repr__(self) -> str:
         return (

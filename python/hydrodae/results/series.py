@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from hydrodae.results.sampling import INTERVALS, Interval
 
 Array = NDArray[np.float64]
 
@@ -68,20 +70,33 @@ class Statistics:
     max: float
     waves: Waves  #: between upward crossings of the mean
     spectrum: Spectrum  #: of the deviation from the mean
+    #: 95 % intervals of mean, std, min, max in an irregular sea, see `hydrodae.results.sampling`
+    intervals: dict[str, Interval] = field(default_factory=dict)
+    no_interval: str = ""  #: why an irregular sea gives none
 
     def __str__(self) -> str:
         waves = self.waves
         return "\n".join(
             [
                 f"{self.name} [{self.unit}], {self.start:g} to {self.end:g} s",
-                f"  mean {self.mean:.5g}, standard deviation {self.std:.5g}",
-                f"  least {self.min:.5g}, largest {self.max:.5g}",
+                f"  mean {self.mean:.5g}{self._interval('mean')}, "
+                f"standard deviation {self.std:.5g}{self._interval('std')}",
+                f"  least seen {self.min:.5g}{self._interval('min')}, "
+                f"largest seen {self.max:.5g}{self._interval('max')}",
                 f"  {len(waves.heights)} waves about the mean: period {waves.mean_period:.4g} s, "
                 f"significant height {waves.significant_height:.5g}, "
                 f"highest {max(waves.heights, default=float('nan')):.5g}",
                 f"  spectrum: peak at {self.spectrum.peak_period:.4g} s",
+                *[f"  {self.no_interval}"] * bool(self.no_interval),
             ]
         )
+
+    def _interval(self, statistic: str) -> str:
+        if statistic not in self.intervals:
+            return ""
+        low, high = self.intervals[statistic]
+        expected = "expected " if statistic in ("min", "max") else ""
+        return f" ({expected}{low:.4g} to {high:.4g})"
 
 
 def spectral_density(time: ArrayLike, values: ArrayLike) -> Spectrum:
@@ -135,9 +150,26 @@ def zero_crossing_waves(time: ArrayLike, values: ArrayLike) -> Waves:
 
 
 def statistics(
-    name: str, unit: str, time: ArrayLike, values: ArrayLike, start: float
+    name: str,
+    unit: str,
+    time: ArrayLike,
+    values: ArrayLike,
+    start: float,
+    sampled: bool = False,
+    no_interval: str = "",
 ) -> Statistics:
     """Statistics of the samples from `start` [s] on.
+
+    Parameters
+    ----------
+    name, unit : str
+    time : (n,) array, s
+    values : (n,) array
+    start : float
+    sampled : bool
+        The series from `start` on is a sample of an irregular sea: intervals are given.
+    no_interval : str
+        Why it gives none.
 
     Raises
     ------
@@ -159,4 +191,12 @@ def statistics(
         float(x.max()),
         zero_crossing_waves(t, x),
         spectral_density(t, x),
+        intervals_of(x) if sampled else {},
+        no_interval,
     )
+
+
+def intervals_of(values: Array) -> dict[str, Interval]:
+    """Intervals of mean, std, min, max; none of too short a series."""
+    found = {name: INTERVALS[name](values) for name in ("mean", "std", "min", "max")}
+    return {name: pair for name, pair in found.items() if not np.isnan(pair[0])}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.results.recording import Recording, ResultsError
+from hydrodae.results.series import intervals_of
 from hydrodae.support.units import displayed
 
 
@@ -27,7 +28,9 @@ def summary(results: Recording) -> str:
     lines += _methods(results)
     names = [*results.channels("joints/*/angle"), *results.channels("joints/*/displacement")]
     width = max(map(len, names), default=0)
-    lines += [f"  {name:{width}}  {_extrema(results, name)}" for name in names]
+    for name in names:
+        lines.append(f"  {name:{width}}  {_extrema(results, name)}")
+        lines += [f"  {'':{width}}  {line}" for line in _expected(results, name)]
     lines += _loads(results)
     lines += _power(results)
     lines += _controllers(results)
@@ -117,11 +120,40 @@ def _power(results: Recording) -> list[str]:
     each = {key.removeprefix(head): power for key, power in known.items() if key.startswith(head)}
     if not each:
         return []
-    parts = [f"{name} {power:,.4g} W" for name, power in each.items()]
+    parts = [f"{name} {power:,.4g} W{_interval(known, f'.{name}')}" for name, power in each.items()]
     if len(each) > 1 and "mean_power_absorbed" in known:
-        parts.append(f"in all {known['mean_power_absorbed']:,.4g} W")
+        parts.append(f"in all {known['mean_power_absorbed']:,.4g} W{_interval(known)}")
     since = known.get("mean_power_from", 0.0)
-    return [f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"]
+    line = f"  mean absorbed power{f' after {since:g} s' * (since > 0)}: {', '.join(parts)}"
+    if "mean_power_low" in known:
+        line += "; in brackets: 95 % interval of the sea state"
+    elif reason := results.statistics.get("mean_power_interval_missing"):
+        line += f"; {reason}"
+    return [line]
+
+
+def _interval(known: dict[str, float], of: str = "") -> str:
+    if f"mean_power_low{of}" not in known:
+        return ""
+    low, high = (known[f"mean_power_{end}{of}"] for end in ("low", "high"))
+    return f" ({low:,.3g} to {high:,.3g})"
+
+
+def _expected(results: Recording, name: str) -> list[str]:
+    """What extremes of a channel are to be expected in other records of this sea and length."""
+    start = results.settled
+    if not results.is_sample(start):
+        return []
+    channel = results[name]
+    found = intervals_of(channel.to_numpy()[results.time >= start])
+    if not found:
+        return []
+    factor, unit = displayed(str(channel.attrs.get("unit", "")))
+    least, largest = (
+        f"{factor * low:z.3g} to {factor * high:z.3g}" for low, high in (found["min"], found["max"])
+    )
+    length = f"{results.end_time - start:.4g} s"
+    return [f"expected of such {length}: {least} and {largest} {unit} (95 %)"]
 
 
 def _loads(results: Recording) -> list[str]:

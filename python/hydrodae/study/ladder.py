@@ -168,7 +168,7 @@ def ladder(
             )
         )
     last = max(i for i, solution in enumerate(solutions) if solution is not None)
-    motion = motion_rungs(case, names[row], done[-1][1], row, rungs[last].time)
+    motion = motion_rungs(case, names[row], done[-1][1], row, found[last][1])
     return Ladder(case.title, names[row], omega, tuple(rungs), tuple(motion))
 
 

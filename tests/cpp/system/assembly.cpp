@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/system/assemble.h"
-#include "hydrodae/system/observer.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -42,7 +42,7 @@ std::vector<Vector6> reactions(const system::System& built) {
   const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s), yp;
   solve::consistent_start(s, pattern, y, yp);
-  system::Observer observer(s);
+  measure::Observer observer(s);
   return observer.observe(0.0, y, yp).reactions;
 }
 

@@ -5,9 +5,9 @@
 
 #include "hydrodae/examine.h"
 #include "hydrodae/io/case_reader.h"
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/equilibrium.h"
-#include "hydrodae/system/observer.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -124,7 +124,7 @@ TEST_CASE("a closed loop with redundant rows comes to rest on its stop") {
   CHECK(2.0 * std::atan2(s.bodies[0].orientation[2], s.bodies[0].orientation[0]) ==
         doctest::Approx(0.2).epsilon(1e-9));
   // Bars of 2 kg: the stop holds what turns the swing back, 2 m g L sin(angle).
-  system::Observer observer(s);
+  measure::Observer observer(s);
   const double load = observer.observe(0.0, y, VectorX::Zero(s.n)).constraints[0];
   CHECK(load == doctest::Approx(4.0 * 9.81 * std::sin(0.2)).epsilon(1e-9));
   for (const char* method : {"ida", "radau", "explicit_rk"}) {

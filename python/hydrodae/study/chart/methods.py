@@ -7,21 +7,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from hydrodae import _core
 from hydrodae.errors import CaseError
 
-#: Orders that each method has, (lowest, highest, increment) or a set; none: no choice of order.
-_ORDERS: dict[str, tuple[int, ...]] = {
-    "auto": (),
-    "ida": tuple(range(1, 6)),
-    "radau": tuple(range(1, 20, 2)),
-    "explicit_rk": (5, 8),
-    "generalized_alpha": (),
-    "gauss": tuple(range(2, 21, 2)),
-    "lobatto_iiic": tuple(range(2, 19, 2)),
+#: What the kernel says of each integrator, by name; "auto" chooses among them.
+TRAITS: dict[str, dict[str, Any]] = {
+    "auto": {"orders": (), "adapts": True, "fixes": False, "limits_order": False},
+    **{traits["name"]: traits for traits in _core.methods()},
 }
-#: Methods that choose their step by a tolerance; the others have a fixed step.
-_ADAPTIVE = ("auto", "ida", "radau", "explicit_rk")
-#: Tolerance of Newton's iteration in the fixed-step Runge-Kutta methods, below any useful error.
+#: Tolerance of Newton's iteration in Runge-Kutta methods of fixed steps, below any useful error.
 _NEWTON = 1e-10
 
 #: What a chart compares unless told otherwise.
@@ -63,7 +57,7 @@ class Method:
     @property
     def adaptive(self) -> bool:
         """Whether a tolerance chooses the step."""
-        return self.name in _ADAPTIVE
+        return bool(TRAITS[self.name]["adapts"])
 
     @property
     def knob(self) -> str:
@@ -74,8 +68,9 @@ class Method:
         """Keys of [solver] that run this method with `setting`, an rtol [-] or a step [s]."""
         keys: dict[str, Any] = {"method": self.name}
         if self.order:
-            keys["max_order" if self.name == "ida" else "order"] = self.order
-        if self.name in ("gauss", "lobatto_iiic"):
+            limited = TRAITS[self.name]["limits_order"]
+            keys["max_order" if limited else "order"] = self.order
+        if not self.adaptive and TRAITS[self.name]["orders"]:
             keys["rtol"] = _NEWTON
         keys[self.knob] = float(setting)
         return keys
@@ -100,13 +95,14 @@ def parse_method(spec: str) -> Method:
     {'method': 'radau', 'order': 13, 'rtol': 1e-06}
     """
     name, colon, order = (part.strip() for part in spec.partition(":"))
-    if name not in _ORDERS:
-        near = difflib.get_close_matches(name, _ORDERS, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(_ORDERS)}"
+    if name not in TRAITS:
+        near = difflib.get_close_matches(name, TRAITS, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(TRAITS)}"
         raise CaseError(f"{spec!r}: no such method; {hint}")
     if not colon:
         return Method(name)
-    orders = _ORDERS[name]
+    traits = TRAITS[name]
+    orders = range(1, 6) if traits["limits_order"] else traits["orders"]
     if not orders:
         raise CaseError(f"{spec!r}: {name} has no choice of order; leave out ':{order}'")
     if not order.isdecimal() or int(order) not in orders:

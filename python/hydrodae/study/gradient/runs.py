@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from hydrodae import _core
 from hydrodae.case import Case
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
@@ -16,7 +17,7 @@ from hydrodae.study.gradient.parameters import Parameter
 from hydrodae.study.gradient.quantity import POWER, Found, Quantity
 
 #: Methods whose steps do not follow the solution.
-FIXED = ("gauss", "generalized_alpha", "lobatto_iiic", "radau")
+FIXED = tuple(sorted(m["name"] for m in _core.methods() if m["fixes"]))
 
 
 def run_gradient(case: Case, what: Quantity, parameters: Sequence[Parameter]) -> Found:

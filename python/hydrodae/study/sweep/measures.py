@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
+from hydrodae.results.sampling import INTERVALS, NONE, Interval
 from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
 
 Array = NDArray[np.float64]
@@ -42,7 +43,14 @@ TAKEN = (
     "hours",
     "point",
 )
+#: What stands behind the name of a result for the ends of its sampling interval.
+ENDS = ("_low", "_high")
 TAKEN += ("rung", "mean_power_absorbed_mean", "mean_power_absorbed_interval")
+TAKEN += tuple(
+    f"{name}{end}"
+    for name in ("mean_power_absorbed", "capture_width", "annual_energy")
+    for end in ENDS
+)
 
 
 #: Statistic by cycles of the load, in `hydrodae.study.sweep.fatigue`.
@@ -61,7 +69,7 @@ class Measure:
     channel: str
     statistic: str
     component: str | None
-    start: float  #: s
+    start: float | None = None  #: s; None: the end of the ramp
     exponent: float = 0.0  #: of fatigue
     frequency: float = 1.0  #: of fatigue, Hz
 
@@ -73,6 +81,29 @@ class Measure:
         MeasureError
             There is no such channel or component, or no sample after the start.
         """
+        values, unit = self._samples(results)
+        if self.statistic == FATIGUE:
+            duration = results.end_time - max(self._start(results), float(results.time[0]))
+            return damage_equivalent_load(values, duration, self.exponent, self.frequency), unit
+        return STATISTICS[self.statistic](values), unit
+
+    def interval(self, results: Results) -> Interval | None:
+        """Return the sampling interval of the value; see `hydrodae.results.sampling`.
+
+        None without an irregular sea or for another statistic; nan of too short a run, or with a
+        part of its ramp.
+        """
+        if self.statistic not in INTERVALS or "sea_period" not in results.statistics:
+            return None
+        if not results.is_sample(self._start(results)):
+            return NONE
+        return INTERVALS[self.statistic](self._samples(results)[0])
+
+    def _start(self, results: Results) -> float:
+        return results.settled if self.start is None else self.start
+
+    def _samples(self, results: Results) -> tuple[Array, str]:
+        """Samples from the start on, and their unit."""
         if self.channel not in results:
             told = str(results.missing(self.channel)).partition(" has no channel ")[2]
             raise MeasureError(f"result.{self.name}: the runs have no channel {told}")
@@ -90,17 +121,13 @@ class Measure:
                 f"result.{self.name}: {self.channel} has components "
                 f"{', '.join(map(str, series['component'].values))}: name one with 'component'"
             )
-        values = series.to_numpy()[results.time >= self.start]
+        values = series.to_numpy()[results.time >= self._start(results)]
         if len(values) == 0:
             raise MeasureError(
-                f"result.{self.name}: no sample from {self.start:g} s on; the run ends at "
-                f"{results.end_time:g} s"
+                f"result.{self.name}: no sample from {self._start(results):g} s on; the run ends "
+                f"at {results.end_time:g} s"
             )
-        unit = str(series.attrs.get("unit", "-"))
-        if self.statistic == FATIGUE:
-            duration = results.end_time - max(self.start, float(results.time[0]))
-            return damage_equivalent_load(values, duration, self.exponent, self.frequency), unit
-        return STATISTICS[self.statistic](values), unit
+        return values, str(series.attrs.get("unit", "-"))
 
 
 def make_measure(file: Path, name: str, table: Any) -> Measure:
@@ -125,8 +152,8 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
     for key in ("channel", "statistic", "component"):
         if not isinstance(table.get(key, ""), str):
             raise CaseError(f"{where}: key {key!r}: expected a text, got {table[key]!r}")
-    start = table.get("from", 0.0)
-    if isinstance(start, bool) or not isinstance(start, int | float) or not math.isfinite(start):
+    start = table.get("from")
+    if start is not None and not _is_time(start):
         raise CaseError(f"{where}: key 'from': expected a time in s, got {start!r}")
     statistic = table.get("statistic", "mean")
     known = [*STATISTICS, FATIGUE]
@@ -145,9 +172,13 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         table["channel"],
         statistic,
         table.get("component"),
-        float(start),
+        None if start is None else float(start),
         **_fatigue(where, statistic, table),
     )
+
+
+def _is_time(value: Any) -> bool:
+    return not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
 
 
 def _fatigue(where: str, statistic: str, table: dict[str, Any]) -> dict[str, float]:
@@ -167,10 +198,27 @@ def _fatigue(where: str, statistic: str, table: dict[str, Any]) -> dict[str, flo
 
 
 def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[float, str]]:
-    """All that is kept of a run: name to value and unit."""
+    """All that is kept of a run: name to value and unit.
+
+    Beside NAME stand NAME_low and NAME_high, the ends of its sampling interval in an irregular
+    sea; nan of a run that is too short for one.
+    """
     known = results.statistics
     out = {name: (float(known[name]), unit) for name, unit in ALWAYS.items() if name in known}
     for name, value in known.items():
         if name.startswith("mean_power_absorbed."):
             out[name] = (float(value), "W")
-    return out | {m.name: m(results) for m in measures}
+    for name in [name for name in out if name.startswith("mean_power_absorbed")]:
+        ends = [name.replace("_absorbed", end, 1) for end in ENDS]
+        if "sea_period" in known:
+            low, high = (float(known.get(end, math.nan)) for end in ends)
+            out |= _ends(name, low, high, "W")
+    for m in measures:
+        out[m.name] = value, unit = m(results)
+        if pair := m.interval(results):
+            out |= _ends(m.name, *pair, unit)
+    return out
+
+
+def _ends(name: str, low: float, high: float, unit: str) -> dict[str, tuple[float, str]]:
+    return {f"{name}{end}": (x, unit) for end, x in zip(ENDS, (low, high), strict=True)}

@@ -15,7 +15,7 @@ import numpy as np
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
-from hydrodae.study.sweep.measures import Measure, make_measure
+from hydrodae.study.sweep.measures import ENDS, Measure, make_measure
 from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_file, read_points
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
 from hydrodae.support.version import version
@@ -115,6 +115,7 @@ def _check_names(study: Study) -> None:
     for measure in study.measures:
         names = [measure.name]
         names += [f"{measure.name}_{what}" for what in ("mean", "interval") if study.over]
+        names += [f"{measure.name}{end}" for end in ENDS]
         for name in names:
             if name in columns or (name != measure.name and name in map(_name, study.measures)):
                 raise CaseError(

@@ -18,7 +18,7 @@ from hydrodae.linear import LinearModel, without_memory
 from hydrodae.linear.sea import wave_components
 from hydrodae.simulation import run
 from hydrodae.study.spectral import spectral
-from hydrodae.study.sweep.measures import Measure, measure
+from hydrodae.study.sweep.measures import ENDS, Measure, measure
 
 #: Name to value and unit.
 Found = dict[str, tuple[float, str]]
@@ -68,7 +68,9 @@ def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) 
     if "mean_power_absorbed" in found and case.scene.wave_names and case.scene.database_path:
         flux = energy_flux(case)
         if flux > 0.0:
-            found["capture_width"] = (found["mean_power_absorbed"][0] / flux, "m")
+            for end in ("", *ENDS):
+                if power := found.get(f"mean_power_absorbed{end}"):
+                    found[f"capture_width{end}"] = (power[0] / flux, "m")
     return found | ({"wall_time": (perf_counter() - start, "s")} if timed else {})
 
 

@@ -13,6 +13,7 @@ from scipy.special import stdtrit
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
+from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
 from hydrodae.support import outputs
 
@@ -29,7 +30,8 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
 
     Runs that did not complete have NaN, their `status` and `reason`. With repetitions (`over`)
     `NAME_mean` and `NAME_interval`, half the width of the 95 % confidence interval of the mean
-    (Student's t), stand beside the values.
+    (Student's t), stand beside the values. `NAME_low` and `NAME_high` are the ends of the sampling
+    interval of one run (`hydrodae.results.sampling`).
     """
     import xarray as xr  # which the processes that run the points do without
 
@@ -86,7 +88,8 @@ def _add_means(out: xr.Dataset, study: Study) -> None:
     if not along:
         return
     numbers = [str(n) for n, v in out.data_vars.items() if v.dtype.kind == "f"]
-    for name in [n for n in numbers if n not in ("estimated_error", "steps")]:
+    ends = [f"{name}{end}" for name in numbers for end in ENDS]
+    for name in [n for n in numbers if n not in ("estimated_error", "steps", *ends)]:
         values = out[name]
         count = values.count(along)
         width = stdtrit(np.maximum(count - 1, 1), 0.975) * values.std(along, ddof=1)
@@ -98,7 +101,11 @@ def _add_means(out: xr.Dataset, study: Study) -> None:
 
 
 def _add_energy(out: xr.Dataset, study: Study) -> None:
-    """Annual energy [J] = sum over sea states of mean power times hours (scatter table)."""
+    """Annual energy [J] = sum over sea states of mean power times hours (scatter table).
+
+    The ends of its interval are the same sums of those of the powers: it holds at least 95 % of
+    all seas, also where sea states share a seed and err to the same side.
+    """
     if study.scatter is None:
         return
     import xarray as xr
@@ -107,14 +114,17 @@ def _add_energy(out: xr.Dataset, study: Study) -> None:
     name = "mean_power_absorbed" + "_mean" * bool(study.over)
     if name not in out:
         raise CaseError(f"{study.path}: [scatter]: no run completed with a power take-off")
-    energy = xr.DataArray(0.0)
     axes = [study.column(key) for key in (s.height_key, s.period_key)]
-    for height, period, hours in zip(s.height, s.period, s.hours, strict=True):
-        place = [np.isclose(out[a], x) for a, x in zip(axes, (height, period), strict=True)]
-        power = out[name].isel({a: int(np.argmax(p)) for a, p in zip(axes, place, strict=True)})
-        energy = energy + power * hours * 3600.0
-    out["annual_energy"] = energy.drop_vars([a for a in axes if a in energy.coords])
-    out["annual_energy"].attrs = {"units": "J"}
+    ends = interval_of(out, name)
+    powers = {"": out[name]} | (dict(zip(ENDS, ends, strict=True)) if ends else {})
+    for end, power in powers.items():
+        energy = xr.DataArray(0.0)
+        for height, period, hours in zip(s.height, s.period, s.hours, strict=True):
+            place = [np.isclose(out[a], x) for a, x in zip(axes, (height, period), strict=True)]
+            at = {a: int(np.argmax(p)) for a, p in zip(axes, place, strict=True)}
+            energy = energy + power.isel(at) * hours * 3600.0
+        out[f"annual_energy{end}"] = energy.drop_vars([a for a in axes if a in energy.coords])
+        out[f"annual_energy{end}"].attrs = {"units": "J"}
     out["hours"] = ((), sum(s.hours), {"units": "h", "long_name": "hours a year in the table"})
 
 
@@ -149,10 +159,10 @@ def text(results: xr.Dataset) -> str:
     for name in ("mean_power_absorbed_mean", "mean_power_absorbed"):
         if name in results:
             for rung in results[RUNG].to_numpy() if RUNG in results.dims else [None]:
-                power = results[name] if rung is None else results[name].sel({RUNG: rung})
-                how = "" if rung is None else f", {rung}"
-                told = _worth(results if rung is None else results.sel({RUNG: rung}), name)
-                lines += [f"mean absorbed power{how}, W{told}:", *_rows(power)]
+                mine = results if rung is None else results.sel({RUNG: rung})
+                how = f"{'' if rung is None else f', {rung}'}, W{_worth(mine, name)}"
+                lines.append(f"mean absorbed power{how}:")
+                lines += _rows(mine[name], half_percent(mine, name))
             break
     if "annual_energy" in results:
         energy, hours = results["annual_energy"], float(results["hours"])
@@ -160,29 +170,59 @@ def text(results: xr.Dataset) -> str:
         for rung, joules in zip(rungs, np.atleast_1d(energy.to_numpy()), strict=True):
             how = f", {rung}" if rung else ""
             lines.append(f"annual energy{how}: {joules / 3.6e9:,.4g} MWh in {hours:g} h")
+            if ends := interval_of(results, "annual_energy"):
+                low, high = (float(e if RUNG not in e.dims else e.sel({RUNG: rung})) for e in ends)
+                if np.isfinite([low, high]).all():
+                    lines[-1] += f" (95 %: {low / 3.6e9:,.3g} to {high / 3.6e9:,.3g})"
     return "\n".join(lines)
+
+
+def interval_of(results: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray] | None:
+    """Ends of the 95 % interval of a result: of NAME_mean over its seeds, else of each run alone.
+
+    None where it has none: a regular wave, a linear model, a number that is no statistic.
+    """
+    width = name.removesuffix("_mean") + "_interval"
+    if name.endswith("_mean") and width in results.data_vars:
+        return results[name] - results[width], results[name] + results[width]
+    ends = [f"{name}{end}" for end in ENDS]
+    return (results[ends[0]], results[ends[1]]) if ends[0] in results.data_vars else None
+
+
+def half_percent(results: xr.Dataset, name: str) -> xr.DataArray | None:
+    """Half the width of `interval_of` in percent of the value [%]; nan where there is none."""
+    ends = interval_of(results, name)
+    return None if ends is None else 50.0 * (ends[1] - ends[0]) / abs(results[name])
 
 
 def _worth(results: xr.Dataset, name: str) -> str:
     """Widest interval of the means, and the mean time of a run, where they are known."""
-    told = []
-    interval = results.get(name.removesuffix("_mean") + "_interval")
-    if interval is not None and interval.count() > 0:
-        widest = 100.0 * float((interval / results[name]).max())
-        told.append(f"95 % interval at most {widest:.2g} % to each side")
+    told, half = [], half_percent(results, name)
+    if half is not None and half.count() > 0:
+        whose = "interval" if name.endswith("_mean") else "interval of one run"
+        told.append(f"95 % {whose} at most {float(half.max()):.2g} % to each side")
+    if half is not None and not name.endswith("_mean"):
+        short = int(results[name].count() - half.count())
+        told += [f"{short} runs too short for an interval"] if short else []
     if "wall_time" in results:
         told.append(f"{float(results['wall_time'].mean()):.2g} s a run")
     return f" ({'; '.join(told)})" if told else ""
 
 
-def _rows(power: xr.DataArray) -> list[str]:
+def _rows(power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
+    """A line a row of the matrix; behind each number half of its interval [%]."""
     if power.ndim != 2:
         flat = power.to_numpy().ravel()
         return [f"  {np.nanmin(flat):.4g} to {np.nanmax(flat):.4g}"] if len(flat) else []
     down, across = (power[d].to_numpy() for d in power.dims)
-    width = 11
+    percent = np.full(power.shape, np.nan) if half is None else half.to_numpy()
+    width = 11 if half is None else 18
     head = f"{power.dims[0]} | {power.dims[1]}".rjust(28)
     lines = ["  " + head + "".join(f"{x!s:>{width}.10}" for x in across)]
-    for value, row in zip(down, power.to_numpy(), strict=True):
-        lines.append("  " + f"{value!s:>28}" + "".join(f"{x:{width}.4g}" for x in row))
+    for value, row, near in zip(down, power.to_numpy(), percent, strict=True):
+        cells = [
+            f"{x:.4g}" + f" +-{p:.2g} %" * bool(np.isfinite(p))
+            for x, p in zip(row, near, strict=True)
+        ]
+        lines.append("  " + f"{value!s:>28}" + "".join(f"{cell:>{width}}" for cell in cells))
     return lines

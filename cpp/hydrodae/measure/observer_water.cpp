@@ -1,9 +1,11 @@
 /// Of the observer: added mass and radiation.
 
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/system/hydrodynamics.h"
-#include "hydrodae/system/observer.h"
 
-namespace hydrodae::system {
+namespace hydrodae::measure {
+
+using namespace system;
 
 /// What the radiation takes on all coordinates, locked ones too; needs U and U'.
 void Observer::observe_memory(const HydroData& h, const double* y) {
@@ -48,4 +50,4 @@ void Observer::observe(const HydroData& h, const double* y) {
   }
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::measure

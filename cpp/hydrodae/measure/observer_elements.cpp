@@ -1,9 +1,11 @@
 /// Of the observer: loads, stored energy and own channels of the laws.
 
+#include "hydrodae/measure/observer.h"
 #include "hydrodae/system/elements.h"
-#include "hydrodae/system/observer.h"
 
-namespace hydrodae::system {
+namespace hydrodae::measure {
+
+using namespace system;
 
 namespace {
 
@@ -74,14 +76,20 @@ double Observer::power_absorbed(const element::Shape& shape, const PortData& por
   return power;
 }
 
-void Observer::observe(const ElementList& list, const double* y) {
-  const element::Elements& laws = *list.laws;
+const element::Elements& Observer::observe_loads(const ElementList& list, const double* y) {
   ElementScratch<double>& scratch = ws_.elements[index_of(s_, list)];
   gather<double>(s_, list, ws_, y, scratch);
+  list.laws->evaluate(ws_.time, scratch.in.data(), s_.held(list, ws_.time, scratch.held),
+                      scratch.out.data());
+  observe_ports(list, scratch);
+  return *list.laws;
+}
+
+void Observer::observe(const ElementList& list, const double* y) {
+  const element::Elements& laws = observe_loads(list, y);
+  ElementScratch<double>& scratch = ws_.elements[index_of(s_, list)];
   const double *in = scratch.in.data(), *load = scratch.out.data();
   const double* held = s_.held(list, ws_.time, scratch.held);
-  laws.evaluate(ws_.time, in, held, scratch.out.data());
-  observe_ports(list, scratch);
   const std::size_t values = laws.channel_size();
   double *energy = element_values_.data(), *declared = energy + laws.size();
   laws.energy(in, held, energy);
@@ -110,4 +118,4 @@ void Observer::observe(const ElementList& list, const double* y) {
   }
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::measure

@@ -4,10 +4,12 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/observe/recorder.h"
 #include "hydrodae/system/declare.h"
-#include "hydrodae/system/recorder.h"
 
-namespace hydrodae::system {
+namespace hydrodae::observe {
+
+using namespace system;
 
 namespace {
 
@@ -124,7 +126,7 @@ void Recorder::make_channels() {
                 "Of a point of " + body + ", over the world; without gravity." + axes);
     describe_marker(marker);
   }
-  const Observation& o = observer_.observation();
+  const Observation& o = seen();
   for (const ComponentLoad& load : o.loads) {
     const std::string head =
         "forces/" + o.components[load.component] + "/" + s_.bodies[load.body].name + "/";
@@ -155,7 +157,7 @@ void Recorder::make_channels() {
 }
 
 void Recorder::fill_bodies(double*& out) {
-  const auto& states = observer_.bodies();
+  const auto& states = measure_.observer().bodies();
   for (std::size_t i = 0; i < s_.bodies.size(); ++i) {
     const BodyData& b = s_.bodies[i];
     const BodyState<double>& state = states[i];
@@ -163,7 +165,7 @@ void Recorder::fill_bodies(double*& out) {
     const Eigen::Quaterniond q(state.R);
     for (double c : {q.w(), q.x(), q.y(), q.z()})
       *out++ = c;
-    put(out, observer_.displacement(static_cast<int>(i), y_).tail<3>());
+    put(out, measure_.observer().displacement(static_cast<int>(i), y_).tail<3>());
     if (b.n_active > 0) {
       put(out, state.v);
       put(out, state.R * state.w);
@@ -171,14 +173,14 @@ void Recorder::fill_bodies(double*& out) {
       put(out, state.R * state.w_dot); // the part w x w of the turning axes vanishes
     }
     if (b.n_active < 6) {
-      put(out, observer_.observation().supports[i].head<3>());
-      put(out, observer_.observation().supports[i].tail<3>());
+      put(out, seen().supports[i].head<3>());
+      put(out, seen().supports[i].tail<3>());
     }
   }
 }
 
 void Recorder::fill_joints(double*& out) {
-  const Observation& o = observer_.observation();
+  const Observation& o = seen();
   for (std::size_t j = 0; j < s_.joints.size(); ++j) {
     const JointData& joint = s_.joints[j];
     if (joint.hidden)
@@ -199,7 +201,7 @@ void Recorder::fill_joints(double*& out) {
 // r + R s,   v + R (w x s),   v' + R (w' x s + w x (w x s)), with s, w, w' in body axes.
 void Recorder::fill_markers(double*& out) {
   for (const MarkerData& m : s_.markers) {
-    const BodyState<double>& b = observer_.bodies()[m.body];
+    const BodyState<double>& b = measure_.observer().bodies()[m.body];
     const Matrix3 axes = m.body_axes ? Matrix3(b.R.transpose()) : Matrix3(Matrix3::Identity());
     const Vector3 speed = b.w.cross(m.point);
     put(out, b.r + b.R * m.point);
@@ -227,7 +229,7 @@ void Recorder::fill_gauges(double t, double*& out) {
     double x = g.x, y = g.y;
     if (g.marker >= 0) {
       const MarkerData& m = s_.markers[static_cast<std::size_t>(g.marker)];
-      const BodyState<double>& b = observer_.bodies()[static_cast<std::size_t>(m.body)];
+      const BodyState<double>& b = measure_.observer().bodies()[static_cast<std::size_t>(m.body)];
       const Vector3 place = b.r + b.R * m.point;
       x = place[0];
       y = place[1];
@@ -238,33 +240,33 @@ void Recorder::fill_gauges(double t, double*& out) {
   }
 }
 
-void Recorder::fill_energy(double*& out, const std::vector<double>& work) {
-  const Observation& o = observer_.observation();
+void Recorder::fill_energy(double t, double*& out) {
+  const Observation& o = seen();
+  const std::vector<double> work = measure_.work_at(t);
   *out++ = o.kinetic;
   *out++ = o.kinetic_added_mass;
   *out++ = o.potential;
   *out++ = o.kinetic + o.kinetic_added_mass + o.potential;
   for (std::size_t k = 0; k < o.powers.size(); ++k)
     *out++ = work[k];
-  *out++ = balance(work);
+  *out++ = measure_.balance_error(work);
 }
 
 /// From where the observer is.
-void Recorder::fill(double t, std::span<double> row, const std::vector<double>& work) {
+void Recorder::fill(double t, std::span<double> row) {
   double* out = row.data();
   fill_bodies(out);
   fill_joints(out);
   fill_markers(out);
-  for (const ComponentLoad& load : observer_.observation().loads) {
+  for (const ComponentLoad& load : seen().loads) {
     put(out, load.load.head<3>());
     put(out, load.load.tail<3>());
   }
-  out = std::copy(observer_.observation().elements.begin(), observer_.observation().elements.end(),
-                  out);
-  if (observer_.observation().in_waves)
-    *out++ = observer_.observation().elevation;
+  out = std::copy(seen().elements.begin(), seen().elements.end(), out);
+  if (seen().in_waves)
+    *out++ = seen().elevation;
   fill_gauges(t, out);
-  fill_energy(out, work);
+  fill_energy(t, out);
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::observe

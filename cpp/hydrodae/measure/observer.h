@@ -6,7 +6,11 @@
 #include "hydrodae/core/channel.h"
 #include "hydrodae/system/kinematics.h"
 
-namespace hydrodae::system {
+namespace hydrodae::measure {
+
+using system::BodyState, system::ElementList, system::ElementScratch, system::HydroData,
+    system::JointData, system::PortData, system::Regime, system::RowData, system::Turns,
+    system::Workspace;
 
 /// One force component on one body: force and moment about the centre of gravity, world axes.
 struct ComponentLoad {
@@ -44,18 +48,24 @@ public:
   /// Fills `observation()` from t, y, y'. No allocation after the first call.
   const Observation& observe(double t, const VectorX& y, const VectorX& yp);
   const Observation& observation() const { return out_; }
+
+  /// Fills the loads of `observation()` and their powers alone, where reactions do no work.
+  void observe_powers(double t, const VectorX& y, const VectorX& yp);
   const std::vector<BodyState<double>>& bodies() const { return ws_.bodies; }
 
   /// Angles go on from these values (of an accepted step).
   void follow(const Turns& turns) { ws_.turns = turns; }
   /// Where they are at the last `observe`.
-  void read(Turns& turns) const { read_turns(s_, ws_, turns); }
+  void read(Turns& turns) const { system::read_turns(s_, ws_, turns); }
   /// Displacement of a body from its reference pose there [m; rad].
   Vector6 displacement(int body, const VectorX& y) const {
     return system::displacement<double>(s_, ws_, body, y.data());
   }
 
 private:
+  void begin(double t, const VectorX& y, const VectorX& yp);
+  const element::Elements& observe_loads(const ElementList& list, const double* y);
+  void observe_loads(const HydroData& hydro, const double* y) { observe(hydro, y); }
   void add_load(const Vector6& world_load);
   void observe_weight();
   void observe(const ElementList& list, const double* y);
@@ -84,4 +94,4 @@ private:
   VectorX shared_;                    ///< multipliers of all rows, where some are redundant
 };
 
-} // namespace hydrodae::system
+} // namespace hydrodae::measure

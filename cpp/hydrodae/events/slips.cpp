@@ -1,18 +1,19 @@
-#include "hydrodae/run/rubbing_watch.h"
+#include "hydrodae/events/slips.h"
+
+#include <algorithm>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/run/first_beyond.h"
 
-namespace hydrodae::run {
+namespace hydrodae::events {
 
-std::unique_ptr<RubbingWatch> RubbingWatch::make(system::Regime& regime) {
-  std::unique_ptr<RubbingWatch> out(new RubbingWatch(regime));
+std::unique_ptr<Slips> Slips::make(system::Regime& regime) {
+  std::unique_ptr<Slips> out(new Slips(regime));
   return out->view_.lists().empty() ? nullptr : std::move(out);
 }
 
 /// Acts on each law, what it sees, and its signals.
-template <class Visit> void RubbingWatch::visit(double t, const VectorX& y, Visit&& act) {
+template <class Visit> void Slips::visit(double t, const VectorX& y, Visit&& act) {
   view_.visit(t, y, [&](const View::List& list, const double* in) {
     const system::ElementList& of = s_.elements[list.index];
     const element::Shape& shape = of.laws->shape;
@@ -24,20 +25,15 @@ template <class Visit> void RubbingWatch::visit(double t, const VectorX& y, Visi
   });
 }
 
-std::optional<double> RubbingWatch::locate(double t0, double t1, int nodes,
-                                           const system::Recorder::Interpolant& at) {
-  return first_beyond(t0, t1, nodes, [&](double t) {
-    at(t, y_, yp_);
-    bool changes = false;
-    visit(t, y_,
-          [&](const View::List& list, std::size_t law, const double* in, const double* held) {
-            changes = changes || !list.laws->agrees(law, t, in, held);
-          });
-    return changes ? 1.0 : -1.0;
+void Slips::margins(double t, const VectorX& y, const VectorX&, std::span<double> out) {
+  double* next = out.data();
+  visit(t, y, [&](const View::List& list, std::size_t law, const double* in, const double* held) {
+    list.laws->rubs(law, t, in, held, next);
+    next += list.laws->n_rubs();
   });
 }
 
-bool RubbingWatch::settle(double t, const VectorX& y) {
+bool Slips::settle(double t, const VectorX& y) {
   bool changed = false;
   visit(t, y, [&](const View::List& list, std::size_t law, const double* in, double* held) {
     const element::Elements& laws = *s_.elements[list.index].laws;
@@ -46,7 +42,9 @@ bool RubbingWatch::settle(double t, const VectorX& y) {
     for (std::size_t i = 0; i < laws.inputs.size(); ++i)
       if (laws.inputs[i].name.empty())
         own[i] = held[i];
-    if (!list.laws->agrees(law, t, in, held))
+    rubs_.resize(static_cast<std::size_t>(list.laws->n_rubs()));
+    list.laws->rubs(law, t, in, held, rubs_.data());
+    if (*std::min_element(rubs_.begin(), rubs_.end()) < 0.0)
       throw SolverError(t, "stopped at t = " + number_text(t) + " s: rope " +
                                in_quotes(laws.names[law]) +
                                " neither sticks nor slips on the places of its 'friction'");
@@ -54,10 +52,10 @@ bool RubbingWatch::settle(double t, const VectorX& y) {
   return changed;
 }
 
-void RubbingWatch::remember(Archive& a) {
+void Slips::remember(Archive& a) {
   for (const View::List& list : view_.lists())
     for (double& held : s_.signals[list.index])
       a(held);
 }
 
-} // namespace hydrodae::run
+} // namespace hydrodae::events

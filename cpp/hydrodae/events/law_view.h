@@ -5,7 +5,7 @@
 
 #include "hydrodae/system/elements.h"
 
-namespace hydrodae::run {
+namespace hydrodae::events {
 
 template <class Laws> class LawView {
 public:
@@ -23,6 +23,22 @@ public:
   }
 
   const std::vector<List>& lists() const { return lists_; }
+
+  /// Laws of all lists.
+  std::size_t size() const {
+    std::size_t n = 0;
+    for (const List& list : lists_)
+      n += s_.elements[list.index].laws->size();
+    return n;
+  }
+
+  /// Of a law by its number among them.
+  const std::string& name(std::size_t law) const {
+    auto list = lists_.begin();
+    for (; law >= s_.elements[list->index].laws->size(); ++list)
+      law -= s_.elements[list->index].laws->size();
+    return s_.elements[list->index].laws->names[law];
+  }
 
   /// Acts on each list and the inputs of its laws, one after the other, in the state y at t [s].
   template <class Act> void visit(double t, const VectorX& y, Act&& act) {
@@ -44,4 +60,4 @@ private:
   VectorX yp_; ///< zero: laws see no accelerations
 };
 
-} // namespace hydrodae::run
+} // namespace hydrodae::events

@@ -1,4 +1,4 @@
-#include "hydrodae/system/observer.h"
+#include "hydrodae/measure/observer.h"
 
 #include <algorithm>
 
@@ -6,7 +6,9 @@
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/elements.h"
 
-namespace hydrodae::system {
+namespace hydrodae::measure {
+
+using namespace system;
 
 namespace {
 
@@ -210,7 +212,8 @@ void Observer::observe_energy() {
   }
 }
 
-const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
+/// Motion there, and zero sums.
+void Observer::begin(double t, const VectorX& y, const VectorX& yp) {
   unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
   ws_.time = t;
   ws_.past = s_.history ? &s_.history->at(t, true) : nullptr;
@@ -221,6 +224,15 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   out_.kinetic = out_.kinetic_added_mass = out_.potential = 0.0;
   next_load_ = 0;
   observe_weight();
+}
+
+void Observer::observe_powers(double t, const VectorX& y, const VectorX& yp) {
+  begin(t, y, yp);
+  for_each_list(s_, [&](const auto& list) { observe_loads(list, y.data()); });
+}
+
+const Observation& Observer::observe(double t, const VectorX& y, const VectorX& yp) {
+  begin(t, y, yp);
   own_ = out_.elements.data();
   for_each_list(s_, [&](const auto& list) { observe(list, y.data()); });
   if (in_waves_)
@@ -230,4 +242,4 @@ const Observation& Observer::observe(double t, const VectorX& y, const VectorX& 
   return out_;
 }
 
-} // namespace hydrodae::system
+} // namespace hydrodae::measure

@@ -1,0 +1,45 @@
+#pragma once
+/// Kinks of laws: where a rope goes taut or slack, a compliant stop is touched, a limit holds.
+/// Until the event a law stays what it is on its side, continued beyond the kink, so that a step
+/// that tries to cross sees smooth equations; then the step is cut there. The error test of a
+/// method, and its order, hold on both sides.
+
+#include <memory>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/events/law_view.h"
+#include "hydrodae/events/source.h"
+
+namespace hydrodae::events {
+
+/// One margin for each kink: its number on the side on which it is.
+class Kinks : public Source {
+public:
+  /// Null: no law of the system has any.
+  static std::unique_ptr<Kinks> make(system::Regime& regime, const VectorX& y);
+
+  std::size_t count() const override { return side_.size(); }
+  void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
+
+  /// At an event at t [s]: the laws are on the sides that their numbers tell from now on.
+  void settle(double t, const VectorX& y);
+
+  /// At the end of a step without one: those that were on the kink may have left it.
+  void accept(double t, const VectorX& y);
+
+  void remember(Archive& a);
+
+private:
+  using View = LawView<element::Elements>;
+  explicit Kinks(system::Regime& regime);
+  void look(double t, const VectorX& y, double* out);
+  void write();
+
+  system::Regime& s_;
+  View view_;
+  std::vector<double> side_; ///< 1, -1; 0: on the kink so far
+  std::vector<double> now_, room_;
+};
+
+} // namespace hydrodae::events

@@ -1,0 +1,49 @@
+#pragma once
+/// Where ropes and lines part inside a step: the event, and what holds from then on.
+
+#include <memory>
+#include <vector>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/element/parting.h"
+#include "hydrodae/events/law_view.h"
+#include "hydrodae/events/source.h"
+
+namespace hydrodae::events {
+
+/// One margin for each law: the part of its breaking load that is left.
+class Partings : public Source {
+public:
+  /// Null: nothing in the system parts. Throws ModelError where a rope or line is loaded beyond
+  /// what it bears at the start, y.
+  static std::unique_ptr<Partings> make(system::Regime& regime, const VectorX& y);
+
+  std::size_t count() const override { return n_; }
+  void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
+
+  /// What parts as its load begins, a damper's, does so just before, so that nothing of that load
+  /// is in the step.
+  double found(const Root& root, const Interpolant& at) override;
+
+  /// At an event: lets part what has reached its breaking load at t [s].
+  void part(double t, const VectorX& y);
+
+  void remember(Archive& a);
+
+private:
+  using View = LawView<element::Parting>;
+  explicit Partings(system::Regime& regime)
+      : s_(regime), view_(regime, &element::Parting::may_part), n_(view_.size()) {}
+  template <class Visit> void visit(double t, const VectorX& y, Visit&& act);
+
+  system::Regime& s_;
+  View view_;
+  std::size_t n_; ///< laws
+  struct Sudden {
+    std::size_t law;
+    int place;
+  };
+  std::vector<Sudden> sudden_; ///< what parts as its load begins, at the event found last
+};
+
+} // namespace hydrodae::events
