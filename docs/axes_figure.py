@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae.plot import COLORS, STYLE, save
+from hydrodae.pictures.plot import COLORS, STYLE, save
 
 CASE = """
 title = "axes"

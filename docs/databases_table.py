@@ -17,14 +17,14 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 from hydrodae.errors import HydrodaeError
 from hydrodae.hdb.checks.band import felt_band
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.database.findings import CheckReport
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.kinds import resolve
-from hydrodae.hdb.scales import scales
 
 PAGE = Path(__file__).with_name("databases.md")
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"

@@ -1,6 +1,6 @@
 """Write the reference pages of case files and the stub of `hydrodae.Scene`.
 
-    python docs/reference.py            # writes docs/reference/*.md and python/hydrodae/scene.pyi
+    python docs/reference.py            # writes docs/reference/*.md and the stub
     python docs/reference.py --check    # only tells which are out of date; exit code 1 if any is
 
 All is made from the fields that the kernel declares beside its structs.
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from scene_stub import scene_stub
 
-from hydrodae.tables import Key, Table, tables
+from hydrodae.case.tables import Key, Table, tables
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = Path("docs", "reference")
@@ -69,7 +69,8 @@ Each table is a method of `hydrodae.Scene`, each type of a list with types too:
 
 A key is one line in the `fields()` of its struct, a force one struct: case reader, schema,
 `hydrodae keys` and the methods of `hydrodae.Scene` follow. `python docs/reference.py` then writes
-these pages and the stub `python/hydrodae/scene.pyi` again; a test tells if they are out of date.
+these pages and the stub `python/hydrodae/case/scene.pyi` again; a test tells if they are
+out of date.
 """
 
 
@@ -77,7 +78,7 @@ def pages() -> dict[Path, str]:
     """Every generated file of the repository by its path in it."""
     made = {PAGES / f"{table.name}.md": page(table) for table in tables()}
     made[PAGES / "README.md"] = index(tables())
-    made[Path("python", "hydrodae", "scene.pyi")] = scene_stub(tables())
+    made[Path("python", "hydrodae", "case", "scene.pyi")] = scene_stub(tables())
     return made
 
 

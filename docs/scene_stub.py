@@ -5,8 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable
 
-from hydrodae.builder.methods import docstring
-from hydrodae.tables import Key, Table
+from hydrodae.case.builder.methods import docstring
+from hydrodae.case.tables import Key, Table
 
 HEAD = '''"""Scenes built in Python. Made by docs/reference.py from the fields of the kernel."""
 
@@ -15,7 +15,7 @@ from typing import Any, Literal, TypedDict
 
 from numpy.typing import NDArray
 
-from hydrodae.builder.base import SceneBase, TypedList
+from hydrodae.case.builder.base import SceneBase, TypedList
 
 _Numbers = Sequence[float] | NDArray[Any]
 _Rows = Sequence[_Numbers] | NDArray[Any]

@@ -17,7 +17,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from hydrodae.extras import install_command
+from hydrodae.support.extras import install_command
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "build" / "site_source"

@@ -14,8 +14,8 @@ import numpy as np
 
 import hydrodae
 from hydrodae import hdb
-from hydrodae.cli import guarded
-from hydrodae.progress import ProgressLine, StageLine
+from hydrodae.commands.cli import guarded
+from hydrodae.support.progress import ProgressLine, StageLine
 
 DENSITY, GRAVITY, DEPTH = 1025.0, 9.81, 10.0  # kg/m3, m/s2, m
 RADIUS, DRAFT = 0.3, 0.6  # m, of a node: a vertical cylinder

@@ -15,8 +15,8 @@ from parts import ARM_DEPTH, DAMPING, NODE_DEPTH, STIFFNESS, Layout
 from scipy.spatial.transform import Rotation
 
 from hydrodae import Results, Scene, run
-from hydrodae.frequency import LinearModel, Response
-from hydrodae.frequency.sea import wave_components
+from hydrodae.linear import LinearModel, Response
+from hydrodae.linear.sea import wave_components
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

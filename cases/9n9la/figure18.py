@@ -22,14 +22,14 @@ from nine_nodes import LAYOUT as HEX
 from numpy.typing import NDArray
 
 from hydrodae import Scene
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 SQUID_FOLDER = HERE.parent / "4n3la"
 
 import parts  # noqa: E402
 import study  # noqa: E402
 
-from hydrodae.frequency import LinearModel  # noqa: E402
+from hydrodae.linear import LinearModel  # noqa: E402
 
 Array = NDArray[np.float64]
 SQUID = parts.SQUID

@@ -25,8 +25,8 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 import hydrodae
-from hydrodae.cli import guarded
-from hydrodae.plot import COLORS, STYLE
+from hydrodae.commands.cli import guarded
+from hydrodae.pictures.plot import COLORS, STYLE
 
 HERE = Path(__file__).parent
 MASS, SPRING, DAMPING = 1000.0, 4000.0, 100.0  # of case.toml: kg, N/m, N s/m

@@ -28,8 +28,8 @@ from cases.f3of.mesh import CENTER_OF_GRAVITY, PanelSize, bodies, quarter  # noq
 from cases.f3of.panels import Array, check, hydrostatics  # noqa: E402
 
 from hydrodae import hdb  # noqa: E402
-from hydrodae.extras import install_command  # noqa: E402
-from hydrodae.memory import fit_memory  # noqa: E402
+from hydrodae.hdb.memory import fit_memory  # noqa: E402
+from hydrodae.support.extras import install_command  # noqa: E402
 
 try:
     import capytaine as cpt

@@ -20,10 +20,10 @@ import matplotlib
 import numpy as np
 
 from hydrodae import Results
-from hydrodae.cli import guarded
-from hydrodae.curve import Curve, read_curve
-from hydrodae.plot import STYLE, draw_comparison, new_figure, save
-from hydrodae.post import turning_points
+from hydrodae.commands.cli import guarded
+from hydrodae.pictures.curve import Curve, read_curve
+from hydrodae.pictures.plot import STYLE, draw_comparison, new_figure, save
+from hydrodae.results.post import turning_points
 
 #: Column of dt3_flap1_decay.csv and name of each code of the WEC3 comparison (Combourieu et al.,
 #: EWTEC 2015) and of HydroChrono.

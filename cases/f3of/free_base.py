@@ -20,10 +20,10 @@ import numpy as np
 
 import hydrodae
 from hydrodae import HydrodaeError
-from hydrodae.cli import guarded
-from hydrodae.curve import Curve, read_curve
-from hydrodae.frequency import LinearModel
-from hydrodae.plot import COLORS, STYLE, draw_comparison, new_figure, outside_legend, save
+from hydrodae.commands.cli import guarded
+from hydrodae.linear import LinearModel
+from hydrodae.pictures.curve import Curve, read_curve
+from hydrodae.pictures.plot import COLORS, STYLE, draw_comparison, new_figure, outside_legend, save
 
 HERE = Path(__file__).resolve().parent
 CODES = {"INW": "InWave", "PDS": "ProteusDS", "WDN": "WaveDyn", "WSM": "WEC-Sim"}

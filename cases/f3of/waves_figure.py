@@ -16,9 +16,9 @@ import matplotlib
 import numpy as np
 
 from hydrodae import Results
-from hydrodae.cli import guarded
-from hydrodae.plot import COLORS, STYLE, new_figure, outside_legend, save
-from hydrodae.post import absorbed_power, mean_absorbed_power
+from hydrodae.commands.cli import guarded
+from hydrodae.pictures.plot import COLORS, STYLE, new_figure, outside_legend, save
+from hydrodae.results.post import absorbed_power, mean_absorbed_power
 
 FLAPS = {"flap 1": ("hinge1", "pto1"), "flap 2": ("hinge2", "pto2")}
 #: The mean power is taken from here on [s]: the ramp of the waves is over.

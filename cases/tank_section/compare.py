@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae.frequency import LinearModel
-from hydrodae.plot import STYLE, save
+from hydrodae.linear import LinearModel
+from hydrodae.pictures.plot import STYLE, save
 
 Array = NDArray[np.float64]
 Row = dict[str, float]

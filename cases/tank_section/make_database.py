@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from hydrodae import hdb
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 from hydrodae.hdb.bem.shapes import box
-from hydrodae.hdb.tables import Body
+from hydrodae.hdb.database.tables import Body
 
 RHO, GRAVITY = 1000.0, 9.81  # fresh water [kg/m3], [m/s2]
 COORDINATES = ("section.surge", "section.heave", "section.pitch")

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 FOLDER = Path(__file__).parent
 SOURCE = """# From github.com/KRSundsdal1/2D-ship-cross-section-in-regular-waves, commit 2465cee,

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from hydrodae import hdb
-from hydrodae.cli import guarded
-from hydrodae.hdb.tables import Body
+from hydrodae.commands.cli import guarded
+from hydrodae.hdb.database.tables import Body
 
 COORDINATES = ("float.surge", "float.heave", "float.pitch")
 #: What moves in the six sea states [rad/s].

@@ -25,7 +25,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 import hydrodae
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant
 
 HERE = Path(__file__).parent

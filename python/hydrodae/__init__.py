@@ -13,7 +13,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.case import Case
 from hydrodae.errors import (
     CaseError,
     DatabaseError,
@@ -21,15 +20,20 @@ from hydrodae.errors import (
     RunInterrupted,
     SolverError,
 )
-from hydrodae.results import Results, ResultsError
-from hydrodae.simulate import run
-from hydrodae.simulation import Simulation
-from hydrodae.version import version
 
 if TYPE_CHECKING:
     from hydrodae import hdb, mooring
+    from hydrodae import linear as frequency  # noqa: F401
+    from hydrodae.case import Case
+    from hydrodae.case import arrays as arrays
+    from hydrodae.case import schema as schema
+    from hydrodae.case import tables as tables
+    from hydrodae.case.scene import Scene
+    from hydrodae.control import tcp as tcp
     from hydrodae.mooring import Catenary, catenary
-    from hydrodae.scene import Scene
+    from hydrodae.pictures import plot as plot
+    from hydrodae.results import Results, ResultsError
+    from hydrodae.simulation import Simulation, run
     from hydrodae.study.band import working_band
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
@@ -77,11 +81,15 @@ __all__ = [
     "working_band",
 ]
 
-#: What is imported when it is first asked for, and where it is: a run needs none of it.
+#: Where each name is; it is imported when it is first asked for.
 _LATER = {
+    "Case": "case",
     "Catenary": "mooring",
+    "Results": "results",
+    "ResultsError": "results",
+    "Scene": "case.scene",
+    "Simulation": "simulation",
     "catenary": "mooring",
-    "Scene": "scene",
     "chart": "study.chart",
     "check": "study.check",
     "equilibrium": "study.equilibrium",
@@ -91,23 +99,41 @@ _LATER = {
     "optimise": "study.sweep.optimise",
     "rao": "study.rao",
     "recommend": "study.chart",
+    "run": "simulation",
     "sensitivity": "study.sensitivity",
-    "sweep": "study.sweep",
     "spectral": "study.spectral",
+    "sweep": "study.sweep",
     "view": "viewer",
     "working_band": "study.band",
 }
 
-#: Modules that the documentation calls by `hydrodae.NAME` after `import hydrodae`.
-_MODULES = frozenset("control fmu hdb mooring plot report schema starters tables tcp".split())
+#: Modules that are called by `hydrodae.NAME` after `import hydrodae`, and where they are.
+_MODULES = {
+    "arrays": "case.arrays",
+    "case": "case",
+    "control": "control",
+    "fmu": "fmu",
+    "frequency": "linear",
+    "hdb": "hdb",
+    "mooring": "mooring",
+    "plot": "pictures.plot",
+    "report": "report",
+    "results": "results",
+    "schema": "case.schema",
+    "starters": "starters",
+    "tables": "case.tables",
+    "tcp": "control.tcp",
+}
 
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
         if name == "__version__":
+            from hydrodae.support.version import version
+
             return version()
         if name in _MODULES:
-            return import_module(f"hydrodae.{name}")
+            return import_module(f"hydrodae.{_MODULES[name]}")
         if name in _LATER:
             return getattr(import_module(f"hydrodae.{_LATER[name]}"), name)
         raise AttributeError(f"module 'hydrodae' has no attribute {name!r}")

@@ -2,6 +2,6 @@
 
 import sys
 
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 
 sys.exit(main())

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae import hdb
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import hydrodae
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "sphere" / "control.toml"
 END, PERIOD, RUNS = 20.0, 0.01, 3

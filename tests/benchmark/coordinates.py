@@ -23,8 +23,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae.cli import guarded
-from hydrodae.plot import save
+from hydrodae.commands.cli import guarded
+from hydrodae.pictures.plot import save
 
 ROOT = Path(__file__).resolve().parents[2]
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7)

@@ -27,7 +27,7 @@ import numpy as np
 
 import hydrodae
 from hydrodae import hdb
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))

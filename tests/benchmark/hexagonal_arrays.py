@@ -33,8 +33,8 @@ from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae import arrays, hdb
-from hydrodae.memory import ExponentialMemory
-from hydrodae.plot import save
+from hydrodae.hdb.memory import ExponentialMemory
+from hydrodae.pictures.plot import save
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]

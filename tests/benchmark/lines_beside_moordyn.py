@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae.extras import install_command
+from hydrodae.support.extras import install_command
 
 Series = NDArray[np.float64]
 EXCHANGE = 0.01  # between calls of MoorDyn, which keeps the velocity within one [s]

@@ -67,7 +67,7 @@ def measure(name: str) -> None:
     import time
     import warnings
 
-    from hydrodae.memory import fit_memory
+    from hydrodae.hdb.memory import fit_memory
 
     table, labels, options = problem(name)
     warnings.simplefilter("ignore")

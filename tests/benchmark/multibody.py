@@ -18,7 +18,7 @@ from tests.verification.multibody import PROBLEMS  # noqa: E402
 from tests.verification.truths import make as truths  # noqa: E402
 
 import hydrodae  # noqa: E402
-from hydrodae.cli import guarded  # noqa: E402
+from hydrodae.commands.cli import guarded  # noqa: E402
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11)
 

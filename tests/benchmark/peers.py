@@ -38,7 +38,7 @@ from tests.verification import multibody  # noqa: E402
 from tests.verification.truths import make as truths  # noqa: E402
 
 import hydrodae  # noqa: E402
-from hydrodae.extras import install_command  # noqa: E402
+from hydrodae.support.extras import install_command  # noqa: E402
 
 Reference = dict[str, Any]
 Timed = Callable[[], tuple[Any, float]]  # a result and the seconds that it took

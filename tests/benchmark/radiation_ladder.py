@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 
 import hydrodae
-from hydrodae.cli import guarded
-from hydrodae.hdb.importing import import_database
-from hydrodae.memory import fit_memory
+from hydrodae.commands.cli import guarded
+from hydrodae.hdb.memory import fit_memory
+from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.study.ladder import ladder
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -22,7 +22,7 @@ from time import perf_counter
 from typing import Any
 
 import hydrodae
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 ROOT = Path(__file__).resolve().parents[2]
 SEA = [{"name": "sea", "type": "jonswap", "significant_height": 1.0, "peak_period": 8.0, "seed": 1}]

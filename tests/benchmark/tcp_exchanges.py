@@ -21,7 +21,7 @@ import tempfile
 from pathlib import Path
 
 import hydrodae
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 
 RUNS = 20
 ROOT = Path(__file__).resolve().parents[2]

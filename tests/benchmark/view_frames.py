@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from hydrodae.cli import guarded
+from hydrodae.commands.cli import guarded
 from hydrodae.viewer import browser
 
 SIZE = (1280, 720)

@@ -22,8 +22,8 @@ sys.path.insert(0, str(ROOT / "cases" / "benchmarks"))
 from four_bar import four_bar  # type: ignore[import-not-found]  # noqa: E402
 
 import hydrodae  # noqa: E402
-from hydrodae.cli import guarded  # noqa: E402
-from hydrodae.plot import save  # noqa: E402
+from hydrodae.commands.cli import guarded  # noqa: E402
+from hydrodae.pictures.plot import save  # noqa: E402
 
 WINDOWS = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 END_TIMES = (0.1, 0.5)  # s

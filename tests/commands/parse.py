@@ -57,7 +57,7 @@ def problem(command: Command, repository: Path) -> str:
 
 def of_hydrodae(words: list[str], *, loosely: bool) -> str:
     """Problem of a call of hydrodae; `loosely`: only its command and its options count."""
-    from hydrodae import cli
+    from hydrodae.commands import cli
 
     if loosely and words[:1] and words[0].isupper():  # `hydrodae COMMAND --help`
         return ""

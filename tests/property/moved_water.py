@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from tests.property.moves import Move
 
 from hydrodae import hdb
-from hydrodae.hdb.coordinates import DOFS
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.memory import ExponentialMemory
+from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.memory import ExponentialMemory
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 

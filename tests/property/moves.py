@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hydrodae import tables
-from hydrodae.case import to_toml
+from hydrodae.case.case import to_toml
 
 Array = NDArray[np.float64]
 Scene = dict[str, Any]

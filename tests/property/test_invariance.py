@@ -19,7 +19,7 @@ from tests.property import moved_water, moves
 
 import hydrodae
 from hydrodae import hdb
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,8 +11,8 @@ import pytest
 
 import hydrodae
 from hydrodae import arrays, hdb
+from hydrodae.case.tables import tables
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.tables import tables
 
 NODE = hdb.Cylinder(0.3, 0.6, -0.3)
 UNITS = arrays.hexagonal(3, 2.0)

@@ -16,9 +16,9 @@ import pytest
 from hydrodae import _core
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.tables import Body
-from hydrodae.memory import ExponentialMemory
+from hydrodae.hdb.database.tables import Body
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.memory import ExponentialMemory
 
 CASE = """title = "buoy"
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.case import parse_assignment, to_toml
-from hydrodae.case_tables import case_tables, overrides_of
+from hydrodae.case.case import parse_assignment, to_toml
+from hydrodae.case.contents import case_tables, overrides_of
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.results import Results
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydrodae import cli
+from hydrodae.commands import cli
 from hydrodae.study.chart import Chart, Run, chart, pareto, recommend
 from hydrodae.study.chart.methods import parse_method, step_ladder
 from hydrodae.study.chart.output import draw, footing, heading

@@ -16,7 +16,7 @@ import pytest
 
 import hydrodae
 from hydrodae import CaseError, RunInterrupted
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 
 CASE = """
 title = "Ball that bounces"

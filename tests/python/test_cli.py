@@ -10,9 +10,10 @@ import re
 import pytest
 from rich.console import Console
 
-from hydrodae import cli, progress
-from hydrodae.progress import ProgressLine
+from hydrodae.commands import cli
 from hydrodae.results import Results
+from hydrodae.support import progress
+from hydrodae.support.progress import ProgressLine
 
 REFERENCE_CURVE = "t_s,a_deg,b_deg\n0,10,\n7,-9,8\n14,8.5,7\n"
 

@@ -10,7 +10,7 @@ import sys
 import pytest
 
 import hydrodae
-from hydrodae import cli
+from hydrodae.commands import cli
 from hydrodae.commands.examples import EXAMPLES
 from hydrodae.commands.machine import plain
 from hydrodae.starters import create

@@ -17,7 +17,8 @@ from tests.python.doc_blocks import all_blocks, blocks, command_lines, pages
 from tests.python.test_tcp import free_port
 
 import hydrodae
-from hydrodae import _core, cli
+from hydrodae import _core
+from hydrodae.commands import cli
 from hydrodae.starters import create
 from hydrodae.study.sweep.plan import read_study
 from hydrodae.study.sweep.problem import read_problem

@@ -11,10 +11,10 @@ import xarray
 from scipy.spatial.transform import Rotation
 
 import hydrodae
-from hydrodae import cli
-from hydrodae.panels import overview
-from hydrodae.post import absorbed_power, mean_absorbed_power
+from hydrodae.commands import cli
+from hydrodae.pictures.panels import overview
 from hydrodae.results import ChannelError, Results, ResultsError
+from hydrodae.results.post import absorbed_power, mean_absorbed_power
 
 CASE = """
 title = "Arm on a turned hinge"

@@ -10,12 +10,12 @@ import pytest
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.lone import lone_findings
-from hydrodae.hdb.prepare import cure, goes_on, ways_out
-from hydrodae.memory.data import least_damping, with_zero
-from hydrodae.memory.fit import _near as as_near
-from hydrodae.memory.goal import Goal, Quality
-from hydrodae.memory.modes import Problem
-from hydrodae.memory.noise import noise as noise_of
+from hydrodae.hdb.memory.data import least_damping, with_zero
+from hydrodae.hdb.memory.fit import _near as as_near
+from hydrodae.hdb.memory.goal import Goal, Quality
+from hydrodae.hdb.memory.modes import Problem
+from hydrodae.hdb.memory.noise import noise as noise_of
+from hydrodae.hdb.preparation.fitting import cure, goes_on, ways_out
 
 BAND = (0.2, 1.0)
 
@@ -213,7 +213,7 @@ def test_a_misfit_that_neighbours_share_is_no_noise():
 
 
 def test_a_hopeless_table_is_not_fitted_before_the_part_that_can_be_met(right, monkeypatch):
-    from hydrodae import memory
+    from hydrodae.hdb import memory
 
     i = right.index("buoy.heave")[0]
     b = right.radiation_damping.copy()

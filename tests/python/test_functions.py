@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 
 CAPTURE = pytest.CaptureFixture[str]
 
@@ -49,15 +49,29 @@ def test_all_names_are_there() -> None:
 def test_a_run_imports_no_study_and_no_database() -> None:
     """Nor do the processes of a sweep import what they have no use for: it takes a second each."""
     text = (
-        "import sys, hydrodae; print(sorted(m for m in sys.modules if 'hydrodae.' in m))\n"
+        "import sys, hydrodae; hydrodae.run\n"
+        "print(sorted(m for m in sys.modules if 'hydrodae.' in m))\n"
         "import hydrodae.study.sweep.pool\n"
         "slow = {'matplotlib', 'scipy.stats', 'xarray'} & set(sys.modules)\n"
         "assert not slow, slow"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert "hydrodae.simulate" in done.stdout
+    assert "hydrodae.simulation.simulate" in done.stdout
     assert "hydrodae.hdb" not in done.stdout
     assert "hydrodae.study" not in done.stdout
+
+
+def test_documented_modules_are_there_after_importing_the_package() -> None:
+    uses = """
+import hydrodae
+hydrodae.arrays.place, hydrodae.case.Case, hydrodae.control.match, hydrodae.errors.CaseError
+hydrodae.fmu.export, hydrodae.frequency.LinearModel, hydrodae.hdb.read, hydrodae.mooring.linearise
+hydrodae.plot.plot_overview, hydrodae.report.report, hydrodae.results.Results
+hydrodae.schema.case_schema, hydrodae.starters.create, hydrodae.tables.tables, hydrodae.tcp
+from hydrodae import arrays, frequency, plot, schema, tables, tcp
+assert callable(hydrodae.run) and callable(hydrodae.hdb.fit) and callable(hydrodae.hdb.kernel)
+"""
+    subprocess.run([sys.executable, "-c", uses], check=True)
 
 
 def test_check(rao_case: Path, capsys: CAPTURE) -> None:

@@ -15,9 +15,9 @@ from scipy.optimize import minimize
 from tests.verification.carts import cart
 
 import hydrodae
-import hydrodae.case_tables
+import hydrodae.case.contents
 from hydrodae.case import Case
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.report import report
 from hydrodae.starters import create
 from hydrodae.study.gradient.differences import derivative
@@ -201,7 +201,7 @@ def test_reaction_of_a_joint_with_moving_constraints(tmp_path: Path) -> None:
     )  # fmt: skip
     key = f"joint.{joint}.point[2]"
     point = next(
-        j["point"] for j in hydrodae.case_tables.case_tables(case)["joint"] if j["name"] == joint
+        j["point"] for j in hydrodae.case.contents.case_tables(case)["joint"] if j["name"] == joint
     )
 
     def value(z: float) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
 
 OMEGA = np.array([0.4, 0.8, 1.2, 1.6])
 CENTERS = {1: (0.0, 2.0, -1.0), 2: (10.0, 0.0, -3.0)}

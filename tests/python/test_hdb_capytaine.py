@@ -10,7 +10,7 @@ import xarray as xr
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
 
 DOFS = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"]
 

@@ -13,9 +13,9 @@ from scipy.interpolate import CubicSpline
 
 from hydrodae import hdb
 from hydrodae.hdb.checks.units import unit_findings
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.readers.reading import read_source
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 
 @pytest.fixture(scope="module")

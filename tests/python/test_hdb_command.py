@@ -7,13 +7,13 @@ import argparse
 import numpy as np
 import pytest
 
-import hydrodae.memory
+import hydrodae.hdb.memory
 from hydrodae import hdb
 from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import files
-from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.memory import ExponentialMemory
+from hydrodae.hdb.database import files
+from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.memory import ExponentialMemory
 
 
 def call(*words):
@@ -42,7 +42,7 @@ def fits(monkeypatch):
             report={"n_states": 2, "h_error_band": 0.5},
         )
 
-    monkeypatch.setattr(hydrodae.memory, "fit_memory", fit_memory)
+    monkeypatch.setattr(hydrodae.hdb.memory, "fit_memory", fit_memory)
     return calls
 
 

@@ -12,7 +12,7 @@ from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import cut_at_water, immersed
 from hydrodae.hdb.bem.lids import water_line
-from hydrodae.hdb.bem.meshes import read_mesh
+from hydrodae.hdb.hull.meshes import read_mesh
 
 
 def volume(panels: np.ndarray) -> float:

@@ -9,12 +9,12 @@ import pytest
 from scipy import special
 
 from hydrodae import hdb
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.interaction.array import solve
 from hydrodae.hdb.interaction.radial import translation
 from hydrodae.hdb.interaction.vertical import outside
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 RHO, GRAVITY = 1025.0, 9.81
 MORE = np.array([0.0, 0.1, 0.2, 0.3])  # rad/s, beside the frequency that is looked at

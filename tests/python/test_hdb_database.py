@@ -10,11 +10,11 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import files
-from hydrodae.hdb.convolution import RadiationKernel
-from hydrodae.hdb.coordinates import skew
-from hydrodae.hdb.dispersion import frequency, wavenumber
-from hydrodae.memory import ExponentialMemory
+from hydrodae.hdb.database import files
+from hydrodae.hdb.database.convolution import RadiationKernel
+from hydrodae.hdb.database.coordinates import skew
+from hydrodae.hdb.memory import ExponentialMemory
+from hydrodae.hdb.relations.dispersion import frequency, wavenumber
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 RHO, G = 1025.0, 9.81

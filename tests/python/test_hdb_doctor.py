@@ -15,8 +15,8 @@ from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.examination import examination
 from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.checks.repair import repair
-from hydrodae.hdb.dispersion import group_velocity
-from hydrodae.hdb.findings import CheckReport, Finding
+from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.relations.dispersion import group_velocity
 
 
 def call(*words):

@@ -11,8 +11,8 @@ import pytest
 from hydrodae import hdb
 from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import writers
-from hydrodae.hdb.kernels import excitation_kernel, memory_length
+from hydrodae.hdb.database import writers
+from hydrodae.hdb.database.kernels import excitation_kernel, memory_length
 
 TABLES = ("omega", "heading", "added_mass", "radiation_damping", "added_mass_inf", "excitation")
 

@@ -11,11 +11,11 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.readers import formats
 from hydrodae.hdb.readers.kinds import kind, resolve
 from hydrodae.hdb.readers.orcayaml import read_yaml
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 FOLDERS = {
     "boxes_aqwa": "aqwa",

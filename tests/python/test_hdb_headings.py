@@ -12,11 +12,12 @@ from scipy.interpolate import CubicSpline
 
 import hydrodae
 from hydrodae import _core, hdb
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import HydrodaeError
-from hydrodae.frequency import LinearModel
-from hydrodae.hdb.all_round import closed, goes_round
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.database.all_round import closed, goes_round
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.headings import Headings
+from hydrodae.linear import LinearModel
 
 CASE = """
 [hydro]
@@ -181,6 +182,31 @@ def test_the_doubt_covers_what_is_missed_between_two_bodies():
         assert np.all(missed < np.array(doubts) + 1e-4), degrees
     assert misses(np.arange(0, 361, 15), exact).max() < 1e-4
     assert misses(np.arange(0, 361, 30), exact).max() < 0.01
+
+
+def tables_of_headings() -> list[np.ndarray]:
+    """Pairs, fans and circles, with equal and with any steps [rad]."""
+    random = np.random.default_rng(1)
+    equal = [np.linspace(0.0, 2.0 * np.pi, count + 1) for count in range(2, 26)]
+    some = [np.sort(random.uniform(0.0, 2.0 * np.pi, random.integers(2, 20))) for _ in range(200)]
+    fans = [*equal, *(h for h in some if np.diff(h).min() > 0.02), *np.radians([[0, 180], [0, 90]])]
+    return [*fans, *(np.append(h[:-1], h[0] + 2.0 * np.pi) for h in fans)]
+
+
+def test_checks_and_runs_have_one_rule_between_headings():
+    random = np.random.default_rng(2)
+    for heading in tables_of_headings():
+        ours, runs = Headings(heading), _core.Headings(heading)
+        places = random.uniform(heading[0], heading[-1], 9)
+        expected = np.array([runs.weights(place) for place in places])
+        size = np.abs(expected).max()
+        np.testing.assert_allclose(ours.weights(places), expected, atol=1e-12 * size)
+        assert ours.misses.size == runs.misses.size
+        if runs.misses.size:
+            size = np.abs(runs.misses).max()
+            np.testing.assert_allclose(ours.misses, runs.misses, atol=1e-12 * size)
+        for miss in (0.0, 0.01, 0.3, 0.8):
+            assert ours.doubt(miss) == pytest.approx(runs.doubt(miss), abs=1e-14)
 
 
 def test_a_reference_point_far_from_the_body_changes_nothing(tmp_path: Path):

@@ -11,8 +11,8 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
 from hydrodae.hdb.bem.lids import lid, water_line
-from hydrodae.hdb.bem.meshes import mirrored, read_mesh
 from hydrodae.hdb.bem.revolution import read_profile, revolution
+from hydrodae.hdb.hull.meshes import mirrored, read_mesh
 
 POINT = np.array([1.0, 2.0, -3.0])
 

@@ -18,7 +18,7 @@ from hydrodae import hdb
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.spikes import spike_findings
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
 
 #: Folders, and the file whose numbers are garbled.
 SOURCES = {

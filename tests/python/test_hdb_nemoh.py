@@ -13,7 +13,7 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
 
 _spec = importlib.util.spec_from_file_location(
     "nemoh_writer", Path(__file__).with_name("nemoh_writer.py")

@@ -8,9 +8,9 @@ import pytest
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
-from hydrodae.hdb.bem.meshes import read_mesh
 from hydrodae.hdb.bem.overlap import overlapping
 from hydrodae.hdb.bem.revolution import ring as ring_of
+from hydrodae.hdb.hull.meshes import read_mesh
 
 
 def test_bodies_that_stand_in_each_other_are_refused(tmp_path):

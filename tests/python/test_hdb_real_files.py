@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
 
 # folder: frequencies, depth [m], asymmetry of A over its largest entry, surge phase near 0.5 rad/s
 # in x(t) = Re(X e^{+iwt}) (Nemoh's files hold the negative), displaced volumes [m3] or None

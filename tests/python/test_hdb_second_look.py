@@ -11,10 +11,10 @@ import pytest
 import xarray as xr
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import prepare
-from hydrodae.hdb.importing import import_database
-from hydrodae.hdb.reading import read, read_source
-from hydrodae.hdb.summary import fit_summary
+from hydrodae.hdb.database.summary import fit_summary
+from hydrodae.hdb.preparation import fitting as prepare
+from hydrodae.hdb.preparation.importing import import_database
+from hydrodae.hdb.readers.reading import read, read_source
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import pytest
 
 import hydrodae
 from hydrodae import hdb
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.study.sensitivity import sensitivity
 from hydrodae.study.sensitivity.variants import cut_memory, every, fitted, up_to
 

@@ -10,10 +10,10 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import wavenumber
 from hydrodae.hdb.readers.finishing import uncoupled_finding
 from hydrodae.hdb.readers.kinds import kind
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 POT = """two floats
 {depth}  HBOT

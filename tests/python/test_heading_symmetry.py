@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import hydrodae
 from hydrodae import _core, hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 TWINS = {"port": (0.0, 1.5), "starboard": (0.0, -1.5)}
 ALONE = {"buoy": (0.0, 0.0)}

@@ -13,7 +13,7 @@ import pytest
 import hydrodae
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import layout
+from hydrodae.hdb.database import layout
 
 GROUPS = {
     "": layout.TABLES,

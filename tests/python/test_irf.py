@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from hydrodae import irf
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.relations import irf
 
 POLES = np.array([-0.35 + 0.9j, -0.8 + 1.6j, -0.5 + 0.25j])  # 1/s
 A_INF = 1.0

@@ -11,9 +11,10 @@ import h5py
 import numpy as np
 import pytest
 
-from hydrodae import _core, cli
+from hydrodae import _core
+from hydrodae.commands import cli
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.hdb import files
+from hydrodae.hdb.database import files
 
 CASE = """title = "limits"
 

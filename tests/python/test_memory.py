@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from hydrodae.errors import DatabaseError
-from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
-from hydrodae.memory import data as prepare
-from hydrodae.memory.direct import fit_direct
-from hydrodae.memory.goal import Goal, measure
+from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.hdb.memory import data as prepare
+from hydrodae.hdb.memory.direct import fit_direct
+from hydrodae.hdb.memory.goal import Goal, measure
 
 # Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
 RESONANCES = (

@@ -10,7 +10,7 @@ import pytest
 from tests.verification import cummins
 from tests.verification.cummins import ALL_LABELS, FLAP_LABELS, nrms
 
-from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
 
 HINGE_LEVER = 3.5  # m, centre of gravity above the hinge
 BASE_LABELS = tuple(label for label in ALL_LABELS if label.startswith("base"))

@@ -7,8 +7,8 @@ import pytest
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.bem.meshes import read_mesh
-from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.hull.mesh_statics import mesh_statics
+from hydrodae.hdb.hull.meshes import read_mesh
 
 
 def box(low, high, *, lid=False):

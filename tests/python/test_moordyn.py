@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import CaseError
 
 #: Three lines as in RM3 of SEA-Stack, each with a float; the format of version 2.

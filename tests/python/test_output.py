@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae import cli
+from hydrodae.commands import cli
 from hydrodae.errors import CaseError, SolverError
 from hydrodae.results import Results, ResultsError, ResultsWarning, partial_path
 

@@ -10,11 +10,12 @@ import pytest
 import xarray
 
 import hydrodae
-from hydrodae import cli, outputs
+from hydrodae.commands import cli
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.results import Results
 from hydrodae.starters import create
+from hydrodae.support import outputs
 from hydrodae.viewer import view
 
 STUDY = 'case = "case.toml"\nrungs = ["frequency"]\n[grid]\n"force.pto.damping" = [1e5]\n'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.memory.partial_fractions import partial_fractions, pole_slopes, real_fractions
+from hydrodae.hdb.memory.partial_fractions import partial_fractions, pole_slopes, real_fractions
 
 POLES = np.array([-0.3 + 0.0j, -0.02 + 1.0j, -0.5 + 2.0j])
 SIGN = np.array([-1.0, 1.0, 1.0])

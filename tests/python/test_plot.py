@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from hydrodae import plot
-from hydrodae.curve import Curve, parse_curve, read_curve
 from hydrodae.errors import CaseError
-from hydrodae.panels import MOST_LINES, Line, Panel, most_moving, overview, select
-from hydrodae.post import turning_points
+from hydrodae.pictures.curve import Curve, parse_curve, read_curve
+from hydrodae.pictures.panels import MOST_LINES, Line, Panel, most_moving, overview, select
 from hydrodae.results import Results
+from hydrodae.results.post import turning_points
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from tests.python.test_irf import A_INF, ExactKernel
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.convolution import taper
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.radiation_kernel import make_kernel
-from hydrodae.hdb.tables import Body
+from hydrodae.hdb.database.convolution import taper
+from hydrodae.hdb.database.radiation_kernel import make_kernel
+from hydrodae.hdb.database.tables import Body
 
 BAND = (0.2, 3.0)
 

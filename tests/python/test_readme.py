@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import hydrodae
-from hydrodae.post import absorbed_power, mean_absorbed_power
+from hydrodae.results.post import absorbed_power, mean_absorbed_power
 
 
 def blocks(readme: Path, language: str) -> list[str]:

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from hydrodae.tables import tables
+from hydrodae.case.tables import tables
 
 
 def test_pages_and_stub_are_up_to_date(repository: Path) -> None:

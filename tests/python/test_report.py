@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae import cli
-from hydrodae.case_tables import tables_of
+from hydrodae.case.contents import tables_of
+from hydrodae.commands import cli
 from hydrodae.report import report
 from hydrodae.report.scene import rungs
 from hydrodae.results import Results, ResultsError

@@ -9,9 +9,9 @@ import h5py
 import numpy as np
 import pytest
 
-from hydrodae.post import turning_points
 from hydrodae.results import ChannelError, Results, ResultsError
-from hydrodae.units import displayed
+from hydrodae.results.post import turning_points
+from hydrodae.support.units import displayed
 
 
 def test_scalar_channel_carries_time_unit_and_frame(results_file):

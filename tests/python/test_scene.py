@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import hydrodae
+from hydrodae.case.tables import tables
 from hydrodae.errors import CaseError
-from hydrodae.tables import tables
 
 
 def pendulum() -> hydrodae.Scene:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import hydrodae
-from hydrodae import cli
+from hydrodae.commands import cli
 from hydrodae.starters import KINDS, create
 from hydrodae.study.sweep.plan import read_study
 

@@ -220,7 +220,7 @@ def test_workers_do_not_run_the_script_again(tmp_path: Path) -> None:
     """Without ``if __name__ == "__main__":`` each would begin processes of its own."""
     script = tmp_path / "script.py"
     script.write_text(
-        "from hydrodae.processes import context\n"
+        "from hydrodae.support.processes import context\n"
         "print('script', flush=True)\n"
         "worker = context(anew=True).Process(target=print, args=('worker',))\n"
         "worker.start()\nworker.join()\nprint(worker.exitcode)\n"

@@ -12,11 +12,12 @@ from typing import Any
 import pytest
 from tests.python.json_schema import errors
 
-from hydrodae import _core, cli
-from hydrodae.case import to_toml
+from hydrodae import _core
+from hydrodae.case.case import to_toml
+from hydrodae.case.schema import case_schema
+from hydrodae.case.tables import Key, Table, find, tables
+from hydrodae.commands import cli
 from hydrodae.errors import CaseError
-from hydrodae.schema import case_schema
-from hydrodae.tables import Key, Table, find, tables
 
 ENTRIES = [
     pytest.param(table, kind, id=table.name + (f".{kind.name}" if table.types else ""))

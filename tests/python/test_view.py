@@ -13,8 +13,9 @@ import pytest
 from tests.python.nemoh_writer import NemohFolder
 
 import hydrodae
-from hydrodae import cli, hdb
-from hydrodae.case_tables import case_tables
+from hydrodae import hdb
+from hydrodae.case.contents import case_tables
+from hydrodae.commands import cli
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase

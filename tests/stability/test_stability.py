@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests.verification.truths import make as truths
 
-from hydrodae import cli
+from hydrodae.commands import cli
 from hydrodae.study.stability import (
     Cell,
     Scene,

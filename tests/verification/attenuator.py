@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 import hydrodae
 from hydrodae.hdb import read
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.tables import Body, Complex
-from hydrodae.memory import fit_memory
+from hydrodae.hdb.database.tables import Body, Complex
+from hydrodae.hdb.memory import fit_memory
 
 PLACES = {"fore": -20.0, "middle": 0.0, "aft": 20.0}  # x [m]
 DRAUGHT = 5.0  # [m]

@@ -26,7 +26,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline, PPoly
 
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 import hydrodae
 from hydrodae import _core
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 Array = NDArray[np.float64]
 

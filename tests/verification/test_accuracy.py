@@ -12,7 +12,7 @@ from tests.attack import suite
 from tests.attack.family import FAMILIES
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.study.stability import Method
 from hydrodae.study.stability.grid import PASS, run_cell
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydrodae import hdb, infinity
+from hydrodae import hdb
 from hydrodae.hdb.readers.finishing import finish
-from hydrodae.hdb.reading import read_source
+from hydrodae.hdb.readers.reading import read_source
+from hydrodae.hdb.relations import infinity
 
 KNOWN = (
     "sphere_wamit",

@@ -16,7 +16,7 @@ from tests.verification.point_absorbers import GRAVITY, Table, array_table, hexa
 
 from hydrodae import hdb
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory, symmetry
+from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory, symmetry
 
 OMEGA = np.arange(0.1, 8.01, 0.1)
 RADIATING = ("surge", "sway", "heave", "roll", "pitch")

@@ -11,8 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae import cli, hdb
-from hydrodae.panels import overview
+from hydrodae import hdb
+from hydrodae.commands import cli
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.pictures.panels import overview
 
 G = 9.81
 METHODS = {
@@ -206,7 +208,7 @@ def test_monopile_alone_reports_the_load_of_the_wave(method: str, tmp_path: Path
     results = hydrodae.run(case, tmp_path / "run.h5")
     area = np.pi / 4.0 * DIAMETER**2
     omega = 2.0 * np.pi / PERIOD
-    k = float(hdb.dispersion.wavenumber(omega, DEPTH, G))
+    k = float(wavenumber(omega, DEPTH, G))
     most = 2.0 * RHO * area * G * WAVE * np.tanh(k * DEPTH)
     force = results["bodies/pile/support_force"].values
     exact = most * np.sin(omega * results.time)  # holds against -sin

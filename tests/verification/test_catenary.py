@@ -11,7 +11,7 @@ import pytest
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 
 def chain(x: float, z: float) -> hydrodae.Catenary:

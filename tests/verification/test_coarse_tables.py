@@ -19,11 +19,10 @@ from scipy.linalg import expm
 
 import hydrodae
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import kernels
-from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.radiation_kernel import LIMIT, make_kernel
-from hydrodae.hdb.tables import Body
+from hydrodae.hdb.database import HydroDatabase, kernels
+from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
+from hydrodae.hdb.database.tables import Body
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.control import Plant, match
 
 MASS = 261.8e3  # kg, of cases/sphere

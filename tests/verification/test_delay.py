@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 MASS, STIFFNESS, START = 2.0, 8.0, 0.3
 OMEGA = 2.0

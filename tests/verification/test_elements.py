@@ -7,7 +7,7 @@ import pytest
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 METHODS = ["ida", "radau", "explicit_rk"]
 

@@ -11,7 +11,7 @@ from tests.verification import cummins, reduced_flaps
 
 import hydrodae
 from hydrodae.hdb import HydroDatabase, read
-from hydrodae.post import turning_points
+from hydrodae.results.post import turning_points
 
 
 @pytest.fixture(scope="module")

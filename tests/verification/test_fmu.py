@@ -17,7 +17,7 @@ from tests.verification.fmu_device import Device, problems, simulate
 
 import hydrodae
 from hydrodae import CaseError, Simulation, tcp
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.fmu import export
 
 CART = scenes.cart("stiffness = 200.0", solver="end_time = 2.0\nrtol = 1e-9")

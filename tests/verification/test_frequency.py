@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import least_squares
 
 import hydrodae
-from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.linear import LinearModel
 from hydrodae.study.rao.regular_waves import time_domain
 
 ANGLES = ("bodies/base/pitch", "joints/hinge1/angle", "joints/hinge2/angle")
@@ -250,7 +250,7 @@ def test_irregular_sea_in_both_domains(repository: Path) -> None:
 
 
 def test_commands(repository: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from hydrodae.cli import main
+    from hydrodae.commands.cli import main
 
     path = str(repository / "cases" / "f3of" / "rao.toml")
     assert main(["equilibrium", path]) == 0

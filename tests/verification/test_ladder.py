@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.study.ladder import RUNGS, ladder
 
 

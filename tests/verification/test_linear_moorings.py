@@ -9,7 +9,7 @@ import pytest
 from tests.verification.test_moored_statics import EA, LENGTH, WEIGHT, line, scene, spread
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 
 
 def test_a_linearised_mooring_is_the_mooring_to_first_order() -> None:

@@ -10,7 +10,7 @@ from tests.verification import attenuator
 from tests.verification.linear_sea import LinearSea
 
 import hydrodae
-from hydrodae.post import mean_absorbed_power
+from hydrodae.results.post import mean_absorbed_power
 
 
 def against_linear(

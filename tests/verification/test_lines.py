@@ -12,7 +12,7 @@ import pytest
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 # Something that moves: a case needs a body that does.
 IDLE = """

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
-from hydrodae.frequency import LinearModel
+from hydrodae.commands.cli import main
+from hydrodae.linear import LinearModel
 
 PERIOD = 7.7  # of the wave on the point absorber [s]
 TAKE_OFF = 1.2e6  # [N s/m]

@@ -13,9 +13,9 @@ import pytest
 from tests.verification import cummins
 from tests.verification.test_rm3 import FLOAT, decay_model
 
-from hydrodae import hdb, states
-from hydrodae.frequency import LinearModel
-from hydrodae.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae import hdb
+from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory
+from hydrodae.linear import LinearModel, states
 from hydrodae.study.band import working_band
 
 PLANAR = tuple(f"{b}.{d}" for b in ("float", "spar") for d in ("surge", "heave", "pitch"))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, root
 
 import hydrodae
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.mooring.stiffness import mooring_stiffness
 
 Array = NDArray[np.float64]

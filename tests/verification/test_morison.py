@@ -9,7 +9,8 @@ import pytest
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.linear import LinearModel
 
 RHO, GRAVITY = 1000.0, 9.81
 
@@ -158,7 +159,7 @@ heading_deg = 0.0
 def test_pile_in_a_regular_wave(depth: float) -> None:
     """Drag and inertia integrated from the bed (or far below the waves) to the mean surface."""
     a, omega = 1.0, 2 * np.pi / 7.0
-    k = float(hydrodae.hdb.dispersion.wavenumber(omega, depth, GRAVITY))
+    k = float(wavenumber(omega, depth, GRAVITY))
     bottom = -20.0 if np.isfinite(depth) else -160.0
     text = PILE.format(
         depth=f"water_depth = {depth}" if np.isfinite(depth) else "",

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 import hydrodae
 from hydrodae import _core, hdb
 from hydrodae.errors import SolverError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 Complex = NDArray[np.complex128]
 

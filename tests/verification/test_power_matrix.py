@@ -10,7 +10,7 @@ import pytest
 import hydrodae
 from hydrodae import _core
 from hydrodae.errors import SolverError
-from hydrodae.post import mean_absorbed_power
+from hydrodae.results.post import mean_absorbed_power
 
 PERIODS = (6.0, 7.5, 9.0, 10.5, 12.0, 14.0)  # [s]
 HEIGHTS = (1.0, 2.0, 3.0, 4.0, 5.0)  # [m]

@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 import hydrodae
 from hydrodae import CaseError, SolverError
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, Plant, match
 
 OMEGA, AMPLITUDE, PERIOD = 1.2, 0.01, 0.1  # rad/s, m: of cases/sphere/control.toml; s

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray
 
-from hydrodae.cli import main
-from hydrodae.frequency import LinearModel, Response
+from hydrodae.commands.cli import main
+from hydrodae.linear import LinearModel, Response
 from hydrodae.study.rao import output as rao_output
 from hydrodae.study.rao.text import coordinates, short_name
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.frequency import LinearModel, without_memory
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.linear import LinearModel, without_memory
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import DatabaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.hdb.coordinates import expand
+from hydrodae.hdb.database.coordinates import expand
+from hydrodae.linear import LinearModel
 
 
 def test_no_equilibrium_names_the_coordinate_without_stiffness() -> None:
@@ -130,7 +130,7 @@ def test_a_wrong_spec_suggests_what_works(spec: str) -> None:
 def test_the_command_for_an_extra_is_one_that_pip_can_follow(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    from hydrodae import extras
+    from hydrodae.support import extras
 
     (tmp_path / "my sources").mkdir()
     sources = tmp_path / "my sources"
@@ -144,7 +144,7 @@ def test_the_command_for_an_extra_is_one_that_pip_can_follow(
 
 
 def test_the_source_folder_is_one_with_a_project(repository: Path) -> None:
-    from hydrodae.extras import source_folder
+    from hydrodae.support.extras import source_folder
 
     folder = source_folder()
     assert folder is None or (folder / "pyproject.toml").is_file()

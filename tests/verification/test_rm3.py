@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import hydrodae
-import hydrodae.memory
-from hydrodae.cli import main
-from hydrodae.frequency import LinearModel
+import hydrodae.hdb.memory
+from hydrodae.commands.cli import main
+from hydrodae.linear import LinearModel
 from hydrodae.study.sensitivity import sensitivity
 
 FLOAT, SLIDE = "bodies/float/heave", "joints/slide/displacement"
@@ -37,7 +37,7 @@ def prepare(reference: Path, output: Path, *options: str) -> None:
     source = str(reference / "hdb" / "rm3_wamit")
     arguments = ["--rho", "1000", "--keep", "float.heave,spar.heave", "--states", "16"]
     fit = ["--fit", "heave=float.heave,spar.heave", "--band", "0.1,1.6"]
-    with pytest.warns(hydrodae.memory.MemoryFitWarning):  # the tables are noisy
+    with pytest.warns(hydrodae.hdb.memory.MemoryFitWarning):  # the tables are noisy
         assert main(["hdb", "import", source, "-o", str(output), *arguments, *fit, *options]) == 0
 
 
@@ -47,7 +47,7 @@ def prepare_planar(reference: Path, output: Path) -> None:
     command = ["hdb", "import", source, "-o", str(output), "--rho", "1000", "--keep", planar]
     assert main(command) == 0
     fit = ["hdb", "fit", str(output), f"planar={planar}", "--states", "40", "--band", "0.1,1.6"]
-    with pytest.warns(hydrodae.memory.MemoryFitWarning):
+    with pytest.warns(hydrodae.hdb.memory.MemoryFitWarning):
         assert main(fit) == 0
 
 

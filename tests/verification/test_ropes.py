@@ -11,7 +11,7 @@ from tests.verification.blocks import METHODS, G, heaving, height_of, run_text
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 import hydrodae
-from hydrodae import sampling
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
+from hydrodae.results import sampling
 from hydrodae.starters import create
 
 Array = NDArray[np.float64]

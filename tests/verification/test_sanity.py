@@ -9,7 +9,7 @@ import pytest
 from tests.verification import attenuator
 
 import hydrodae
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.preparation.importing import import_database
 
 SPHERE = """
 [hydro]
@@ -175,7 +175,7 @@ def test_tonnes_for_kg_of_what_floats_freely(repository: Path) -> None:
 
 def test_an_imbalance_is_told_with_the_offset_that_it_means(repository: Path) -> None:
     """A tenth more mass: 25.7 kN over rho g A_w = 770 kN/m is 0.033 m deeper."""
-    from hydrodae.frequency import LinearModel
+    from hydrodae.linear import LinearModel
 
     case = sphere(repository, mass=1.1 * MASS)
     (text,) = (line for line in complaints(case) if "floats freely" in line)

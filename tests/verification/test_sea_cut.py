@@ -114,7 +114,7 @@ def test_a_regular_wave_outside_stays_an_error(folder: Path) -> None:
 
 
 def test_the_frequency_domain_takes_the_same_sea(folder: Path) -> None:
-    from hydrodae.frequency import LinearModel
+    from hydrodae.linear import LinearModel
 
     deviation, _ = LinearModel(case(folder, 5.0)).irregular()
     assert deviation["sea/elevation"] == pytest.approx(

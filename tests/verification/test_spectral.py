@@ -9,9 +9,9 @@ import pytest
 from tests.verification.drag_scenes import rm3_with_drag, spar
 
 import hydrodae
-from hydrodae.cli import main
+from hydrodae.commands.cli import main
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.study.spectral import Spectral
 from hydrodae.study.spectral.factors import gauss_drag, lorentz_drag
 

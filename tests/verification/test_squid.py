@@ -14,7 +14,7 @@ import pytest
 
 import hydrodae
 from hydrodae import hdb
-from hydrodae.frequency import LinearModel, without_memory
+from hydrodae.linear import LinearModel, without_memory
 from hydrodae.study.gradient.parameters import read_parameter, values_of
 
 RADIATION = {"hydro.radiation": "constant", "hydro.frequency": 3.0}

@@ -12,8 +12,8 @@ import pytest
 from tests.verification.wecccomp import Arm
 
 import hydrodae
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.sea import wave_components
+from hydrodae.linear import LinearModel
+from hydrodae.linear.sea import wave_components
 
 FLOAT = [f"bodies/float/{name}" for name in ("surge", "heave", "pitch")]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hydrodae
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 POINTS = {"base": (0.0, 0.0, -9.0), "flap1": (-12.5, 0.0, -5.5), "flap2": (12.5, 0.0, -5.5)}
 

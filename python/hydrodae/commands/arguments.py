@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, parse_assignment
+from hydrodae.case import Case
+from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError, DatabaseError
 
 Array = NDArray[np.float64]

@@ -16,9 +16,9 @@ DONE = 0
 
 def run_chart(arguments: argparse.Namespace) -> int:
     """Make a chart, print its table, write picture and JSON."""
-    from hydrodae.plot import save
-    from hydrodae.progress import ProgressLine
+    from hydrodae.pictures.plot import save
     from hydrodae.study.chart import chart, output
+    from hydrodae.support.progress import ProgressLine
 
     case = given_case(arguments)
     prefix = Path(arguments.output or Path(arguments.case).stem + "_chart")
@@ -41,8 +41,8 @@ def run_chart(arguments: argparse.Namespace) -> int:
 
 def run_recommend(arguments: argparse.Namespace) -> int:
     """Print the cheapest setting that meets an error, as lines of a case."""
-    from hydrodae.progress import ProgressLine
     from hydrodae.study.chart import Run, recommend
+    from hydrodae.support.progress import ProgressLine
 
     def told(run: Run) -> str:
         return (

@@ -30,7 +30,7 @@ def _print(shell: str, parser: argparse.ArgumentParser) -> int:
     try:
         import shtab
     except ImportError:
-        from hydrodae.extras import install_command
+        from hydrodae.support.extras import install_command
 
         raise HydrodaeError(
             f"completion needs the package shtab: {install_command('completion')}"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import rich.table
 
-    from hydrodae.tables import Key, Table
+    from hydrodae.case.tables import Key, Table
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print tables, types or keys; returns 0."""
     from rich.console import Console
 
-    from hydrodae.tables import find, tables
+    from hydrodae.case.tables import find, tables
 
     class Output(Console):
         def on_broken_pipe(self) -> None:

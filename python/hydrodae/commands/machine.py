@@ -13,10 +13,10 @@ import numpy as np
 if TYPE_CHECKING:
     import xarray
 
-    from hydrodae.frequency import Response
-    from hydrodae.frequency.modes import Mode
     from hydrodae.hdb.database import HydroDatabase
-    from hydrodae.hdb.findings import CheckReport
+    from hydrodae.hdb.database.findings import CheckReport
+    from hydrodae.linear import Response
+    from hydrodae.linear.modes import Mode
     from hydrodae.results import Results
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hydrodae import outputs
+from hydrodae.support import outputs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -49,8 +49,8 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"{name:44} {attributes.get('unit', '')}")
         return 0
 
-    from hydrodae import plot
-    from hydrodae.curve import parse_curve
+    from hydrodae.pictures import plot
+    from hydrodae.pictures.curve import parse_curve
 
     if arguments.compare:
         if len(arguments.channels) != 1:

@@ -6,12 +6,13 @@ import argparse
 
 import numpy as np
 
-from hydrodae.case import Case, parse_assignment
+from hydrodae.case import Case
+from hydrodae.case.case import parse_assignment
 from hydrodae.commands.arguments import heading_deg
 from hydrodae.commands.machine import add_json, of_rao, print_json
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel, without_memory
-from hydrodae.plot import save
+from hydrodae.linear import LinearModel, without_memory
+from hydrodae.pictures.plot import save
 from hydrodae.study.rao import output, rao, text
 
 

@@ -81,10 +81,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate a case and print the summary; returns 0."""
     from pathlib import Path
 
-    from hydrodae import simulate
     from hydrodae.commands.arguments import given_case
     from hydrodae.commands.machine import of_run, print_json
-    from hydrodae.progress import ProgressLine
+    from hydrodae.simulation import simulate
+    from hydrodae.support.progress import ProgressLine
 
     values: dict[str, object] = {}
     if arguments.method:

@@ -21,7 +21,7 @@ def run(_arguments: argparse.Namespace) -> int:
     """Print the schema; returns 0."""
     import json
 
-    from hydrodae.schema import case_schema
+    from hydrodae.case.schema import case_schema
 
     print(json.dumps(case_schema(), indent=2))
     return 0

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hydrodae.case import parse_assignment
+from hydrodae.case.case import parse_assignment
 from hydrodae.commands.machine import add_json, of_optimum, of_sweep, print_json
 from hydrodae.errors import CaseError
-from hydrodae.progress import ProgressLine
 from hydrodae.study.sweep import sweep, text
 from hydrodae.study.sweep.optimise import optimise
 from hydrodae.study.sweep.optimise import text as told
+from hydrodae.support.progress import ProgressLine
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

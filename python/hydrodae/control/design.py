@@ -18,7 +18,7 @@ import numpy as np
 
 from hydrodae.control.plant import Plant
 from hydrodae.errors import CaseError
-from hydrodae.frequency.sea import wave_components
+from hydrodae.linear.sea import wave_components
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def energy_frequency(waves: np.ndarray) -> float:
     Parameters
     ----------
     waves : (n, 4) array
-        As `hydrodae.frequency.sea.wave_components`.
+        As `hydrodae.linear.sea.wave_components`.
     """
     energy = waves[:, 2] ** 2
     return float(energy.sum() / (energy / waves[:, 0]).sum())

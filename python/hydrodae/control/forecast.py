@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.control.plant import Plant
-from hydrodae.frequency.sea import wave_components
+from hydrodae.linear.sea import wave_components
 
 Array = NDArray[np.float64]
 

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import expm
 
-from hydrodae.case import CaseLike
-from hydrodae.case_tables import case_tables
+from hydrodae.case.case import CaseLike
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.memory import ExponentialMemory
-from hydrodae.states import state_matrix
+from hydrodae.hdb.memory import ExponentialMemory
+from hydrodae.linear import LinearModel
+from hydrodae.linear.states import state_matrix
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -12,7 +12,7 @@ from scipy import sparse
 from hydrodae.control.forecast import Forecast
 from hydrodae.control.plant import Plant
 from hydrodae.errors import CaseError, SolverError
-from hydrodae.extras import install_command
+from hydrodae.support.extras import install_command
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hydrodae.case import Case, CaseLike, read_case, to_toml
-from hydrodae.case_tables import case_tables, tables_of
+from hydrodae.case import Case
+from hydrodae.case.case import CaseLike, read_case, to_toml
+from hydrodae.case.contents import case_tables, tables_of
 from hydrodae.errors import CaseError
 from hydrodae.fmu.description import Description, model_description, start_text, type_of
 from hydrodae.fmu.variables import Variable, choose, number_at

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as Xml
 
 from hydrodae.fmu.units import base_units
 from hydrodae.fmu.variables import Value, Variable
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 _CAN = {
     "canHandleVariableCommunicationStepSize": "true",

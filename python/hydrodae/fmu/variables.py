@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables, tables_of
+from hydrodae.case.contents import case_tables, tables_of
+from hydrodae.case.tables import Key, tables
 from hydrodae.errors import CaseError
 from hydrodae.simulation import Simulation
-from hydrodae.tables import Key, tables
 
 Value = float | int | bool | str
 

@@ -17,26 +17,25 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from hydrodae.hdb.checks.check import check
-from hydrodae.hdb.checks.compare import compare, grid_sensitivity
-from hydrodae.hdb.checks.examination import examination
-from hydrodae.hdb.checks.repair import repair
-from hydrodae.hdb.coordinates import expand
-from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.files import write
-from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.importing import import_database
-from hydrodae.hdb.prepare import fit, kernel
-from hydrodae.hdb.reading import read
-from hydrodae.hdb.tables import Body
-
 if TYPE_CHECKING:
+    from hydrodae.hdb.checks.check import check
+    from hydrodae.hdb.checks.compare import compare, grid_sensitivity
+    from hydrodae.hdb.checks.examination import examination
+    from hydrodae.hdb.checks.repair import repair
     from hydrodae.hdb.checks.report import draw_report
-    from hydrodae.hdb.computing import compute
-    from hydrodae.hdb.cylinder_array import Water, cylinders
+    from hydrodae.hdb.database import HydroDatabase
+    from hydrodae.hdb.database.coordinates import expand
+    from hydrodae.hdb.database.files import write
+    from hydrodae.hdb.database.findings import CheckReport, Finding
+    from hydrodae.hdb.database.tables import Body
+    from hydrodae.hdb.database.writers import export
+    from hydrodae.hdb.hull.hydrostatics import Hydrostatics
     from hydrodae.hdb.interaction.cylinder import Cylinder
-    from hydrodae.hdb.writers import export
+    from hydrodae.hdb.preparation.computing import compute
+    from hydrodae.hdb.preparation.cylinder_array import Water, cylinders
+    from hydrodae.hdb.preparation.fitting import fit, kernel
+    from hydrodae.hdb.preparation.importing import import_database
+    from hydrodae.hdb.readers.reading import read
 
 __all__ = [
     "Body",
@@ -63,14 +62,30 @@ __all__ = [
     "write",
 ]
 
-#: What is imported when it is first asked for, and where it is: pictures and xarray take long.
+#: Where each name is; it is imported when it is first asked for.
 _LATER = {
+    "Body": "database.tables",
+    "check": "checks.check",
+    "CheckReport": "database.findings",
+    "compare": "checks.compare",
+    "compute": "preparation.computing",
     "Cylinder": "interaction.cylinder",
-    "Water": "cylinder_array",
-    "compute": "computing",
-    "cylinders": "cylinder_array",
+    "cylinders": "preparation.cylinder_array",
     "draw_report": "checks.report",
-    "export": "writers",
+    "examination": "checks.examination",
+    "expand": "database.coordinates",
+    "export": "database.writers",
+    "Finding": "database.findings",
+    "fit": "preparation.fitting",
+    "grid_sensitivity": "checks.compare",
+    "HydroDatabase": "database",
+    "Hydrostatics": "hull.hydrostatics",
+    "import_database": "preparation.importing",
+    "kernel": "preparation.fitting",
+    "read": "readers.reading",
+    "repair": "checks.repair",
+    "Water": "preparation.cylinder_array",
+    "write": "database.files",
 }
 
 if not TYPE_CHECKING:

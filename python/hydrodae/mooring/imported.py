@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from hydrodae.case import to_toml
+from hydrodae.case.case import to_toml
 
 
 @dataclass

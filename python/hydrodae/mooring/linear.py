@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import CaseLike, to_toml
+from hydrodae.case.case import CaseLike, to_toml
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.mooring.stiffness import Hold, holds, mooring_stiffness, turn_by_vector
 
 Array = NDArray[np.float64]
@@ -115,7 +115,7 @@ def linearise(
 
 
 def _with(case: CaseLike, values: Mapping[str, Any]) -> CaseLike:
-    from hydrodae.frequency import without_memory
+    from hydrodae.linear import without_memory
 
     return without_memory(case, values)[0]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 
 Array = NDArray[np.float64]
 

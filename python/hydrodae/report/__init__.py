@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from hydrodae import outputs
 from hydrodae.results import Results, ResultsError
+from hydrodae.support import outputs
 
 __all__ = ["report"]
 

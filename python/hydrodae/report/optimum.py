@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from hydrodae.plot import STYLE
+from hydrodae.pictures.plot import STYLE
 from hydrodae.report import page
 from hydrodae.report.study import about
 

@@ -7,16 +7,17 @@ import platform
 from collections.abc import Iterator
 from pathlib import Path
 
-from hydrodae.case import Case, parse_assignment
-from hydrodae.case_tables import tables_of
+from hydrodae.case import Case
+from hydrodae.case.case import parse_assignment
+from hydrodae.case.contents import tables_of
 from hydrodae.errors import HydrodaeError
-from hydrodae.panels import overview
-from hydrodae.plot import plot_overview
+from hydrodae.pictures.panels import overview
+from hydrodae.pictures.plot import plot_overview
 from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs, sketch
 from hydrodae.results import Results
 from hydrodae.results.series import Statistics, statistics
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 
 def report_of_run(results: Results) -> str:

@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from hydrodae.plot import COLORS, STYLE
+from hydrodae.pictures.plot import COLORS, STYLE
 
 Tables = dict[str, Any]
 

@@ -13,14 +13,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from hydrodae.case_tables import tables_of
-from hydrodae.plot import STYLE
+from hydrodae.case.contents import tables_of
+from hydrodae.pictures.plot import STYLE
 from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
 from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.table import half_percent
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 #: What is drawn first, if it is there.
 _FIRST = ("mean_power_absorbed_mean", "mean_power_absorbed", "capture_width")

@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from hydrodae import outputs
 from hydrodae.results.recording import (
     ChannelError,
     Recording,
@@ -16,6 +15,7 @@ from hydrodae.results.recording import (
 )
 from hydrodae.results.series import Statistics, statistics
 from hydrodae.results.summary import summary
+from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     import xarray

@@ -15,9 +15,9 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.damaged import opened
 from hydrodae.errors import HydrodaeError
-from hydrodae.sampling import FEWEST, PERIODS
+from hydrodae.results.sampling import FEWEST, PERIODS
+from hydrodae.support.damaged import opened
 
 if TYPE_CHECKING:
     import xarray

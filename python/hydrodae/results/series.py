@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydrodae.sampling import INTERVALS, Interval
+from hydrodae.results.sampling import INTERVALS, Interval
 
 Array = NDArray[np.float64]
 
@@ -70,7 +70,7 @@ class Statistics:
     max: float
     waves: Waves  #: between upward crossings of the mean
     spectrum: Spectrum  #: of the deviation from the mean
-    #: 95 % intervals of mean, std, min, max in an irregular sea, see `hydrodae.sampling`
+    #: 95 % intervals of mean, std, min, max in an irregular sea, see `hydrodae.results.sampling`
     intervals: dict[str, Interval] = field(default_factory=dict)
     no_interval: str = ""  #: why an irregular sea gives none
 

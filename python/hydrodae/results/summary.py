@@ -6,7 +6,7 @@ import numpy as np
 
 from hydrodae.results.recording import Recording, ResultsError
 from hydrodae.results.series import intervals_of
-from hydrodae.units import displayed
+from hydrodae.support.units import displayed
 
 
 def summary(results: Recording) -> str:

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.case import Case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError, HydrodaeError
-from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.linear import LinearModel
 
 
 def working_band(case: CaseLike, database: HydroDatabase) -> tuple[float, float]:

@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from hydrodae.case import CaseLike, read_case
-from hydrodae.drives import Drive
-from hydrodae.laws import Force
+from hydrodae.case.callbacks.drives import Drive
+from hydrodae.case.callbacks.laws import Force
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.study.grouped import grouped
 
 

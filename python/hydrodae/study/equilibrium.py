@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import CaseLike, read_case
-from hydrodae.frequency import LinearModel, Mode
+from hydrodae.case.case import CaseLike, read_case
+from hydrodae.linear import LinearModel, Mode
 from hydrodae.mooring.stiffness import Hold, MooringStiffness, holds, mooring_stiffness
 
 Array = NDArray[np.float64]

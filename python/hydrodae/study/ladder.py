@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, CaseLike, read_case
-from hydrodae.case_tables import case_tables
+from hydrodae.case import Case
+from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, SolverError
-from hydrodae.frequency import LinearModel
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.memory import ExponentialMemory
-from hydrodae.simulate import run
+from hydrodae.hdb.memory import ExponentialMemory
+from hydrodae.linear import LinearModel
+from hydrodae.simulation import run
 from hydrodae.study.motion_rungs import MotionRung, motion_rungs
 from hydrodae.study.motion_rungs import lines as motion_lines
 from hydrodae.study.reference import Solution, default_channels, pick

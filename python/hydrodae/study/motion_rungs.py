@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.sea import wave_components
-from hydrodae.sampling import NONE, PERIODS, Interval, mean_interval, std_interval
+from hydrodae.linear import LinearModel
+from hydrodae.linear.sea import wave_components
+from hydrodae.results.sampling import NONE, PERIODS, Interval, mean_interval, std_interval
 from hydrodae.study.reference import Solution
 from hydrodae.study.spectral import spectral
 
@@ -42,8 +42,9 @@ class MotionRung:
         below the run that of the sea state, of the run that of its record after the ramp and a
         quarter of the rest.
     interval : (float, float)
-        95 % interval of the deviation of the sea state, by the run (`hydrodae.sampling`); nan
-        without an irregular sea, of too short a record, and of the other rungs, which are exact.
+        95 % interval of the deviation of the sea state, by the run (`hydrodae.results.sampling`);
+        nan without an irregular sea, of too short a record, and of the other rungs, which are
+        exact.
     error : float
         Relative difference of the deviation from the run (above it: positive) over the same record:
         the same waves with the same phases, the same time [-].
@@ -193,7 +194,7 @@ def record_of(phasors: Complex, waves: Array, time: Array) -> Array:
 
 
 def _ramp(case: Case) -> float:
-    from hydrodae.case_tables import case_tables
+    from hydrodae.case.contents import case_tables
 
     return float(case_tables(case).get("sea", {}).get("ramp", 0.0))
 

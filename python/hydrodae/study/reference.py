@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.curve import read_curve
 from hydrodae.errors import CaseError
-from hydrodae.panels import Line, select
+from hydrodae.pictures.curve import read_curve
+from hydrodae.pictures.panels import Line, select
 from hydrodae.results import Results
 
 #: Motion below this part of the largest coordinate is rounding.

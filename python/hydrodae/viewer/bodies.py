@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.coordinates import check_body
-from hydrodae.hdb.files import read as read_database
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.tables import Body as HydroBody
+from hydrodae.hdb.database.coordinates import check_body
+from hydrodae.hdb.database.files import read as read_database
+from hydrodae.hdb.database.tables import Body as HydroBody
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.viewer import shapes
 from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.source import Source

@@ -12,9 +12,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from hydrodae import outputs
 from hydrodae.errors import HydrodaeError
-from hydrodae.extras import install_command
+from hydrodae.support import outputs
+from hydrodae.support.extras import install_command
 
 #: Environment variable with the browser to take.
 BROWSER = "HYDRODAE_BROWSER"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.viewer.stage import Body, Stage
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydrodae import outputs
-from hydrodae.version import version
+from hydrodae.support import outputs
+from hydrodae.support.version import version
 from hydrodae.viewer.framing import Frame
 from hydrodae.viewer.stage import Stage
 

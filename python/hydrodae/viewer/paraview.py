@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.outputs import claim_folder
+from hydrodae.support.outputs import claim_folder
 from hydrodae.viewer.framing import Frame
 from hydrodae.viewer.stage import Sea, Stage
 

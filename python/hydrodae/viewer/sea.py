@@ -8,7 +8,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Line, Sea
 

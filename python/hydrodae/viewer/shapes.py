@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.hdb.bem.meshes import read_mesh
-from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.database.coordinates import nearest
+from hydrodae.hdb.hull.meshes import read_mesh
 
 Array = NDArray[np.float64]
 #: Sides of what is round.

@@ -11,8 +11,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, CaseLike, read_case
-from hydrodae.case_tables import overrides_of
+from hydrodae.case import Case
+from hydrodae.case.case import CaseLike, read_case
+from hydrodae.case.contents import overrides_of
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.simulation import Simulation

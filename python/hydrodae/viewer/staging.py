@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.viewer.bodies import make_bodies
 from hydrodae.viewer.curves import make_curves
 from hydrodae.viewer.lines import make_lines

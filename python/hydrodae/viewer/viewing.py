@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydrodae.case import CaseLike
+from hydrodae.case.case import CaseLike
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
 from hydrodae.viewer import browser

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from hydrodae import outputs
 from hydrodae.commands.hdb import (
     array,
     compare,
@@ -16,6 +15,7 @@ from hydrodae.commands.hdb import (
     sensitivity,
     show,
 )
+from hydrodae.support import outputs
 
 _ACTIONS = {
     "import": importing.run,

@@ -9,10 +9,10 @@ import numpy as np
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers
 from hydrodae.errors import CaseError
-from hydrodae.hdb.coordinates import body_name
-from hydrodae.hdb.cylinder_array import Water, cylinders
+from hydrodae.hdb.database.coordinates import body_name
 from hydrodae.hdb.interaction.cylinder import Cylinder
-from hydrodae.progress import ProgressLine
+from hydrodae.hdb.preparation.cylinder_array import Water, cylinders
+from hydrodae.support.progress import ProgressLine
 
 DONE, BAD_DATA = 0, 2
 

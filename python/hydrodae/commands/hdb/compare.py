@@ -7,7 +7,7 @@ import argparse
 import numpy as np
 
 from hydrodae.hdb.checks.compare import compare, grid_sensitivity, other_water
-from hydrodae.hdb.reading import read
+from hydrodae.hdb.readers.reading import read
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -15,12 +15,12 @@ from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import run as bem
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
-from hydrodae.hdb.bem.meshes import mirrored, read_mesh
 from hydrodae.hdb.bem.revolution import read_profile, revolution
-from hydrodae.hdb.computing import hydrostatics_of
-from hydrodae.hdb.coordinates import body_name, check_body
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.database.coordinates import body_name, check_body
+from hydrodae.hdb.hull.meshes import mirrored, read_mesh
+from hydrodae.hdb.preparation.computing import hydrostatics_of
+from hydrodae.hdb.preparation.importing import import_database
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 DONE, BAD_DATA = 0, 2
 #: Wall time between two lines of progress [s].

@@ -14,8 +14,8 @@ from hydrodae.hdb.checks.check import check
 from hydrodae.hdb.checks.examination import examination
 from hydrodae.hdb.checks.repair import MOST_REPLACED, repair
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.database.findings import CheckReport
+from hydrodae.hdb.preparation.importing import import_database
 
 DONE, BAD_DATA = 0, 2
 
@@ -99,8 +99,8 @@ def run(args: argparse.Namespace) -> int:
         database.write(args.output)
         print(f"\nwritten: {args.output}")
     if not args.no_report:
-        from hydrodae import plot
         from hydrodae.hdb.checks.report import draw_report
+        from hydrodae.pictures import plot
 
         name = Path(args.database).resolve()
         target = args.report or f"{name.stem if name.is_file() else name.name}_doctor.png"

@@ -17,9 +17,9 @@ from hydrodae.commands.hdb.options import (
 )
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.memory.verdict import CHECKS
+from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.formats import expected_files
-from hydrodae.memory.verdict import CHECKS
 from hydrodae.study.band import working_band
 
 DONE, BAD_DATA = 0, 2

@@ -10,9 +10,8 @@ from hydrodae.commands.hdb.options import (
     with_fits,
     with_kernel,
 )
-from hydrodae.hdb import files
-from hydrodae.hdb.database import HydroDatabase
-from hydrodae.memory.verdict import CHECKS
+from hydrodae.hdb.database import HydroDatabase, files
+from hydrodae.hdb.memory.verdict import CHECKS
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

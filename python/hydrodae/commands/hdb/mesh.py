@@ -10,10 +10,10 @@ import numpy as np
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem import shapes
 from hydrodae.hdb.bem.cutting import immersed
-from hydrodae.hdb.bem.meshes import read_mesh
-from hydrodae.hdb.coordinates import check_body
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.files import is_single
+from hydrodae.hdb.database.coordinates import check_body
+from hydrodae.hdb.database.files import is_single
+from hydrodae.hdb.hull.meshes import read_mesh
 
 #: Panels along the longest side of a simple shape: fine enough for a picture.
 PANELS = 24

@@ -7,13 +7,13 @@ from typing import TypedDict
 
 from hydrodae.commands.arguments import parse_band
 from hydrodae.errors import CaseError
-from hydrodae.hdb import prepare
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.radiation_kernel import LIMIT
-from hydrodae.hdb.summary import fit_summary, kernel_summary
-from hydrodae.memory.verdict import CHECKS
-from hydrodae.progress import StageLine
+from hydrodae.hdb.database.radiation_kernel import LIMIT
+from hydrodae.hdb.database.summary import fit_summary, kernel_summary
+from hydrodae.hdb.memory.verdict import CHECKS
+from hydrodae.hdb.preparation import fitting as prepare
 from hydrodae.study.band import working_band
+from hydrodae.support.progress import StageLine
 
 
 def add_water_options(parser: argparse.ArgumentParser) -> None:

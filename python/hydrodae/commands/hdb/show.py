@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hydrodae import outputs
 from hydrodae.commands.hdb.options import add_water_options, water_of
 from hydrodae.commands.machine import add_json, of_database, print_json
 from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.check import check
-from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.importing import import_database
+from hydrodae.hdb.database.findings import CheckReport
+from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.kinds import kind
-from hydrodae.hdb.reading import read
+from hydrodae.hdb.readers.reading import read
+from hydrodae.support import outputs
 
 
 def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -53,7 +53,7 @@ def run_show(args: argparse.Namespace) -> int:
 
 def run_export(args: argparse.Namespace) -> int:
     """Write a database for other programs; returns 0."""
-    from hydrodae.hdb.writers import WRITERS, export
+    from hydrodae.hdb.database.writers import WRITERS, export
 
     if Path(args.output).suffix.lower() not in WRITERS:
         raise CaseError(f"-o {args.output!r}: expected a name that ends in .h5 (BEMIO) or .nc")

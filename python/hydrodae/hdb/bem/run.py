@@ -19,12 +19,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.extras import install_command
 from hydrodae.hdb.bem.green import solve
 from hydrodae.hdb.bem.lids import lid
 from hydrodae.hdb.bem.overlap import overlapping
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.shallow import SHALLOW
+from hydrodae.hdb.database.shallow import SHALLOW
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.extras import install_command
 
 Array = NDArray[np.float64]
 TABLES = ("added_mass", "radiation_damping", "diffraction_force", "Froude_Krylov_force")
@@ -40,7 +40,7 @@ class WettedBody:
     ----------
     name : str
     panels : (n, 4, 3) array
-        Wetted surface (`hydrodae.hdb.shapes`), or more: what is above z = 0 is cut off [m].
+        Wetted surface (`hydrodae.hdb.bem.shapes`), or more: what is above z = 0 is cut off [m].
     point : (3,) array
         Reference point of rotations and moments [m].
     """

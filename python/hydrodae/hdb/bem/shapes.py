@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.bem.revolution import check_top, cone, count, positive, revolved, ring
-from hydrodae.hdb.coordinates import nearest
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.coordinates import nearest
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 
 Array = NDArray[np.float64]
 #: No hull is longer [m].

@@ -15,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.scales import scales
 
 Array = NDArray[np.float64]
 Band = tuple[float, float]
@@ -69,7 +69,7 @@ def inside(omega: Array, band: Band) -> NDArray[np.bool_]:
 def damping_sizes(database: HydroDatabase) -> Array:
     """Size of the damping of each coordinate: its peak, at least 2 % of w A_inf; (nw, n).
 
-    Zero where B is negligible among its kind (`hydrodae.hdb.scales`).
+    Zero where B is negligible among its kind (`hydrodae.hdb.database.scales`).
     """
     peak = scales(database) ** 2
     inertia = np.outer(database.omega, np.abs(np.diag(database.added_mass_inf)))

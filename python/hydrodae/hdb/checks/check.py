@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae import irf
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
@@ -27,9 +26,10 @@ from hydrodae.hdb.checks.sizes import size_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.checks.units import unit_findings
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import CheckReport, Finding
-from hydrodae.hdb.kernels import diagonal_kernels, envelope_length, resolved_time
-from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time
+from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.relations import irf
 
 
 def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:

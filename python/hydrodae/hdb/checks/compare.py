@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hydrodae import infinity, irf
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.kernels import diagonal_kernels
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.kernels import diagonal_kernels
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations import infinity, irf
 
 Array = NDArray[np.float64]
 

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, inside
 from hydrodae.hdb.checks.irregular import suspect_rows
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import group_velocity, wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 
 Array = NDArray[np.float64]
 #: Fewest frequencies with enough damping that a verdict rests on.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import textwrap
 
-from hydrodae.hdb.findings import SEVERITIES, CheckReport
+from hydrodae.hdb.database.findings import SEVERITIES, CheckReport
 
 TITLES = {
     "error": "ERRORS: a simulation with this database will be wrong",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 
 
 def fit_findings(database: HydroDatabase) -> list[Finding]:

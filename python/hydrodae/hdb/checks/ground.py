@@ -12,10 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.tables import Body
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.tables import Body
 
 #: A hull within this share of the depth from the ground touches it.
 TOUCHING = 1e-4

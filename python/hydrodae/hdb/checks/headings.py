@@ -1,7 +1,7 @@
 """Forces between the headings of a database: how far interpolation may be off.
 
 The table tests itself: every other heading is left out, and the forces there are interpolated from
-the rest, by the rule of runs (cpp/hydrodae/hydro/headings.h).
+the rest, by the rule of runs.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import _core
 from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.relations.headings import Headings
 
 Array = NDArray[np.float64]
 #: Steps above which headings that cannot test themselves are warned of [rad].
@@ -33,7 +33,7 @@ def heading_findings(database: HydroDatabase, band: Band) -> list[Finding]:
         text = f"one heading only, {np.degrees(heading[0]):.4g} deg"
         return [Finding("info", "headings", text)]
     order = np.argsort(heading)
-    rule = _core.Headings(heading[order])
+    rule = Headings(heading[order])
     step = np.diff(heading[order])
     widest = int(step.argmax())
     first, second = np.degrees(heading[order][[widest, widest + 1]])

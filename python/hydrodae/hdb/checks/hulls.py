@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.hull.mesh_statics import mesh_statics
 
 Array = NDArray[np.float64]
 #: Flat panels enclose some per cent less than a curved hull.

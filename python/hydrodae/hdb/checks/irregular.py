@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, median_filter
 
-from hydrodae import irf
 from hydrodae.hdb.checks.band import Band, damping_sizes, inside
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.relations import irf
 
 Array = NDArray[np.float64]
 #: A spike is more than this many robust standard deviations of the residual ...
@@ -35,7 +35,7 @@ def ogilvie_residual(database: HydroDatabase) -> Array:
     Returns
     -------
     (nw, m) array
-        For the m coordinates that radiate (`hydrodae.hdb.scales`) [-].
+        For the m coordinates that radiate (`hydrodae.hdb.database.scales`) [-].
     """
     used = np.flatnonzero(scales(database) > 0.0)
     a = database.added_mass[:, used, used]

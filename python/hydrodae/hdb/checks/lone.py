@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.noise import cubic_miss, last_digit
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations.noise import cubic_miss, last_digit
 
 Array = NDArray[np.float64]
 #: A value is off by this share of H around it, and by so many times what its neighbours are.

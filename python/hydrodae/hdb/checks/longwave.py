@@ -15,12 +15,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydrodae.hdb.checks.band import Band
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.noise import scatter
-from hydrodae.hdb.tables import Body
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.tables import Body
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.noise import scatter
 
 #: Cosine of three degrees: so near an axis added mass turns no force by 60 degrees.
 NEAR_AXIS = float(np.cos(np.radians(3.0)))

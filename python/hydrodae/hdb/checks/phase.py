@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 
 def without_phase(database: HydroDatabase) -> NDArray[np.complex128]:

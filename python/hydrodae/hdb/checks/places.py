@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import j1
 
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 #: Longest k times the larger body, and k times the distance up to which the waves meet in order.

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hydrodae import infinity, irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.irregular import bands, suspect_rows
-from hydrodae.hdb.coordinates import nearest
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.coordinates import nearest
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations import infinity, irf
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 #: Share of the frequencies that may be replaced, unless another one is given.

@@ -10,16 +10,16 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from hydrodae import irf
 from hydrodae.hdb.checks.energy import energy_identity
 from hydrodae.hdb.checks.irregular import bands, ogilvie_residual, suspect_rows
-from hydrodae.hdb.coordinates import DOFS, split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import CheckReport
-from hydrodae.hdb.kernels import diagonal_kernels, envelope_length
-from hydrodae.hdb.scales import scaled_damping_eigenvalues, scales
-from hydrodae.plot import COLORS, STYLE
+from hydrodae.hdb.database.coordinates import DOFS, split_label
+from hydrodae.hdb.database.findings import CheckReport
+from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length
+from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
+from hydrodae.hdb.relations import irf
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.support.style import COLORS, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

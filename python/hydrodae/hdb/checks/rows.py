@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 #: Added mass of a translation over the largest one of its body that is a row left out.

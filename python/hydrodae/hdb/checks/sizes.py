@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.checks.ground import standing
 from hydrodae.hdb.checks.one_heading import clean_rows, in_a_tank
-from hydrodae.hdb.coordinates import split_label
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.dispersion import group_velocity, wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.coordinates import split_label
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 
 Array = NDArray[np.float64]
 #: Fewest frequencies, and longest k times a length, of a verdict on forces and on damping.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hydrodae.hdb.checks.band import Band, inside
 from hydrodae.hdb.checks.phase import without_phase
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 
 Array = NDArray[np.float64]
 #: A spike is off its neighbours' line by this share of the force ...

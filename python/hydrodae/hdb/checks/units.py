@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.causality import causal_line, causal_slope
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.scales import scales
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.scales import scales
+from hydrodae.hdb.relations.causality import causal_line, causal_slope
 
 Array = NDArray[np.float64]
 #: Correlation that a line must have, and factor that is no longer noise.

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.aqwa_common import (
     aqwa_data,
     structure_names,
@@ -27,6 +26,7 @@ from hydrodae.hdb.readers.aqwa_listing import read_listing
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
 
 Array = NDArray[np.float64]

@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.aqwa_common import (
     aqwa_data,
     structure_names,
@@ -32,6 +31,7 @@ from hydrodae.hdb.readers.aqwa_pages import (
 )
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.text import NUMBER, number, read_text
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

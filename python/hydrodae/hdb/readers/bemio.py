@@ -14,12 +14,12 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+from hydrodae.support.damaged import opened
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -14,13 +14,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.dispersion import frequency
-from hydrodae.hdb.extra import kept_tables
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.extra import kept_tables
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.shallow import shallow_findings
 from hydrodae.hdb.readers.capytaine_statics import attach_bodies, text
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.shallow import shallow_findings
+from hydrodae.hdb.relations.dispersion import frequency
 
 Array = NDArray[np.float64]
 FREQUENCY_AXES = ("omega", "period", "freq", "wavenumber", "wavelength")

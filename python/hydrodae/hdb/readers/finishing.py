@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae import infinity
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import bodies_of
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import bodies_of
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.database.tables import Body
 from hydrodae.hdb.readers.source import Array, Complex, SourceData, sha256
-from hydrodae.hdb.tables import Body
-from hydrodae.version import version
+from hydrodae.hdb.relations import infinity
+from hydrodae.support.version import version
 
 #: Halves of A or B further apart, over the diagonal, are no noise: a number is garbled.
 GARBLED = 10.0

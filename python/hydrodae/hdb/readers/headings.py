@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.all_round import TURN, closing_finding, goes_round
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.all_round import TURN, closing_finding, goes_round
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
 
 FORCES = ("froude_krylov", "diffraction", "excitation")
@@ -23,7 +23,7 @@ def settle_headings(data: SourceData) -> None:
     ----------
     data : SourceData
         Changed in place: heading, forces, findings. 0 and 360 degrees both stay, and headings that
-        go all round get the first again as the last (`hydrodae.hdb.all_round`).
+        go all round get the first again as the last (`hydrodae.hdb.database.all_round`).
 
     Raises
     ------

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import h5py
 
-from hydrodae.damaged import opened
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb import files
-from hydrodae.hdb.coordinates import nearest
+from hydrodae.hdb.database import files
+from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
 from hydrodae.hdb.readers.nemoh_hydrostatics import find
+from hydrodae.support.damaged import opened
 
 
 def resolve(source: str | Path) -> tuple[Path, str]:

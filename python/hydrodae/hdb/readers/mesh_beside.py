@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.bem.meshes import read_mesh
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.hull.mesh_statics import mesh_statics
+from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.nemoh_hydrostatics import mesh_file
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 #: What flat panels, and the slope of the waves, may leave of the long-wave force.
 ALIKE = 0.1

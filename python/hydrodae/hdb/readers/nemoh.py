@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers import nemoh_hydrostatics as nh
 from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.readers.time_sense import correct_time_sense
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

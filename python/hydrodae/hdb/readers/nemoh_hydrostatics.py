@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.bem.meshes import read_mesh
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
-from hydrodae.hdb.mesh_statics import mesh_statics
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.hull.mesh_statics import mesh_statics
+from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.text import finite, read_lines
 
 Array = NDArray[np.float64]

@@ -15,16 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.readers.text import line_of, read_text
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

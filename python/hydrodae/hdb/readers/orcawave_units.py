@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.text import read_text
 

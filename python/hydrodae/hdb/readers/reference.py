@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.nemoh_hydrostatics import FileHydrostatics
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 #: Largest k times size of a body for which the long-wave moment is taken.

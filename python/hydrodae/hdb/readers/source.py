@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.extra import SourceTable
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.extra import SourceTable
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

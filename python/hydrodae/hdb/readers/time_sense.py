@@ -14,11 +14,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.hdb.coordinates import bodies_of
-from hydrodae.hdb.dispersion import wavenumber
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.noise import scatter
+from hydrodae.hdb.database.coordinates import bodies_of
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.relations.dispersion import wavenumber
+from hydrodae.hdb.relations.noise import scatter
 
 Complex = NDArray[np.complex128]
 #: So many of the lowest frequencies are looked at.

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS, unique_names
-from hydrodae.hdb.findings import Finding
-from hydrodae.hdb.hydrostatics import Hydrostatics
+from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics

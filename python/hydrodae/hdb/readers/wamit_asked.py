@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.coordinates import DOFS
-from hydrodae.hdb.dispersion import frequency
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.coordinates import DOFS
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.text import NUMBER, number
 from hydrodae.hdb.readers.wamit_tables import to_omega
+from hydrodae.hdb.relations.dispersion import frequency
 
 Array = NDArray[np.float64]
 #: What the first column of the tables may hold, by IPEROUT; IPERIN likewise.

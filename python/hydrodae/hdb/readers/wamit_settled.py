@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import infinity
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.causality import causal_line
-from hydrodae.hdb.dispersion import group_velocity, wavenumber
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.source import LARGEST, SEA_WATER, USUAL_GRAVITY, Water
 from hydrodae.hdb.readers.wamit_asked import COLUMNS
 from hydrodae.hdb.readers.wamit_control import Control
 from hydrodae.hdb.readers.wamit_tables import to_omega
+from hydrodae.hdb.relations import infinity
+from hydrodae.hdb.relations.causality import causal_line
+from hydrodae.hdb.relations.dispersion import group_velocity, wavenumber
 
 Array = NDArray[np.float64]
 #: Correlation of A with what B implies that is no chance.
@@ -96,9 +96,9 @@ def first_column(
     """IPEROUT: what the first column of the tables holds.
 
     Without a `.cfg` that says it, the diagonal entries of A and B tell, which belong to each other
-    (`hydrodae.hdb.causality`) by one of the four meanings only. Where the tables are too short for
-    that, or end before B falls, damping and force of heave do, which Haskind's relation joins at
-    every frequency. Else the tables hold periods, as WAMIT writes unless told otherwise.
+    (`hydrodae.hdb.relations.causality`) by one of the four meanings only. Where the tables are too
+    short for that, or end before B falls, damping and force of heave do, which Haskind's relation
+    joins at every frequency. Else the tables hold periods, as WAMIT writes unless told otherwise.
 
     Parameters
     ----------

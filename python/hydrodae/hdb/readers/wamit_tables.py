@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.dispersion import frequency
-from hydrodae.hdb.findings import Finding
+from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.text import number, read_lines
+from hydrodae.hdb.relations.dispersion import frequency
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

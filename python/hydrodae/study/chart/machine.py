@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 
 def machine() -> dict[str, Any]:

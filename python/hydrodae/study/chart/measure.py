@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from hydrodae.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
-from hydrodae.simulate import Progress
+from hydrodae.simulation.simulate import Progress
 from hydrodae.study.chart import methods as methods_of
 from hydrodae.study.chart.machine import machine
 from hydrodae.study.chart.methods import METHODS, TOLERANCES, Method

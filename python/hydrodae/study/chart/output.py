@@ -13,9 +13,9 @@ import matplotlib
 from matplotlib.figure import Figure
 from rich.table import Table
 
-from hydrodae import outputs
-from hydrodae.plot import COLORS, STYLE
+from hydrodae.pictures.plot import COLORS, STYLE
 from hydrodae.study.chart.records import Chart, Run
+from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,7 +12,8 @@ from typing import Any
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, RunInterrupted, SolverError
 from hydrodae.results import Results
-from hydrodae.simulate import Progress, run
+from hydrodae.simulation import run
+from hydrodae.simulation.simulate import Progress
 from hydrodae.study.chart.methods import Method, parse_method
 from hydrodae.study.reference import Solution, default_channels, error, pick, read_file
 

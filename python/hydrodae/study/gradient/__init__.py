@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, CaseLike, read_case
+from hydrodae.case import Case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
-from hydrodae.frequency import without_memory
+from hydrodae.linear import without_memory
 from hydrodae.study.gradient.controllers import require_smooth
 from hydrodae.study.gradient.linear import linear_gradient
 from hydrodae.study.gradient.parameters import Parameter, read_parameter, values_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.study.gradient.parameters import Parameter
 

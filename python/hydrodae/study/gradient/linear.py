@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.system import SeaSystem, Solved, sea_system
+from hydrodae.linear import LinearModel
+from hydrodae.linear.system import SeaSystem, Solved, sea_system
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import Parameter
 from hydrodae.study.gradient.quantity import Found, Quantity

@@ -10,7 +10,7 @@ from typing import Any
 
 from hydrodae import _core
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 
 _INDEX = re.compile(r"(?P<key>.+?)\[(?P<index>\d+)\]")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import Measure
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from hydrodae import _core
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
-from hydrodae.simulate import run
+from hydrodae.simulation import run
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import Parameter
 from hydrodae.study.gradient.quantity import POWER, Found, Quantity

@@ -23,9 +23,9 @@ from scipy.sparse.linalg import LinearOperator, gmres
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.sea import wave_components
-from hydrodae.frequency.system import SeaSystem, Solved, sea_system
+from hydrodae.linear import LinearModel
+from hydrodae.linear.sea import wave_components
+from hydrodae.linear.system import SeaSystem, Solved, sea_system
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.linear import make_form
 from hydrodae.study.gradient.parameters import Parameter

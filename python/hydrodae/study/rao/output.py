@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import outputs
 from hydrodae.errors import CaseError
-from hydrodae.frequency import Response
+from hydrodae.linear import Response
 from hydrodae.study.rao.text import NOTHING, coordinates, short_name
-from hydrodae.units import displayed
+from hydrodae.support import outputs
+from hydrodae.support.units import displayed
 
 if TYPE_CHECKING:
     import xarray
@@ -129,7 +129,7 @@ def draw(response: Response, title: str, names: Sequence[str] | None = None) -> 
     import matplotlib
     from matplotlib.figure import Figure
 
-    from hydrodae.plot import STYLE, outside_legend
+    from hydrodae.pictures.plot import STYLE, outside_legend
 
     panels: dict[str, list[tuple[str, Array]]] = {}
     units = dict(zip(response.names, response.units, strict=True))

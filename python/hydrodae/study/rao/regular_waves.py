@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae import processes
-from hydrodae.case import Case, parse_assignment
+from hydrodae.case import Case
+from hydrodae.case.case import parse_assignment
 from hydrodae.errors import CaseError
-from hydrodae.simulate import run
+from hydrodae.simulation import run
+from hydrodae.support import processes
 
 Array = NDArray[np.float64]
 

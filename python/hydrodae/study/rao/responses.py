@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel, Mode, Response
+from hydrodae.linear import LinearModel, Mode, Response
 from hydrodae.study.rao import output, text
 from hydrodae.study.rao.regular_waves import Harmonic, time_domain
 
@@ -59,7 +59,7 @@ class Rao:
         return self.model.notes
 
     def in_sea(self) -> tuple[dict[str, float], dict[str, float]]:
-        """Response in the sea of the case; see `hydrodae.frequency.LinearModel.irregular`.
+        """Response in the sea of the case; see `hydrodae.linear.LinearModel.irregular`.
 
         Returns
         -------

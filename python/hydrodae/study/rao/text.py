@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.frequency import Mode, Response
+from hydrodae.linear import Mode, Response
 from hydrodae.study.rao.regular_waves import Harmonic
-from hydrodae.units import displayed
+from hydrodae.support.units import displayed
 
 Array = NDArray[np.float64]
 

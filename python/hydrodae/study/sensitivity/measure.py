@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError, DatabaseError
-from hydrodae.frequency import LinearModel
+from hydrodae.linear import LinearModel
 from hydrodae.study.sensitivity.variants import variants
 
 Array = NDArray[np.float64]

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from hydrodae import outputs
 from hydrodae.study.sensitivity.measure import Row
+from hydrodae.support import outputs
 
 
 def table(title: str, rows: Sequence[Row]) -> str:

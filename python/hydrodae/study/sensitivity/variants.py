@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hydrodae import irf
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.kernels import memory_length
+from hydrodae.hdb.database.kernels import memory_length
+from hydrodae.hdb.relations import irf
 
 if TYPE_CHECKING:
-    from hydrodae.memory import ExponentialMemory
+    from hydrodae.hdb.memory import ExponentialMemory
 
 Array = NDArray[np.float64]
 STEPS, RANGES, LENGTHS = (2, 4), (0.75, 0.5), (1.0, 0.5, 0.25, 0.125)
@@ -67,7 +67,7 @@ def variants(
     database: HydroDatabase, moving: Sequence[str], states: Sequence[int], band: Array | None
 ) -> Iterator[tuple[str, HydroDatabase]]:
     """Yield name and database of each variant; `moving` are the coordinates that move."""
-    from hydrodae.memory import MemoryFitWarning, fit_memory
+    from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
 
     yield "base: tables as stored", database
     for step in STEPS:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.bodies import Bodies
+from hydrodae.linear import LinearModel
+from hydrodae.linear.bodies import Bodies
 from hydrodae.study.spectral.factors import Law
 from hydrodae.study.spectral.laws import law_of
 from hydrodae.study.spectral.loads import AlongJoint, Load, by_components, drag

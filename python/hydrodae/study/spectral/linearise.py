@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae.case_tables import case_tables
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.bodies import Bodies
+from hydrodae.case.contents import case_tables
+from hydrodae.linear import LinearModel
+from hydrodae.linear.bodies import Bodies
 from hydrodae.study.spectral.collect import joint_loads, morison_loads, viscous_loads
 from hydrodae.study.spectral.loads import AlongJoint, Load
 from hydrodae.study.spectral.solve import Equivalents

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import CaseLike, read_case
+from hydrodae.case.case import CaseLike, read_case
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel, Response
-from hydrodae.frequency.sea import in_waves, wave_components
+from hydrodae.linear import LinearModel, Response
+from hydrodae.linear.sea import in_waves, wave_components
 from hydrodae.study.spectral import text
 from hydrodae.study.spectral.linearise import (
     all_notes,

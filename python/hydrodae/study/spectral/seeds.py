@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae import processes
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
-from hydrodae.simulate import run
-from hydrodae.units import displayed
+from hydrodae.simulation import run
+from hydrodae.support import processes
+from hydrodae.support.units import displayed
 
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel
-from hydrodae.frequency.kinematics import water_motion
+from hydrodae.linear import LinearModel
+from hydrodae.linear.kinematics import water_motion
 from hydrodae.study.spectral.fixed_point import Mixing
 from hydrodae.study.spectral.loads import Load, Motion
 
@@ -55,7 +55,7 @@ def equivalents(
         Without the slopes at rest of these loads.
     loads : list of Load
     waves : (nw, 4) array
-        As `hydrodae.frequency.sea.wave_components`.
+        As `hydrodae.linear.sea.wave_components`.
     tolerance : float
         Change of B that ends the iteration, relative to the largest entry of each load.
     most : int

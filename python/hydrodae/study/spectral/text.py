@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydrodae.study.rao.text import NOTHING, short_name
-from hydrodae.units import displayed
+from hydrodae.support.units import displayed
 
 
 def table(found: Any) -> str:

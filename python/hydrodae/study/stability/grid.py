@@ -14,7 +14,7 @@ from typing import Any
 from hydrodae.case import Case
 from hydrodae.errors import CaseError, HydrodaeError, RunInterrupted, SolverError
 from hydrodae.results import Results
-from hydrodae.simulate import run
+from hydrodae.simulation import run
 from hydrodae.study.stability import mechanics, past, switching, water
 from hydrodae.study.stability.methods import METHODS, Method
 from hydrodae.study.stability.scene import Scene

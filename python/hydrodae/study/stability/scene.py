@@ -22,9 +22,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.case import Case, to_toml
-from hydrodae.controllers import Controller
-from hydrodae.drives import Drive
+from hydrodae.case import Case
+from hydrodae.case.callbacks.controllers import Controller
+from hydrodae.case.callbacks.drives import Drive
+from hydrodae.case.case import to_toml
 from hydrodae.results import Results
 
 Array = NDArray[np.float64]

@@ -8,14 +8,14 @@ from typing import Any
 
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
-from hydrodae.extras import install_command
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import Measure
 from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.pool import run_case
 from hydrodae.study.sweep.rungs import open_case
-from hydrodae.version import version
+from hydrodae.support.extras import install_command
+from hydrodae.support.version import version
 
 #: How long a scheduler may take to answer [s].
 PATIENCE = 30.0

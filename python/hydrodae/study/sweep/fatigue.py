@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.extras import install_command
+from hydrodae.support.extras import install_command
 
 
 def require_rainflow() -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.results import Results
-from hydrodae.sampling import INTERVALS, NONE, Interval
+from hydrodae.results.sampling import INTERVALS, NONE, Interval
 from hydrodae.study.sweep.fatigue import damage_equivalent_load, require_rainflow
 
 Array = NDArray[np.float64]
@@ -88,7 +88,7 @@ class Measure:
         return STATISTICS[self.statistic](values), unit
 
     def interval(self, results: Results) -> Interval | None:
-        """Return the sampling interval of the value; see `hydrodae.sampling`.
+        """Return the sampling interval of the value; see `hydrodae.results.sampling`.
 
         None without an irregular sea or for another statistic; nan of too short a run, or with a
         part of its ramp.

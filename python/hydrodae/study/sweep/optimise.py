@@ -20,7 +20,7 @@ from hydrodae.study.sweep.plan import point_key
 from hydrodae.study.sweep.problem import Problem, read_problem
 from hydrodae.study.sweep.rungs import open_case
 from hydrodae.study.sweep.table import claim, texts_of, write
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 if TYPE_CHECKING:
     import xarray

@@ -18,7 +18,7 @@ from hydrodae.errors import CaseError
 from hydrodae.study.sweep.measures import ENDS, Measure, make_measure
 from hydrodae.study.sweep.points import Point, is_number, known, read_csv, read_file, read_points
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 #: Key of a point that says by which model of the motion it is run.
 RUNG = "rung"

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from hydrodae import outputs
 from hydrodae.errors import CaseError
+from hydrodae.support import outputs
 
 Point = dict[str, Any]
 #: Points of one study at most: each is kept in memory, and a run takes some hundredths of a second.

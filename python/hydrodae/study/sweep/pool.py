@@ -12,7 +12,6 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
-from hydrodae import processes
 from hydrodae.case import Case
 from hydrodae.errors import HydrodaeError, SolverError
 from hydrodae.study.sweep.journal import Row
@@ -20,6 +19,7 @@ from hydrodae.study.sweep.measures import Measure, MeasureError
 from hydrodae.study.sweep.plan import RUNG, point_key
 from hydrodae.study.sweep.points import Point
 from hydrodae.study.sweep.rungs import DEFAULT, open_case, run_rung
+from hydrodae.support import processes
 
 #: One run in so many is made twice, so that its error is known: 5 % of the time of a study.
 VERIFIED = 20

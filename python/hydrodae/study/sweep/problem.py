@@ -16,7 +16,7 @@ from hydrodae.study.sweep.measures import make_measure
 from hydrodae.study.sweep.plan import digest_of_files
 from hydrodae.study.sweep.points import known, read_file
 from hydrodae.study.sweep.rungs import DEFAULT, check_rungs
-from hydrodae.version import version
+from hydrodae.support.version import version
 
 METHODS = ("L-BFGS-B", "SLSQP")
 KEYS = ("maximise", "minimise", "method", "tolerance", "most", "parameter")

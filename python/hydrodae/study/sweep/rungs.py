@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from hydrodae.case import Case
-from hydrodae.case_tables import case_tables
+from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError
-from hydrodae.frequency import LinearModel, without_memory
-from hydrodae.frequency.sea import wave_components
-from hydrodae.hdb.dispersion import group_velocity
-from hydrodae.hdb.reading import read
-from hydrodae.simulate import run
+from hydrodae.hdb.readers.reading import read
+from hydrodae.hdb.relations.dispersion import group_velocity
+from hydrodae.linear import LinearModel, without_memory
+from hydrodae.linear.sea import wave_components
+from hydrodae.simulation import run
 from hydrodae.study.spectral import spectral
 from hydrodae.study.sweep.measures import ENDS, Measure, measure
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import stdtrit
 
-from hydrodae import outputs
 from hydrodae.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import ENDS
 from hydrodae.study.sweep.plan import RUNG, Study, point_key
+from hydrodae.support import outputs
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +31,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     Runs that did not complete have NaN, their `status` and `reason`. With repetitions (`over`)
     `NAME_mean` and `NAME_interval`, half the width of the 95 % confidence interval of the mean
     (Student's t), stand beside the values. `NAME_low` and `NAME_high` are the ends of the sampling
-    interval of one run (`hydrodae.sampling`).
+    interval of one run (`hydrodae.results.sampling`).
     """
     import xarray as xr  # which the processes that run the points do without
 

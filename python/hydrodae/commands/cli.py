@@ -1,0 +1,273 @@
+"""The command `hydrodae`: run a case, draw results, prepare hydrodynamic databases.
+
+Exit codes: 0 done, 2 bad case, model or argument, 3 solver failure (partial results kept),
+4 interrupted (likewise).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TextIO
+
+from hydrodae.commands import (
+    chart,
+    check,
+    completion,
+    control,
+    equilibrium,
+    fmu,
+    keys,
+    new,
+    plot,
+    report,
+    run,
+    schema,
+)
+from hydrodae.commands.examples import add_examples
+from hydrodae.errors import HydrodaeError, RunInterrupted, SolverError
+from hydrodae.results import ResultsWarning
+from hydrodae.support.version import version
+
+DONE, BAD_CASE, SOLVER_FAILURE, INTERRUPTED = 0, 2, 3, 4
+
+#: In place of a command: all arguments of all commands.
+ALL = ["*"]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        By default those of the process.
+    """
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    parsed = _parser(given[:1]).parse_args(given)
+    return guarded(lambda: parsed.call(parsed))
+
+
+def guarded(work: Callable[[], int | None]) -> int:
+    """Exit code of a command or a script; what hydrodae raises on purpose is one message.
+
+    Parameters
+    ----------
+    work : callable
+        Returns an exit code, or None for 0.
+    """
+    try:
+        with _plain_warnings():
+            code = work()
+        _flush()
+    except SolverError as error:
+        return _complain(error, SOLVER_FAILURE)
+    except (RunInterrupted, KeyboardInterrupt) as error:
+        return _complain(error, INTERRUPTED)
+    except BrokenPipeError:  # whoever read our output has gone, as in `hydrodae ... | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except MemoryError:
+        return _complain(MemoryError("not enough memory"), BAD_CASE)
+    except (HydrodaeError, OSError) as error:
+        _give_up_full_output()
+        return _complain(error, BAD_CASE)
+    return code or DONE
+
+
+def _flush() -> None:
+    if sys.stdout is not None:  # it may have been closed, as by `hydrodae ... >&-`
+        sys.stdout.flush()
+
+
+def _give_up_full_output() -> None:
+    """What standard output does not take now, Python would try to write again when it ends."""
+    try:
+        _flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextmanager
+def _plain_warnings() -> Iterator[None]:
+    """What `Results` has to tell is a line for people, without a place in the source."""
+    with warnings.catch_warnings():
+        usual = warnings.showwarning
+
+        def show(
+            message: Warning | str,
+            category: type[Warning],
+            filename: str,
+            lineno: int,
+            file: TextIO | None = None,
+            line: str | None = None,
+        ) -> None:
+            if issubclass(category, ResultsWarning):
+                print(f"hydrodae: note: {message}", file=sys.stderr)
+            else:
+                usual(message, category, filename, lineno, file, line)
+
+        warnings.simplefilter("always", ResultsWarning)
+        warnings.showwarning = show
+        yield
+
+
+def _parser(command: list[str]) -> argparse.ArgumentParser:
+    """All commands; the arguments of some, which need their modules, only of the `command`."""
+    parser = argparse.ArgumentParser(
+        prog="hydrodae",
+        description="Simulate wave energy converters with awkward mechanisms.",
+        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted.",
+    )
+    parser.add_argument(
+        "--version", action=_PrintVersion, nargs=0, help="print the versions and exit"
+    )
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+
+    new.add_parser(commands)
+    run.add_parser(commands)
+    check.add_parser(commands)
+    equilibrium.add_parser(commands)
+
+    rao = commands.add_parser(
+        "rao",
+        help="response to waves in the frequency domain",
+        description="Natural modes and response amplitude operators of a case, linearised about "
+        "its static equilibrium, from the frequency tables of its database; beside them, if asked "
+        "for, runs in regular waves.",
+    )
+    if command in (["rao"], ALL):
+        from hydrodae.commands import rao as rao_command
+
+        rao_command.add_arguments(rao)
+        rao.set_defaults(call=rao_command.run)
+
+    spectral = commands.add_parser(
+        "spectral",
+        help="motion in the sea of a case, with drag and friction linearised in it",
+        description="Standard deviations, mean powers and equivalent damping of a case in its sea: "
+        "its linear model, with drag, friction and nonlinear power take-offs replaced by the "
+        "linear loads that are nearest to them for the motion that follows; beside them, if asked "
+        "for, runs with several seeds.",
+    )
+    if command in (["spectral"], ALL):
+        from hydrodae.commands import spectral as spectral_command
+
+        spectral_command.add_arguments(spectral)
+        spectral.set_defaults(call=spectral_command.run)
+
+    ladder = commands.add_parser(
+        "ladder",
+        help="what each model of radiation costs on a case, and what it gets wrong",
+        description="Run a case with radiation none, constant, exponential and convolution; print "
+        "memory, solver time, error of the kernel, and error of the motion against the next "
+        "higher model.",
+    )
+    if command in (["ladder"], ALL):
+        from hydrodae.commands import ladder as ladder_command
+
+        ladder_command.add_arguments(ladder)
+        ladder.set_defaults(call=ladder_command.run)
+
+    sweep = commands.add_parser(
+        "sweep",
+        help="run a case with many values of its keys, on all cores: power matrix, annual energy",
+        description="Run every point of a study. What is finished is kept at once: an interrupted "
+        "or killed sweep goes on where it stopped, and a run that fails is a row with its reason.",
+    )
+    if command in (["sweep"], ALL):
+        from hydrodae.commands import sweep as sweep_command
+
+        sweep_command.add_arguments(sweep)
+        sweep.set_defaults(call=sweep_command.run)
+    mooring = commands.add_parser(
+        "mooring", help="mooring matrices from lines, and MoorDyn's input files"
+    )
+    if command in (["mooring"], ALL):
+        from hydrodae.commands import mooring as mooring_command
+
+        mooring_command.add_arguments(mooring)
+        mooring.set_defaults(call=mooring_command.run)
+
+    control.add_parser(commands)
+    fmu.add_parser(commands)
+    plot.add_parser(commands)
+    view = commands.add_parser(
+        "view",
+        help="see results in three dimensions: a page, a picture, a video, files for ParaView",
+        description="Write one HTML file that shows bodies, joints, lines and the sea of a run in "
+        "three dimensions and needs neither network nor server; or a picture, a video, files for "
+        "ParaView. A case file is shown at its start, without a run.",
+        epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
+    )
+    if command in (["view"], ALL):
+        from hydrodae.commands import view as view_command
+
+        view_command.add_arguments(view)
+        view.set_defaults(call=view_command.run)
+    report.add_parser(commands)
+    chart.add_arguments(commands)
+
+    hdb = commands.add_parser("hdb", help="prepare and look at hydrodynamic databases")
+    if command in (["hdb"], ALL):
+        from hydrodae.commands import hdb as hdb_command
+
+        hdb_command.add_arguments(hdb)
+        hdb.set_defaults(call=hdb_command.run)
+
+    stability = commands.add_parser(
+        "stability-map",
+        help="run the methods on hard scenes and map which pass, stop or go wrong",
+        description="Run the methods on hard scenes. A cell shows the error of a run that passed, "
+        "or that it stopped, was refused (-), or returned success with a wrong motion. Exit code 1 "
+        "if one did.",
+    )
+    if command in (["stability-map"], ALL):
+        from hydrodae.commands import stability as stability_command
+
+        stability_command.add_arguments(stability)
+        stability.set_defaults(call=stability_command.run)
+
+    keys.add_parser(commands)
+    schema.add_parser(commands)
+    completion.add_parser(commands, lambda: _parser(ALL))
+    versions = commands.add_parser("version", help="print the versions")
+    versions.set_defaults(call=_version)
+    add_examples(commands)
+    return parser
+
+
+def _version(_arguments: argparse.Namespace) -> int:
+    print(_versions())
+    return DONE
+
+
+def _versions() -> str:
+    from hydrodae import _core
+
+    return f"hydrodae {version()} (kernel {_core.version}, Python {platform.python_version()})"
+
+
+class _PrintVersion(argparse.Action):
+    """`--version`: the kernel is loaded only if somebody asks."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
+        print(_versions())
+        parser.exit()
+
+
+def _complain(error: BaseException, code: int) -> int:
+    """One block on stderr: what went wrong, and which file keeps the results."""
+    message = str(error) or "interrupted"
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        message = f"{error.filename}: {error.strerror}"
+    results = getattr(error, "results", None)
+    if results is not None:
+        message += f"\n  results up to t = {results.end_time:g} s are in {results.path}"
+    print(f"hydrodae: {message}", file=sys.stderr)
+    return code

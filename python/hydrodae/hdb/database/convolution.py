@@ -1,0 +1,116 @@
+"""The radiation kernel K(t) as the convolution uses it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database import coordinates as co
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RadiationKernel:
+    """K(t) of loads on `outputs` from velocities of `inputs`.
+
+    Attributes
+    ----------
+    time : (nt,) array
+        Uniform from 0 to T [s].
+    values : (nt, n_out, n_in) array
+        K, not tapered [N/m, N, N m]; zero where there is no coupling.
+    inputs, outputs : tuple of str
+        Labels "<body>.<dof>"; outputs contain the inputs.
+    added_mass_inf : (n_out, n_in) array
+        [kg, kg m, kg m2].
+    report : dict
+        How it was made, and its error of H; see `hydrodae.hdb.database.radiation_kernel`.
+    """
+
+    time: Array
+    values: Array
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    added_mass_inf: Array
+    report: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        nt, n_out, n_in = self.time.size, len(self.outputs), len(self.inputs)
+        shapes = (self.values.shape, self.added_mass_inf.shape)
+        if shapes != ((nt, n_out, n_in), (n_out, n_in)):
+            raise DatabaseError(
+                f"radiation kernel: shapes {shapes} do not fit {nt} times, {n_out} outputs, "
+                f"{n_in} inputs"
+            )
+        if missing := [label for label in self.inputs if label not in self.outputs]:
+            raise DatabaseError(f"radiation kernel: inputs {missing} are not among the outputs")
+
+    @property
+    def length(self) -> float:
+        """T [s]."""
+        return float(self.time[-1])
+
+    def tapered(self) -> Array:
+        """K as the convolution uses it, (nt, n_out, n_in)."""
+        return self.values * taper(self.time)[:, None, None]
+
+    def transfer(self, omega: Array) -> NDArray[np.complex128]:
+        """H(iw) = int_0^T K e^{-iwt} dt of the kernel as it is used, (nw, n_out, n_in)."""
+        return transform(self.time, self.tapered(), np.asarray(omega, dtype=float))
+
+    def selected(self, labels: Sequence[str]) -> RadiationKernel | None:
+        """Return the part of these coordinates, None if none of them moves."""
+        columns = [i for i, label in enumerate(self.inputs) if label in labels]
+        rows = [i for i, label in enumerate(self.outputs) if label in labels]
+        if not columns:
+            return None
+        return RadiationKernel(
+            self.time,
+            self.values[:, rows][:, :, columns],
+            tuple(self.inputs[i] for i in columns),
+            tuple(self.outputs[i] for i in rows),
+            self.added_mass_inf[np.ix_(rows, columns)],
+            self.report,
+        )
+
+
+def taper(time: Array) -> Array:
+    """Return the squared cosine that lets K down to zero over the last tenth, (nt,)."""
+    late = np.clip((time / time[-1] - 0.9) / 0.1, 0.0, 1.0)
+    return np.asarray(np.cos(0.5 * np.pi * late) ** 2)
+
+
+def moved_kernel(kernel: RadiationKernel, shifts: Mapping[str, Array]) -> RadiationKernel:
+    """Transport to new reference points: U_old = X U_new, F_new = Y^T F_old."""
+    x = co.transport(kernel.inputs, shifts, "the inputs of the radiation kernel")
+    y = co.transport(kernel.outputs, shifts, "the outputs of the radiation kernel")
+    return RadiationKernel(
+        kernel.time,
+        y.T @ kernel.values @ x,
+        kernel.inputs,
+        kernel.outputs,
+        y.T @ kernel.added_mass_inf @ x,
+        kernel.report,
+    )
+
+
+def transform(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]:
+    """Return int values e^{-iwt} dt by the trapezoid on a spline four times as fine."""
+    fine = np.linspace(0.0, time[-1], 4 * (time.size - 1) + 1)
+    out = np.zeros((omega.size, *values.shape[1:]), dtype=complex)
+    flat = values.reshape(time.size, -1)
+    coupled = np.flatnonzero(np.any(flat != 0.0, axis=0))
+    table = CubicSpline(time, flat[:, coupled])(fine) * fine[1]
+    table[[0, -1]] *= 0.5
+    result = np.empty((omega.size, coupled.size), dtype=complex)
+    for part in np.array_split(np.arange(omega.size), max(1, omega.size * fine.size // 4_000_000)):
+        result[part] = np.exp(-1j * np.outer(omega[part], fine)) @ table
+    out.reshape(omega.size, -1)[:, coupled] = result
+    return out

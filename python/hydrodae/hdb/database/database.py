@@ -1,0 +1,239 @@
+"""The hydrodynamic database in memory: its tables, and what can be done with them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database import coordinates as co
+from hydrodae.hdb.database import files
+from hydrodae.hdb.database.convolution import moved_kernel
+from hydrodae.hdb.database.radiation_kernel import LIMIT, make_kernel
+from hydrodae.hdb.database.summary import summary
+from hydrodae.hdb.database.tables import Body, Tables
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+
+if TYPE_CHECKING:
+    from hydrodae.hdb.memory import ExponentialMemory
+
+Array = NDArray[np.float64]
+
+
+class HydroDatabase(Tables):
+    """Frequency-domain hydrodynamics of one or more bodies.
+
+    Its arguments and attributes are those of `hydrodae.hdb.database.tables.Tables`; a method that
+    changes something returns a copy.
+    """
+
+    def with_kernel(
+        self,
+        inputs: Sequence[str] | None = None,
+        outputs: Sequence[str] | None = None,
+        *,
+        length: float | None = None,
+        band: tuple[float, float] | None = None,
+        limit: float = LIMIT,
+    ) -> Self:
+        """Return a copy that stores K of these inputs (default: all coordinates).
+
+        See `hydrodae.hdb.database.radiation_kernel.make_kernel`.
+        """
+        labels = self.coordinates if inputs is None else inputs
+        made = make_kernel(self, labels, outputs, length=length, band=band, limit=limit)
+        return replace(self, kernel=made)
+
+    def select(self, labels: Sequence[str]) -> Self:
+        """Return a copy with these coordinates only, in this order: the others are locked.
+
+        Fits keep those of their inputs and outputs that remain; a fit without inputs is dropped.
+        """
+        i = self.index(labels)
+        square = np.ix_(i, i)
+        keep = co.bodies_of(labels)
+        return replace(
+            self,
+            coordinates=tuple(labels),
+            added_mass=self.added_mass[:, i][:, :, i],
+            radiation_damping=self.radiation_damping[:, i][:, :, i],
+            added_mass_inf=self.added_mass_inf[square],
+            added_mass_inf_std=self.added_mass_inf_std[square],
+            froude_krylov=self.froude_krylov[:, :, i],
+            diffraction=self.diffraction[:, :, i],
+            bodies={name: self.bodies[name] for name in keep},
+            kernel=None if self.kernel is None else self.kernel.selected(labels),
+            memory=_selected_fits(self.memory, labels),
+        )
+
+    def reordered(self, labels: Sequence[str]) -> Self:
+        """Return a copy with the coordinates in this order.
+
+        Raises
+        ------
+        DatabaseError
+            `labels` is not a permutation of the coordinates.
+        """
+        if sorted(labels) != sorted(self.coordinates):
+            self.index(labels)
+            missing = [c for c in self.coordinates if c not in labels]
+            raise DatabaseError(f"not a permutation of the coordinates; missing: {missing}")
+        return self.select(labels)
+
+    def renamed(self, names: Mapping[str, str]) -> Self:
+        """Return a copy with bodies renamed, `names` = {old: new}.
+
+        Raises
+        ------
+        DatabaseError
+            An old name is unknown, or two bodies would get one name.
+        """
+        for old in names:
+            co.check_body(old, self.bodies)
+        new = {name: names.get(name, name) for name in self.bodies}
+        if len(set(new.values())) != len(new):
+            raise DatabaseError(f"two bodies would get the same name: {list(new.values())}")
+
+        def rename(labels: Sequence[str]) -> tuple[str, ...]:
+            return tuple(f"{new[c.rpartition('.')[0]]}.{c.rpartition('.')[2]}" for c in labels)
+
+        return replace(
+            self,
+            coordinates=rename(self.coordinates),
+            bodies={new[k]: replace(b, name=new[k]) for k, b in self.bodies.items()},
+            kernel=None
+            if self.kernel is None
+            else replace(
+                self.kernel,
+                inputs=rename(self.kernel.inputs),
+                outputs=rename(self.kernel.outputs),
+            ),
+            memory={
+                key: replace(fit, inputs=rename(fit.inputs), outputs=rename(fit.outputs))
+                for key, fit in self.memory.items()
+            },
+        )
+
+    def moved_to(self, points: Mapping[str, ArrayLike]) -> Self:
+        """Return a copy about other reference points: X^T A X, X^T B X, X^T F.
+
+        Waves keep their phase zero at the origin of the world: only moments change.
+
+        Parameters
+        ----------
+        points : dict of (3,) arrays
+            New reference point of each body to move, world [m].
+
+        Raises
+        ------
+        DatabaseError
+            Unknown body, unknown old reference point, or a coordinate that the move couples in is
+            not in the database (`hydrodae.hdb.database.coordinates.transport`).
+        """
+        shifts: dict[str, Array] = {}
+        bodies = dict(self.bodies)
+        for name, value in points.items():
+            old, new = self.reference_point(name), np.asarray(value, dtype=float)
+            if new.shape != (3,):
+                raise DatabaseError(f"reference point of {name!r} must be 3 numbers [m]")
+            shifts[name] = old - new
+            hs = bodies[name].hydrostatics
+            moved = None if hs is None else hs.moved(old, new)
+            bodies[name] = Body(name, new, moved, self.bodies[name].mesh)
+        x = co.transport(self.coordinates, shifts)
+        return replace(
+            self,
+            added_mass=x.T @ self.added_mass @ x,
+            radiation_damping=x.T @ self.radiation_damping @ x,
+            added_mass_inf=x.T @ self.added_mass_inf @ x,
+            added_mass_inf_std=np.abs(x).T @ self.added_mass_inf_std @ np.abs(x),
+            froude_krylov=self.froude_krylov @ x,
+            diffraction=self.diffraction @ x,
+            bodies=bodies,
+            kernel=None if self.kernel is None else moved_kernel(self.kernel, shifts),
+            memory={key: _moved_fit(key, fit, shifts) for key, fit in self.memory.items()},
+        )
+
+    def without_coupling(self) -> Self:
+        """Return a copy whose bodies radiate each for itself: blocks between bodies are zero.
+
+        Fits and a stored kernel, which hold the coupling, are dropped; the excitation keeps the
+        waves that the other bodies scatter.
+        """
+        body = np.array([label.rpartition(".")[0] for label in self.coordinates])
+        own = body[:, None] == body
+        return replace(
+            self,
+            added_mass=self.added_mass * own,
+            radiation_damping=self.radiation_damping * own,
+            added_mass_inf=self.added_mass_inf * own,
+            added_mass_inf_std=self.added_mass_inf_std * own,
+            repairs=(*self.repairs, "coupling: blocks of A and B between bodies set to zero"),
+            kernel=None,
+            memory={},
+        )
+
+    def with_hydrostatics(self, values: Mapping[str, Hydrostatics]) -> Self:
+        """Return a copy with the given hydrostatics of some bodies (moments about their points)."""
+        bodies = dict(self.bodies)
+        for name, value in values.items():
+            co.check_body(name, bodies)
+            bodies[name] = replace(bodies[name], hydrostatics=value)
+        return replace(self, bodies=bodies)
+
+    def with_meshes(self, panels: Mapping[str, ArrayLike]) -> Self:
+        """Return a copy that keeps the wetted surfaces (n, 4, 3) [m] of some bodies."""
+        bodies = dict(self.bodies)
+        for name, value in panels.items():
+            co.check_body(name, bodies)
+            bodies[name] = replace(bodies[name], mesh=np.asarray(value, dtype=float))
+        return replace(self, bodies=bodies)
+
+    def write(self, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
+        """Write `hydro.h5`; see `hydrodae.hdb.database.files.write`."""
+        files.write(self, path, kernel=kernel, single=single)
+
+    @classmethod
+    def read(cls, path: str | Path) -> Self:
+        """Read `hydro.h5`; see `hydrodae.hdb.database.files.read`."""
+        return cls(**files.read(path))
+
+    def summary(self) -> str:
+        """Return what is in the database, in words for a newcomer."""
+        return summary(self)
+
+
+def _selected_fits(
+    fits: Mapping[str, ExponentialMemory], labels: Sequence[str]
+) -> dict[str, ExponentialMemory]:
+    kept = {}
+    for key, fit in fits.items():
+        columns = [i for i, label in enumerate(fit.inputs) if label in labels]
+        rows = [i for i, label in enumerate(fit.outputs) if label in labels]
+        if columns:
+            kept[key] = replace(
+                fit,
+                inputs=tuple(fit.inputs[i] for i in columns),
+                outputs=tuple(fit.outputs[i] for i in rows),
+                input_matrix=fit.input_matrix[:, columns],
+                output_matrix=fit.output_matrix[rows],
+                added_mass_inf=fit.added_mass_inf[np.ix_(rows, columns)],
+            )
+    return kept
+
+
+def _moved_fit(name: str, fit: ExponentialMemory, shifts: Mapping[str, Array]) -> ExponentialMemory:
+    """Transport a fit: U_old = X U_new at its inputs, F_new = Y^T F_old at its outputs."""
+    x = co.transport(fit.inputs, shifts, f"the inputs of fit {name!r}")
+    y = co.transport(fit.outputs, shifts, f"the outputs of fit {name!r}")
+    return replace(
+        fit,
+        input_matrix=fit.input_matrix @ x,
+        output_matrix=y.T @ fit.output_matrix,
+        added_mass_inf=y.T @ fit.added_mass_inf @ x,
+    )

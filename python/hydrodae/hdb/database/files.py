@@ -1,0 +1,283 @@
+"""`hydro.h5`: what preparation made, read by the solver and by Python."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database import coordinates as co
+from hydrodae.hdb.database.convolution import RadiationKernel
+from hydrodae.hdb.database.extra import read_extra, write_extra
+from hydrodae.hdb.database.layout import (
+    BODY,
+    BODY_NUMBERS,
+    FIT,
+    KERNEL,
+    TABLES,
+    Entry,
+    read_group,
+    read_numbers,
+    write_dataset,
+)
+from hydrodae.hdb.database.tables import Body, Tables
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.support import outputs
+from hydrodae.support.damaged import opened
+
+if TYPE_CHECKING:
+    from hydrodae.hdb.memory import ExponentialMemory
+
+FORMAT = "hydrodae-hydro"
+FORMAT_VERSION = 1
+#: More than any table of a database holds; as in cpp/hydrodae/io/hdf5_input.cpp.
+MOST_NUMBERS = 50_000_000
+#: Attributes of fits and kernels that are shown, and how many numbers each has.
+SHOWN = {
+    "band": 2,
+    "h_error_band": 1,
+    "h_error_between": 1,
+    "rest": 1,
+    "min_eig_relative": 1,
+    "n_states": 1,
+}
+DAMAGED = "incomplete or damaged"
+ROOT_TEXT = ("source", "source_sha256", "generator", "title")
+
+
+def is_hydro_file(path: Path) -> bool:
+    """Tell whether a file is a `hydro.h5` (by its root attribute)."""
+    if not h5py.is_hdf5(path):
+        return False
+    with opened(path, DatabaseError, DAMAGED, search=True) as f:
+        return bool(_text(f.attrs.get("format", "")) == FORMAT)
+
+
+def is_single(path: str | Path) -> bool:
+    """Tell whether a `hydro.h5` stores its tables in single precision."""
+    with opened(Path(path), DatabaseError, DAMAGED) as f:
+        return bool(f["added_mass"].dtype == np.float32)
+
+
+def write(database: Tables, path: str | Path, *, kernel: bool = True, single: bool = False) -> None:
+    """Write a database to `hydro.h5`; an existing file is replaced only by a complete one.
+
+    Parameters
+    ----------
+    database : Tables
+        What to write.
+    path : path
+        Target file.
+    kernel : bool
+        Also write the radiation kernel, if there is one (large).
+    single : bool
+        Store the tables of A, B, F and K in single precision (7 digits; half the size). Added mass
+        at infinity, hydrostatics and fits always stay in double precision.
+
+    Raises
+    ------
+    DatabaseError
+        A body has no reference point (the file format demands it).
+    CaseError
+        A file of another kind is there.
+    """
+    for name in database.bodies:
+        database.reference_point(name)
+    target = Path(path)
+    outputs.spare(target, outputs.DATABASE)
+    if not target.parent.is_dir():
+        raise DatabaseError(f"cannot write {target}: no folder {target.parent}")
+    partial = target.with_name(target.name + ".part")
+    with h5py.File(partial, "w") as f:
+        _write_tables(f, database, kernel=kernel, single=single)
+        _write_bodies(f, database)
+        for name, fit in database.memory.items():
+            _write_group(f.create_group(f"memory/{name}"), FIT, fit, {})
+        if database.extra:
+            write_extra(f.create_group("extra"), database.extra)
+    os.replace(partial, target)
+
+
+def read(path: str | Path) -> dict[str, Any]:
+    """Read `hydro.h5`: the fields of `hydrodae.hdb.database.tables.Tables` by name.
+
+    Raises
+    ------
+    DatabaseError
+        Missing file, another format or a newer version, or something the format demands is absent.
+    """
+    source = Path(path)
+    if not source.is_file():
+        raise DatabaseError(f"{source}: no such file")
+    if not h5py.is_hdf5(source):
+        raise DatabaseError(f"{source}: not an HDF5 file")
+    with opened(source, DatabaseError, DAMAGED, search=True) as f:
+        if _text(f.attrs.get("format", "")) != FORMAT:
+            raise DatabaseError(
+                f"{source}: not a {FORMAT} file; make one with 'hydrodae hdb import'"
+            )
+        if int(f.attrs.get("format_version", 0)) > FORMAT_VERSION:
+            raise DatabaseError(f"{source}: written by a newer hydrodae (format_version)")
+        _refuse_oversized(source, f)
+        return _read(f)
+
+
+def _refuse_oversized(source: Path, f: h5py.File) -> None:
+    """Before memory is asked for: a file may claim more than it holds."""
+
+    def check(name: str, node: h5py.Group | h5py.Dataset) -> None:
+        if isinstance(node, h5py.Dataset) and node.shape is not None and node.size > MOST_NUMBERS:
+            raise DatabaseError(
+                f"{source}: {name}: expected at most {MOST_NUMBERS:,} numbers, found shape "
+                f"{node.shape}"
+            )
+
+    f.visititems(check)
+
+
+def _write_tables(f: h5py.File, db: Tables, *, kernel: bool, single: bool) -> None:
+    f.attrs["format"] = FORMAT
+    f.attrs["format_version"] = FORMAT_VERSION
+    for name in ("rho", "gravity", "water_depth"):
+        f.attrs[name] = float(getattr(db, name))
+    for name in ROOT_TEXT:
+        f.attrs[name] = str(getattr(db, name))
+    f.attrs["repairs"] = "\n".join(db.repairs)
+    real, cplx = (np.float32, np.complex64) if single else (np.float64, np.complex128)
+    for name, entry in TABLES.items():
+        value = getattr(db, name.rpartition("/")[2])
+        if entry.kind != "text" and len(entry.dims) == 3:
+            value = value.astype(cplx if entry.kind == "complex" else real)
+        write_dataset(f, name, entry, value)
+    f["added_mass_inf"].attrs["origin"] = db.added_mass_inf_origin
+    split = "froude_krylov + diffraction" if db.excitation_split else "total only"
+    f["excitation"].attrs["split"] = split
+    if kernel and db.kernel is not None:
+        values = {"kernel": db.kernel.values.astype(real)}
+        _write_group(f.create_group("radiation_kernel"), KERNEL, db.kernel, values)
+
+
+def _write_group(
+    group: h5py.Group,
+    layout: Mapping[str, Entry],
+    source: RadiationKernel | ExponentialMemory,
+    values: Mapping[str, Any],
+) -> None:
+    """Write a kernel or a fit: its datasets, `values` in place of those of its own, its report."""
+    for name, entry in layout.items():
+        write_dataset(group, name, entry, values[name] if name in values else getattr(source, name))
+    for key, value in source.report.items():
+        group.attrs[key] = value
+
+
+def _write_bodies(f: h5py.File, db: Tables) -> None:
+    for i, body in enumerate(db.bodies.values()):
+        group = f.create_group(f"bodies/{body.name}")
+        group.attrs["index"] = i
+        group.attrs["reference_point"] = body.reference_point
+        hs = body.hydrostatics
+        if hs is not None:
+            for name in Hydrostatics.__dataclass_fields__:
+                group.attrs[name] = getattr(hs, name)
+            stiffness = db.hydrostatic_stiffness(body.name)
+            write_dataset(group, "hydrostatic_stiffness", BODY["hydrostatic_stiffness"], stiffness)
+        if body.mesh is not None:  # to be looked at: seven digits will do
+            write_dataset(group, "mesh", BODY["mesh"], body.mesh.astype(np.float32))
+
+
+def _read(f: h5py.File) -> dict[str, Any]:
+    values = read_group(f, TABLES)
+    if missing := [name for name in TABLES if name not in values]:
+        raise DatabaseError(f"{f.filename}: /{missing[0]}: missing dataset")
+    values = {name.rpartition("/")[2]: value for name, value in values.items()}
+    stored = f["radiation_kernel"] if "radiation_kernel" in f else None
+    fits = f["memory"] if "memory" in f else {}
+    texts: dict[str, Any] = {name: _text(f.attrs.get(name, "")) for name in ROOT_TEXT}
+    water = {name: read_numbers(f, name, ()) for name in ("rho", "gravity", "water_depth")}
+    return dict(
+        excitation_split=_text(f["excitation"].attrs.get("split", "")) != "total only",
+        bodies=_read_bodies(f, co.bodies_of(values["coordinates"])),
+        added_mass_inf_origin=_text(f["added_mass_inf"].attrs.get("origin", "")),
+        kernel=None if stored is None else _read_kernel(stored),
+        memory={name: _read_fit(name, fits[name]) for name in fits},
+        extra=read_extra(f["extra"]) if "extra" in f else {},
+        repairs=tuple(_text(f.attrs.get("repairs", "")).splitlines()),
+        **texts,
+        **water,
+        **values,
+    )
+
+
+def _read_bodies(f: h5py.File, names: Iterable[str]) -> dict[str, Body]:
+    bodies = {}
+    for name in sorted(names, key=lambda b: int(read_numbers(f[f"bodies/{b}"], "index", ()))):
+        group = f[f"bodies/{name}"]
+        known = "displaced_volume" in group.attrs
+        numbers = {
+            key: read_numbers(group, key, shape)
+            for key, shape in BODY_NUMBERS.items()
+            if known or key == "reference_point"
+        }
+        point = numbers.pop("reference_point")
+        mesh = read_group(group, BODY).get("mesh")
+        bodies[name] = Body(name, point, Hydrostatics(**numbers) if known else None, mesh)
+    return bodies
+
+
+def _whole(group: h5py.Group, layout: Mapping[str, Entry]) -> dict[str, Any]:
+    """All datasets of a kernel or a fit, and its report."""
+    values = read_group(group, layout)
+    if missing := [name for name in layout if name not in values]:
+        raise DatabaseError(f"{group.file.filename}: {group.name}/{missing[0]}: missing dataset")
+    return {**values, "report": _report(group)}
+
+
+def _read_kernel(group: h5py.Group) -> RadiationKernel:
+    values = _whole(group, KERNEL)
+    time = values["time"]
+    if time.size < 8 or not np.allclose(time, np.linspace(0.0, time[-1], time.size), atol=1e-9):
+        raise DatabaseError(
+            f"{group.file.filename}: {group.name}/time: expected 8 times or more, equally spaced "
+            f"from 0 s"
+        )
+    return RadiationKernel(values=values.pop("kernel"), **values)
+
+
+def _read_fit(name: str, group: h5py.Group) -> ExponentialMemory:
+    from hydrodae.hdb.memory import ExponentialMemory
+
+    return ExponentialMemory(name=name, **_whole(group, FIT))
+
+
+def _report(group: h5py.Group) -> dict[str, Any]:
+    """How a fit or a kernel was made; what is shown as numbers must be numbers."""
+    report = {key: _plain(value) for key, value in group.attrs.items()}
+    for key, count in SHOWN.items():
+        value = report.get(key, (0.0,) * count)
+        values = value if isinstance(value, tuple) else (value,)
+        if len(values) != count or not all(isinstance(v, int | float) for v in values):
+            raise DatabaseError(
+                f"{group.file.filename}: {group.name}: attribute {key} is {value!r}, expected "
+                f"{count} number{'s' if count > 1 else ''}"
+            )
+    return report
+
+
+def _text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    """Python value of an attribute: scalars, and tuples for arrays."""
+    if isinstance(value, h5py.Empty):
+        return ()
+    if isinstance(value, np.ndarray):
+        return tuple(_plain(v) for v in value.tolist())
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.generic) else value

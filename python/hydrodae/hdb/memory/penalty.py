@@ -1,0 +1,200 @@
+"""Passivity by a penalty on what Re H lacks: fast far from the limit, for many coordinates too.
+
+With the eigenvalues l_j and eigenvectors q_j of Re H(i omega) on a grid, each relative to the
+largest, least squares of the fit are extended by
+
+    mu sum_{omega, j} min(0, l_j - margin)^2 .
+
+Where bodies radiate in few directions many eigenvalues lie near zero together, and a step that
+lifts each of them along its own eigenvector turns the others; its curvature therefore holds the
+products q_i^T dH q_j of all pairs that lie below the margin, as the second derivative of such a
+spectral function does. The margin rises until the smallest eigenvalue between the points passes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
+
+from hydrodae.hdb.memory.modes import (
+    Modes,
+    Problem,
+    damped,
+    error,
+    moved,
+    normal_equations,
+    real_parts,
+    resistance,
+)
+from hydrodae.hdb.memory.passivity import eigenpairs, local_minima
+from hydrodae.hdb.memory.vector_fitting import Array
+
+FLOOR = -4e-5
+"""Smallest eigenvalue of Re H over the largest that ends the search."""
+MARGINS = (-1e-5, 3e-4)
+"""First and largest margin."""
+POINTS = 120
+"""Uniform points of the grid."""
+LOOSENED = 10.0
+"""Penalties of more than this times the error are not raised further."""
+
+
+@dataclass(frozen=True)
+class _Low:
+    """Eigenpairs below the margin: omega (k,), vectors (k, n), values (k,) over the largest."""
+
+    omega: Array
+    vectors: Array
+    values: Array
+
+
+def press(
+    modes: Modes,
+    problem: Problem,
+    good: Callable[[Modes], bool],
+    iterations: int = 30,
+) -> tuple[Modes, bool]:
+    """Refit the modes with a growing penalty until they are passive and good.
+
+    Parameters
+    ----------
+    modes
+        Start, usually the best unconstrained fit.
+    problem
+        Data of the fit.
+    good
+        Tells whether the error of the fit is small enough: the search ends there.
+    iterations
+        Most steps.
+
+    Returns
+    -------
+    modes, reached
+        The passive modes of least weighted error, or the last ones when the floor was not reached.
+    """
+    highest, top = float(problem.samples.omega.max()), 0.0
+    best: tuple[float, Modes] | None = None
+    margin, damping, factor, stalled = MARGINS[0], 1e-3, 0.0, 0
+    for _ in range(iterations):
+        strict = local_minima(modes, highest)
+        top, now = strict.largest, error(modes, problem)
+        lowest = strict.lowest / strict.largest
+        if lowest >= FLOOR:
+            if best is not None and now > 0.98 * best[0]:
+                stalled += 1
+            if best is None or now < best[0]:
+                best = now, modes
+            if good(modes) or stalled > 2:
+                break
+        grid = np.union1d(_grid(modes, highest), strict.omega)
+        lack = _lack(modes, grid, margin, top)
+        if factor == 0.0 and lack.values.size:
+            factor = 0.3 * now**2 / float(lack.values @ lack.values)
+        found = _step(modes, problem, grid, (margin, top, factor, damping))
+        modes, damping, gain = found
+        if lowest < FLOOR and gain < 0.3:
+            size = factor * float(lack.values @ lack.values)
+            if size < LOOSENED * now**2:
+                factor *= 4.0
+            else:
+                margin = min(margin + max(1e-5, 0.5 * (FLOOR - lowest)), MARGINS[1])
+        if damping > 1e6:
+            break
+    return (best[1], True) if best else (modes, False)
+
+
+def _grid(modes: Modes, highest: float) -> Array:
+    """Return frequencies [rad/s] from 0 to far beyond poles and data, with some at each pole."""
+    span = 1.5 * max(highest, float(np.abs(modes.poles).max()))
+    around = np.array([-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0])
+    near = np.abs(modes.poles.imag[:, None] + np.abs(modes.poles.real)[:, None] * around)
+    far = span * np.geomspace(1.05, 20.0, 12)
+    return np.unique(np.concatenate([np.linspace(0.0, span, POINTS), near.ravel(), far]))
+
+
+def _lack(modes: Modes, grid: Array, margin: float, top: float) -> _Low:
+    """Return the eigenpairs of Re H / top below the margin, and by how much."""
+    values, vectors = eigenpairs(resistance(modes, grid))
+    at, branch = np.nonzero(values < margin * top)
+    return _Low(grid[at], vectors[at, :, branch], values[at, branch] / top - margin)
+
+
+def _step(
+    modes: Modes, problem: Problem, grid: Array, weights: tuple[float, float, float, float]
+) -> tuple[Modes, float, float]:
+    """Take one damped Newton step; return the modes, the damping, and the share that was won."""
+    margin, top, factor, damping = weights
+    low = _lack(modes, grid, margin, top)
+    matrix, gradient = normal_equations(modes, problem)
+    before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
+    for rows, values in _rows(modes, problem, low, top):
+        matrix += factor * (rows.T @ rows)
+        gradient += factor * (rows.T @ values)
+    for _ in range(6):
+        try:
+            step = -cho_solve(cho_factor(damped(matrix, damping)), gradient)
+        except LinAlgError:
+            damping *= 5.0
+            continue
+        trial = moved(modes, step, problem)
+        left = _lack(trial, grid, margin, top).values
+        after = error(trial, problem) ** 2 + factor * float(left @ left)
+        if after < before:
+            return trial, max(damping / 5.0, 1e-7), 1.0 - after / before
+        damping *= 5.0
+    return modes, damping, 0.0
+
+
+def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> list[tuple[Array, Array]]:
+    """Return derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
+    i, j = _pairs(low.omega)
+    values = np.where(i == j, low.values[i], 0.0)
+    parts = []
+    for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
+        left, right = low.vectors[i[pick]], low.vectors[j[pick]]
+        rows = _derivatives(modes, problem, low.omega[i[pick]], left, right) / top
+        rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
+        parts.append((rows, values[pick]))
+    return parts
+
+
+def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices i <= j of all pairs at equal frequency; omega is sorted."""
+    starts = np.append(np.flatnonzero(np.diff(omega, prepend=-1.0) > 0.0), omega.size)
+    first, second = [np.zeros(0, int)], [np.zeros(0, int)]
+    for start, end in pairwise(starts):
+        i, j = np.triu_indices(end - start)
+        first.append(start + i)
+        second.append(start + j)
+    return np.concatenate(first), np.concatenate(second)
+
+
+def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:
+    """Return d(u^T Re H v)/d(parameters), (k, n_parameters), of u, v (k, n) at omega (k,)."""
+    value, slope = real_parts(modes, omega)
+    pair = ~modes.real
+    on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
+
+    def by_vector(beta: np.ndarray) -> tuple[Array, Array]:
+        return (
+            beta.real * value[0] + beta.imag * value[1],
+            pair * (-beta.imag * value[0] + beta.real * value[1]),
+        )
+
+    count, product = omega.size, on_left * on_right
+    columns = [
+        (a[:, None] * left[:, :, None] + b[:, None] * right[:, :, None]).reshape(
+            count, left.shape[1] * modes.poles.size
+        )
+        for a, b in zip(by_vector(on_right), by_vector(on_left), strict=True)
+    ]
+    columns += [
+        modes.poles.real * (product.real * slope[0] + product.imag * slope[1]),
+        pair * (-product.imag * slope[0] + product.real * slope[1]),
+        np.zeros((count, problem.rows.size)),
+    ]
+    return np.concatenate(columns, axis=1)

@@ -1,0 +1,87 @@
+"""Poles common to all entries of Z, by vector fitting from many starts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydrodae.hdb.memory.goal import Goal, Progress, quality
+from hydrodae.hdb.memory.modes import Problem, from_residues
+from hydrodae.hdb.memory.vector_fitting import (
+    ComplexArray,
+    order,
+    relocate,
+    solve_residues,
+    starting_poles,
+)
+
+STARTS = (
+    (0, 1, False), (0, 2, True), (2, 0, False), (2, 0, True),
+    (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
+)  # fmt: skip
+"""Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
+
+
+def rich_poles(
+    problem: Problem, goal: Goal, say: Progress, most: int = 32
+) -> tuple[dict[int, ComplexArray], float]:
+    """Raise the number of common poles, up to `most`, until vector fits near the goal.
+
+    Returns
+    -------
+    poles, miss
+        Of each number of poles; the least error over its target.
+    """
+    found: dict[int, ComplexArray] = {}
+    misses: list[float] = []
+    after = 0
+    for count in range(4, min(most + 4, problem.samples.omega.size // 2), 4):
+        _, found[count] = best_poles(problem, count, found.get(count - 4))
+        miss = _vector_miss(found[count], problem, goal)
+        say(f"vector fit with {count} poles: {miss:.2f} of the target error")
+        after += miss <= 1.5
+        misses.append(miss)
+        noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
+        if after >= 3 or miss <= 0.5 or noise:
+            break
+    return found, min(misses, default=np.inf)
+
+
+def best_poles(
+    problem: Problem, count: int, known: ComplexArray | None = None
+) -> tuple[float, ComplexArray]:
+    """Fit `count` common poles from many starts; return the best error and its poles.
+
+    `known`: poles of a fit with fewer, which with some more make one of the starts.
+    """
+    omega = problem.samples.omega[:-1]
+    low, high = float(omega[0]), float(omega[-1])
+    middle = float(np.sqrt(low * high))
+    spans = ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
+    starts = [
+        starting_poles(count, real, *spans[at], ratio=0.05, logarithmic=logarithmic)
+        for real, at, logarithmic in STARTS
+        if real <= count - 2
+    ]
+    if known is not None and count - order(known) >= 2:
+        more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
+        starts.append(np.concatenate([known, more]))
+    found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
+    return min((_iterate(poles, problem, 12) for _, poles in found[:3]), key=lambda item: item[0])
+
+
+def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
+    """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
+    best = (np.inf, poles)
+    for step in range(steps):
+        poles = relocate(poles, problem.samples, problem.damping_grid, problem.damping)
+        if 2 * step >= steps:
+            value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
+            best = min(best, (value, poles), key=lambda item: item[0])
+    return best
+
+
+def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
+    """Return the error of a full-rank fit with these poles over its target."""
+    coefficients, _, _ = solve_residues(poles, problem.samples)
+    modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
+    return goal.miss(quality(modes, problem, goal.band))

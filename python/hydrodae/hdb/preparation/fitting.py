@@ -1,0 +1,433 @@
+"""Add to a database what a simulation needs: fits of the radiation memory, the kernel K(t)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
+
+from hydrodae.errors import CaseError, DatabaseError
+from hydrodae.hdb.checks.band import felt_band, inside
+from hydrodae.hdb.checks.irregular import suspect_rows
+from hydrodae.hdb.checks.lone import MOST, lone_rows
+from hydrodae.hdb.checks.repair import irregular
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.database.coordinates import body_name, expand
+from hydrodae.hdb.database.radiation_kernel import LIMIT
+from hydrodae.hdb.database.scales import scaled_damping_eigenvalues
+
+if TYPE_CHECKING:
+    from hydrodae.hdb.memory import ExponentialMemory
+
+#: Weighted error of H outside the band, where frequencies there had to be left out: those beside
+#: them, which share what is wrong, remain.
+OUTSIDE = 0.3
+#: Frequencies above so many times the band may be left out, if so many rows remain.
+ABOVE, LEAST_ROWS = (2.0, 1.2), 12
+#: Eigenvalue of B below that of the largest, near the band, which no passive fit goes with.
+NEGATIVE = -1e-3
+#: Vector fits so many times off the target cannot meet it; those within such a share do easily.
+HOPELESS, EASY = 2.0, 0.5
+#: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
+#: beyond so many times its largest in the tables.
+INERTIA, RINGS = 0.05, 1.5
+
+
+def fit(
+    database: HydroDatabase,
+    inputs: str | Sequence[str],
+    *,
+    name: str = "default",
+    loads: str | Sequence[str] | None = None,
+    band: tuple[float, float] | None = None,
+    states: int | None = None,
+    target: float | None = None,
+    uniform: float | None = None,
+    method: str | None = None,
+    accept: Sequence[str] = (),
+    progress: Callable[[str], None] | None = None,
+) -> HydroDatabase:
+    """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
+
+    A fit that would be refused is tried again without the frequencies outside the band that break
+    causality or energy (irregular frequencies), and then without those above the band; its report
+    tells how many (`left_out`), its A_inf must be that of the tables, and its H not larger.
+    Single frequencies off the curve through their neighbours are left out before, and told.
+    Where no target is given and no fit reaches the usual one, a fit as near as the noise of the
+    tables is taken (`hydrodae.hdb.memory.noise`), or one within 2e-3, which panels are no surer of;
+    its report says so (`noisy`).
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    inputs : str or sequence of str
+        Coordinates that move: labels, or a text as `hydrodae.hdb.expand` reads it, such as
+        "base.planar,flap1.pitch".
+    name : str
+        Of the fit in the database; one of that name is replaced.
+    loads : str or sequence of str, optional
+        Coordinates whose loads the fit gives, likewise; default: those that move.
+    band : (float, float), optional
+        Frequencies that the fit must match [rad/s], for example those of
+        `hydrodae.working_band`; default: 0.04 to 1 rad/s, right at full scale, or with `uniform`
+        the frequencies that the device feels (`hydrodae.hdb.checks.band.felt_band`).
+    states : int, optional
+        Largest number of states.
+    target : float, optional
+        Relative error of H in the band, weighted by |H|^-1/2 [-]; default: 4.5e-4.
+    uniform : float, optional
+        Target in place of that: largest error of H in the band over its largest value [-].
+    method : str, optional
+        "modes", "hankel" or "auto" (default: by the number of coordinates).
+    accept : sequence of str
+        What the fit may miss: "target" (implied by `states`, which asks for the best of so many)
+        and "passive".
+    progress : callable, optional
+        Called with a line of text now and then.
+
+    Returns
+    -------
+    HydroDatabase
+        A copy whose `memory` holds the fit; how good it is stands in `memory[name].report`.
+
+    Raises
+    ------
+    CaseError
+        The name or the target is not one.
+    DatabaseError
+        Unknown coordinates, no radiation, fewer than 4 frequencies in the band, or a fit that is
+        not passive or misses its target and is not accepted.
+
+    Warns
+    -----
+    hydrodae.hdb.memory.MemoryFitWarning
+        What the fit missed and was accepted; coordinates that do not radiate.
+    """
+    from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
+    from hydrodae.hdb.memory.fit import DEFAULT_BAND
+    from hydrodae.hdb.memory.verdict import CHECKS, missed
+
+    if not is_fit_name(name):
+        raise CaseError(f"fit {name!r}: a name has letters, digits, _ and - only")
+    if target is not None and not target > 0.0:
+        raise CaseError(f"target {target:g}: expected a number > 0")
+    if unknown := [check for check in accept if check not in CHECKS]:
+        raise CaseError(f"accept {unknown[0]!r}: expected one of {', '.join(CHECKS)}")
+    if band is None and uniform is not None:
+        band = felt_band(database)
+    allowed = {*accept, *(() if states is None else ("target",))}
+    given = {
+        "band": band,
+        "max_states": states,
+        "target": target,
+        "uniform": uniform,
+        "method": method,
+        "progress": progress,
+    }
+    options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    moving = _labels(inputs, database)
+    options["outputs"] = None if loads is None else _labels(loads, database)
+
+    judged = band or DEFAULT_BAND
+    tables, garbled = without_lone_rows(database, moving, judged)
+
+    def attempt(bad: NDArray[np.bool_], text: str) -> _Attempt:
+        """Fit without some frequencies, which the report tells."""
+        away = {**options, "target_outside": OUTSIDE} if bad.any() else options
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", MemoryFitWarning)
+            made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **away)
+        left_out = "; ".join(part for part in (garbled, text) if part)
+        if left_out:
+            made = replace(made, report={**made.report, "left_out": left_out})
+        refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
+        return _Attempt(made, refused, told)
+
+    def on_noise(trial: _Attempt) -> bool:
+        noisy = list(trial.refused) == ["target"] and target is None
+        return noisy and bool(trial.made.report.get("as_near_as_noise"))
+
+    whole = np.zeros(tables.omega.size, bool)
+    if states is None and method in (None, "auto"):
+        looked: dict[str, Any] = {
+            k: options[k] for k in ("band", "target", "uniform") if k in options
+        }
+        easy = _easy_way(tables, moving, judged, looked)
+        if easy is not None:
+            if progress is not None:
+                progress(easy[1])
+            trial = attempt(*easy)
+            if not trial.refused and goes_on(trial.made, tables):
+                return _with(database, name, trial)
+    best = attempt(whole, "")
+    near = best if on_noise(best) else None
+    for bad, text in ways_out(tables.select(moving), judged) if best.refused else []:
+        if progress is not None:
+            progress(text)
+        again = attempt(bad, text)
+        if not goes_on(again.made, tables):
+            continue
+        if on_noise(again) and (near is None or _nearer(again.made, near.made)):
+            near = again
+        if len(again.refused) < len(best.refused):
+            best = again
+        if not best.refused:
+            break
+    if best.refused and near is not None:
+        best = _Attempt(_as_noise(near.made), {}, [])
+    if best.refused:
+        raise DatabaseError(
+            f"fit '{name}' {_refusal(best.refused, cure(database, moving, judged))}"
+        )
+    return _with(database, name, best)
+
+
+@dataclass(frozen=True)
+class _Attempt:
+    """A fit, what it is refused for, and the warnings that it made."""
+
+    made: ExponentialMemory
+    refused: dict[str, str]
+    told: list[warnings.WarningMessage]
+
+
+def _with(database: HydroDatabase, name: str, fit: _Attempt) -> HydroDatabase:
+    """Return the database with a fit, whose warnings are given."""
+    for warning in fit.told:
+        warnings.warn(warning.message, stacklevel=3)
+    return replace(database, memory={**database.memory, name: fit.made})
+
+
+def _easy_way(
+    database: HydroDatabase,
+    moving: Sequence[str],
+    band: tuple[float, float],
+    options: dict[str, Any],
+) -> tuple[NDArray[np.bool_], str] | None:
+    """Return the first of `ways_out` by which tables that no smooth function follows can be met.
+
+    A look by vector fits spares minutes of passive fits that cannot meet the target.
+    """
+    from hydrodae.hdb.memory.reach import reach
+
+    whole = reach(database, moving, worst=HOPELESS, **options)
+    if whole is None or whole <= HOPELESS:
+        return None
+    options = {**options, "target_outside": OUTSIDE, "worst": EASY}
+    for bad, text in ways_out(database.select(moving), band):
+        found = reach(at(database, ~bad), moving, **options)
+        if found is not None and found <= EASY:
+            return bad, text
+    return None
+
+
+def without_lone_rows(
+    database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]
+) -> tuple[HydroDatabase, str]:
+    """Return the tables without garbled frequencies (`hydrodae.hdb.checks.lone`), and a text.
+
+    A fit would follow each by a narrow mode that rings.
+
+    Raises
+    ------
+    DatabaseError
+        They are too many in the band.
+    """
+    bad = np.asarray(lone_rows(database.select(moving)).any(axis=(1, 2)))
+    if not bad.any():
+        return database, ""
+    w, judged = database.omega, inside(database.omega, band)
+    where = ", ".join(f"{x:.4g}" for x in w[bad][:6]) + (" ..." if bad.sum() > 6 else "")
+    text = (
+        f"{bad.sum()} of {bad.size} frequencies ({where} rad/s) off the curve through their "
+        f"neighbours"
+    )
+    if np.count_nonzero(bad & judged) > max(1.0, MOST * np.count_nonzero(judged)):
+        raise DatabaseError(
+            f"memory fit: {text}: more than {MOST:.0%} of those in the band; what wrote the tables "
+            f"failed there: compute them again"
+        )
+    return at(database, ~bad), f"{text}: left out"
+
+
+def _nearer(fit: ExponentialMemory, other: ExponentialMemory) -> bool:
+    """Tell whether a fit is nearer to its tables in the band than another."""
+    return bool(fit.report["weighted_error_band"] < other.report["weighted_error_band"])
+
+
+def _as_noise(fit: ExponentialMemory) -> ExponentialMemory:
+    """Return a fit that misses its target by the noise of the tables only, and says so."""
+    error, noise = fit.report["weighted_error_band"], fit.report["noise"]
+    text = (
+        f"the tables carry noise of {noise:.1e} of H in the band (weighted); no fit reaches the "
+        f"usual target {fit.report['target']:g}, this one {error:.1e}"
+    )
+    return replace(fit, report={**fit.report, "noisy": text, "target_met": True})
+
+
+def ways_out(
+    database: HydroDatabase, band: tuple[float, float]
+) -> list[tuple[NDArray[np.bool_], str]]:
+    """Return frequencies (nw,) that a fit may leave out where it would be refused, and a text.
+
+    First those outside the band that break causality or energy; then also all above twice the band,
+    and all above it but a margin: panels may be too coarse there, and A and B, each smooth, need
+    not belong to each other.
+    """
+    w = database.omega
+    bad = suspect_rows(database)
+    near = w <= ABOVE[0] * band[1]
+    if near.sum() >= LEAST_ROWS:
+        gives = np.zeros(w.size, bool)
+        gives[near] = scaled_damping_eigenvalues(at(database, near)) < NEGATIVE
+        bad = bad | binary_dilation(gives)
+    bad = np.asarray(bad & ~inside(w, band))
+    found = []
+    if bad.any():
+        text = (
+            f"{bad.sum()} of {bad.size} frequencies, outside the band, break causality or energy: "
+            f"left out"
+        )
+        found.append((bad, text))
+    for ratio in ABOVE:
+        gone = bad | (w > ratio * band[1])
+        before = found[-1][0] if found else np.zeros(w.size, bool)
+        if np.array_equal(gone, before) or np.count_nonzero(~gone & (w >= band[0])) < LEAST_ROWS:
+            continue
+        text = (
+            f"{gone.sum()} of {w.size} frequencies, all above {ratio * band[1]:.3g} rad/s and what "
+            f"breaks causality or energy outside the band, do not go with the others: left out"
+        )
+        found.append((gone, text))
+    return found
+
+
+def goes_on(fit: ExponentialMemory, database: HydroDatabase) -> bool:
+    """Tell whether a fit goes to the right limit beyond the frequencies that it matches.
+
+    It is passive, its A_inf is that of the tables within their uncertainty, and |H| nowhere is far
+    beyond what it is at the frequencies of the tables that break no law.
+    """
+    i = database.index(fit.inputs)
+    moving = [fit.outputs.index(label) for label in fit.inputs]
+    own = np.diag(fit.added_mass_inf[moving])
+    off = own - np.diag(database.added_mass_inf)[i]
+    size = np.abs(database.added_mass[:, i, i]).max(axis=0)
+    allowed = np.maximum(INERTIA * size, 3.0 * np.diag(database.added_mass_inf_std)[i])
+    good = ~suspect_rows(database)
+    w = database.omega[good, None]
+    stored = database.radiation_damping[:, i, i][good] + 1j * w * (
+        database.added_mass[:, i, i][good] - own
+    )
+    fine = np.geomspace(database.omega[0], 2.0 * database.omega[-1], 2000)
+    made = np.einsum("wii->wi", fit.transfer(fine)[:, moving])
+    largest = np.abs(stored).max(axis=0)
+    return bool(np.all(np.abs(off) <= allowed) and np.all(np.abs(made) <= RINGS * largest))
+
+
+def at(database: HydroDatabase, keep: NDArray[np.bool_]) -> HydroDatabase:
+    """Return the tables at some of the frequencies (nw,)."""
+    return replace(
+        database,
+        omega=database.omega[keep],
+        added_mass=database.added_mass[keep],
+        radiation_damping=database.radiation_damping[keep],
+        froude_krylov=database.froude_krylov[keep],
+        diffraction=database.diffraction[keep],
+    )
+
+
+def cure(database: HydroDatabase, moving: Sequence[str], band: tuple[float, float]) -> str:
+    """Return what helps against frequencies in the band that break causality or energy, or "".
+
+    The repair is named only where it leaves fewer than half of them.
+    """
+
+    def bad(tables: HydroDatabase) -> int:
+        return int((suspect_rows(tables.select(moving)) & inside(tables.omega, band)).sum())
+
+    before = bad(database)
+    if not before:
+        return ""
+    try:
+        helps = 2 * bad(irregular(database)[0]) < before
+    except DatabaseError:  # too many to interpolate
+        helps = False
+    repair = "interpolate them (hdb doctor --repair irregular), or " if helps else ""
+    return (
+        f"{before} of {inside(database.omega, band).sum()} frequencies in the band break causality "
+        f"or energy: {repair}compute again with a lid (finer steps where a gap resonates)"
+    )
+
+
+def _refusal(refused: dict[str, str], cured_by: str) -> str:
+    """Return why a fit is refused, and what can be done."""
+    ways = []
+    if "target" in refused:
+        ways.append("a larger --target, a narrower --band or --states N, the best of so many")
+    if "passive" in refused:
+        ways.append("more states or another --method")
+    names = " ".join(f"--accept {check}" for check in refused)
+    first = f" {cured_by}." if cured_by else ""
+    return (
+        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or {names}"
+    )
+
+
+def kernel(
+    database: HydroDatabase,
+    inputs: str | Sequence[str],
+    *,
+    loads: str | Sequence[str] | None = None,
+    length: float | None = None,
+    band: tuple[float, float] | None = None,
+    limit: float = LIMIT,
+) -> HydroDatabase:
+    """Store the radiation kernel K(t) for the convolution; the command `hydrodae hdb kernel`.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    inputs : str or sequence of str
+        Coordinates that move: labels, or a text as `hydrodae.hdb.expand` reads it.
+    loads : str or sequence of str, optional
+        Coordinates whose loads it gives, likewise; default: those that move.
+    length : float, optional
+        Memory [s]; default: until a thousandth of int |K| is left, or H in the band no better.
+    band : (float, float), optional
+        Frequencies that must match [rad/s].
+    limit : float
+        Largest error of H in the band [-].
+
+    Returns
+    -------
+    HydroDatabase
+        A copy whose `kernel` is the new one.
+
+    Raises
+    ------
+    DatabaseError
+        Unknown coordinates, a memory too short for the grid, too few frequencies in the band, or an
+        error of H above the limit.
+    """
+    return database.with_kernel(
+        _labels(inputs, database),
+        None if loads is None else _labels(loads, database),
+        length=length,
+        band=band,
+        limit=limit,
+    )
+
+
+def is_fit_name(name: str) -> bool:
+    """Tell whether a fit can have this name in a file: letters, digits, _ and - only."""
+    return body_name(name) == name
+
+
+def _labels(given: str | Sequence[str], database: HydroDatabase) -> list[str]:
+    return expand(given if isinstance(given, str) else ",".join(given), database.coordinates)

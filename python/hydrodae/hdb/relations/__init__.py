@@ -1,0 +1,1 @@
+"""Relations between arrays of numbers: memory, A at infinity, dispersion, headings, noise."""

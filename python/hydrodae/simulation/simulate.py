@@ -1,0 +1,213 @@
+"""Run a case and hand back its results."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import tempfile
+import weakref
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Event, current_thread, main_thread
+from types import FrameType
+from typing import Any
+
+from hydrodae.case import Case
+from hydrodae.case.callbacks.controllers import (
+    Controller,
+    kernel_controllers,
+    repeatable_controllers,
+)
+from hydrodae.case.callbacks.drives import Drive, Kernel, kernel_drives
+from hydrodae.case.callbacks.laws import Force, kernel_forces
+from hydrodae.case.case import CaseLike, read_case
+from hydrodae.errors import CaseError, RunInterrupted, SolverError
+from hydrodae.results import Results
+
+#: Called with the time and the end time [s] at every output sample; return False to stop the run.
+Progress = Callable[[float, float], bool | None]
+
+
+def run(
+    case: CaseLike,
+    output: str | os.PathLike[str] | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+    drives: Mapping[str, Drive] | None = None,
+    forces: Mapping[str, Force] | None = None,
+    controllers: Mapping[str, Controller] | None = None,
+    verify: str = "",
+    checkpoint: float | None = None,
+    resume: bool = False,
+) -> Results:
+    """Simulate a case from its initial state to its end time.
+
+    Parameters
+    ----------
+    case : Case, Scene or path
+        The case, a scene built in Python, or the path of its file.
+    output : path, optional
+        Results file (HDF5); folders are made. The run writes ``X.partial.h5`` beside ``X.h5`` and
+        renames it when it ends, completed or not: until then an older results file stands. Without
+        `output` the results live in a temporary file that goes when the returned object does.
+    set : mapping from str, optional
+        Values that replace those of the case, by dotted key: ``{"solver.rtol": 1e-8}``.
+    progress : callable, optional
+        Called as ``progress(time, end_time)`` [s] at every output sample; return False to stop.
+    drives : mapping from str to callable, optional
+        Function of time [s] for every constraint with ``drive = { python = true }``, by its name.
+        It returns value, rate and rate of the rate [m or rad, per s, per s2]; or its value only,
+        then it is sampled before the run and a spline gives the rates. Exceptions in it end the run
+        and come back here.
+    forces : mapping from str to callable, optional
+        Law of every force of type ``python_load``, ``f(t, s, rate)`` [N or N m], and
+        ``python_wrench``, ``f(t, displacement, twist)`` (six numbers each, earth axes) to force and
+        moment [N, N m], by its name. It is called inside the solver: it must depend on its
+        arguments alone, and smoothly. Exceptions in it end the run and come back here.
+    controllers : mapping from str to callable, optional
+        Function ``f(t, input_1, ...)`` to one number or a sequence of them for every controller of
+        type ``python``, by its name; or an object with ``__call__``. It is called at its sampling
+        instants only. An object may have ``reset()``, called before the run, and ``state()`` to a
+        list of numbers with ``restore(list)``: these then belong to checkpoints. Exceptions in it
+        end the run and come back here, with what was computed as attribute `results`.
+    verify : str
+        Method of the second run by which the error is estimated: "radau", "ida", "explicit_rk". By
+        default it is the method of the run, at 10 rtol or twice the fixed step: that cannot see
+        errors which no tolerance changes. See `Results.accuracy`.
+    checkpoint : float, optional
+        Keep ``X.checkpoint.h5`` beside ``X.h5`` until the run is completed, anew after so many
+        seconds of wall time: what `resume` goes on from when the run was killed or stopped. At
+        each the method starts anew (see `Simulation.state`).
+    resume : bool
+        Go on from the checkpoint; the results then hold the whole run. Case, overrides, database
+        and version have to be those of that run. Functions in `drives` are the caller's to repeat.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    CaseError
+        The case, a drive or a force cannot be used, `output` exists and is no results file (it is
+        not replaced), another run is writing it, or there is no checkpoint of this case to resume.
+    SolverError
+        The integration failed, or the disk is full. What was computed is kept: the attribute
+        `results` of the exception is a `Results`, or None when the run did not even start.
+    RunInterrupted
+        Stopped by `progress` or by Ctrl-C (SIGINT); attribute `results` as above.
+    """
+    case = read_case(case, set)
+    functions = (
+        kernel_drives(case.scene, drives),
+        kernel_forces(case.scene, forces),
+        kernel_controllers(case.scene, controllers),
+    )
+    folder = None
+    if output is None:
+        if checkpoint is not None or resume:
+            raise CaseError("a checkpoint stands beside the results file: name an output")
+        folder = _TemporaryFolder()
+        path = folder.path / "results.h5"
+    else:
+        path = Path(output)
+        path.parent.mkdir(parents=True, exist_ok=True)
+    older = _stamp(path)
+    try:
+        status = _integrate(case, path, progress, functions, verify, checkpoint, resume)
+    except SolverError as error:
+        error.results = None if _stamp(path) == older else Results(path, owner=folder)
+        raise
+    except Exception as error:  # of a function of the caller's
+        if _stamp(path) != older:
+            error.results = Results(path, owner=folder)  # type: ignore[attr-defined]
+        raise
+    results = Results(path, owner=folder)
+    if status == "interrupted":
+        why = "" if results.message in ("", "stopped on request") else f": {results.message}"
+        stopped = RunInterrupted(
+            f"stopped at t = {results.end_time:g} s of {case.end_time:g} s{why}"
+        )
+        stopped.results = results
+        raise stopped
+    return results
+
+
+def _integrate(
+    case: Case,
+    path: Path,
+    progress: Progress | None,
+    functions: tuple[dict[str, Kernel], dict[str, Force], dict[str, Controller]],
+    verify: str,
+    checkpoint: float | None,
+    resume: bool,
+) -> str:
+    """Run the kernel; returns its status. Exceptions of `progress` end the run and come back here.
+
+    The kernel always gets a callback: Python handles signals only while it runs Python.
+    """
+    from hydrodae import _core
+
+    failure: list[BaseException] = []
+
+    def report(time: float, end_time: float) -> bool:
+        try:
+            go_on = progress is None or progress(time, end_time) is not False
+        except BaseException as error:
+            failure.append(error)
+            return False
+        return go_on and not interrupt.is_set()
+
+    with _interrupt_event() as interrupt:
+        status: str = _core.simulate(
+            case.scene,
+            str(path),
+            report,
+            *functions,
+            repeatable_controllers(functions[2]),
+            verify,
+            -1.0 if checkpoint is None else checkpoint,
+            resume,
+        )["status"]
+    if failure:
+        raise failure[0]
+    return status
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    """What tells a file from the one that had its name before; None where there is none."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
+
+
+@contextmanager
+def _interrupt_event() -> Iterator[Event]:
+    """Turn the first Ctrl-C into an event; a second one is a KeyboardInterrupt as usual."""
+    event = Event()
+    if current_thread() is not main_thread():  # only the main thread may set handlers
+        yield event
+        return
+
+    def stop(_signal: int, _frame: FrameType | None) -> None:
+        event.set()
+        signal.signal(signal.SIGINT, before)
+
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield event
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+class _TemporaryFolder:
+    """A folder that is removed when the last object that holds it goes."""
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="hydrodae-"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
