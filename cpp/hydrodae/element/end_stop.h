@@ -76,7 +76,7 @@ struct EndStop {
     /// rad].
     template <class S> S pushes(const S& u, const S& rate) const {
       if (!(u > S(0)))
-        return u > S(-1) ? u : S(-1);
+        return u > S(-INFINITY) ? u : S(-1); // no stop on this side
       const S pressed = load(u, rate) / S(stiffness);
       return pressed < u ? pressed : u;
     }

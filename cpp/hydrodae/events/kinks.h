@@ -22,7 +22,7 @@ public:
   std::size_t count() const override { return side_.size(); }
   void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
 
-  /// At an event at t [s]: the laws are on the sides that their numbers tell from now on.
+  /// At an event at t [s]: puts each law on the side of its kink that its number has.
   void settle(double t, const VectorX& y);
 
   /// At the end of a step without one: those that were on the kink may have left it.

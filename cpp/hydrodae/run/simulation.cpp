@@ -192,12 +192,12 @@ bool Simulation::take_step(double end) {
   }
 }
 
-/// Does the step hold an output sample? By the case alone, so that the sums of a run are the same
-/// whoever drives it.
+/// Does the step, its start among it, hold an output sample? By the case alone, so that the sums of
+/// a run are the same whoever drives it.
 bool Simulation::has_samples() const {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-12; // of the times of samples and steps
   const double dt = scene_.output.step;
-  return (std::floor(step_start_ / dt * (1.0 + rounding)) + 1.0) * dt <= t_ * (1.0 + rounding);
+  return std::ceil(step_start_ / dt * (1.0 - rounding)) * dt <= t_ * (1.0 + rounding);
 }
 
 /// The work over the step: by the stages of the method, if it can and there are no samples.

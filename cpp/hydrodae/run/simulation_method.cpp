@@ -93,7 +93,9 @@ std::optional<double> Simulation::locate() {
   if (sources_.empty())
     return std::nullopt;
   const int degree = integrator_->degree() + 1; // of the positions
-  const auto event = events::locate(sources_, step_start_, t_, degree, at_);
+  // Stops are met to within rounding, on the constraints; the margins of others follow from
+  // positions and velocities, which the polynomial of the step gives without solving for loads.
+  const auto event = events::locate(sources_, step_start_, t_, degree, switching_ ? at_ : motion_);
   if (!event && switching_) {
     at_(t_, y_, yp_);
     switching_->accept(t_, y_, yp_);

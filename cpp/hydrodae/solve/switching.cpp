@@ -152,9 +152,8 @@ void Switching::margins_of(std::size_t k, double* out) const {
     const double scale = motion_scale(element);
     const auto left = [&](double gap, double rate) {
       const bool slow = rate <= rtol_ * scale * size.rate;
-      return std::min(gap + depth_[k] +
-                          (slow ? 0.1 * rtol_ * scale : 1e-3 * touching) * size.length,
-                      size.length);
+      const double spare_gap = slow ? 0.1 * rtol_ * scale : 1e-3 * touching;
+      return std::isfinite(gap) ? gap + depth_[k] + spare_gap * size.length : never;
     };
     out[0] = left(element.upper - m.value, m.rate);
     out[1] = left(m.value - element.lower, -m.rate);

@@ -75,7 +75,7 @@ class Headings:
         """What every other heading, left out, misses: rows (n, nh) that multiply the forces.
 
         Of four headings all round the amplitude of their one spare harmonic, cos 2 b. No rows for
-        fewer headings and for a fan of three, which tell nothing about themselves.
+        fewer headings and for a fan of three, which say nothing about themselves.
         """
         size = self.heading.size
         if self.round and self.count == 4:
