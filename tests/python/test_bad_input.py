@@ -109,7 +109,8 @@ def test_a_database_from_python_is_read(case):
         (
             "mass = 1000.0",
             "mass = 0",
-            "case.toml:9:1: body 'buoy': a body that moves needs a mass > 0 kg, this one has 0 kg",
+            "case.toml:9:1: body 'buoy': a body in the water that moves needs a mass > 0 kg, this "
+            "one has 0 kg",
         ),
         (
             "end_time = 1.0",

@@ -13,14 +13,15 @@ namespace {
   refuse(Entry{"body", body.name}, key, message);
 }
 
-/// A rigid body turning freely: the inertia tensor is positive definite and its principal moments
-/// satisfy I1 + I2 >= I3 (moments of a mass distribution).
+/// A rigid body turning freely: no principal moment is negative, and I1 + I2 >= I3 (moments of a
+/// mass distribution). Moments of zero are those of points and rods; whether the constraints leave
+/// such a direction to itself is seen at the start.
 void check_tensor(const Body& body, const Matrix3& tensor) {
   const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(tensor).eigenvalues();
   const std::string text = "principal moments " + number_text(moments[0]) + ", " +
                            number_text(moments[1]) + ", " + number_text(moments[2]) + " kg m2";
-  if (moments[0] <= 0.0)
-    refuse(body, "inertia", "the inertia tensor must be positive definite to turn freely; " + text);
+  if (moments[0] < -1e-9 * moments[2])
+    refuse(body, "inertia", "no mass distribution has this inertia: a moment is negative; " + text);
   if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6))
     refuse(body, "inertia",
            "no mass distribution has this inertia: the largest principal moment "
@@ -36,10 +37,11 @@ void check_inertia(const Body& body, const std::array<bool, 6>& free) {
            "'inertia' holds the principal moments");
   const Matrix3 tensor = inertia_tensor(body);
   for (std::size_t i = 0; i < 3; ++i)
-    if (free[3 + i] && !(tensor.diagonal()[static_cast<Eigen::Index>(i)] > 0.0))
+    if (const double moment = tensor.diagonal()[static_cast<Eigen::Index>(i)];
+        free[3 + i] && (body.hydro ? !(moment > 0.0) : moment < 0.0))
       refuse(body, "inertia",
-             std::string(symbols[i]) + " must be > 0 kg m2, because the body is free in " +
-                 std::string(coordinate_names[3 + i]));
+             std::string(symbols[i]) + (body.hydro ? " must be > 0" : " must be >= 0") +
+                 " kg m2, because the body is free in " + std::string(coordinate_names[3 + i]));
   if (free[3] && free[4] && free[5])
     check_tensor(body, tensor);
 }
@@ -84,9 +86,10 @@ void check_volume(const Scene& scene, const Body& body) {
 
 void check_body(const Scene& scene, const Body& body) {
   const std::array<bool, 6> free = free_coordinates(body);
-  if (moves(body) && !(body.mass > 0.0))
+  if (moves(body) && body.hydro && !(body.mass > 0.0))
     refuse(body, "mass",
-           "a body that moves needs a mass > 0 kg, this one has " + number_text(body.mass) + " kg");
+           "a body in the water that moves needs a mass > 0 kg, this one has " +
+               number_text(body.mass) + " kg");
   check_inertia(body, free);
   check_initial(body, free);
   check_volume(scene, body);

@@ -88,6 +88,31 @@ std::optional<double> jump(const Regime& s, double t, SaddlePoint& saddle, Vecto
   return work;
 }
 
+/// Throws: names the body of the largest part of the direction `free` of u.
+[[noreturn]] void refuse_massless(const Regime& s, const VectorX& free) {
+  Index most = 0;
+  free.cwiseAbs().maxCoeff(&most);
+  for (const system::BodyData& b : s.bodies) {
+    const Index first = b.u0 - s.u0;
+    if (most < first || most >= first + b.n_active)
+      continue;
+    const bool turns = most >= first + b.n_translations;
+    const Index from = turns ? first + b.n_translations : first;
+    Vector3 axis = Vector3::Zero();
+    for (Index k = from; k < first + (turns ? b.n_active : b.n_translations); ++k)
+      axis[b.active[static_cast<std::size_t>(k - first)] % 3] = free[k];
+    axis /= axis.cwiseAbs().maxCoeff();
+    const std::string along = "[" + rounded_text(axis[0], 3) + ", " + rounded_text(axis[1], 3) +
+                              ", " + rounded_text(axis[2], 3) + "]";
+    throw ModelError("body." + b.name + (turns ? ".inertia" : ".mass"),
+                     "body '" + b.name + "' has no " + (turns ? "moment of inertia" : "mass") +
+                         ", and no constraint holds its " +
+                         (turns ? "rotation about its axis " : "translation along ") + along +
+                         ": give it one, or lock this direction by 'motion' or a joint");
+  }
+  throw SolverError(0.0, "a direction without inertia is held by nothing");
+}
+
 /// The stabilised equations, as long as this object is there.
 class Stabilised {
 public:
@@ -117,6 +142,8 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   Equations equations(s, pattern, 1.0);
   SaddlePoint saddle(equations);
   const bool found = saddle.accelerations(0.0, y, yp);
+  if (const VectorX free = saddle.undetermined(); free.size() > 0)
+    refuse_massless(s, free);
   if (!saddle.jam().empty())
     throw SolverError(0.0, "stopped at t = 0 s: " + saddle.jam());
   if (!found || saddle.mismatch() > start_balanced)

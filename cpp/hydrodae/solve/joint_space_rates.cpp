@@ -56,7 +56,7 @@ bool JointSpace::factorise() {
   for (Index i = 0; i < m_; ++i) {
     double d = 0.0;
     for (Index k = 0; k < n_; ++k)
-      if (const double g = plain_(n_ + i, k); g != 0.0)
+      if (const double g = plain_(n_ + i, k); g != 0.0 && plain_(k, k) > 0.0)
         d += g * g / plain_(k, k);
     metric_[i] = d > 0.0 ? d : 1.0;
     matrix_(n_ + i, n_ + i) = -tree_regularisation * metric_[i];

@@ -1,5 +1,6 @@
 #include "hydrodae/solve/saddle_point.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +13,15 @@ namespace hydrodae::solve {
 namespace {
 
 constexpr double regularisation = 1e-8; ///< e
-constexpr int refinements = 4;
+/// D is at least this part of diag(G M^-1 G^T), so that eD stays a hundred times above rounding.
+constexpr double least_metric = 1e-6;
+constexpr int usual_refinements = 4; ///< in singular poses the residual may stay
+constexpr int refinements = 20;
+constexpr double stalled = 0.5;    ///< what a refinement leaves of the residual: more is the end
 constexpr double much_left = 1e-6; ///< likewise: more than regularisation leaves
 constexpr int projections = 8;
+/// Squares of lengths, relative to the largest: below, a direction has no inertia, or no row.
+constexpr double singular_mass = 1e-14;
 constexpr double rough = 1e-6;  ///< residual of a step of a projection, which the next step mends
 constexpr double longest = 1e4; ///< way that closes a gap, relative to the gap
 constexpr double moving = 1e-8; ///< rates of the gaps likewise: more means that the loop is locked
@@ -76,21 +83,70 @@ SaddlePoint::SaddlePoint(Equations& equations)
     start_[c + 1] += start_[c];
   plain_.resize(row_.size());
   metric_.resize(s_.n_lambda);
+  heaviest_.resize(static_cast<std::size_t>(s_.n_mechanisms) +
+                   1); // the last: of what is not a body
+  mechanism_.assign(s_.n_u, heaviest_.size() - 1);
+  turns_.assign(s_.n_u, false);
+  for (const system::BodyData& b : s_.bodies)
+    for (int k = 0; k < b.n_active; ++k) {
+      mechanism_[b.u0 - s_.u0 + k] =
+          b.mechanism < 0 ? heaviest_.size() - 1 : static_cast<std::size_t>(b.mechanism);
+      turns_[b.u0 - s_.u0 + k] = k >= b.n_translations;
+    }
   lu_ = std::make_unique<SparseLu<double>>(start_, row_);
   pressed_ = Pressed::find(s_);
 }
 
 SaddlePoint::~SaddlePoint() = default;
 
-/// K with e > 0 from K; D_i = sum_k G_ik^2 / M_kk.
+/// The heaviest mass of each mechanism and its largest moment of inertia, that of the mass at the
+/// longest lever of a row included.
+void SaddlePoint::find_heaviest() {
+  for (Heaviest& h : heaviest_)
+    h = {};
+  for (Index k = 0; k < s_.n_u; ++k) {
+    Heaviest& h = heaviest_[mechanism_[k]];
+    double& most = turns_[k] ? h.inertia : h.mass;
+    most = std::max(most, plain_[mass_[k]]);
+  }
+  for (Index i = s_.n_u; i < n_; ++i) {
+    const RowSums row = sums_of(i);
+    if (row.shift > 0.0) {
+      Heaviest& h = heaviest_[row.mechanism];
+      h.inertia = std::max(h.inertia, h.mass * row.turn / row.shift);
+    }
+  }
+}
+
+/// What row i of the matrix, a constraint, holds of G.
+SaddlePoint::RowSums SaddlePoint::sums_of(Index i) const {
+  RowSums out;
+  for (Index k = start_[i]; k < start_[i + 1]; ++k)
+    if (const Index u = row_[k]; u < s_.n_u && plain_[k] != 0.0) {
+      const double square = plain_[k] * plain_[k];
+      (turns_[u] ? out.turn : out.shift) += square;
+      if (const double mass = plain_[mass_[u]]; mass > 0.0)
+        out.yields += square / mass;
+      out.mechanism = mechanism_[u];
+    }
+  return out;
+}
+
+/// K with e > 0 from K. D_i is what the row would yield if the heaviest body of its mechanism were
+/// at its end: the smallest eigenvalues of G M^-1 G^T are of that size, however light the others
+/// are.
 bool SaddlePoint::factorise() {
   std::vector<double>& values = lu_->values();
   std::copy(plain_.begin(), plain_.end(), values.begin());
+  find_heaviest();
   for (Index i = s_.n_u; i < n_; ++i) {
-    double d = 0.0;
-    for (Index k = start_[i]; k < start_[i + 1]; ++k)
-      if (row_[k] < s_.n_u && plain_[k] != 0.0)
-        d += plain_[k] * plain_[k] / plain_[mass_[row_[k]]];
+    const RowSums row = sums_of(i);
+    const Heaviest& h = heaviest_[row.mechanism];
+    const bool shifts = row.shift > 0.0;
+    double d = shifts ? row.shift : row.turn;
+    if (const double most = shifts ? h.mass : h.inertia; most > 0.0)
+      d /= most;
+    d = std::max(d, least_metric * row.yields);
     metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
     values[diagonal_[i - s_.n_u]] = -regularisation * metric_[i - s_.n_u];
   }
@@ -110,6 +166,7 @@ void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
 void SaddlePoint::solve(VectorX& x, double accuracy) {
   x = rhs_;
   lu_->solve(x.data());
+  double before = HUGE_VAL;
   for (int i = 0; i < refinements; ++i) {
     multiply(x, r_);
     r_ = rhs_ - r_;
@@ -130,6 +187,11 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
       }
       return solve(x, accuracy);
     }
+    const double left =
+        std::max(load > 0.0 ? forces / load : 0.0, motion > 0.0 ? gaps / motion : 0.0);
+    if (i >= usual_refinements && left > stalled * before)
+      return;
+    before = left;
     lu_->solve(r_.data());
     x += r_;
   }
@@ -176,6 +238,44 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   yp.segment(s_.u0, s_.n_u) = x_.head(s_.n_u);
   y.segment(s_.lambda0, s_.n_lambda) = -x_.tail(s_.n_lambda);
   return balanced && x_.allFinite();
+}
+
+VectorX SaddlePoint::undetermined() const {
+  // Of each body the directions z in which its block of M is singular, levers of 1 m.
+  std::vector<VectorX> massless;
+  MatrixX dense = MatrixX::Zero(n_, s_.n_u);
+  for (Index c = 0; c < s_.n_u; ++c)
+    for (Index k = start_[c]; k < start_[c + 1]; ++k)
+      dense(row_[k], c) = plain_[k];
+  for (const system::BodyData& b : s_.bodies) {
+    const Index first = b.u0 - s_.u0, t = b.n_translations;
+    for (const auto& [at, n] : {std::pair{first, t}, std::pair{first + t, b.n_active - t}}) {
+      if (n == 0)
+        continue;
+      const Eigen::SelfAdjointEigenSolver<MatrixX> own(dense.block(at, at, n, n));
+      for (Index k = 0; k < n; ++k)
+        if (own.eigenvalues()[k] <= singular_mass * own.eigenvalues()[n - 1]) {
+          massless.push_back(VectorX::Zero(s_.n_u));
+          massless.back().segment(at, n) = own.eigenvectors().col(k);
+        }
+    }
+  }
+  if (massless.empty())
+    return {};
+  // The rows along them, each of the length that it has along all of u: a part of no length is
+  // free.
+  MatrixX Z(s_.n_u, static_cast<Index>(massless.size()));
+  for (Index k = 0; k < Z.cols(); ++k)
+    Z.col(k) = massless[static_cast<std::size_t>(k)];
+  MatrixX G = dense.bottomRows(s_.n_lambda);
+  for (Index i = 0; i < G.rows(); ++i)
+    if (const double length = G.row(i).norm(); length > 0.0)
+      G.row(i) /= length;
+  const MatrixX along = G * Z;
+  const Eigen::SelfAdjointEigenSolver<MatrixX> held(along.transpose() * along);
+  if (held.eigenvalues()[0] > singular_mass)
+    return {};
+  return Z * held.eigenvectors().col(0);
 }
 
 VectorX SaddlePoint::independence(const std::vector<int>& part, int parts) {

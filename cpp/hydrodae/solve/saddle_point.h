@@ -4,10 +4,10 @@
 ///   [ M   G^T ] [  u'     ]   [ f                ]
 ///   [ G   -eD ] [ -lambda ] = [ -gamma (+ drive) ]
 ///
-/// D is diag(G M^-1 G^T) roughly, e tiny. It only keeps the matrix regular where rows depend on
-/// each other (singular poses); refinement against e = 0 (the proximal iteration of Bayo and
-/// Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its effect out again and tends to the
-/// minimum-norm reactions.
+/// D is diag(G M^-1 G^T) with the masses of the heaviest body of each mechanism, e tiny. It only
+/// keeps the matrix regular where rows depend on each other (singular poses); refinement against e
+/// = 0 (the proximal iteration of Bayo and Ledesma, Nonlinear Dynamics 9 (1996) 113) takes its
+/// effect out again and tends to the minimum-norm reactions.
 ///
 /// Friction that the reactions press is found after that (pressed_friction.cpp).
 
@@ -41,6 +41,10 @@ public:
 
   /// What the last `accelerations` left of the equations, relative to the loads [-].
   double mismatch();
+
+  /// A direction of u (n_u,) that has no inertia and that no row of the last matrix holds; empty:
+  /// there is none within one body. Dense.
+  VectorX undetermined() const;
 
   /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
   /// `accelerations`: 1 for rows that do not feel each other, 0 in a singular pose. Of each part of
@@ -77,6 +81,15 @@ private:
   static constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
 
   struct Pressed;
+  struct Heaviest { ///< of one mechanism
+    double mass = 0.0, inertia = 0.0;
+  };
+  struct RowSums { ///< sums of G_ik^2 over translations and over rotations, and of G_ik^2 / M_kk
+    double shift = 0.0, turn = 0.0, yields = 0.0;
+    std::size_t mechanism = 0;
+  };
+  void find_heaviest();
+  RowSums sums_of(Index i) const;
   bool press(double t, const VectorX& y, VectorX& yp);
   void fill(double t, const VectorX& y);
   bool factorise();
@@ -101,10 +114,13 @@ private:
   std::vector<Index> start_, row_;
   std::vector<Entry> entries_;
   std::vector<Rate> rates_;
-  std::vector<Index> diagonal_; ///< slots of eD
-  std::vector<Index> mass_;     ///< slots of the diagonal of M
-  std::vector<double> plain_;   ///< values with e = 0
-  VectorX metric_;              ///< (n_lambda,) D
+  std::vector<Index> diagonal_;        ///< slots of eD
+  std::vector<Index> mass_;            ///< slots of the diagonal of M
+  std::vector<double> plain_;          ///< values with e = 0
+  VectorX metric_;                     ///< (n_lambda,) D
+  std::vector<std::size_t> mechanism_; ///< (n_u,)
+  std::vector<bool> turns_;            ///< (n_u,) angular velocities
+  std::vector<Heaviest> heaviest_;     ///< by mechanism
   std::unique_ptr<SparseLu<double>> lu_;
   bool old_pivots_ = false; ///< those of a matrix before, which nobody has looked at
   VectorX residual_, rhs_, x_, r_, yp0_;

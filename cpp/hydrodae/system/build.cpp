@@ -118,6 +118,7 @@ System build(const model::Scene& scene, bool with_excitation) {
   add_gauges(scene, s);
   set_coupler_offsets(scene, s);
   find_mechanisms(s);
+  set_scale_masses(s);
   number(s);
   assemble(s, {scene.solver.tolerance_assembly, scene.solver.end_time, scene.solver.force},
            body_starts(scene));

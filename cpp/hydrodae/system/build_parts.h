@@ -9,6 +9,9 @@ namespace hydrodae::system {
 /// Length scale and lever of each body, force scale of each joint (build_scales.cpp).
 void set_body_scales(const model::Scene& scene, System& system);
 
+/// BodyData::scale_mass, once the groups are known.
+void set_scale_masses(System& system);
+
 /// What a constraint row holds, for people: "gap along x".
 std::string row_name(const joint::BasicRow& row);
 

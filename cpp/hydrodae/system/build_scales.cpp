@@ -47,7 +47,8 @@ JointScale joint_scale(const System& s, const JointData& j) {
       continue;
     const BodyData& b = s.bodies[body];
     const double weight =
-        b.mass * (s.gravity > 0.0 ? s.gravity : b.length_scale / (b.time_scale * b.time_scale));
+        b.scale_mass *
+        (s.gravity > 0.0 ? s.gravity : b.length_scale / (b.time_scale * b.time_scale));
     if (out.force == 0.0 || weight < out.force)
       out = {weight, b.length_scale, b.length_scale / b.lever, b.time_scale};
   }
@@ -76,6 +77,18 @@ void set_body_scales(const model::Scene& scene, System& s) {
     b.time_scale_known = scene.solver.time_scale.has_value() || s.gravity > 0.0;
     b.time_scale =
         scene.solver.time_scale.value_or(s.gravity > 0.0 ? std::sqrt(b.lever / s.gravity) : 1.0);
+  }
+}
+
+void set_scale_masses(System& s) {
+  std::vector<double> largest(static_cast<std::size_t>(s.n_groups), 0.0);
+  for (const BodyData& b : s.bodies)
+    if (b.group >= 0)
+      largest[static_cast<std::size_t>(b.group)] =
+          std::max(largest[static_cast<std::size_t>(b.group)], b.mass);
+  for (BodyData& b : s.bodies) {
+    const double all = b.group < 0 ? 0.0 : largest[static_cast<std::size_t>(b.group)];
+    b.scale_mass = b.mass > 0.0 ? b.mass : all > 0.0 ? all : 1.0;
   }
 }
 
@@ -108,7 +121,7 @@ void set_scales(Regime& s) {
   for (const BodyData& b : s.bodies) {
     const double length = b.length_scale, angle = length / b.lever;
     const double weight =
-        b.mass * (s.gravity > 0.0 ? s.gravity : length / (b.time_scale * b.time_scale));
+        b.scale_mass * (s.gravity > 0.0 ? s.gravity : length / (b.time_scale * b.time_scale));
     for (int k = 0; k < b.n_active; ++k) {
       const bool turns = b.active[k] >= 3;
       s.scale[b.u0 + k] = (turns ? angle : length) / b.time_scale;

@@ -294,10 +294,21 @@ void judge_water(const model::Scene& scene, std::vector<Finding>& out) {
   }
 }
 
+/// Bodies with mass that turn about an axis without a moment of inertia: meant, or forgotten.
+void judge_inertia(const System& s, std::vector<Finding>& out) {
+  for (const BodyData& b : s.bodies)
+    for (int k = b.n_translations; k < b.n_active && b.mass > 0.0; ++k)
+      if (const int axis = b.active[static_cast<std::size_t>(k)] - 3; b.inertia(axis, axis) == 0.0)
+        out.push_back({false, "body " + in_quotes(b.name) +
+                                  " has a mass and no moment of inertia about " + "xyz"[axis] +
+                                  ", and turns: it moves as a point or a thin rod"});
+}
+
 } // namespace
 
 std::vector<Finding> look_at_mechanism(const model::Scene& scene, const System& s) {
   std::vector<Finding> out;
+  judge_inertia(s, out);
   judge_joints(scene, s, out);
   judge_depth(scene, out);
   judge_forces(Regime(s), out);

@@ -53,6 +53,7 @@ struct BodyData {
   double lever = 1.0;           ///< [m], turns lengths into angles
   bool time_scale_known = true; ///< else taken from the start (no gravity, none given)
   double time_scale = 1.0;      ///< [s], turns lengths into velocities
+  double scale_mass = 1.0;      ///< [kg], its own, or without one the largest of its group
   int followed = -1;            ///< its rotation in System::rotations; -1: not free, or locked
   int mechanism = -1;           ///< of bodies that constraint rows hold together; -1: cannot move
   int group = -1; ///< of bodies that move each other in any way: by rows, forces, or the water
