@@ -10,10 +10,12 @@
 #include "hydrodae/model/motion.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/solve/equilibrium.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae {
 

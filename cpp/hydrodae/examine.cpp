@@ -14,7 +14,9 @@
 #include "hydrodae/run/controllers.h"
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/assemble.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae {
 

@@ -16,6 +16,7 @@
 #include "hydrodae/simulation.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/newton_matrix.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace {

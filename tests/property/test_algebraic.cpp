@@ -8,6 +8,7 @@
 #include "hydrodae/solve/consistent_start.h"
 #include "hydrodae/solve/equilibrium.h"
 #include "hydrodae/solve/integrator.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
 

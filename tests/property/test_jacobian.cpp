@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "hydrodae/math/dual.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/jacobian.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"

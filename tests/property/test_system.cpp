@@ -4,6 +4,7 @@
 
 #include "hydrodae/measure/observer.h"
 #include "hydrodae/solve/consistent_start.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
 

@@ -12,6 +12,7 @@
 #include "hydrodae/system/closing.h"
 #include "hydrodae/system/constraints.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/retract.h"
 #include "hydrodae/system/trouble.h"
 
 namespace hydrodae::solve {

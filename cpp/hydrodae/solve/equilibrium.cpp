@@ -8,6 +8,7 @@
 #include "hydrodae/math/dense.h"
 #include "hydrodae/solve/balance.h"
 #include "hydrodae/solve/static_step.h"
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
 #include "hydrodae/system/mechanisms.h"

@@ -8,7 +8,7 @@
 #include "hydrodae/math/rotation.h"
 #include "hydrodae/solve/equations.h"
 #include "hydrodae/solve/newton_matrix.h"
-#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae::solve {
 

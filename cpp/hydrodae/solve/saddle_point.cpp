@@ -6,7 +6,7 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/solve/pressed_friction.h"
-#include "hydrodae/system/assemble.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae::solve {
 

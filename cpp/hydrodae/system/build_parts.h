@@ -12,12 +12,6 @@ void set_body_scales(const model::Scene& scene, System& system);
 /// BodyData::scale_mass, once the groups are known.
 void set_scale_masses(System& system);
 
-/// What a constraint row holds, for people: "gap along x".
-std::string row_name(const joint::BasicRow& row);
-
-/// Names of unknowns and rows; needs the layout (build_names.cpp).
-void set_names(Regime& regime);
-
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, System& system);
 

@@ -7,10 +7,6 @@ namespace hydrodae::system {
 
 inline constexpr double nearly_closed = 1e-8; ///< gaps that a closed pose may have, of their scale
 
-/// q moved along virtual displacements: `step` has one entry per velocity unknown [m or rad];
-/// quaternions turn by exp(step), angles and translations add. Other unknowns stay.
-void retract(const System& system, const VectorX& step, VectorX& y);
-
 /// Newton's method with smallest corrections in units of the scales.
 /// @param moved  if given: the longest way to go; the way gone, in units of the scales
 /// @returns the largest gap left

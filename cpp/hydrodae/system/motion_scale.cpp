@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/system/build_parts.h"
 
 namespace hydrodae::system {
 

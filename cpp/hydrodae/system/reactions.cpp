@@ -8,6 +8,7 @@
 #include "hydrodae/math/dense.h"
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/names.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace hydrodae::system {

@@ -8,8 +8,9 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/names.h"
 #include "hydrodae/system/closing.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae::system {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/names.h"
 #include "hydrodae/system/turning.h"
 
 namespace hydrodae::system {

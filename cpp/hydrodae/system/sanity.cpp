@@ -13,6 +13,7 @@
 #include "hydrodae/system/assemble.h"
 #include "hydrodae/system/mechanisms.h"
 #include "hydrodae/system/residual.h"
+#include "hydrodae/system/retract.h"
 
 namespace hydrodae::system {
 

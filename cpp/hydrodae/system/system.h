@@ -312,10 +312,6 @@ inline bool is_first_of_its_body(const PortData& port, std::size_t point) {
 /// Takes the waves away.
 void calm(System& system);
 
-/// Builds the system of a checked scene: dofs, markers, constraint rows that matter, hydrodynamics,
-/// scales; the excitation of the sea is that of the start, or left out. Throws ModelError.
-System build(const model::Scene& scene, bool with_excitation = true);
-
 /// Offsets of positions, velocities and states, numbers of rows and groups, after bodies, rows or
 /// elements were added.
 void number(System& system);

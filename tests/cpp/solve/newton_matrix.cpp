@@ -1,5 +1,6 @@
 /// Newton's matrix with the radiation memory eliminated, against the whole one.
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/solve/newton_matrix.h"
 
 #include <doctest/doctest.h>

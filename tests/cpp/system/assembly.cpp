@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/measure/observer.h"
 #include "hydrodae/solve/consistent_start.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/system/assemble.h"
 #include "support.h"

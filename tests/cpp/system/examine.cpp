@@ -1,5 +1,6 @@
 /// What a scene costs, and which coordinates nothing moves.
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/examine.h"
 
 #include <doctest/doctest.h>

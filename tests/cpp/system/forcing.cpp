@@ -1,5 +1,6 @@
 /// What is known ahead of the loads that follow the time.
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/forcing.h"
 
 #include <doctest/doctest.h>

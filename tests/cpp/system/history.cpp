@@ -1,5 +1,6 @@
 /// The past of a body whose motion is given, against closed forms.
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/history.h"
 
 #include <cmath>

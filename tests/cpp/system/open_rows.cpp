@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/examine.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/measure/observer.h"

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/system/system.h"
 #include "support.h"

@@ -1,5 +1,6 @@
 /// Sparse rank and smallest solutions against dense ones, on all benchmark mechanisms.
 
+#include "hydrodae/system/build.h"
 #include "hydrodae/system/rank.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 /// Names of unknowns and equations, as a person reads them in messages.
 
-#include "hydrodae/system/build_parts.h"
+#include "hydrodae/system/names.h"
 
 namespace hydrodae::system {
 

@@ -1,0 +1,10 @@
+#pragma once
+#include "hydrodae/system/system.h"
+
+namespace hydrodae::system {
+
+/// q moved along virtual displacements: `step` has one entry per velocity unknown [m or rad];
+/// quaternions turn by exp(step), angles and translations add. Other unknowns stay.
+void retract(const System& system, const VectorX& step, VectorX& y);
+
+} // namespace hydrodae::system
