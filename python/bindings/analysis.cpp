@@ -1,4 +1,4 @@
-#include "hydrodae/analysis.h"
+#include "hydrodae/statics/analysis.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>

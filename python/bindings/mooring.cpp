@@ -3,7 +3,7 @@
 
 #include "bindings.h"
 #include "hydrodae/core/error.h"
-#include "hydrodae/element/catenary_line.h"
+#include "hydrodae/line/catenary_line.h"
 
 namespace py = pybind11;
 
@@ -12,12 +12,10 @@ namespace hydrodae::bindings {
 namespace {
 
 /// The line of a force of type `catenary` with these values. Throws CaseError.
-element::CatenaryLine make_line(const std::vector<double>& length,
-                                const std::vector<double>& weight,
-                                const std::vector<double>& stiffness,
-                                const std::vector<double>& loads, bool seabed, double friction,
-                                double X, double Z) {
-  element::CatenaryLine line;
+line::CatenaryLine make_line(const std::vector<double>& length, const std::vector<double>& weight,
+                             const std::vector<double>& stiffness, const std::vector<double>& loads,
+                             bool seabed, double friction, double X, double Z) {
+  line::CatenaryLine line;
   line.name = "catenary";
   line.length = length;
   line.weight = weight;

@@ -13,10 +13,10 @@
 #include <random>
 #include <string>
 
+#include "hydrodae/build/build.h"
+#include "hydrodae/linalg/newton_matrix.h"
 #include "hydrodae/simulation.h"
-#include "hydrodae/solve/equilibrium.h"
-#include "hydrodae/solve/newton_matrix.h"
-#include "hydrodae/system/build.h"
+#include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/jacobian.h"
 
 namespace {
@@ -131,22 +131,22 @@ int main(int argc, char** argv) {
   const bool compares = argc > 2; // with the whole matrix, too
   const int n = argc > 1 ? std::atoi(argv[1]) : 10;
   const model::Scene scene = array_of(n);
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
-  const system::Pattern whole = system::find_pattern(s), less = solve::condensed(s, whole);
+  const system::Pattern whole = system::find_pattern(s), less = linalg::condensed(s, whole);
   const VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
   system::JacobianWorkspace ws(s);
   system::JacobianParts parts(less);
   const auto start = Clock::now();
   system::jacobian(s, less, ws, 0.0, y.data(), yp.data(), parts);
   const double jacobian = seconds_since(start);
-  solve::NewtonMatrix<double> newton(s, less);
+  linalg::NewtonMatrix<double> newton(s, less);
   const auto own = times([&](double alpha) { return newton.factorise(parts, alpha); });
   std::array<double, 2> sparse{};
   if (compares) {
     system::JacobianParts all(whole);
     system::jacobian(s, whole, ws, 0.0, y.data(), yp.data(), all);
-    solve::SparseLu<double> lu(whole.column_start, whole.row);
+    linalg::SparseLu<double> lu(whole.column_start, whole.row);
     sparse = times([&](double alpha) {
       for (std::size_t k = 0; k < all.by_y.size(); ++k)
         lu.values()[k] = all.by_y[k] + alpha * all.by_yp[k];

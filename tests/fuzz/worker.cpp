@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "arguments.h"
-#include "hydrodae/analysis.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/simulation.h"
+#include "hydrodae/statics/analysis.h"
 
 namespace {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "hydrodae/element/excitation.h"
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/jacobian.h"
+#include "hydrodae/water/excitation.h"
 
 namespace hydrodae::test {
 
@@ -224,8 +224,8 @@ template <int w> const hydrodae_law* smooth_library_law() {
 
 /// Lines of two parts with bending, a buoy and a clump, partly in the air and on the bed, and one
 /// with a free end, in other water, which is damped where it is slack and leaves the bed.
-inline std::vector<element::Line> random_lines(Random& random) {
-  element::Line line;
+inline std::vector<line::Line> random_lines(Random& random) {
+  line::Line line;
   line.name = "line";
   line.body_a = "a";
   line.body_b = "b";
@@ -251,7 +251,7 @@ inline std::vector<element::Line> random_lines(Random& random) {
   line.seabed_stiffness = 40.0;
   line.seabed_damping = 5.0;
   line.seabed_friction = 0.5;
-  element::Line hanging = line;
+  line::Line hanging = line;
   hanging.name = "hanging";
   hanging.free_end = true;
   hanging.damps_slack = true;
@@ -264,8 +264,8 @@ inline std::vector<element::Line> random_lines(Random& random) {
 }
 
 /// A rope with two sheaves, under each of which it runs, taut whatever the pose.
-inline element::Rope rope_under_sheaves() {
-  element::Rope rope;
+inline line::Rope rope_under_sheaves() {
+  line::Rope rope;
   rope.name = "rope under sheaves";
   rope.bodies = {"ground", "a", "b", "ground"};
   rope.points = {{-1.0, 0.1, 5.0}, {0.0, 0.0, 0.2}, {2.0, 0.4, -0.6}, {3.5, 0.6, 5.0}};
@@ -303,9 +303,9 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
             if (presses)
               list.push_back(pressed_friction<Law>(random));
           }
-          if constexpr (std::is_same_v<Law, element::Line>)
+          if constexpr (std::is_same_v<Law, line::Line>)
             list = random_lines(random);
-          if constexpr (std::is_same_v<Law, element::Rope>)
+          if constexpr (std::is_same_v<Law, line::Rope>)
             list.push_back(rope_under_sheaves());
           if constexpr (requires(Law law) { law.upper; })
             for (Law& law : list)
@@ -340,14 +340,14 @@ inline void add_morison(model::Scene& scene) {
     scene.waves.push_back(swell());
   }
   scene.sea.current = {0.3, -0.2, 0.1};
-  element::Morison point;
+  water::Morison point;
   point.name = "ball";
   point.body = "a";
   point.point = Vector3(0.2, -0.1, -0.3);
   point.diameter = 1.5;
   point.drag_coefficient = 0.7;
   point.added_mass_coefficient = 0.5;
-  element::Morison member;
+  water::Morison member;
   member.name = "leg";
   member.body = "b";
   member.point_a = Vector3(1.6, 0.2, -2.0);
@@ -445,8 +445,8 @@ inline void turn_mean_axes(system::System& s) {
     yaw -= 1.1;
   }
   for (system::ElementList& list : s.elements)
-    if (const auto* waves = dynamic_cast<const element::Excitation*>(list.laws.get())) {
-      auto turned = std::make_shared<element::Excitation>(*waves);
+    if (const auto* waves = dynamic_cast<const water::Excitation*>(list.laws.get())) {
+      auto turned = std::make_shared<water::Excitation>(*waves);
       turned->turn(s.hydro.bodies);
       list.laws = std::move(turned);
     }

@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include "hydrodae/build/build.h"
 #include "hydrodae/element/laws.h"
+#include "hydrodae/integrate/integrator.h"
 #include "hydrodae/math/dual.h"
-#include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/solve/equilibrium.h"
-#include "hydrodae/solve/integrator.h"
-#include "hydrodae/system/build.h"
+#include "hydrodae/statics/consistent_start.h"
+#include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
 
@@ -67,7 +67,7 @@ model::Scene weight(double stiffness) {
 
 /// The same on two springs.
 System on_series(const SeriesSprings& springs) {
-  System s = system::build(weight(0.0));
+  System s = build::build(weight(0.0));
   system::ElementList list;
   list.laws = std::make_shared<const element::Laws<SeriesSprings>>(std::vector{springs});
   list.ports = s.elements.front().ports;
@@ -86,8 +86,8 @@ std::array<VectorX, 2> run(const Regime& s, const std::string& method) {
     options.step = 1e-3;
   VectorX y = system::initial_state(s), yp;
   const system::Pattern pattern = system::find_pattern(s);
-  solve::consistent_start(s, pattern, y, yp);
-  const auto integrator = solve::make_integrator(s, pattern, options, 0.0, y, yp);
+  statics::consistent_start(s, pattern, y, yp);
+  const auto integrator = integrate::make_integrator(s, pattern, options, 0.0, y, yp);
   std::array<VectorX, 2> out{y, y};
   for (double t = 0.0, before = 0.0; t < 1.0; before = t) {
     t = integrator->step(1.0, 1.0);
@@ -130,13 +130,13 @@ TEST_CASE("the Jacobian holds the row of an algebraic unknown") {
 
 TEST_CASE("two springs in series are one in the linear model and at rest") {
   const SeriesSprings springs;
-  System one = system::build(weight(springs.stiffness())), two = on_series(springs);
-  const VectorX rest_one = solve::move_to_equilibrium(one).y,
-                rest = solve::move_to_equilibrium(two).y;
+  System one = build::build(weight(springs.stiffness())), two = on_series(springs);
+  const VectorX rest_one = statics::move_to_equilibrium(one).y,
+                rest = statics::move_to_equilibrium(two).y;
   const Regime of_one(one), of_two(two);
   CHECK(rest.head(two.n_q).isApprox(rest_one.head(one.n_q), 1e-10));
-  const auto a = solve::linear_matrices(of_one, system::find_pattern(of_one), rest_one),
-             b = solve::linear_matrices(of_two, system::find_pattern(of_two), rest);
+  const auto a = statics::linear_matrices(of_one, system::find_pattern(of_one), rest_one),
+             b = statics::linear_matrices(of_two, system::find_pattern(of_two), rest);
   CHECK((a.stiffness - b.stiffness).norm() < 1e-9 * a.stiffness.norm());
   CHECK((a.damping - b.damping).norm() < 1e-9);
   CHECK(b.state_by_state.rows() == 1); // the slip
@@ -146,7 +146,7 @@ TEST_CASE("two springs in series are one in the linear model and at rest") {
 
 TEST_CASE("every method carries an algebraic unknown") {
   const SeriesSprings springs;
-  const System one = system::build(weight(springs.stiffness())), two = on_series(springs);
+  const System one = build::build(weight(springs.stiffness())), two = on_series(springs);
   for (const char* method :
        {"ida", "radau", "gauss", "lobatto_iiic", "generalized_alpha", "explicit_rk"}) {
     CAPTURE(method);

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "hydrodae/build/build.h"
 #include "hydrodae/math/dual.h"
-#include "hydrodae/system/build.h"
 #include "hydrodae/system/jacobian.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
@@ -66,7 +66,7 @@ TEST_CASE("the Jacobian is exact beyond half a turn") {
   int wound = 0;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System built = system::build(named.scene);
+    const System built = build::build(named.scene);
     Regime s(built);
     const auto history = test::random_history(s, random, instant);
     const VectorX y = test::random_state(s, random);
@@ -94,7 +94,7 @@ TEST_CASE("the Jacobian is exact in all blocks") {
   int scenes = 0;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    System built = system::build(named.scene);
+    System built = build::build(named.scene);
     test::turn_mean_axes(built);
     Regime s(built);
     const auto history = test::random_history(s, random, instant);

@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "hydrodae/build/build.h"
 #include "hydrodae/measure/observer.h"
-#include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/system/build.h"
+#include "hydrodae/statics/consistent_start.h"
 #include "hydrodae/system/residual.h"
 #include "scenes.h"
 
@@ -27,7 +27,7 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
   test::Random random;
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System built = system::build(named.scene);
+    const System built = build::build(named.scene);
     Regime s(built);
     const auto history = test::random_history(s, random, -0.01);
     const system::Pattern pattern = system::find_pattern(s);
@@ -57,11 +57,11 @@ TEST_CASE("residual and Jacobian are pure: a call leaves no trace in the next") 
 TEST_CASE("the consistent start satisfies all equations") {
   for (const test::NamedScene& named : test::all_scenes()) {
     CAPTURE(named.name);
-    const System built = system::build(named.scene);
+    const System built = build::build(named.scene);
     const Regime s(built);
     const system::Pattern pattern = system::find_pattern(s);
     VectorX y = system::initial_state(s), yp;
-    REQUIRE_NOTHROW(solve::consistent_start(s, pattern, y, yp));
+    REQUIRE_NOTHROW(statics::consistent_start(s, pattern, y, yp));
     system::Workspace<double> ws(s);
     const VectorX r = evaluate(s, ws, y, yp);
     const double size = 1.0 + yp.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff();
@@ -76,7 +76,7 @@ TEST_CASE("added mass conserves energy in all axes: power of its load is minus d
     model::Scene scene = test::two_bodies(*joint::find_joint_type("spherical"), {"rigid"}, random);
     test::add_hydro(scene, axes, "none", random);
     scene.joints.clear();
-    System built = system::build(scene);
+    System built = build::build(scene);
     test::turn_mean_axes(built);
     const Regime s(built);
     // Positions, velocities and accelerations at random; q' as the kinematics demand.

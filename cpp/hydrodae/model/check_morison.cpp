@@ -4,7 +4,7 @@
 namespace hydrodae::model {
 namespace {
 
-using element::Morison;
+using water::Morison;
 
 /// Keys that belong to the other shape of element.
 void refuse_keys(const Scene& scene, const Entry& entry, const std::string& shape,
@@ -59,7 +59,7 @@ void check_morison(const Scene& scene) {
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
                      "the hydrodynamic database tells density and depth of the water");
   const bool felt = !scene.morison.empty() ||
-                    !std::get<std::vector<element::Line>>(scene.forces).empty() ||
+                    !std::get<std::vector<line::Line>>(scene.forces).empty() ||
                     std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                 [](const Body& body) { return body.volume > 0.0; });
   if (!scene.hydro && !felt && (e.water_density || e.water_depth))

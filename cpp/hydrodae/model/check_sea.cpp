@@ -96,7 +96,7 @@ void check_sea(const Scene& scene) {
   for (const sea::Wave& wave : scene.waves)
     check_wave(scene, wave);
   const bool slender =
-      !scene.morison.empty() || !std::get<std::vector<element::Line>>(scene.forces).empty();
+      !scene.morison.empty() || !std::get<std::vector<line::Line>>(scene.forces).empty();
   if (!scene.waves.empty() && !scene.hydro && !slender)
     throw ModelError("wave." + scene.waves.front().name,
                      "waves need a hydrodynamic database, Morison elements or lines to act on: the "

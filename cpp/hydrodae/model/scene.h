@@ -13,31 +13,31 @@
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/field.h"
 #include "hydrodae/element/bushing.h"
-#include "hydrodae/element/catenary_line.h"
 #include "hydrodae/element/constant_load.h"
 #include "hydrodae/element/dry_friction.h"
 #include "hydrodae/element/end_stop.h"
 #include "hydrodae/element/friction_lugre.h"
 #include "hydrodae/element/friction_stribeck.h"
 #include "hydrodae/element/library_law.h"
-#include "hydrodae/element/line.h"
 #include "hydrodae/element/mooring_matrix.h"
-#include "hydrodae/element/morison.h"
 #include "hydrodae/element/pto_general.h"
 #include "hydrodae/element/pto_hydraulic.h"
 #include "hydrodae/element/pto_lagged.h"
 #include "hydrodae/element/pto_linear.h"
 #include "hydrodae/element/pto_rotary.h"
 #include "hydrodae/element/python_law.h"
-#include "hydrodae/element/rope.h"
 #include "hydrodae/element/spring_damper.h"
-#include "hydrodae/element/viscous_damping.h"
 #include "hydrodae/hydro/database.h"
+#include "hydrodae/line/catenary_line.h"
+#include "hydrodae/line/line.h"
+#include "hydrodae/line/rope.h"
 #include "hydrodae/model/controller.h"
 #include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
+#include "hydrodae/water/morison.h"
+#include "hydrodae/water/viscous_damping.h"
 
 namespace hydrodae::model {
 
@@ -317,14 +317,14 @@ struct OutputOptions {
 /// is one header in element/ and one entry here.
 using Forces = std::tuple<std::vector<element::MooringMatrix>, std::vector<element::PtoLinear>,
                           std::vector<element::SpringDamper>, std::vector<element::ConstantLoad>,
-                          std::vector<element::ViscousDamping>, std::vector<element::DryFriction>,
+                          std::vector<water::ViscousDamping>, std::vector<element::DryFriction>,
                           std::vector<element::PtoHydraulic>, std::vector<element::FrictionLugre>,
                           std::vector<element::Bushing>, std::vector<element::PythonLoad>,
                           std::vector<element::PythonWrench>, std::vector<element::PtoGeneral>,
                           std::vector<element::PtoRotary>, std::vector<element::FrictionStribeck>,
-                          std::vector<element::EndStop>, std::vector<element::Rope>,
-                          std::vector<element::CatenaryLine>, std::vector<element::LibraryLoad>,
-                          std::vector<element::LibraryWrench>, std::vector<element::Line>,
+                          std::vector<element::EndStop>, std::vector<line::Rope>,
+                          std::vector<line::CatenaryLine>, std::vector<element::LibraryLoad>,
+                          std::vector<element::LibraryWrench>, std::vector<line::Line>,
                           std::vector<element::PtoLagged>>;
 
 struct Scene {
@@ -344,7 +344,7 @@ struct Scene {
   std::vector<Constraint> constraints;
   std::vector<Marker> markers;
   Forces forces;
-  std::vector<element::Morison> morison;
+  std::vector<water::Morison> morison;
   sea::Sea sea;
   std::vector<sea::Wave> waves;
   SolverOptions solver;

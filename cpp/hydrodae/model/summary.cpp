@@ -168,7 +168,7 @@ std::string summary(const Scene& scene) {
   std::apply([&](const auto&... list) { (write_list(list), ...); }, scene.forces);
   if (!scene.morison.empty())
     out << "  morison elements:\n";
-  for (const element::Morison& m : scene.morison)
+  for (const water::Morison& m : scene.morison)
     out << "    " << m.name << ": " << (m.point ? "point" : "member") << " of body " << m.body
         << '\n';
   if (scene.hydro && scene.database)

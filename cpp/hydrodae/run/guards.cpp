@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "hydrodae/accuracy/energy_guard.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/linalg/saddle_point.h"
 #include "hydrodae/run/turn_check.h"
-#include "hydrodae/solve/energy_guard.h"
-#include "hydrodae/solve/saddle_point.h"
 
 namespace hydrodae::run {
 
@@ -21,12 +21,12 @@ std::string reactions(const system::Regime& s, const VectorX& y) {
   VectorX values = VectorX::Zero(s.n);
   for (Index i = s.lambda0; i < s.mu0; ++i)
     values[i] = y[i] / s.scale[i];
-  return "\n  largest reactions, relative to the weights: " + solve::worst(values, s.names);
+  return "\n  largest reactions, relative to the weights: " + linalg::worst(values, s.names);
 }
 
 class EnergyCheck : public Guard {
 public:
-  EnergyCheck(const system::Regime& s, solve::EnergyGuard guard, PoseWatch& watch)
+  EnergyCheck(const system::Regime& s, accuracy::EnergyGuard guard, PoseWatch& watch)
       : s_(s), guard_(std::move(guard)), watch_(watch) {}
   void check(const Step& step) override {
     guard_.check(
@@ -37,35 +37,35 @@ public:
 
 private:
   const system::Regime& s_;
-  solve::EnergyGuard guard_;
+  accuracy::EnergyGuard guard_;
   PoseWatch& watch_;
 };
 
 class BranchCheck : public Guard {
 public:
-  explicit BranchCheck(solve::BranchGuard guard) : guard_(std::move(guard)) {}
+  explicit BranchCheck(accuracy::BranchGuard guard) : guard_(std::move(guard)) {}
   void check(const Step& step) override { guard_.check(step.end, step.y); }
   void restart(const Step&) override { guard_.restart(); }
   void remember(Archive& a) override { guard_.remember(a); }
 
 private:
-  solve::BranchGuard guard_;
+  accuracy::BranchGuard guard_;
 };
 
 class DriftCheck : public Guard {
 public:
   DriftCheck(const system::Regime& s, PoseWatch& watch)
-      : s_(s), guard_(std::make_unique<solve::DriftGuard>(s)), watch_(watch) {}
+      : s_(s), guard_(std::make_unique<accuracy::DriftGuard>(s)), watch_(watch) {}
   void check(const Step& step) override {
     guard_->check(step.end, step.y, step.yp);
     if (guard_->misses_singular_poses() && watch_.near_singular(step))
       guard_->fail_at_singular_pose(step.end);
   }
-  void restart(const Step&) override { guard_ = std::make_unique<solve::DriftGuard>(s_); }
+  void restart(const Step&) override { guard_ = std::make_unique<accuracy::DriftGuard>(s_); }
 
 private:
   const system::Regime& s_;
-  std::unique_ptr<solve::DriftGuard> guard_;
+  std::unique_ptr<accuracy::DriftGuard> guard_;
   PoseWatch& watch_;
 };
 
@@ -129,13 +129,13 @@ public:
 
 private:
   void begin() {
-    equations_ = std::make_unique<solve::Equations>(s_, pattern_, 1.0);
-    saddle_ = std::make_unique<solve::SaddlePoint>(*equations_);
+    equations_ = std::make_unique<linalg::Equations>(s_, pattern_, 1.0);
+    saddle_ = std::make_unique<linalg::SaddlePoint>(*equations_);
   }
   const system::Regime& s_;
   const system::Pattern& pattern_;
-  std::unique_ptr<solve::Equations> equations_;
-  std::unique_ptr<solve::SaddlePoint> saddle_;
+  std::unique_ptr<linalg::Equations> equations_;
+  std::unique_ptr<linalg::SaddlePoint> saddle_;
   VectorX y_, yp_;
 };
 
@@ -150,8 +150,8 @@ bool has_pressed_friction(const system::Regime& s) {
 PoseWatch::PoseWatch(const system::Regime& s, const model::SolverOptions& options, const VectorX& y,
                      bool wanted)
     : s_(s), method_(options.method) {
-  if (wanted && solve::has_loop(s))
-    guard_ = std::make_unique<solve::PoseGuard>(s, y);
+  if (wanted && accuracy::has_loop(s))
+    guard_ = std::make_unique<accuracy::PoseGuard>(s, y);
 }
 
 bool PoseWatch::near_singular(const Step& step) {
@@ -183,7 +183,7 @@ std::string PoseWatch::with_remedy(std::string text, double t, const VectorX& y,
 
 void PoseWatch::restart(const VectorX& y) {
   if (guard_)
-    guard_ = std::make_unique<solve::PoseGuard>(s_, y);
+    guard_ = std::make_unique<accuracy::PoseGuard>(s_, y);
 }
 
 void PoseWatch::remember(Archive& a) {
@@ -198,14 +198,14 @@ std::vector<std::unique_ptr<Guard>> make_guards(const system::Regime& system,
                                                 const VectorX& y,
                                                 std::unique_ptr<PoseWatch>& watch) {
   std::vector<std::unique_ptr<Guard>> guards;
-  solve::EnergyGuard energy(system, options);
+  accuracy::EnergyGuard energy(system, options);
   const bool drifts = system.formulation != system::Formulation::stabilised && !options.force;
   watch = std::make_unique<PoseWatch>(system, options, y, energy.minds_singular_poses() || drifts);
   guards.push_back(std::make_unique<EnergyCheck>(system, std::move(energy), *watch));
   if (options.step <= 0.0 && system.lambda0 > 0)
     guards.push_back(std::make_unique<RoundingCheck>(system, options.rtol));
   if (options.branch_guard)
-    if (solve::BranchGuard branch(system); branch.active())
+    if (accuracy::BranchGuard branch(system); branch.active())
       guards.push_back(std::make_unique<BranchCheck>(std::move(branch)));
   if (drifts)
     guards.push_back(std::make_unique<DriftCheck>(system, *watch));

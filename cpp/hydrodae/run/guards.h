@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "hydrodae/accuracy/guards.h"
 #include "hydrodae/core/archive.h"
+#include "hydrodae/integrate/integrator.h"
 #include "hydrodae/measure/measure.h"
-#include "hydrodae/solve/guards.h"
-#include "hydrodae/solve/integrator.h"
 
 namespace hydrodae::run {
 
@@ -18,7 +18,7 @@ struct Step {
   bool event = false;            ///< rows of the system come or go at its end
   const VectorX& y;              ///< at its end; after an event those that go on from there
   const VectorX& yp;
-  solve::Integrator& integrator; ///< gives y, y' inside the step
+  integrate::Integrator& integrator; ///< gives y, y' inside the step
   const measure::Measure& measure;
 };
 
@@ -65,8 +65,8 @@ public:
 private:
   const system::Regime& s_;
   std::string method_;
-  std::unique_ptr<solve::PoseGuard> guard_; ///< null: nothing to watch
-  long asked_ = 0;                          ///< times that a singular pose would have mattered
+  std::unique_ptr<accuracy::PoseGuard> guard_; ///< null: nothing to watch
+  long asked_ = 0;                             ///< times that a singular pose would have mattered
   VectorX y_, yp_;
 };
 

@@ -24,7 +24,7 @@ std::vector<Channel> ImpactOutput::channels() const {
   return out;
 }
 
-void ImpactOutput::fill(const solve::Switching* switching, double* at) const {
+void ImpactOutput::fill(const events::Switching* switching, double* at) const {
   for (const Stop& stop : stops_) {
     *at++ = switching->struck()[stop.index].impulse;
     *at++ = switching->struck()[stop.index].energy_lost;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hydrodae/core/channel.h"
-#include "hydrodae/solve/switching.h"
+#include "hydrodae/events/switching.h"
 
 namespace hydrodae::run {
 
@@ -18,7 +18,7 @@ public:
   std::size_t width() const { return 2 * stops_.size(); }
 
   /// Sums so far, in the order of the channels; `at` is of width().
-  void fill(const solve::Switching* switching, double* at) const;
+  void fill(const events::Switching* switching, double* at) const;
 
   struct Stop {
     std::size_t index; ///< among the switches

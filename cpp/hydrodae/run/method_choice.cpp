@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/solve/stiffness.h"
+#include "hydrodae/integrate/stiffness.h"
 #include "hydrodae/system/declare.h"
 #include "hydrodae/system/mechanisms.h"
 
@@ -77,8 +77,8 @@ MethodOrder order_methods(const SceneTraits& traits) {
 SceneTraits find_traits(const system::Regime& s, const system::Pattern& pattern,
                         const model::SolverOptions& options, const VectorX& y, const VectorX& yp) {
   SceneTraits out;
-  out.fastest_rate = solve::fastest_rate(s, pattern, 0.0, y, yp);
-  out.motion_rate = solve::motion_rate(s, y);
+  out.fastest_rate = integrate::fastest_rate(s, pattern, 0.0, y, yp);
+  out.motion_rate = integrate::motion_rate(s, y);
   out.end_time = options.end_time;
   out.damped = may_damp(s);
   out.costly = find_costly(s);

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "hydrodae/accuracy/energy_guard.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/solve/energy_guard.h"
-#include "hydrodae/solve/equilibrium.h"
-#include "hydrodae/system/joint_tree.h"
+#include "hydrodae/statics/consistent_start.h"
+#include "hydrodae/statics/equilibrium.h"
 #include "hydrodae/system/mechanisms.h"
+#include "hydrodae/tree/joint_tree.h"
 
 namespace hydrodae::run {
 
@@ -31,11 +31,11 @@ const std::vector<Channel> solver_channels = {
 } // namespace
 
 Simulation::Start Simulation::begin(const model::Scene& scene) {
-  Start start{solve::starting_system(scene), {}, {}, {}};
+  Start start{statics::starting_system(scene), {}, {}, {}};
   const system::Regime regime(start.system);
   start.pattern = system::find_pattern(regime);
   start.y = system::initial_state(regime);
-  solve::consistent_start(regime, start.pattern, start.y, start.yp);
+  statics::consistent_start(regime, start.pattern, start.y, start.yp);
   system::take_time_scales(start.system, start.y, start.yp);
   return start;
 }
@@ -50,7 +50,7 @@ Simulation::Simulation(Start start, model::Scene&& scene)
   scale_ = std::make_unique<system::MotionScale>(regime_, pattern_, y_, yp_, forcing_->motion(),
                                                  scene_.sea.ramp, options_.rtol);
   if (!system_.switches.empty()) {
-    switching_ = std::make_unique<solve::Switching>(regime_, options_.rtol);
+    switching_ = std::make_unique<events::Switching>(regime_, options_.rtol);
     switching_->settle(0.0, y_, yp_);
   }
   law_events_ = std::make_unique<events::LawEvents>(regime_, y_);
@@ -59,7 +59,7 @@ Simulation::Simulation(Start start, model::Scene&& scene)
   choose_method();
   make_integrator();
   if (options_.coordinates == "reduced")
-    notes_.push_back(system::JointTree(system_).in_words(regime_));
+    notes_.push_back(tree::JointTree(system_).in_words(regime_));
   measure_ = std::make_unique<measure::Measure>(regime_, 0.0, y_, yp_);
   recorder_ = std::make_unique<observe::Recorder>(regime_, *measure_);
   measure_->average_from(system_.has_waves() ? scene_.sea.ramp : 0.0);
@@ -118,9 +118,9 @@ void Simulation::make_channels() {
   controllers_ = std::make_unique<Controllers>(scene_, regime_, channels_, inputs_);
 }
 
-solve::Statistics Simulation::statistics() const {
-  solve::Statistics all = before_start_;
-  const solve::Statistics now = integrator_->statistics();
+linalg::Statistics Simulation::statistics() const {
+  linalg::Statistics all = before_start_;
+  const linalg::Statistics now = integrator_->statistics();
   all += now;
   all.last_step = now.last_step;
   all.last_order = now.last_order;
@@ -281,9 +281,9 @@ void Simulation::restart() {
   solver_time_ += seconds_since(before);
 }
 
-solve::Consistency& Simulation::consistency() {
+statics::Consistency& Simulation::consistency() {
   if (!consistency_)
-    consistency_ = std::make_unique<solve::Consistency>(regime_);
+    consistency_ = std::make_unique<statics::Consistency>(regime_);
   return *consistency_;
 }
 
@@ -314,7 +314,7 @@ double Simulation::relative_balance_error() const {
 }
 
 double Simulation::energy_scale() const {
-  return std::max(measure_->whole().exchanged, solve::EnergyGuard(regime_, options_).counts());
+  return std::max(measure_->whole().exchanged, accuracy::EnergyGuard(regime_, options_).counts());
 }
 
 } // namespace hydrodae::run

@@ -9,6 +9,8 @@
 
 #include "hydrodae/core/channel.h"
 #include "hydrodae/events/law_events.h"
+#include "hydrodae/events/switching.h"
+#include "hydrodae/integrate/sample_closing.h"
 #include "hydrodae/measure/measure.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/observe/recorder.h"
@@ -18,9 +20,7 @@
 #include "hydrodae/run/inputs.h"
 #include "hydrodae/run/method_choice.h"
 #include "hydrodae/run/state.h"
-#include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/solve/sample_closing.h"
-#include "hydrodae/solve/switching.h"
+#include "hydrodae/statics/consistent_start.h"
 #include "hydrodae/system/forcing.h"
 #include "hydrodae/system/history.h"
 #include "hydrodae/system/motion_scale.h"
@@ -103,10 +103,10 @@ public:
   const measure::Measure& measured() const { return *measure_; }
   const ImpactOutput& impacts() const { return impacts_; }
   const MethodChoice& methods() const { return methods_; }
-  const solve::Switching* switching() const { return switching_.get(); }
+  const events::Switching* switching() const { return switching_.get(); }
   std::vector<Controllers::Cost> controller_costs() const;
   std::vector<std::string> unit_notes() const; ///< of controllers; complete once they were sampled
-  solve::Statistics statistics() const;
+  linalg::Statistics statistics() const;
   double solver_time() const { return solver_time_; } ///< wall time inside the method [s]
   long nonzeros() const { return pattern_.nonzeros(); }
   long events() const { return switching_ ? switching_->events() - 1 : 0; } ///< without the start
@@ -151,7 +151,7 @@ private:
   void take_back();
   void watch_steps(bool event, double end);
   void restart();
-  solve::Consistency& consistency();
+  statics::Consistency& consistency();
   void follow_turns();
   void restart_guards();
   void take_inputs();
@@ -174,29 +174,29 @@ private:
   std::vector<std::string> notes_;
   ImpactOutput impacts_{system_};
   std::vector<Input> inputs_;
-  std::unique_ptr<Controllers> controllers_;    ///< null: none
-  bool cut_ = false;                            ///< the last step ends before that of the method
-  bool event_here_ = false;                     ///< the last step has ended in an event
-  bool written_ = false;                        ///< inputs that the motion does not know yet
-  bool failed_ = false;                         ///< in the middle of a step: only `restore` goes on
-  std::unique_ptr<solve::Switching> switching_; ///< where stops or dry friction are
+  std::unique_ptr<Controllers> controllers_; ///< null: none
+  bool cut_ = false;                         ///< the last step ends before that of the method
+  bool event_here_ = false;                  ///< the last step has ended in an event
+  bool written_ = false;                     ///< inputs that the motion does not know yet
+  bool failed_ = false;                      ///< in the middle of a step: only `restore` goes on
+  std::unique_ptr<events::Switching> switching_; ///< where stops or dry friction are
   std::unique_ptr<events::LawEvents> law_events_;
-  std::vector<events::Source*> sources_;            ///< of events: all there are
-  std::unique_ptr<solve::Consistency> consistency_; ///< null: none was needed since a restore
-  std::unique_ptr<system::History> history_;        ///< where loads depend on the past
-  std::unique_ptr<system::Forcing> forcing_;        ///< limits the steps
-  std::unique_ptr<system::MotionScale> scale_;      ///< adapts the tolerances
-  std::unique_ptr<solve::Integrator> integrator_;
-  std::unique_ptr<solve::SampleClosing> closing_; ///< null: no rows, or rows that drift
+  std::vector<events::Source*> sources_;              ///< of events: all there are
+  std::unique_ptr<statics::Consistency> consistency_; ///< null: none was needed since a restore
+  std::unique_ptr<system::History> history_;          ///< where loads depend on the past
+  std::unique_ptr<system::Forcing> forcing_;          ///< limits the steps
+  std::unique_ptr<system::MotionScale> scale_;        ///< adapts the tolerances
+  std::unique_ptr<integrate::Integrator> integrator_;
+  std::unique_ptr<integrate::SampleClosing> closing_; ///< null: no rows, or rows that drift
   std::unique_ptr<measure::Measure> measure_;
   std::unique_ptr<observe::Recorder> recorder_;
   std::unique_ptr<PoseWatch> poses_;
   std::vector<std::unique_ptr<Guard>> guards_;
   std::vector<Channel> channels_;
   std::size_t width_ = 0;
-  std::vector<double> now_;        ///< row of the present instant; empty: not asked for yet
-  solve::Statistics before_start_; ///< of the integrators before the last start
-  double solver_time_ = 0.0;       ///< wall time inside the method [s]
+  std::vector<double> now_;         ///< row of the present instant; empty: not asked for yet
+  linalg::Statistics before_start_; ///< of the integrators before the last start
+  double solver_time_ = 0.0;        ///< wall time inside the method [s]
   double t_ = 0.0, step_start_ = 0.0, last_start_ = 0.0;
   double event_near_ = INFINITY; ///< where the next steps end [s]
   double bound_ = INFINITY;      ///< beyond which the last step was not to go [s]

@@ -5,9 +5,9 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/integrate/runge_kutta.h"
+#include "hydrodae/integrate/stiffness.h"
 #include "hydrodae/run/simulation.h"
-#include "hydrodae/solve/runge_kutta.h"
-#include "hydrodae/solve/stiffness.h"
 
 namespace hydrodae::run {
 
@@ -39,7 +39,7 @@ void Simulation::use_method() {
 void Simulation::make_integrator() {
   for (;;) {
     try {
-      integrator_ = solve::make_integrator(regime_, pattern_, options_, t_, y_, yp_);
+      integrator_ = integrate::make_integrator(regime_, pattern_, options_, t_, y_, yp_);
       make_closing();
       return;
     } catch (const SolverError& error) {
@@ -66,7 +66,7 @@ void Simulation::restart_integrator() {
 void Simulation::make_closing() {
   closing_.reset();
   if (regime_.n_lambda > 0 && regime_.formulation == system::Formulation::stabilised)
-    closing_ = std::make_unique<solve::SampleClosing>(
+    closing_ = std::make_unique<integrate::SampleClosing>(
         regime_, pattern_, !model::method_traits(options_.method).projects_rates);
 }
 
@@ -145,7 +145,7 @@ void Simulation::watch_steps(bool event, double end) {
   const double h = t_ - step_start_,
                longest = options_.max_step > 0.0 ? 0.9 * options_.max_step : INFINITY;
   const bool own = !event && t_ < end && t_ < bound_ && h < longest;
-  methods_.accept(h, solve::motion_rate(regime_, y_), own);
+  methods_.accept(h, integrate::motion_rate(regime_, y_), own);
 }
 
 /// The rule by which the work over the coming step is summed.
@@ -154,7 +154,8 @@ void Simulation::choose_quadrature() {
   if (nodes == quadrature_nodes_)
     return;
   quadrature_nodes_ = nodes;
-  const solve::RungeKutta rule = solve::make_runge_kutta(solve::Family::lobatto_iiic, nodes);
+  const integrate::RungeKutta rule =
+      integrate::make_runge_kutta(integrate::Family::lobatto_iiic, nodes);
   measure_->set_quadrature({{rule.c.begin(), rule.c.end()}, {rule.b.begin(), rule.b.end()}});
 }
 

@@ -43,7 +43,7 @@ State Simulation::state() {
   out.y = y_;
   out.yp = yp_;
   out.scene = fingerprint();
-  const solve::Statistics before = before_start_;
+  const linalg::Statistics before = before_start_;
   before_start_ = statistics(); // counts of this integrator end here, as those of any other
   save(out.memory, "run", *this);
   before_start_ = before;

@@ -31,7 +31,7 @@ void Simulation::look(double t, VectorX& y) {
 
 /// The columns behind those of the recorder.
 void Simulation::fill_counts(std::span<double> row) const {
-  const solve::Statistics s = integrator_->statistics();
+  const linalg::Statistics s = integrator_->statistics();
   double* out = row.data() + recorder_->width();
   *out++ = s.last_step;
   *out++ = s.last_order;

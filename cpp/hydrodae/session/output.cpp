@@ -126,12 +126,12 @@ void write_accuracy(const accuracy::Estimate& estimate, io::ResultsFile& file) {
 
 void write_impacts(const run::Simulation& simulation, io::ResultsFile& file) {
   for (const run::ImpactOutput::Stop& stop : simulation.impacts().stops()) {
-    const std::vector<solve::Switching::Impact>& impacts =
+    const std::vector<events::Switching::Impact>& impacts =
         simulation.switching()->struck()[stop.index].impacts;
     if (impacts.empty())
       continue;
     std::vector<double> values;
-    for (const solve::Switching::Impact& i : impacts) {
+    for (const events::Switching::Impact& i : impacts) {
       values.insert(values.end(), {i.time, i.impulse, i.energy_lost});
       if (stop.contact_time)
         values.push_back(stop.peak(i.impulse));

@@ -177,7 +177,7 @@ private:
   }
 
   void count() {
-    const solve::Statistics s = simulation_.statistics();
+    const linalg::Statistics s = simulation_.statistics();
     statistics_.method = in_words(simulation_.methods());
     statistics_.steps = s.steps;
     statistics_.residual_calls = s.residual_calls;

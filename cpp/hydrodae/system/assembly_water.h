@@ -1,15 +1,15 @@
 #pragma once
 /// Of the assembly (assembly.h): added mass and radiation.
 
-#include "hydrodae/element/hydro_axes_gradient.h"
 #include "hydrodae/system/assembly.h"
 #include "hydrodae/system/hydrodynamics.h"
+#include "hydrodae/water/hydro_axes_gradient.h"
 
 namespace hydrodae::system {
 
-using element::HydroLoadGradient;
-using element::HydroMotionGradient;
-using element::Matrix63;
+using water::HydroLoadGradient;
+using water::HydroMotionGradient;
+using water::Matrix63;
 
 /// The block of a matrix (n_moving, n_moving) between two hydrodynamic bodies, zero where a
 /// coordinate does not move.

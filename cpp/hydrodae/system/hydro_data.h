@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "hydrodae/element/hydro_axes.h"
+#include "hydrodae/water/hydro_axes.h"
 
 namespace hydrodae::system {
 
-using element::HydroAxes;
-using element::HydroBody;
+using water::HydroAxes;
+using water::HydroBody;
 
 /// Radiation kernels as cubic B-splines on a uniform grid (math/bspline.h), one column for each
 /// pair of coordinates that feel each other.

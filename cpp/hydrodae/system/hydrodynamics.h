@@ -2,8 +2,8 @@
 /// Added mass at infinite frequency and radiation memory as loads on the bodies, along the axes of
 /// element/hydro_axes.h: A_inf U' + C z, with the momentum A_inf U.
 
-#include "hydrodae/element/hydro_axes.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/water/hydro_axes.h"
 
 namespace hydrodae::system {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/element/trouble.h"
+#include "hydrodae/line/trouble.h"
 
 namespace hydrodae::system {
 
@@ -30,7 +30,7 @@ std::string unknown_load(const Regime& s, const Workspace<double>& ws) {
           element::is_along(laws.shape.port) && *in == 0.0 && ws.elements[i].rows[law].isZero(0.0);
       const std::string why = nowhere
                                   ? "its points are at one place, where its force has no direction"
-                                  : element::trouble(laws.type, {in, n_in});
+                                  : line::trouble(laws.type, {in, n_in});
       return std::string(laws.type) + " " + in_quotes(laws.names[law]) + ": " +
              (why.empty() ? "its load is no number" : why);
     }

@@ -1,6 +1,6 @@
 /// Sparse LU, real and complex.
 
-#include "hydrodae/solve/klu.h"
+#include "hydrodae/linalg/klu.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@ using namespace hydrodae;
 
 TEST_CASE("real and complex systems are solved, also after the values change") {
   // [2 1; 1 a], by columns.
-  solve::SparseLu<double> real({0, 2, 4}, {0, 1, 0, 1});
-  solve::SparseLu<std::complex<double>> complex({0, 2, 4}, {0, 1, 0, 1});
+  linalg::SparseLu<double> real({0, 2, 4}, {0, 1, 0, 1});
+  linalg::SparseLu<std::complex<double>> complex({0, 2, 4}, {0, 1, 0, 1});
   for (double a : {3.0, -1.0, 1e-9}) {
     real.values() = {2.0, 1.0, 1.0, a};
     REQUIRE(real.factorise());
@@ -29,7 +29,7 @@ TEST_CASE("real and complex systems are solved, also after the values change") {
 }
 
 TEST_CASE("a refactorisation whose pivots went bad takes new ones") {
-  solve::SparseLu<double> lu({0, 2, 4}, {0, 1, 0, 1});
+  linalg::SparseLu<double> lu({0, 2, 4}, {0, 1, 0, 1});
   lu.values() = {1.0, 1e-3, 1e-3, 1.0};
   REQUIRE(lu.factorise());
   lu.values() = {1e-18, 1.0, 1.0, 1e-3}; // the old pivot is next to nothing
@@ -41,7 +41,7 @@ TEST_CASE("a refactorisation whose pivots went bad takes new ones") {
 }
 
 TEST_CASE("singular matrices and values that are not finite are told") {
-  solve::SparseLu<double> lu({0, 2, 4}, {0, 1, 0, 1});
+  linalg::SparseLu<double> lu({0, 2, 4}, {0, 1, 0, 1});
   lu.values() = {1.0, 1.0, 1.0, 1.0};
   CHECK_FALSE(lu.factorise());
   lu.values() = {1.0, 1.0, 1.0, NAN};
@@ -61,8 +61,8 @@ TEST_CASE("a given order of elimination is kept") {
       }
     start.push_back(static_cast<Index>(row.size()));
   }
-  const solve::Elimination last{{5, 4, 3, 2, 1, 0}, {5, 4, 3, 2, 1, 0}};
-  solve::SparseLu<double> given(start, row, last), own(start, row);
+  const linalg::Elimination last{{5, 4, 3, 2, 1, 0}, {5, 4, 3, 2, 1, 0}};
+  linalg::SparseLu<double> given(start, row, last), own(start, row);
   std::vector<double> x(n, 1.0), same(n, 1.0);
   for (auto* lu : {&given, &own}) {
     lu->values() = values;
@@ -71,7 +71,7 @@ TEST_CASE("a given order of elimination is kept") {
   }
   for (std::size_t k = 0; k < x.size(); ++k)
     CHECK(x[k] == doctest::Approx(same[k]));
-  const solve::Elimination used = given.elimination();
+  const linalg::Elimination used = given.elimination();
   CHECK(used.row == last.row);
   CHECK(used.column == last.column);
 }

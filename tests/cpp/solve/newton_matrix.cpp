@@ -1,7 +1,7 @@
 /// Newton's matrix with the radiation memory eliminated, against the whole one.
 
-#include "hydrodae/system/build.h"
-#include "hydrodae/solve/newton_matrix.h"
+#include "hydrodae/linalg/newton_matrix.h"
+#include "hydrodae/build/build.h"
 
 #include <doctest/doctest.h>
 
@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 template <class Scalar>
 void compare(const system::Regime& s, Scalar alpha, const VectorX& y, const VectorX& yp) {
-  const system::Pattern whole = system::find_pattern(s), less = solve::condensed(s, whole);
+  const system::Pattern whole = system::find_pattern(s), less = linalg::condensed(s, whole);
   system::JacobianWorkspace ws(s);
   system::JacobianParts all(whole), some(less);
   system::jacobian(s, whole, ws, 0.7, y.data(), yp.data(), all);
@@ -28,7 +28,7 @@ void compare(const system::Regime& s, Scalar alpha, const VectorX& y, const Vect
     for (Index k = whole.column_start[c]; k < whole.column_start[c + 1]; ++k)
       dense(whole.row[static_cast<std::size_t>(k)], c) +=
           all.by_y[static_cast<std::size_t>(k)] + alpha * all.by_yp[static_cast<std::size_t>(k)];
-  solve::NewtonMatrix<Scalar> newton(s, less);
+  linalg::NewtonMatrix<Scalar> newton(s, less);
   REQUIRE(newton.factorise(some, alpha));
   VecX<Scalar> b(s.n);
   for (Index i = 0; i < s.n; ++i)
@@ -46,7 +46,7 @@ TEST_CASE("Newton's matrix without the memory states solves the whole system") {
   test::Random random;
   int with_memory = 0;
   for (const test::NamedScene& named : test::all_scenes()) {
-    system::System built = system::build(named.scene);
+    system::System built = build::build(named.scene);
     if (!built.has_memory() || system::has_past(built))
       continue;
     CAPTURE(named.name);

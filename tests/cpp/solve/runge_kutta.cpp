@@ -1,6 +1,6 @@
 /// Coefficients of the implicit Runge-Kutta methods.
 
-#include "hydrodae/solve/runge_kutta.h"
+#include "hydrodae/integrate/runge_kutta.h"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,10 @@
 namespace {
 
 using namespace hydrodae;
-using solve::Family;
+using integrate::Family;
 
 /// Largest error of sum_i b_i c_i^(k-1) = 1/k, k = 1 .. order.
-double quadrature_error(const solve::RungeKutta& rk) {
+double quadrature_error(const integrate::RungeKutta& rk) {
   double error = 0.0;
   for (int k = 1; k <= rk.order; ++k)
     error = std::max(error, std::abs(rk.b.dot(rk.c.array().pow(k - 1).matrix()) - 1.0 / k));
@@ -20,7 +20,7 @@ double quadrature_error(const solve::RungeKutta& rk) {
 }
 
 /// Value of the stability function at z -> -infinity: 1 - b^T A^-1 1.
-double at_infinity(const solve::RungeKutta& rk) {
+double at_infinity(const integrate::RungeKutta& rk) {
   return 1.0 - rk.b.dot(rk.a_inverse * VectorX::Ones(rk.stages));
 }
 
@@ -28,16 +28,16 @@ double at_infinity(const solve::RungeKutta& rk) {
 
 TEST_CASE("the families have their order of quadrature and damp as they should") {
   for (int s = 1; s <= 10; ++s) {
-    const auto radau = solve::make_runge_kutta(Family::radau_iia, s);
+    const auto radau = integrate::make_runge_kutta(Family::radau_iia, s);
     CHECK(quadrature_error(radau) < 1e-14);
     CHECK(std::abs(at_infinity(radau)) < 1e-10);
     CHECK(radau.c[s - 1] == doctest::Approx(1.0));
-    const auto gauss = solve::make_runge_kutta(Family::gauss, s);
+    const auto gauss = integrate::make_runge_kutta(Family::gauss, s);
     CHECK(quadrature_error(gauss) < 1e-14);
     CHECK(std::abs(std::abs(at_infinity(gauss)) - 1.0) < 1e-9);
     if (s < 2)
       continue;
-    const auto lobatto = solve::make_runge_kutta(Family::lobatto_iiic, s);
+    const auto lobatto = integrate::make_runge_kutta(Family::lobatto_iiic, s);
     CHECK(quadrature_error(lobatto) < 1e-14);
     CHECK(std::abs(at_infinity(lobatto)) < 1e-9);
   }
@@ -45,7 +45,7 @@ TEST_CASE("the families have their order of quadrature and damp as they should")
 
 TEST_CASE("three stages of Radau IIA are those of the book") {
   // Hairer and Wanner, Solving ODEs II (1996), table IV.5.6.
-  const auto rk = solve::make_runge_kutta(Family::radau_iia, 3);
+  const auto rk = integrate::make_runge_kutta(Family::radau_iia, 3);
   const double r = std::sqrt(6.0);
   CHECK(rk.c[0] == doctest::Approx((4 - r) / 10));
   CHECK(rk.a(0, 0) == doctest::Approx((88 - 7 * r) / 360));
@@ -55,7 +55,7 @@ TEST_CASE("three stages of Radau IIA are those of the book") {
 
 TEST_CASE("the transformation diagonalises in blocks") {
   for (int s : {2, 3, 5, 7, 10}) {
-    const auto rk = solve::make_runge_kutta(Family::radau_iia, s);
+    const auto rk = integrate::make_runge_kutta(Family::radau_iia, s);
     MatrixX blocks = MatrixX::Zero(s, s);
     int k = 0;
     for (double value : rk.real)

@@ -1,6 +1,6 @@
 /// Static steps where nothing holds some directions: dense and sparse factors agree.
 
-#include "hydrodae/solve/static_step.h"
+#include "hydrodae/statics/static_step.h"
 
 #include <doctest/doctest.h>
 
@@ -39,7 +39,7 @@ TEST_CASE("large static steps are the smallest ones too") {
   for (Index i = 0; i < b.size(); ++i)
     b[i] = std::sin(0.3 * static_cast<double>(i * i));
   b.head(n).array() -= b.head(n).mean(); // nothing holds the whole row
-  const VectorX sparse = solve::smallest_solution(A, b, n);
+  const VectorX sparse = statics::smallest_solution(A, b, n);
   const VectorX dense = Eigen::CompleteOrthogonalDecomposition<MatrixX>(A).solve(b);
   CHECK((A * sparse - b).norm() < 1e-9 * b.norm());
   CHECK((sparse - dense).norm() < 1e-6 * dense.norm());

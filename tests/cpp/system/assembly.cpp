@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "hydrodae/system/build.h"
+#include "hydrodae/build/assemble.h"
+#include "hydrodae/build/build.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/measure/observer.h"
-#include "hydrodae/solve/consistent_start.h"
-#include "hydrodae/system/assemble.h"
+#include "hydrodae/statics/consistent_start.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -42,7 +42,7 @@ std::vector<Vector6> reactions(const system::System& built) {
   const system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
   VectorX y = system::initial_state(s), yp;
-  solve::consistent_start(s, pattern, y, yp);
+  statics::consistent_start(s, pattern, y, yp);
   measure::Observer observer(s);
   return observer.observe(0.0, y, yp).reactions;
 }
@@ -52,7 +52,7 @@ std::vector<Vector6> reactions(const system::System& built) {
 TEST_CASE("a loop that is open at the start is closed by a small motion, which is told") {
   model::Scene scene = four_bar("planar");
   scene.bodies[1].initial.displacement = {0.03, 0.0, -0.02};
-  const system::System s = system::build(scene);
+  const system::System s = build::build(scene);
   CHECK(largest_gap(s) < 1e-12);
   for (const system::BodyData& b : s.bodies)
     CHECK((b.position - b.reference).norm() < 0.05);
@@ -64,7 +64,7 @@ TEST_CASE("a closed loop starts at the angle that its joint is given") {
   model::Scene scene = four_bar("planar");
   scene.joints[0].initial.angle = 0.6;
   scene.joints[0].initial.angle_rate = -2.0;
-  const system::System s = system::build(scene);
+  const system::System s = build::build(scene);
   CHECK(largest_gap(s) < 1e-12);
   CHECK(2.0 * std::atan2(s.bodies[0].orientation[2], s.bodies[0].orientation[0]) ==
         doctest::Approx(0.6).epsilon(1e-9));
@@ -85,7 +85,7 @@ TEST_CASE("a loop that cannot close names a joint and its gap") {
   far.length = 5.0;
   scene.joints.push_back(far);
   try {
-    system::build(scene);
+    build::build(scene);
     FAIL("built");
   } catch (const ModelError& error) {
     CHECK(std::string(error.what()).find("stays open by") != std::string::npos);
@@ -94,9 +94,9 @@ TEST_CASE("a loop that cannot close names a joint and its gap") {
 }
 
 TEST_CASE("a spatial four-bar with full hinges has three redundant rows and mobility one") {
-  const system::System built = system::build(four_bar("rigid"));
+  const system::System built = build::build(four_bar("rigid"));
   const system::Regime s(built);
-  CHECK(system::mobility(s) == 1);
+  CHECK(build::mobility(s) == 1);
   CHECK(s.n_u - s.n_lambda == 1);
   REQUIRE(!built.notes.empty());
   CHECK(built.notes.front().find("3 redundant constraint rows") != std::string::npos);
@@ -105,10 +105,10 @@ TEST_CASE("a spatial four-bar with full hinges has three redundant rows and mobi
 TEST_CASE("a level parallelogram is a singular pose, not redundant") {
   model::Scene scene = four_bar("planar");
   scene.joints[0].initial.angle = 0.5 * pi; // all bars on one line
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
   CHECK(s.n_u - s.n_lambda == 1);
-  CHECK(system::mobility(s) == 2);
+  CHECK(build::mobility(s) == 2);
   bool told = false;
   for (const std::string& note : built.notes)
     told = told || note.find("singular pose") != std::string::npos;
@@ -121,10 +121,10 @@ TEST_CASE("two hinges share the load of one door evenly") {
   scene.bodies = {bar("door", {0.5, 0, 0}, "rigid")};
   scene.joints = {pin("top", "ground", "door", {0, 0, 0.8}, Vector3::UnitZ()),
                   pin("bottom", "ground", "door", {0, 0, -0.8}, Vector3::UnitZ())};
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
   CHECK(s.n_lambda == 5);
-  CHECK(system::mobility(s) == 1);
+  CHECK(build::mobility(s) == 1);
   const std::vector<Vector6> r = reactions(s);
   const double weight = 2.0 * 9.81;
   CHECK(r[0][2] == doctest::Approx(0.5 * weight));
@@ -142,11 +142,11 @@ TEST_CASE("a hinge starts at any angle, a lock turned over does not") {
   for (const double angle : {-3.0, -1.7, 1.7, 2.5}) {
     scene.joints = {pin("hinge", "ground", "arm", {0, 0, 0})};
     scene.joints[0].initial.angle = angle;
-    CHECK_NOTHROW(reactions(system::build(scene)));
+    CHECK_NOTHROW(reactions(build::build(scene)));
   }
   scene.joints[0].initial.angle.reset();
   scene.joints[0].type = "fixed";
   scene.bodies[0].initial.rotation = {0, pi, 0};
   scene.bodies[0].initial.displacement = {0, 0, -1.0};
-  CHECK_THROWS_AS(reactions(system::build(scene)), ModelError);
+  CHECK_THROWS_AS(reactions(build::build(scene)), ModelError);
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "hydrodae/system/build.h"
+#include "hydrodae/build/assemble.h"
+#include "hydrodae/build/build.h"
 #include "hydrodae/io/case_reader.h"
-#include "hydrodae/system/assemble.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -52,8 +52,8 @@ void check_velocities(const system::System& s, double rate) {
 }
 
 Index mobility_of(const model::Scene& scene) {
-  const system::System built = system::build(scene);
-  return system::mobility(system::Regime(built));
+  const system::System built = build::build(scene);
+  return build::mobility(system::Regime(built));
 }
 
 bool noted(const system::System& s, const std::string& part) {
@@ -81,10 +81,10 @@ TEST_CASE("hinges that are out of line by next to nothing leave the door its mot
         CAPTURE(size);
         CAPTURE(misfit);
         const system::System built =
-            system::build(tilted ? door(0, misfit, size) : door(misfit, 0, size));
+            build::build(tilted ? door(0, misfit, size) : door(misfit, 0, size));
         const system::Regime s(built);
         CHECK(s.n_lambda == 5);
-        CHECK(system::mobility(s) == 1);
+        CHECK(build::mobility(s) == 1);
         CHECK(noted(built, "is out of line with") == (misfit > 1e-10));
       }
 }
@@ -94,7 +94,7 @@ TEST_CASE("hinges that would lock the door are refused with the reason") {
     for (const double misfit : {1e-4, 1e-2})
       for (const bool tilted : {false, true}) {
         const std::string message = message_of(
-            [&] { system::build(tilted ? door(0, misfit, size) : door(misfit, 0, size)); });
+            [&] { build::build(tilted ? door(0, misfit, size) : door(misfit, 0, size)); });
         CHECK(contains(message, "joints are inconsistent: "));
         CHECK(contains(message, "is out of line with"));
         CHECK(contains(message, "solver.tolerance_assembly = "));
@@ -107,7 +107,7 @@ TEST_CASE("hinges that would lock the door are refused with the reason") {
 TEST_CASE("an opened door with hinges a little out of line starts where it is given") {
   model::Scene scene = door(1e-8, 0);
   scene.joints[0].initial.angle = 0.5;
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
   CHECK(s.n_lambda == 5);
   const Matrix3 turn = rotation_matrix<double>(s.bodies[0].orientation);
@@ -120,7 +120,7 @@ TEST_CASE("velocities that are not given follow from those that are") {
   SUBCASE("turn of a body") { scene.bodies[0].initial.angular_velocity = Vector3(0, 2, 0); }
   SUBCASE("velocity of the slider") { scene.bodies[2].initial.velocity = Vector3(4.0 / 3.0, 0, 0); }
   SUBCASE("a drive") { scene.constraints = {drive("motor", 2.0)}; }
-  const system::System s = system::build(scene);
+  const system::System s = build::build(scene);
   check_velocities(s, 2.0);
   CHECK(noted(s, "velocities that the case does not give follow from the constraints"));
 }
@@ -129,15 +129,15 @@ TEST_CASE("velocities given to some digits are projected and told, contradiction
   model::Scene scene = slider_crank();
   scene.bodies[0].initial.angular_velocity = Vector3(0, 2, 0);
   scene.bodies[0].initial.velocity = Vector3(0.5 + 1e-8, 0, -0.5);
-  CHECK(!noted(system::build(scene), "projected from"));
+  CHECK(!noted(build::build(scene), "projected from"));
   scene.bodies[0].initial.velocity = Vector3(0.50002, 0, -0.5);
-  CHECK(noted(system::build(scene), "'crank': initial velocity projected from [0.50002, 0, -0.5]"));
+  CHECK(noted(build::build(scene), "'crank': initial velocity projected from [0.50002, 0, -0.5]"));
   scene.bodies[0].initial.velocity = Vector3(0.6, 0, -0.5);
-  const std::string message = message_of([&] { system::build(scene); });
+  const std::string message = message_of([&] { build::build(scene); });
   CHECK(contains(message, "body 'crank': initial velocity = [0.6, 0, -0.5] m/s does not fit"));
   scene.bodies[0].initial.velocity = Vector3(0.5, 0, -0.5);
   scene.constraints = {drive("motor", 3.0)};
-  CHECK(contains(message_of([&] { system::build(scene); }), "does not fit the constraints"));
+  CHECK(contains(message_of([&] { build::build(scene); }), "does not fit the constraints"));
 }
 
 TEST_CASE("a body moves along with the bodies that it is joined to") {
@@ -147,7 +147,7 @@ TEST_CASE("a body moves along with the bodies that it is joined to") {
   scene.bodies[0].initial.velocity = Vector3(1, 0, 0);
   scene.bodies[0].initial.angular_velocity = Vector3(0, 0, 0.5);
   scene.solver.end_time = 1.0;
-  const system::System s = system::build(scene);
+  const system::System s = build::build(scene);
   CHECK((s.bodies[1].velocity - Vector3(1, 0, 0)).norm() < 1e-8);
   CHECK((s.bodies[1].angular_velocity - Vector3(0, 0, 0.5)).norm() < 1e-8);
 }
@@ -155,14 +155,14 @@ TEST_CASE("a body moves along with the bodies that it is joined to") {
 TEST_CASE("two drives of one freedom must agree at all times") {
   model::Scene scene = slider_crank();
   scene.constraints = {drive("a", 2.0), drive("b", 2.0)};
-  CHECK(noted(system::build(scene), "1 redundant constraint row"));
+  CHECK(noted(build::build(scene), "1 redundant constraint row"));
   scene.constraints[1].drive.rate = 2.1;
-  CHECK(contains(message_of([&] { system::build(scene); }), "their rates differ by 0.1 rad/s"));
+  CHECK(contains(message_of([&] { build::build(scene); }), "their rates differ by 0.1 rad/s"));
 }
 
 TEST_CASE("a pose that the joints do not allow is refused where the case gives it") {
   model::Scene scene = slider_crank();
   scene.bodies[1].initial.displacement = {2, 0, 3};
-  CHECK(contains(message_of([&] { system::build(scene); }),
+  CHECK(contains(message_of([&] { build::build(scene); }),
                  "body 'rod': the initial pose contradicts the joints"));
 }

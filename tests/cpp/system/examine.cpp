@@ -1,7 +1,7 @@
 /// What a scene costs, and which coordinates nothing moves.
 
-#include "hydrodae/system/build.h"
-#include "hydrodae/examine.h"
+#include "hydrodae/check/examine.h"
+#include "hydrodae/build/build.h"
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,7 @@ bool says(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST_CASE("costs add up to the whole system") {
-  const system::System built = system::build(io::parse_case(pendulums(), "."));
+  const system::System built = build::build(io::parse_case(pendulums(), "."));
   const system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
   Index unknowns = 0, multipliers = 0, nonzeros = 0;

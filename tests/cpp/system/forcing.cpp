@@ -1,7 +1,7 @@
 /// What is known ahead of the loads that follow the time.
 
-#include "hydrodae/system/build.h"
 #include "hydrodae/system/forcing.h"
+#include "hydrodae/build/build.h"
 
 #include <doctest/doctest.h>
 
@@ -39,7 +39,7 @@ drag = [1.0]
 [solver]
 end_time = 10.0
 )");
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime regime(built);
   system::Forcing forcing(regime, 10.0, 0.1);
   CHECK(forcing.motion().cwiseAbs().maxCoeff() == 0.0);

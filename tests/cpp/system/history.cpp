@@ -1,7 +1,7 @@
 /// The past of a body whose motion is given, against closed forms.
 
-#include "hydrodae/system/build.h"
 #include "hydrodae/system/history.h"
+#include "hydrodae/build/build.h"
 
 #include <cmath>
 
@@ -91,7 +91,7 @@ void follow(const system::Regime& s, double h, bool known, system::History& hist
 
 /// Error at the end, behind steps of which the ends are known.
 double error(double h) {
-  const system::System built = system::build(heaving());
+  const system::System built = build::build(heaving());
   const system::Regime s(built);
   system::History history(s);
   follow(s, h, false, history);
@@ -100,7 +100,7 @@ double error(double h) {
 
 /// Error at the end of the last step.
 double accepted_error(double h, bool known) {
-  const system::System built = system::build(heaving());
+  const system::System built = build::build(heaving());
   const system::Regime s(built);
   system::History history(s);
   follow(s, h, known, history);
@@ -173,7 +173,7 @@ TEST_CASE("of steps that are known inside the convolution is as exact as they ar
 }
 
 TEST_CASE("the next step is as long as the cubic at its end may be, by the last one") {
-  const system::System built = system::build(heaving());
+  const system::System built = build::build(heaving());
   const system::Regime s(built);
   model::SolverOptions options;
   std::array<double, 2> longest{};
@@ -219,7 +219,7 @@ TEST_CASE("of short delays the kinks do not matter") {
 
 TEST_CASE("a delayed rate that jumps is what it was before, and from an accepted point on what it "
           "is") {
-  const system::System built = system::build(sliding(0.5));
+  const system::System built = build::build(sliding(0.5));
   const system::Regime s(built);
   model::SolverOptions options;
   options.max_step = 0.45;
@@ -242,7 +242,7 @@ TEST_CASE("a delayed rate that jumps is what it was before, and from an accepted
 
 TEST_CASE("inside and at the ends of steps the convolution is the same before and after they are "
           "accepted") {
-  const system::System built = system::build(heaving());
+  const system::System built = build::build(heaving());
   const system::Regime s(built);
   system::History history(s);
   VectorX y, yp;
@@ -258,7 +258,7 @@ TEST_CASE("inside and at the ends of steps the convolution is the same before an
 }
 
 TEST_CASE("a jump of the velocity counts from its time on") {
-  const system::System built = system::build(heaving());
+  const system::System built = build::build(heaving());
   const system::Regime s(built);
   system::History history(s);
   VectorX y = system::initial_state(s), yp = VectorX::Zero(s.n);
@@ -275,7 +275,7 @@ TEST_CASE("a jump of the velocity counts from its time on") {
 TEST_CASE("a long history forgets what is older than the memory") {
   model::Scene scene = heaving();
   scene.hydro->memory_length = 10.0;
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
   CHECK(s.hydro.convolution.length == doctest::Approx(10.0));
   system::History all(s), late(s);
@@ -292,7 +292,7 @@ TEST_CASE("a long history forgets what is older than the memory") {
 
 TEST_CASE("the residual feels a delayed coordinate as it was") {
   const model::Scene scene = sliding(0.5);
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   system::Regime s(built);
   system::History history(s);
   auto x = [](double t) { return 0.3 + 0.2 * t * t * t; }; // what the polynomials hold exactly
@@ -316,7 +316,7 @@ TEST_CASE("the residual feels a delayed coordinate as it was") {
 }
 
 TEST_CASE("steps are limited to the delay and to what the history carries") {
-  system::System s = system::build(heaving());
+  system::System s = build::build(heaving());
   model::SolverOptions options;
   options.end_time = 100.0;
   options.rtol = 1e-6;

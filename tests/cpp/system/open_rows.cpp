@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-#include "hydrodae/system/build.h"
-#include "hydrodae/examine.h"
+#include "hydrodae/build/build.h"
+#include "hydrodae/check/examine.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/measure/observer.h"
 #include "hydrodae/simulation.h"
-#include "hydrodae/solve/equilibrium.h"
+#include "hydrodae/statics/equilibrium.h"
 #include "support.h"
 
 using namespace hydrodae;
@@ -98,7 +98,7 @@ TEST_CASE("open stops, slack ropes and dry friction are no redundant rows") {
   rope.one_sided = true;
   scene.joints.push_back(rope);
   add_friction(scene, "lower");
-  const system::System built = system::build(scene);
+  const system::System built = build::build(scene);
   const system::Regime s(built);
   CHECK(s.n_lambda == 5);
   CHECK(dropped_rows(built) == 5);
@@ -117,9 +117,9 @@ TEST_CASE("a closed loop with redundant rows comes to rest on its stop") {
   scene.constraints = {stop("s", "a", 1.0)};
   scene.constraints[0].lower_angle = 0.2;
   scene.solver.start = "equilibrium";
-  system::System built = system::build(scene);
+  system::System built = build::build(scene);
   CHECK(system::Regime(built).n_lambda == 17);
-  const auto [y, modes] = solve::move_to_equilibrium(built);
+  const auto [y, modes] = statics::move_to_equilibrium(built);
   const system::Regime s(built, modes);
   CHECK(s.n_lambda == 18);
   CHECK(2.0 * std::atan2(s.bodies[0].orientation[2], s.bodies[0].orientation[0]) ==
@@ -144,7 +144,7 @@ TEST_CASE("what the joints hold stays where it is, with stops and friction on it
       scene.constraints = {stop("s", "hinge", upper)};
       add_friction(scene, "hinge");
       scene.solver.method = method;
-      const system::System built = system::build(scene);
+      const system::System built = build::build(scene);
       CHECK(system::Regime(built).n_lambda == 6);
       CHECK(simulate(scene, "", {}).status == "completed");
     }

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "hydrodae/system/build.h"
+#include "hydrodae/build/build.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/system/system.h"
 #include "support.h"
@@ -45,27 +45,27 @@ TEST_CASE("radiation with its sign flipped is refused on every rung, unless forc
   for (const io::Overrides& rung : rungs) {
     CAPTURE(rung.at("hydro.radiation"));
     const model::Scene good = case_of("sphere/decay.toml", rung);
-    CHECK_NOTHROW(system::build(good));
-    CHECK_NOTHROW(system::build(with_radiation_times(good, 1e-3)));
+    CHECK_NOTHROW(build::build(good));
+    CHECK_NOTHROW(build::build(with_radiation_times(good, 1e-3)));
     model::Scene bad = with_radiation_times(good, -1.0);
-    const std::string message = message_of([&] { system::build(bad); });
+    const std::string message = message_of([&] { build::build(bad); });
     CHECK(contains(message, "the radiation would feed the motion of sphere in heave"));
     CHECK(contains(message, "rad/s"));
     bad.solver.force = true;
-    CHECK_NOTHROW(system::build(bad));
+    CHECK_NOTHROW(build::build(bad));
   }
 }
 
 TEST_CASE("one coordinate that feeds the motion is found among many that do not") {
   model::Scene scene = case_of("f3of/surge_decay.toml", {});
-  CHECK_NOTHROW(system::build(scene));
+  CHECK_NOTHROW(build::build(scene));
   auto database = std::make_shared<hydro::Database>(*scene.database);
   for (hydro::MemoryFit& fit : database->fits)
     for (std::size_t i = 0; i < fit.outputs.size(); ++i)
       if (fit.outputs[i] == "flap1.pitch")
         fit.output_matrix.row(static_cast<Eigen::Index>(i)) *= -1.0;
   scene.database = database;
-  CHECK(contains(message_of([&] { system::build(scene); }), "would feed the motion of"));
+  CHECK(contains(message_of([&] { build::build(scene); }), "would feed the motion of"));
 }
 
 TEST_CASE("a memory with a growing pole is refused") {
@@ -74,5 +74,5 @@ TEST_CASE("a memory with a growing pole is refused") {
   for (hydro::MemoryFit& fit : database->fits)
     fit.poles = -fit.poles.conjugate();
   scene.database = database;
-  CHECK(contains(message_of([&] { system::build(scene); }), "has a pole of real part"));
+  CHECK(contains(message_of([&] { build::build(scene); }), "has a pole of real part"));
 }

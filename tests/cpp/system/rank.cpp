@@ -1,16 +1,16 @@
 /// Sparse rank and smallest solutions against dense ones, on all benchmark mechanisms.
 
-#include "hydrodae/system/build.h"
-#include "hydrodae/system/rank.h"
+#include "hydrodae/build/rank.h"
+#include "hydrodae/build/build.h"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <random>
 
+#include "hydrodae/build/assemble.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/math/dense.h"
-#include "hydrodae/system/assemble.h"
 #include "hydrodae/system/kinematics.h"
 
 namespace {

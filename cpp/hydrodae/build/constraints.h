@@ -1,0 +1,65 @@
+#pragma once
+/// All constraint rows at a pose, measured by the scales of the scene, as the assembly needs them.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hydrodae/build/rank.h"
+#include "hydrodae/system/kinematics.h"
+#include "hydrodae/system/regime.h"
+
+namespace hydrodae::build {
+
+/// What one unit of each velocity coordinate means as a displacement [m or rad], (n_u,).
+VectorX displacement_scale(const system::System& system);
+
+/// Lever of the smaller of the bodies of a joint that move [m].
+double smaller_lever(const system::System& system, const system::JointData& joint);
+
+/// Row i < n_rows belongs to the multiplier lambda0 + i. After them come the motions whose start is
+/// given, one row each. Holds a reference: the regime must outlive it, with the same layout.
+class Constraints {
+public:
+  /// @param starts conditions of the start, empty: those of none
+  explicit Constraints(const system::Regime& regime, std::vector<system::MotionStart> starts = {});
+
+  /// Gaps of the rows at position level (rows at velocity level: 0), and rates of all rows, in
+  /// units of their scales; of the drives as they are at t = 0.
+  void evaluate(const VectorX& y, VectorX& gaps, VectorX& rates);
+
+  /// Gradient (rows, n_u) by scaled displacements at the pose evaluated last; rows for which
+  /// `wanted(i)` is false stay empty.
+  SparseMatrix gradient(const std::function<bool(Index)>& wanted) const;
+
+  Index n_rows() const { return s_.n_lambda; }    ///< without the starts
+  Index size() const { return size_.size(); }     ///< with them
+  double size(Index i) const { return size_[i]; } ///< [m or rad] that counts as one
+  /// Does row i hold a position, does it hold a rate?
+  bool holds_position(Index i) const {
+    return i < s_.n_lambda ? mu_[i] >= 0 : start(i).value.has_value();
+  }
+  bool holds_rate(Index i) const { return i < s_.n_lambda || start(i).rate.has_value(); }
+  bool is_angle(Index i) const { return angle_[static_cast<std::size_t>(i)]; }
+  double lever(Index i) const { return lever_[i]; } ///< of the smaller body [m]
+  std::string name(Index i) const;                  ///< "joints/door gap along x"
+  std::string key(Index i) const; ///< what of the case it belongs to: "joint.door"
+  const VectorX& scale() const { return scale_; }
+  const system::Workspace<double>& workspace() const { return ws_; }
+  const system::MotionStart& start(Index i) const {
+    return starts_[static_cast<std::size_t>(i - s_.n_lambda)];
+  }
+
+private:
+  void append(std::vector<Eigen::Triplet<double>>& entries, const system::JointData& j, Index i,
+              const joint::Vector12& gradient) const;
+
+  const system::Regime& s_;
+  std::vector<system::MotionStart> starts_;
+  system::Workspace<double> ws_;
+  VectorX scale_, size_, lever_;
+  std::vector<Index> mu_;
+  std::vector<bool> angle_;
+};
+
+} // namespace hydrodae::build

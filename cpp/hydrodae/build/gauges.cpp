@@ -1,0 +1,29 @@
+#include <algorithm>
+
+#include "hydrodae/build/parts.h"
+#include "hydrodae/model/waves.h"
+
+namespace hydrodae::build {
+
+void add_gauges(const model::Scene& scene, system::System& s) {
+  for (const sea::Gauge& gauge : scene.gauges) {
+    system::GaugeData out;
+    out.name = gauge.name;
+    out.ahead = gauge.ahead;
+    if (!gauge.point.empty()) {
+      out.x = gauge.point[0];
+      out.y = gauge.point[1];
+    }
+    if (gauge.marker)
+      out.marker = static_cast<int>(
+          std::find_if(s.markers.begin(), s.markers.end(),
+                       [&](const system::MarkerData& m) { return m.name == *gauge.marker; }) -
+          s.markers.begin());
+    s.gauges.push_back(std::move(out));
+  }
+  if (!scene.gauges.empty())
+    s.gauged = sea::WaveField(model::wave_components(scene), model::water(scene).depth,
+                              scene.sea.ramp, Vector3::Zero());
+}
+
+} // namespace hydrodae::build

@@ -1,0 +1,259 @@
+/// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <tuple>
+
+#include "hydrodae/build/check_radiation.h"
+#include "hydrodae/build/parts.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/hydro/coverage.h"
+#include "hydrodae/hydro/frequency.h"
+#include "hydrodae/math/bspline.h"
+#include "hydrodae/model/motion.h"
+
+namespace hydrodae::build {
+
+namespace {
+
+/// U: which coordinates of which body.
+void number_coordinates(const model::Scene& scene, system::System& s) {
+  system::HydroData& h = s.hydro;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].hydro)
+      continue;
+    system::HydroBody hb;
+    hb.body = static_cast<int>(i);
+    hb.moving.fill(-1);
+    const std::array<bool, 6> moving = model::moving_axes(scene.bodies[i]);
+    for (int c = 0; c < 6; ++c) {
+      if (!moving[c])
+        continue;
+      hb.moving[c] = h.n_moving++;
+      hb.moves = true;
+      h.coordinates.push_back({static_cast<int>(h.bodies.size()), c});
+    }
+    h.bodies.push_back(hb);
+  }
+}
+
+/// Rows for all six coordinates of all bodies (zero where the source gives none) and columns for U.
+MatrixX cut(const model::Scene& scene, const system::HydroData& h,
+            const std::vector<std::string>& rows, const std::vector<std::string>& columns,
+            const MatrixX& source) {
+  MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i)
+    for (int c = 0; c < 6; ++c) {
+      const int row = label_index(rows, hydro_label(scene, h.bodies[i], c));
+      if (row < 0)
+        continue;
+      for (int u = 0; u < h.n_moving; ++u) {
+        const system::HydroData::Coordinate& k = h.coordinates[u];
+        const int column =
+            label_index(columns, hydro_label(scene, h.bodies[k.hydro_body], k.component));
+        out(6 * static_cast<Eigen::Index>(i) + c, u) = source(row, column);
+      }
+    }
+  return out;
+}
+
+/// The rows of `all` (6 per body) that belong to U.
+MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
+  MatrixX out(h.n_moving, all.cols());
+  for (int u = 0; u < h.n_moving; ++u)
+    out.row(u) = all.row(6 * h.coordinates[u].hydro_body + h.coordinates[u].component);
+  return out;
+}
+
+/// Loads on coordinates that stay, but that nothing in the fit speaks of.
+void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
+                    system::System& s) {
+  for (const system::HydroBody& hb : s.hydro.bodies)
+    for (int c = 0; c < 6; ++c)
+      if (label_index(outputs, hydro_label(scene, hb, c)) < 0)
+        s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
+}
+
+/// The entries of B_r column by column, in runs that few zeros interrupt: sums over them are those
+/// of whole vectors.
+void find_runs(system::HydroData& h) {
+  constexpr int most_zeros = 3;
+  std::vector<system::HydroData::Input> inputs = h.inputs;
+  std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.coordinate, a.state) < std::tie(b.coordinate, b.state);
+  });
+  std::vector<double> values;
+  for (const system::HydroData::Input& in : inputs) {
+    const bool goes_on = !h.runs.empty() && h.runs.back().coordinate == in.coordinate &&
+                         in.state - h.runs.back().state - h.runs.back().count <= most_zeros;
+    if (!goes_on)
+      h.runs.push_back({in.coordinate, in.state, static_cast<Index>(values.size()), 0});
+    system::HydroData::Run& run = h.runs.back();
+    run.count = in.state - run.state + 1;
+    values.resize(static_cast<std::size_t>(run.first + run.count));
+    values.back() = in.value;
+  }
+  h.run_values = Eigen::Map<const VectorX>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
+/// that nothing drives are left out.
+void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::System& s) {
+  system::HydroData& h = s.hydro;
+  std::vector<int> input(h.n_moving);
+  for (int u = 0; u < h.n_moving; ++u) {
+    const system::HydroData::Coordinate& k = h.coordinates[u];
+    input[u] = label_index(fit.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component));
+  }
+  std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
+  for (int k = 0; k < fit.poles.size(); ++k) {
+    const bool pair = fit.poles[k].imag() != 0.0;
+    const int state = h.n_states;
+    bool driven = false;
+    for (int u = 0; u < h.n_moving; ++u) {
+      const std::complex<double> b = fit.input_matrix(k, input[u]);
+      if (b.real() != 0.0)
+        h.inputs.push_back({state, u, b.real()});
+      if (pair && b.imag() != 0.0)
+        h.inputs.push_back({state + 1, u, b.imag()});
+      driven = driven || b != 0.0;
+    }
+    if (!driven)
+      continue;
+    h.blocks.push_back({state, fit.poles[k].real(), fit.poles[k].imag(), pair});
+    h.n_states += pair ? 2 : 1;
+    for (int n = 0; n < (pair ? 2 : 1); ++n)
+      column.push_back(k);
+  }
+  find_runs(h);
+  h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i)
+    for (int c = 0; c < 6; ++c) {
+      const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
+      if (row < 0)
+        continue;
+      for (const system::HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
+        const std::complex<double> C = fit.output_matrix(row, column[b.state]);
+        const Eigen::Index r = 6 * static_cast<Eigen::Index>(i) + c;
+        h.output_all(r, b.state) = C.real();
+        if (b.pair)
+          h.output_all(r, b.state + 1) = -C.imag();
+      }
+    }
+  h.output = moving_rows(h, h.output_all);
+}
+
+/// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
+/// read.
+VectorX largest_damping(const model::Scene& scene, const system::HydroData& h) {
+  VectorX out = VectorX::Zero(h.n_moving);
+  const hydro::Database& db = *scene.database;
+  for (int u = 0; u < h.n_moving; ++u) {
+    const system::HydroData::Coordinate& k = h.coordinates[u];
+    const int i =
+        label_index(db.coordinates, hydro_label(scene, h.bodies[k.hydro_body], k.component));
+    for (const MatrixX& B : db.damping)
+      out[u] = i < 0 ? 0.0 : std::max(out[u], std::abs(B(i, i)));
+  }
+  return out;
+}
+
+/// A(w) or B(w) at the frequency of constant radiation.
+MatrixX table_at(const model::Scene& scene, const std::vector<MatrixX>& table) {
+  const hydro::Database& db = *scene.database;
+  const double omega = *scene.hydro->frequency;
+  if (!hydro::covers_frequency(db, omega))
+    throw ModelError("hydro.frequency", "frequency = " + number_text(omega) +
+                                            " rad/s is outside the database, " +
+                                            number_text(db.omega[0]) + " to " +
+                                            number_text(db.omega[db.omega.size() - 1]) + " rad/s");
+  return hydro::at_frequency(db, table, omega);
+}
+
+} // namespace
+
+int label_index(const std::vector<std::string>& labels, const std::string& label) {
+  const auto found = std::find(labels.begin(), labels.end(), label);
+  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
+}
+
+std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, int c) {
+  return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
+}
+
+/// Mass and added mass together must be positive: else a push moves the body towards the hand.
+void check_mass(const system::System& s) {
+  const system::HydroData& h = s.hydro;
+  MatrixX mass = 0.5 * (h.added_mass + h.added_mass.transpose());
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[h.bodies[i].body];
+    Matrix6 own = Matrix6::Zero();
+    own.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
+    own.bottomRightCorner<3, 3>() = b.inertia;
+    for (int m = 0; m < 6; ++m)
+      for (int n = 0; n < 6; ++n)
+        if (h.bodies[i].moving[m] >= 0 && h.bodies[i].moving[n] >= 0)
+          mass(h.bodies[i].moving[m], h.bodies[i].moving[n]) += own(m, n);
+  }
+  // Units differ: judged with a unit diagonal.
+  for (Eigen::Index k = 0; k < mass.rows(); ++k)
+    if (!(mass(k, k) > 0.0)) {
+      const system::HydroData::Coordinate& c = h.coordinates[k];
+      throw ModelError(
+          "hydro.database",
+          "mass and added mass of body '" + s.bodies[h.bodies[c.hydro_body].body].name + "' in " +
+              std::string(model::coordinate_names[static_cast<std::size_t>(c.component)]) +
+              " are " + number_text(mass(k, k)) + " together, and must be positive");
+    }
+  const VectorX size = mass.diagonal().cwiseSqrt().cwiseInverse();
+  mass = size.asDiagonal() * mass * size.asDiagonal();
+  if (mass.llt().info() != Eigen::Success)
+    throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
+                                       "positive definite together: a push somewhere moves the "
+                                       "bodies towards the hand");
+}
+
+void add_hydro(const model::Scene& scene, system::System& s) {
+  if (!scene.hydro || !scene.database)
+    return;
+  const hydro::Database& db = *scene.database;
+  system::HydroData& h = s.hydro;
+  h.axes = scene.hydro->axes == "body"   ? system::HydroAxes::body
+           : scene.hydro->axes == "mean" ? system::HydroAxes::mean
+                                         : system::HydroAxes::yaw;
+  number_coordinates(scene, s);
+  set_hydrostatics(scene, s);
+  if (h.n_moving == 0)
+    return;
+  if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
+    h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
+    add_memory(scene, *fit, s);
+    note_uncovered(scene, fit->outputs, s);
+  } else if (scene.hydro->radiation == "convolution") {
+    const hydro::RadiationKernel& kernel = *db.kernel;
+    h.added_mass_all = cut(scene, h, kernel.outputs, kernel.inputs, kernel.added_mass_inf);
+    h.added_mass = moving_rows(h, h.added_mass_all);
+    h.output = MatrixX::Zero(h.n_moving, 0);
+    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
+    add_convolution(scene, kernel, s);
+    note_uncovered(scene, kernel.outputs, s);
+  } else {
+    const bool constant = scene.hydro->radiation == "constant";
+    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates,
+                           constant ? table_at(scene, db.added_mass) : db.added_mass_inf);
+    if (constant) {
+      h.damped = true;
+      h.damping_all = cut(scene, h, db.coordinates, db.coordinates, table_at(scene, db.damping));
+      h.damping = moving_rows(h, h.damping_all);
+    }
+    h.output = MatrixX::Zero(h.n_moving, 0);
+    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
+    note_uncovered(scene, db.coordinates, s);
+  }
+  h.added_mass = moving_rows(h, h.added_mass_all);
+  check_mass(s);
+  check_radiation(scene, s, largest_damping(scene, h));
+}
+
+} // namespace hydrodae::build

@@ -1,0 +1,87 @@
+/// Morison elements cut into segments, and the waves and the current that they feel.
+
+#include "hydrodae/build/initial_pose.h"
+#include "hydrodae/build/parts.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/model/waves.h"
+#include "hydrodae/water/morison_list.h"
+
+namespace hydrodae::build {
+
+namespace {
+
+/// A sphere: of the diameter, or as large as the volume (without one, as the area).
+water::MorisonSegment point_law(const water::Morison& m, double rho) {
+  const double D = m.diameter.value_or(0.0);
+  const double area = m.area.value_or(0.25 * pi * D * D);
+  const double volume = m.volume.value_or(pi / 6.0 * D * D * D);
+  water::MorisonSegment law;
+  law.radius = volume > 0.0 ? std::cbrt(0.75 * volume / pi) : std::sqrt(area / pi);
+  law.drag = 0.5 * rho * m.drag_coefficient * area;
+  if (m.added_mass_coefficient) {
+    law.mass_fluid = rho * volume * (1.0 + *m.added_mass_coefficient);
+    law.mass_body = rho * volume * *m.added_mass_coefficient;
+  }
+  return law;
+}
+
+/// A piece of a cylinder of this length.
+water::MorisonSegment member_law(const water::Morison& m, double length, double rho) {
+  const double D = *m.diameter, volume = 0.25 * pi * D * D * length;
+  water::MorisonSegment law;
+  law.half_length = 0.5 * length;
+  law.radius = 0.5 * D;
+  law.drag = 0.5 * rho * m.drag_coefficient * D * length;
+  law.drag_axial = 0.5 * rho * m.drag_axial * pi * D * length;
+  if (m.added_mass_coefficient) {
+    law.mass_fluid = rho * volume * (1.0 + *m.added_mass_coefficient);
+    law.mass_body = rho * volume * *m.added_mass_coefficient;
+  }
+  law.mass_axial = rho * volume * m.added_mass_axial;
+  return law;
+}
+
+} // namespace
+
+void add_morison(const model::Scene& scene, system::System& s) {
+  if (scene.morison.empty())
+    return;
+  const model::Water water = model::water(scene);
+  const std::vector<sea::Component> all = model::wave_components(scene);
+  auto list = std::make_shared<water::MorisonList>(
+      sea::WaveField(all, water.depth, scene.sea.ramp, scene.sea.current));
+  std::vector<system::PortData> ports;
+  Index pieces = 0;
+  for (const water::Morison& m : scene.morison) {
+    system::PortData port;
+    port.component = m.name;
+    port.body = body_index(scene, m.body);
+    water::MorisonMember member;
+    member.instantaneous = m.surface == "instantaneous";
+    member.moves = s.bodies[static_cast<std::size_t>(port.body)].n_active > 0;
+    const Vector3& origin = scene.bodies[static_cast<std::size_t>(port.body)].center_of_gravity;
+    if (m.point) {
+      member.law = point_law(m, water.density);
+      member.first = *m.point - origin;
+    } else {
+      const Vector3 along = *m.point_b - *m.point_a;
+      member.segments = m.segments;
+      member.step = along / m.segments;
+      member.first = *m.point_a - origin + 0.5 * member.step;
+      member.axis = along.normalized();
+      member.law = member_law(m, member.step.norm(), water.density);
+    }
+    if (member.moves)
+      pieces += member.segments;
+    list->add(m.name, member);
+    ports.push_back(std::move(port));
+  }
+  s.elements.push_back({std::move(list), std::move(ports), {}});
+  if (pieces > 0 && !all.empty())
+    s.notes.push_back(
+        "Morison elements: every evaluation sums " + std::to_string(all.size()) +
+        " wave components at " + std::to_string(pieces) + " points that move, about " +
+        number_text(0.015 * static_cast<double>(all.size()) * static_cast<double>(pieces)) + " us");
+}
+
+} // namespace hydrodae::build

@@ -1,0 +1,378 @@
+#include "hydrodae/build/redundancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <set>
+
+#include "hydrodae/build/closing.h"
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/names.h"
+#include "hydrodae/system/retract.h"
+
+namespace hydrodae::build {
+
+namespace {
+
+constexpr double dependent = 1e-9;  ///< pivots below are those of rows that follow from others
+constexpr double suspicious = 0.03; ///< pivots above are those of independent rows
+constexpr double apart = 0.1;       ///< of the pivot before: below, a suspicious one stands out
+constexpr int drive_samples = 64;
+
+/// Rows and bodies scaled so that no body's size decides: the largest entry of each row, and of the
+/// columns of each body together, is about one. (A factor for each column would hide what a body
+/// can hardly do.)
+SparseMatrix balanced(const system::System& s, SparseMatrix G) {
+  std::vector<std::size_t> owner(static_cast<std::size_t>(s.n_u));
+  for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    for (int k = 0; k < s.bodies[b].n_active; ++k)
+      owner[static_cast<std::size_t>(s.bodies[b].u0 - s.u0 + k)] = b;
+  const auto each = [&](auto&& visit) {
+    for (Index c = 0; c < G.cols(); ++c)
+      for (SparseMatrix::InnerIterator it(G, c); it; ++it)
+        visit(it.row(), owner[static_cast<std::size_t>(c)], it.valueRef());
+  };
+  for (int pass = 0; pass < 3; ++pass) {
+    VectorX body = VectorX::Zero(static_cast<Index>(s.bodies.size())),
+            row = VectorX::Zero(G.rows());
+    each([&](Index, std::size_t b, double& value) {
+      double& size = body[static_cast<Index>(b)];
+      size = std::max(size, std::abs(value));
+    });
+    each([&](Index, std::size_t b, double& value) {
+      if (body[static_cast<Index>(b)] > 0.0)
+        value /= body[static_cast<Index>(b)];
+    });
+    each([&](Index i, std::size_t, double& value) { row[i] = std::max(row[i], std::abs(value)); });
+    each([&](Index i, std::size_t, double& value) {
+      if (row[i] > 0.0)
+        value /= row[i];
+    });
+  }
+  return G;
+}
+
+using Mask = std::vector<bool>; ///< which rows are looked at
+
+/// Rows of a closed pose by falling pivots; rows without any entry come last.
+struct Ranking {
+  VectorX y;
+  std::vector<RankedRow> rows;
+  std::size_t rank(double limit) const {
+    return static_cast<std::size_t>(std::count_if(
+        rows.begin(), rows.end(), [&](const RankedRow& row) { return row.pivot > limit; }));
+  }
+};
+
+Ranking rank_at(const system::System& s, Constraints& constraints, const Mask& mask,
+                const VectorX& y) {
+  VectorX gaps, rates;
+  constraints.evaluate(y, gaps, rates);
+  const auto n = static_cast<Index>(mask.size());
+  const auto wanted = [&](Index i) { return i < n && mask[static_cast<std::size_t>(i)]; };
+  Ranking out{y, ranked_rows(balanced(s, constraints.gradient(wanted)))};
+  std::stable_sort(out.rows.begin(), out.rows.end(),
+                   [](const RankedRow& a, const RankedRow& b) { return a.pivot > b.pivot; });
+  Mask missing = mask;
+  for (const RankedRow& row : out.rows)
+    missing[static_cast<std::size_t>(row.row)] = false;
+  for (Index i = 0; i < n; ++i)
+    if (missing[static_cast<std::size_t>(i)])
+      out.rows.push_back({i, 0.0});
+  return out;
+}
+
+/// The start, and up to four closed poses near it.
+std::vector<VectorX> poses_near(const system::Regime& s, const VectorX& start) {
+  Constraints constraints(s);
+  std::vector<VectorX> out{start};
+  std::mt19937 random(7);
+  for (int sample = 0; sample < 12 && out.size() < 5; ++sample) {
+    VectorX step(s.n_u), y = start;
+    for (double& x : step)
+      x = (sample < 8 ? 2.0 : 0.5) * (2.0 * (random() / 4294967296.0) - 1.0);
+    retract(s, step.cwiseProduct(constraints.scale()), y);
+    approach(s, constraints, y, nullptr);
+    if (is_closed(constraints, y))
+      out.push_back(y);
+  }
+  return out;
+}
+
+/// Does the drive move what it drives?
+bool moves(const system::CouplerData& c) {
+  const model::Drive& d = c.drive;
+  return d.rate != 0.0 || d.amplitude != 0.0 || !d.time.empty() || d.python ||
+         (c.velocity_level && d.constant != 0.0);
+}
+
+/// The k-th pivot of the pose in which it is largest.
+std::vector<double> best_pivots(const std::vector<Ranking>& poses) {
+  std::vector<double> out(poses.front().rows.size(), 0.0);
+  for (const Ranking& pose : poses)
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = std::max(out[k], pose.rows[k].pivot);
+  return out;
+}
+
+/// The pose to choose the rows from: the start, if its rows are as independent as elsewhere.
+const Ranking& best_pose(const std::vector<Ranking>& poses, std::size_t rank) {
+  const Ranking* best = &poses.front();
+  const auto last = [&](const Ranking& pose) { return rank > 0 ? pose.rows[rank - 1].pivot : 1.0; };
+  for (const Ranking& pose : poses)
+    if (last(pose) > 10.0 * last(*best))
+      best = &pose;
+  return *best;
+}
+
+/// Coefficients by which a row follows from others, of the rows that are `used`; the sizes of the
+/// rows are their scales.
+VectorX coefficients(const SparseMatrix& G, const std::vector<Index>& used, Index row) {
+  SparseMatrix others(G.cols(), static_cast<Index>(used.size()));
+  const SparseMatrix transposed = G.transpose();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < used.size(); ++k)
+    for (SparseMatrix::InnerIterator it(transposed, used[k]); it; ++it)
+      entries.emplace_back(it.row(), static_cast<Index>(k), it.value());
+  others.setFromTriplets(entries.begin(), entries.end());
+  return smallest_solution(others, VectorX(transposed.col(row)));
+}
+
+/// "'upper', 'frame'": joints and constraints that a row nearly follows from.
+std::string partners(const Constraints& constraints, const SparseMatrix& G,
+                     const std::vector<Index>& used, Index row) {
+  const VectorX c = coefficients(G, used, row);
+  const double largest = c.size() > 0 ? c.cwiseAbs().maxCoeff() : 0.0;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    if (std::abs(c[static_cast<Index>(k)]) <= 0.05 * largest)
+      continue;
+    const std::string key = constraints.key(used[k]);
+    const std::string name = in_quotes(key.substr(key.find('.') + 1));
+    if (key != constraints.key(row) && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  }
+  return names.empty() ? "its own rows" : joined(names);
+}
+
+/// "0.0001 m" or "0.006 deg" for a pivot.
+std::string misfit_text(const Constraints& constraints, const RankedRow& row) {
+  return constraints.is_angle(row.row)
+             ? rounded_text(row.pivot * 180.0 / pi) + " deg"
+             : rounded_text(row.pivot * constraints.lever(row.row)) + " m";
+}
+
+[[noreturn]] void refuse_misaligned(const Constraints& constraints, const SparseMatrix& G,
+                                    const std::vector<Index>& kept, const RankedRow& row) {
+  const std::string key = constraints.key(row.row), name = in_quotes(key.substr(key.find('.') + 1));
+  throw ModelError(
+      key,
+      "joints are inconsistent: " + name + " is out of line with " +
+          partners(constraints, G, kept, row.row) + " by about " + misfit_text(constraints, row) +
+          " (" + rounded_text(row.pivot) + " of the body's lever, in " + constraints.name(row.row) +
+          "). This locks a motion that exact joints leave free. Give points and axes with more "
+          "digits; or let the row give way, with solver.tolerance_assembly = " +
+          rounded_text(2.0 * row.pivot) +
+          "; or make one of the joints one that holds less, or a "
+          "spring_damper; solver.force = true holds all rows as they are");
+}
+
+/// Which of the rows of a mask to keep.
+struct Selection {
+  std::vector<Index> kept;        ///< independent, most so first
+  std::vector<RankedRow> dropped; ///< with their largest pivot
+  std::size_t at_start = 0;       ///< how many are independent in the start
+  std::vector<double> pivots;     ///< of those kept
+  SparseMatrix G;                 ///< gradient where they were chosen
+};
+
+Selection select(const system::Regime& s, const Mask& mask, const std::vector<VectorX>& poses,
+                 double tolerance) {
+  Constraints constraints(s);
+  std::vector<Ranking> rankings;
+  for (const VectorX& y : poses)
+    rankings.push_back(rank_at(s, constraints, mask, y));
+  const std::vector<double> pivots = best_pivots(rankings);
+  Selection out;
+  std::size_t rank = 0;
+  while (rank < pivots.size() && pivots[rank] > tolerance)
+    ++rank;
+  const Ranking& best = best_pose(rankings, rank);
+  for (std::size_t k = 0; k < pivots.size(); ++k)
+    if (k < rank)
+      out.kept.push_back(best.rows[k].row);
+    else
+      out.dropped.push_back({best.rows[k].row, pivots[k]});
+  out.at_start = rankings.front().rank(tolerance);
+  VectorX gaps, rates;
+  constraints.evaluate(best.y, gaps, rates);
+  out.G = constraints.gradient([](Index) { return true; });
+  out.pivots.assign(pivots.begin(), pivots.begin() + static_cast<std::ptrdiff_t>(rank));
+  return out;
+}
+
+/// Rate that a drive gives its row at t, in units of the row.
+double drive_rate(const system::CouplerData& c, double t) {
+  return c.drive(t)[c.velocity_level ? 0 : 1];
+}
+
+/// A row that follows from others must follow from their drives, too, at all times.
+void check_drives(const system::Regime& s, const Constraints& constraints, const Selection& chosen,
+                  const Fit& fit) {
+  std::vector<const system::CouplerData*> drive(static_cast<std::size_t>(s.n_lambda), nullptr);
+  bool any = false;
+  for (const system::CouplerData& c : s.couplers)
+    if (s.holds(c) && moves(c)) {
+      drive[static_cast<std::size_t>(s.lambda(c) - s.lambda0)] = &c;
+      any = true;
+    }
+  for (std::size_t k = 0; any && k < chosen.dropped.size(); ++k) {
+    const Index row = chosen.dropped[k].row;
+    const VectorX c = coefficients(chosen.G, chosen.kept, row);
+    const system::CouplerData* own = drive[static_cast<std::size_t>(row)];
+    std::vector<std::pair<double, const system::CouplerData*>>
+        others; // factor in units of the rows
+    for (std::size_t i = 0; i < chosen.kept.size(); ++i) {
+      const system::CouplerData* other = drive[static_cast<std::size_t>(chosen.kept[i])];
+      const double factor = c[static_cast<Index>(i)];
+      if (other && std::abs(factor) > 1e-6)
+        others.emplace_back(factor / constraints.size(chosen.kept[i]), other);
+    }
+    if (!own && others.empty())
+      continue;
+    const auto refuse = [&](const std::string& why) {
+      std::vector<std::string> names;
+      if (own)
+        names.push_back(in_quotes(own->name));
+      for (const auto& other : others)
+        names.push_back(in_quotes(other.second->name));
+      const bool several = own && !others.empty();
+      std::string text = several ? "the drives " : "the drive ";
+      text += joined(names);
+      text += several ? " move" : " moves";
+      throw ModelError("constraint." + (own ? own->name : others.front().second->name),
+                       text + " what other constraints hold already (" + constraints.name(row) +
+                           " follows from them)" + why + "; leave one of them out");
+    };
+    for (int i = 0; i <= drive_samples; ++i) {
+      // Times that no period of a drive repeats.
+      const double t = fit.end_time * std::fmod(0.6180339887498949 * i, 1.0);
+      double rate = own ? drive_rate(*own, t) / constraints.size(row) : 0.0, size = std::abs(rate);
+      for (const auto& [factor, other] : others) {
+        if (other->drive.python || (own && own->drive.python))
+          refuse("");
+        const double part = factor * drive_rate(*other, t);
+        rate -= part;
+        size += std::abs(part);
+      }
+      if (others.empty() && own && own->drive.python)
+        refuse("");
+      if (std::abs(rate) > 1e-6 * size)
+        refuse(": at t = " + rounded_text(t) + " s their rates differ by " +
+               rounded_text(std::abs(rate) * constraints.size(row)) +
+               (constraints.is_angle(row) ? " rad/s" : " m/s"));
+    }
+  }
+}
+
+} // namespace
+
+void drop_dependent_rows(system::System& s, const VectorX& start, const Fit& fit) {
+  const system::Regime rows(s);
+  if (rows.n_lambda == 0)
+    return;
+  Constraints constraints(rows);
+  Mask all(static_cast<std::size_t>(rows.n_lambda), true), resting = all;
+  for (const system::CouplerData& c : s.couplers)
+    if (rows.holds(c) && moves(c))
+      resting[static_cast<std::size_t>(rows.lambda(c) - s.lambda0)] = false;
+  const Ranking now = rank_at(s, constraints, all, start);
+  if (now.rank(suspicious) == now.rows.size())
+    return;
+  const std::vector<VectorX> poses = poses_near(rows, start);
+  // First what is held for ever, then what the drives move.
+  const Selection held = select(rows, resting, poses, fit.tolerance);
+  for (std::size_t k = 1; k < held.kept.size() && !fit.force; ++k)
+    if (held.pivots[k] < suspicious && held.pivots[k] < apart * held.pivots[k - 1])
+      refuse_misaligned(constraints, held.G,
+                        {held.kept.begin(), held.kept.begin() + static_cast<std::ptrdiff_t>(k)},
+                        {held.kept[k], held.pivots[k]});
+  if (static_cast<Index>(held.kept.size()) == s.n_u)
+    s.notes.push_back("the constraints leave nothing to move");
+  Mask rest(all.size(), false);
+  for (Index i : held.kept)
+    rest[static_cast<std::size_t>(i)] = true;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    rest[i] = rest[i] || !resting[i];
+  const Selection moved = resting == all ? held : select(rows, rest, poses, dependent);
+  check_drives(rows, constraints, moved, fit);
+  if (moved.kept.size() > moved.at_start)
+    s.notes.push_back(
+        "the start is a singular pose: " + std::to_string(moved.kept.size() - moved.at_start) +
+        " more degrees of freedom there than nearby");
+  if (moved.kept.size() == all.size())
+    return;
+  std::set<std::string> told;
+  std::vector<std::string> loose;
+  for (const RankedRow& row : held.dropped) {
+    const std::string key = constraints.key(row.row);
+    if (row.pivot > dependent && told.insert(key).second)
+      loose.push_back(
+          key.substr(0, key.find('.')) + " " + in_quotes(key.substr(key.find('.') + 1)) +
+          " is out of line with " + partners(constraints, held.G, held.kept, row.row) +
+          " by about " + misfit_text(constraints, row) +
+          ", less than solver.tolerance_assembly: " + constraints.name(row.row) + " gives way");
+  }
+  std::vector<Index> kept = moved.kept;
+  std::sort(kept.begin(), kept.end());
+  std::vector<std::string> names;
+  system::for_each_row(s, [&](system::Row& row, bool velocity_level) {
+    const Index lambda = rows.lambda(row);
+    if (lambda == system::redundant ||
+        std::binary_search(kept.begin(), kept.end(), lambda - s.lambda0))
+      return; // a switch that is open has no row now
+    names.push_back(rows.row_names[velocity_level ? lambda : rows.mu(row)]);
+    row.dropped = true;
+  });
+  s.notes.push_back(std::to_string(names.size()) +
+                    " redundant constraint rows, which follow from the others: " + joined(names));
+  s.notes.insert(s.notes.end(), loose.begin(), loose.end());
+}
+
+DroppedGap largest_dropped_gap(const system::Regime& s, double t, const VectorX& y) {
+  system::Workspace<double> ws(s);
+  const VectorX rest = VectorX::Zero(s.n);
+  system::unpack<double>(s, y.data(), rest.data(), ws.bodies);
+  DroppedGap out;
+  const auto take = [&](const system::JointData& j, const std::string& key, const std::string& name,
+                        double gap, bool angle) {
+    const double part = std::abs(gap) / (angle ? 1.0 : smaller_lever(s, j));
+    if (out.name.empty() || part > out.part)
+      out = {key, name, std::abs(gap), part, angle};
+  };
+  for (const system::JointData& j : s.joints)
+    for (const system::RowData& row : j.rows)
+      if (row.dropped)
+        take(j, "joint." + j.name, "joints/" + j.name + " " + system::row_name(row.kind),
+             joint::basic_row<double>(row.kind, j.A, j.B, j.parameters,
+                                      system::joint_geometry<double>(j, ws.bodies))
+                 .value,
+             row.kind.kind == joint::BasicRow::Kind::perp);
+  for (const system::CouplerData& c : s.couplers) {
+    if (!c.dropped || c.velocity_level)
+      continue;
+    double gap = -s.offset(c) - s.drive(c, t)[0];
+    for (const system::CouplerData::Term& term : c.terms)
+      gap += term.factor * system::motion_row<double>(s, ws, term.motion).value;
+    const system::MotionData& m = s.motions[c.terms.front().motion];
+    if (m.motion.is_angle()) // the turns of the start are not those of y
+      gap = std::remainder(gap, 2.0 * pi);
+    take(s.joints[m.joint], "constraint." + c.name, "constraints/" + c.name, gap,
+         m.motion.is_angle());
+  }
+  return out;
+}
+
+} // namespace hydrodae::build

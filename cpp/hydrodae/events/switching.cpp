@@ -1,0 +1,206 @@
+#include "hydrodae/events/switching.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/system/elements.h"
+#include "hydrodae/system/mechanisms.h"
+
+namespace hydrodae::events {
+
+namespace {
+
+constexpr long watch = 1000; ///< events; see `count`
+
+} // namespace
+
+Switching::Switching(system::Regime& system, double rtol)
+    : s_(system), rtol_(rtol), ws_(system), size_(system.switches.size()),
+      depth_(system.switches.size()), struck_(system.switches.size()),
+      y_(system::initial_state(system)), yp_(VectorX::Zero(system.n)) {
+  for (std::size_t k = 0; k < size_.size(); ++k) // scales are those of the rows when they hold
+    set(k, s_.switches[k].kind == Kind::stop ? State::upper : State::stick);
+  lay_out(s_);
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const system::CouplerData& c = s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)];
+    size_[k].rate = s_.row_scale[s_.lambda(c)];
+    size_[k].load = s_.scale[s_.lambda(c)];
+    size_[k].length = c.velocity_level ? 1.0 : s_.row_scale[s_.mu(c)];
+  }
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    set(k, State::open);
+  lay_out(s_);
+  time_scale_ = INFINITY;
+  for (const system::BodyData& b : s_.bodies)
+    time_scale_ = std::min(time_scale_, b.time_scale);
+  unpack(0.0, y_, yp_);
+  for (std::size_t k = 0; k < size_.size(); ++k) {
+    const Data& element = s_.switches[k];
+    const double s = motion(element).value;
+    if (element.kind != Kind::stop || (s >= element.lower - touching * size_[k].length &&
+                                       s <= element.upper + touching * size_[k].length))
+      continue;
+    const std::string& name = s_.couplers[static_cast<std::size_t>(element.coupler)].name;
+    const bool angle = s_.motions[static_cast<std::size_t>(element.motion)].motion.is_angle();
+    const double unit = angle ? 180.0 / pi : 1.0;
+    throw ModelError("constraint." + name, "the start is beyond stop '" + name +
+                                               "': " + number_text(s * unit) +
+                                               (angle ? " deg" : " m") + " is not within " +
+                                               number_text(element.lower * unit) + " and " +
+                                               number_text(element.upper * unit));
+  }
+}
+
+void Switching::fail(double t, const std::string& reason) const {
+  std::vector<std::string> names;
+  for (const Data& element : s_.switches)
+    if (s_.mode(element) != State::open)
+      names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
+  throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + reason +
+                           (names.empty() ? "" : " (now acting: " + joined(names) + ")"));
+}
+
+/// Infinitely many events in a finite time (a ball that comes to rest ends in a captured contact
+/// before) would stop all progress.
+void Switching::count(double t) {
+  ++events_;
+  if (++recent_ < watch)
+    return;
+  if (t - checked_ < 1e-6 * time_scale_ * static_cast<double>(watch))
+    fail(t, std::to_string(watch) + " events of stops or dry friction brought only " +
+                number_text(t - checked_) + " s");
+  recent_ = 0;
+  checked_ = t;
+}
+
+void Switching::follow(const system::Turns& turns) {
+  ws_.turns = turns;
+  s_.nearby = turns.value;
+}
+
+void Switching::remember(Archive& a) {
+  a(depth_, struck_, events_, recent_, checked_, holding_, ws_.turns);
+}
+
+void Switching::resume(double t, const VectorX& y, const VectorX& yp) {
+  const Stabilised lock(s_);
+  present_ = std::make_unique<Present>(s_);
+  present_->equations.accept(t, y, yp);
+}
+
+/// y, y' at t, with the loads that belong to the pose and velocities: those of the integrator are
+/// of lower order, or oscillate.
+void Switching::look(double t, const VectorX& y, const VectorX& yp) {
+  y_ = y;
+  yp_ = yp;
+  if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
+    fail(t, "no finite accelerations inside the step");
+  unpack(t, y_, yp_);
+}
+
+void Switching::unpack(double t, const VectorX& y, const VectorX& yp) {
+  ws_.time = t;
+  system::unpack<double>(s_, y.data(), yp.data(), ws_.bodies);
+}
+
+Switching::Motion Switching::motion(const Data& element) const {
+  const system::MotionData& m = s_.motions[static_cast<std::size_t>(element.motion)];
+  const system::JointData& j = s_.joints[static_cast<std::size_t>(m.joint)];
+  const auto row = system::motion_row<double>(s_, ws_, element.motion);
+  const joint::Vector12 u = system::joint_velocity<double>(j, ws_.bodies);
+  const auto T =
+      joint::motion_curvature(m.motion, j.A, j.B, system::joint_geometry<double>(j, ws_.bodies));
+  return {row.value, row.gradient.dot(u),
+          row.gradient.dot(system::joint_acceleration<double>(j, ws_.bodies)) + u.dot(T * u)};
+}
+
+/// Part of the full scales that the motion of its bodies takes.
+double Switching::motion_scale(const Data& element) const {
+  const system::BodyData* body = system::moving_body(s_, system::joint_of(s_, element.motion));
+  return body ? s_.motion_scale[body->group] : 1.0;
+}
+
+/// Load of a row that holds on its coordinate [N or N m].
+double Switching::load(const Data& element, const VectorX& y) const {
+  return y[s_.lambda(s_.couplers[static_cast<std::size_t>(element.coupler)])];
+}
+
+/// Of an open stop from the bound that is nearer [m or rad].
+double Switching::gap(std::size_t k) const {
+  const Data& element = s_.switches[k];
+  const double s = motion(element).value;
+  return std::min(element.upper - s, s - element.lower);
+}
+
+/// How far the switch is from having to change, either way; negative when it is past that.
+void Switching::margins_of(std::size_t k, double* out) const {
+  constexpr double never = 1.0;
+  const Data& element = s_.switches[k];
+  const Size& size = size_[k];
+  const double spare = 2.0 * resting * size.load;
+  out[1] = never;
+  switch (s_.mode(element)) {
+  case State::open: {
+    if (element.kind != Kind::stop) {
+      out[0] = never;
+      return;
+    }
+    // What has just come off leaves slowly, and the integrator's error may be larger than its gap.
+    const Motion m = motion(element);
+    const double scale = motion_scale(element);
+    const auto left = [&](double gap, double rate) {
+      const bool slow = rate <= rtol_ * scale * size.rate;
+      const double spare_gap = slow ? 0.1 * rtol_ * scale : 1e-3 * touching;
+      return std::isfinite(gap) ? gap + depth_[k] + spare_gap * size.length : never;
+    };
+    out[0] = left(element.upper - m.value, m.rate);
+    out[1] = left(m.value - element.lower, -m.rate);
+    return;
+  }
+  case State::upper:
+    out[0] = -load(element, y_) + spare;
+    return;
+  case State::lower:
+    out[0] = load(element, y_) + spare;
+    return;
+  case State::stick:
+    out[0] = system::sticking_load(s_, element, y_.data()) + spare;
+    out[1] = out[0] + load(element, y_);
+    out[0] -= load(element, y_);
+    return;
+  case State::forward:
+    out[0] = motion(element).rate + resting * size.rate;
+    return;
+  case State::backward:
+    out[0] = -motion(element).rate + resting * size.rate;
+    return;
+  }
+}
+
+/// Rate at which an open stop closes [m/s or rad/s], towards the bound that is nearer.
+double Switching::approach(std::size_t k) const {
+  const Data& element = s_.switches[k];
+  const Motion m = motion(element);
+  return element.upper - m.value < m.value - element.lower ? m.rate : -m.rate;
+}
+
+void Switching::margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) {
+  const Stabilised lock(s_);
+  look(t, y, yp);
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    margins_of(k, out.data() + 2 * k);
+}
+
+void Switching::accept(double t, const VectorX& y, const VectorX& yp) {
+  const Stabilised lock(s_);
+  look(t, y, yp);
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    if (depth_[k] > 0.0 && gap(k) >= 0.0)
+      depth_[k] = 0.0;
+  system::accept_turns(s_, t, y_.data(), yp_.data(), ws_);
+  present_->equations.accept(t, y_, yp_);
+}
+
+} // namespace hydrodae::events

@@ -1,0 +1,153 @@
+#pragma once
+/// Stops, one-sided distances and dry friction: constraint rows that hold at times only.
+///
+///   stop      open: s within its bounds;  closed: s at a bound, its load pushing back
+///   friction  stick: s' = 0, |load| <= static;  slip: load = -kinetic sign(s')
+///
+/// Between events the equations are smooth, and any integrator solves them; the times at which a
+/// row has to come or go are located on its interpolant, and it starts anew there. At an impact the
+/// velocities jump by impulses of the joints and stops (Newton's law of restitution; Brogliato,
+/// Nonsmooth Mechanics, 2016, ch. 4). Friction that its joint presses has impulses too; of others,
+/// whose load is bounded, there are none. Where friction and restitution together would give energy
+/// (Kane and Levinson, J. Applied Mechanics 52 (1985) 976), all rebounds are lowered alike.
+
+#include <memory>
+#include <optional>
+
+#include "hydrodae/core/archive.h"
+#include "hydrodae/events/source.h"
+#include "hydrodae/linalg/saddle_point.h"
+#include "hydrodae/system/kinematics.h"
+
+namespace hydrodae::events {
+
+class Switching : public events::Source {
+public:
+  /// Everything open. Throws ModelError when the start is beyond a stop.
+  Switching(system::Regime& system, double rtol);
+
+  /// Two margins for each switch: of an open stop its gaps, of what holds its load, of what slips
+  /// its rate.
+  std::size_t count() const override { return 2 * size_.size(); }
+  void margins(double t, const VectorX& y, const VectorX& yp, std::span<double> out) override;
+
+  /// A step that ends at t [s] is accepted without an event of its own.
+  void accept(double t, const VectorX& y, const VectorX& yp);
+
+  /// At the start and at events: impacts, then the rows that hold from now on, by the sign of their
+  /// loads. Changes the layout of the regime; y, y' come out in the new one, consistent. Throws
+  /// SolverError when no consistent set of rows is found, or when events accumulate.
+  /// @returns the work of all rows through their impulses [J] where something struck (that of
+  /// driven rows among it); nothing: the velocities have not jumped
+  std::optional<double> settle(double t, VectorX& y, VectorX& yp);
+
+  /// What a stop or one-sided joint takes in one impact: the size of its impulse [N s or N m s],
+  /// and the energy lost [J].
+  struct Impact {
+    double time = 0.0, impulse = 0.0, energy_lost = 0.0;
+    void remember(Archive& a) { a(time, impulse, energy_lost); }
+  };
+
+  /// What a stop or one-sided joint has taken in its impacts so far.
+  struct Struck {
+    double impulse = 0.0;     ///< sum of their sizes [N s or N m s]
+    double energy_lost = 0.0; ///< [J]
+    std::vector<Impact> impacts;
+    void remember(Archive& a) { a(impulse, energy_lost, impacts); }
+  };
+  const std::vector<Struck>& struck() const { return struck_; } ///< one for each switch
+
+  /// Angles go on from these values of all motions (of an accepted step).
+  void follow(const system::Turns& turns);
+
+  long events() const { return events_; }
+
+  struct Motion { ///< s, s', s'' of the coordinate
+    double value = 0.0, rate = 0.0, acceleration = 0.0;
+  };
+
+  /// Of switch k, at any state in the present layout.
+  Motion motion_of(std::size_t k, double t, const VectorX& y, const VectorX& yp) {
+    unpack(t, y, yp);
+    return motion(s_.switches[k]);
+  }
+
+  /// The stop that the last `settle` found struck first, if any.
+  std::optional<std::size_t> hit() const { return hit_; }
+
+  /// What it knows of the past, apart from the modes of the switches, which are the regime's.
+  void remember(Archive& a);
+
+  /// After that was restored, and the system laid out: goes on from an accepted instant.
+  void resume(double t, const VectorX& y, const VectorX& yp);
+
+private:
+  using Data = system::SwitchData;
+  using State = system::Regime::Mode;
+  using Kind = Data::Kind;
+
+  static constexpr double touching = 1e-9; ///< gaps, of the length that counts as one
+  static constexpr double resting = 1e-9;  ///< rates and loads likewise
+
+  /// For the time of its life the equations are stabilised, whatever the integrator solves.
+  class Stabilised {
+  public:
+    explicit Stabilised(system::Regime& s) : s_(s), formulation_(s.formulation) {
+      s.formulation = system::Formulation::stabilised;
+    }
+    ~Stabilised() { s_.formulation = formulation_; }
+    Stabilised(const Stabilised&) = delete;
+    Stabilised& operator=(const Stabilised&) = delete;
+
+  private:
+    system::Regime& s_;
+    system::Formulation formulation_;
+  };
+
+  /// The equations with the rows that hold now, ready for accelerations and impulses.
+  struct Present {
+    system::Pattern pattern;
+    linalg::Equations equations;
+    linalg::SaddlePoint saddle;
+    explicit Present(const system::Regime& s)
+        : pattern(system::find_pattern(s)), equations(s, pattern, 1.0), saddle(equations) {}
+  };
+  struct Size { ///< what counts as one
+    double length = 1.0, rate = 1.0, load = 1.0;
+  };
+
+  void look(double t, const VectorX& y, const VectorX& yp);
+  void unpack(double t, const VectorX& y, const VectorX& yp);
+  Motion motion(const Data& element) const;
+  double motion_scale(const Data& element) const;
+  double load(const Data& element, const VectorX& y) const;
+  double gap(std::size_t k) const;
+  void margins_of(std::size_t k, double* out) const;
+  double approach(std::size_t k) const;
+  bool touches(std::size_t k) const;
+  std::optional<double> impacts(double t, VectorX& y, VectorX& yp);
+  linalg::SaddlePoint::Strike strike(double t, linalg::SaddlePoint& saddle, const VectorX& u,
+                                     VectorX& y, VectorX& rates);
+  double take_impact(double t, const VectorX& impulses, const VectorX& before,
+                     const VectorX& after);
+  bool correct(const VectorX& y, std::vector<int>& changes);
+  void set(std::size_t k, State mode) { system::set_mode(s_, s_.switches[k], mode); }
+  [[noreturn]] void fail(double t, const std::string& reason) const;
+  void count(double t);
+
+  system::Regime& s_;
+  const double rtol_;
+  system::Workspace<double> ws_;
+  std::vector<Size> size_;
+  std::vector<double> depth_; ///< beyond its bound, at which the last event left an open stop
+  std::vector<Struck> struck_;
+  double time_scale_ = 0.0; ///< shortest of the bodies [s]
+  VectorX y_, yp_;
+  std::unique_ptr<Present> present_; ///< the rows that hold now
+  std::optional<std::size_t> hit_;
+  bool holding_ = false; ///< does any switch hold?
+  long events_ = 0, recent_ = 0;
+  double checked_ = 0.0;
+};
+
+} // namespace hydrodae::events

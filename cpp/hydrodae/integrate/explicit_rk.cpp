@@ -1,0 +1,458 @@
+#include "hydrodae/integrate/explicit_rk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/integrate/explicit_tableaux.h"
+#include "hydrodae/integrate/stiffness.h"
+#include "hydrodae/tree/joint_space.h"
+
+namespace hydrodae::integrate {
+
+namespace {
+
+struct Pair {
+  int stages = 0, order = 0;
+  std::span<const double> a, b, c;
+};
+
+const Pair order_5{6, 5, tableaux::rk5_a, tableaux::rk5_b, tableaux::rk5_c};
+const Pair order_8{12, 8, tableaux::rk8_a, tableaux::rk8_b, tableaux::rk8_c};
+
+/// The coordinates of the bodies themselves: x = y, with all multipliers. Another space is that of
+/// the joints, with the same functions (joint_space.h).
+class BodySpace {
+public:
+  explicit BodySpace(linalg::Equations& equations) : e_(equations), saddle_(equations) {}
+  Index size() const { return e_.system.lambda0; } ///< of what the method integrates in x
+  void enter(double t, const VectorX& y, const VectorX& yp, VectorX& x, VectorX& xp) {
+    x = y;
+    xp = yp;
+    e_.accept(t, y, yp);
+  }
+  void follow() {}
+  bool rates(double t, VectorX& x, VectorX& xp) { return saddle_.accelerations(t, x, xp); }
+  bool project(double t, VectorX& x) { return saddle_.project(t, x); }
+  bool close(double, VectorX& x, const VectorX&) {
+    saddle_.close(x);
+    return true;
+  }
+  void accept(double t, const VectorX& x, const VectorX& xp) { e_.accept(t, x, xp); }
+  static bool leave(double, const VectorX& x, const VectorX& xp, VectorX& y, VectorX& yp) {
+    y = x;
+    yp = xp;
+    return true;
+  }
+  static const VectorX& of_bodies(const VectorX&, const VectorX& change) { return change; }
+  static constexpr bool is_of_bodies = true;
+  const std::string& jam() const { return saddle_.jam(); }
+  static linalg::Statistics statistics() { return {}; }
+
+private:
+  linalg::Equations& e_;
+  linalg::SaddlePoint saddle_;
+};
+
+/// Do reactions neither do work nor press friction, and are all states rates? Then the powers of
+/// all forces follow from positions, velocities and states.
+bool has_idle_reactions(const system::Regime& s) {
+  return s.switches.empty() &&
+         std::none_of(s.couplers.begin(), s.couplers.end(),
+                      [](const system::CouplerData& c) {
+                        return c.velocity_level || c.drive.moves() || c.drive.rate != 0.0;
+                      }) &&
+         std::none_of(
+             s.elements.begin(), s.elements.end(),
+             [](const system::ElementList& list) { return list.laws->shape.n_reaction > 0; }) &&
+         std::find(s.algebraic.begin() + s.z0, s.algebraic.begin() + s.memory0, true) ==
+             s.algebraic.begin() + s.memory0;
+}
+
+/// In coordinates x of a Space; y are always those of the bodies.
+template <class Space> class ExplicitRk : public Integrator {
+public:
+  ExplicitRk(const system::Regime& system, const system::Pattern& pattern,
+             const model::SolverOptions& options, double t0, const VectorX& y, const VectorX& yp)
+      : pair_(options.order == 5 ? order_5 : order_8), fixed_(options.step > 0.0),
+        max_step_(options.max_step > 0.0 ? options.max_step : options.end_time),
+        idle_reactions_(Space::is_of_bodies && has_idle_reactions(system)), full_pattern_(pattern),
+        e_(system, pattern, options.rtol), space_(e_), n_(space_.size()),
+        guard_(t0, options.end_time, e_.time_scale()), t_(t0), t0_(t0), y_(y), yp_(yp),
+        w_(system.n), k_(n_, 17) {
+    space_.enter(t_, y_, yp_, x_, xp_);
+    x0_ = stage_ = stage_xp_ = trial_ = trial_xp_ = inside_ = inside_xp_ = x_;
+    // A growth of the rounding error by 1e3 at most: the step is not the smallest that the method
+    // could make, as it is for one of order 1.
+    h_ = fixed_ ? options.step
+                : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
+    if (!find_rates())
+      throw SolverError(t_, "no finite accelerations at the start");
+  }
+
+  double step(double end, double bound) override;
+  bool restart(double t, const VectorX& y, const VectorX& yp) override;
+  void interpolate(double t, VectorX& y, VectorX& yp) override;
+  void look_inside(double t, VectorX& y, VectorX& yp) override;
+  void follow_motion(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return pair_.order == 5 ? 4 : 7; }
+  std::span<const double> stage_weights() const override {
+    return idle_reactions_ && done_ > 0.0 ? pair_.b : std::span<const double>();
+  }
+  double stage(std::size_t i, VectorX& y, VectorX& yp) override;
+  linalg::Statistics statistics() const override {
+    linalg::Statistics all = e_.statistics;
+    return all += space_.statistics();
+  }
+  int quadrature_nodes() const override { return pair_.order == 5 ? 4 : 6; }
+  /// Larger than it is between stages: in steps beyond a third of a wave the estimated errors are a
+  /// hundred times too large.
+  double gap() const override { return fixed_ ? 1.0 : 0.48; }
+  void remember(Archive& a) override {
+    a(h_, last_error_, usual_jump_, e_.statistics.last_step, e_.statistics.last_order, guard_);
+  }
+
+private:
+  bool find_rates() { return space_.rates(t_, x_, xp_) && space_.leave(t_, x_, xp_, y_, yp_); }
+  void set_stage(const VectorX& start, double h, int stages, std::span<const double> a);
+  bool try_step(double h);
+  bool find_end(double h);
+  void combine(double h, std::span<const double> weights);
+  double error(double h);
+  bool is_smooth(double h);
+  double longest_at_rest(double err);
+  void extend();
+  void follow_polynomial(double x);
+  void normalise(VectorX& y) const;
+  [[noreturn]] void fail(const std::string& reason);
+
+  const Pair& pair_;
+  const bool fixed_;
+  const double max_step_;
+  const bool idle_reactions_; ///< no multiplier does work, and no unknown is found with them
+  const system::Pattern& full_pattern_;
+  linalg::Equations e_;
+  Space space_;
+  const Index n_;
+  linalg::ProgressGuard guard_;
+  double t_ = 0.0, t0_ = 0.0, h_ = 0.0, done_ = 0.0; ///< `done_`: length of the last step
+  VectorX y_, yp_;                                   ///< of the bodies, at the end of the last step
+  VectorX x_, xp_, x0_;                              ///< the same in the space, and x at its start
+  VectorX stage_, stage_xp_, trial_, trial_xp_, inside_, inside_xp_, w_;
+  MatrixX k_;           ///< rates of the stages, one column each
+  MatrixX dense_;       ///< coefficients of the interpolant of order 7
+  VectorX sum_, slope_; ///< (n_,) scratch
+  bool extended_ = false;
+  double last_error_ = 1e-4;
+  double rest_step_ = 0.0;  ///< the longest stable one of this rest, 0: not at rest
+  double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
+};
+
+template <class Space> void ExplicitRk<Space>::fail(const std::string& reason) {
+  const std::string jam = space_.jam().empty() ? "" : ": " + space_.jam();
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + jam +
+                            ", last step " + number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+}
+
+/// stage_ = start + h sum_j a_j k_j
+template <class Space>
+void ExplicitRk<Space>::set_stage(const VectorX& start, double h, int stages,
+                                  std::span<const double> a) {
+  stage_.head(n_) = start.head(n_);
+  for (int j = 0; j < stages; ++j)
+    if (a[j] != 0.0)
+      stage_.head(n_) += h * a[j] * k_.col(j);
+}
+
+template <class Space> bool ExplicitRk<Space>::try_step(double h) {
+  const int s = pair_.stages;
+  k_.col(0) = xp_.head(n_);
+  for (int i = 1; i < s; ++i) {
+    set_stage(x_, h, i, pair_.a.subspan(static_cast<std::size_t>(i * s)));
+    if (!space_.rates(t_ + pair_.c[i] * h, stage_, stage_xp_))
+      return false;
+    k_.col(i) = stage_xp_.head(n_);
+  }
+  set_stage(x_, h, s, pair_.b);
+  trial_ = stage_;
+  return pair_.order == 8 || find_end(h);
+}
+
+/// The rates where the step ends. Those of order 8 are found once the end is on the constraints,
+/// since its estimate of the error does without them.
+template <class Space> bool ExplicitRk<Space>::find_end(double h) {
+  if (!space_.rates(t_ + h, trial_, trial_xp_))
+    return false;
+  k_.col(pair_.stages) = trial_xp_.head(n_);
+  return true;
+}
+
+/// stage_ = h sum_j weights_j k_j
+template <class Space> void ExplicitRk<Space>::combine(double h, std::span<const double> weights) {
+  stage_.setZero();
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    if (weights[j] != 0.0)
+      stage_.head(n_) += h * weights[j] * k_.col(static_cast<Index>(j));
+}
+
+/// Of the two estimates of the method of order 8 (Hairer, Norsett and Wanner, section II.10).
+double of_order_8(double five, double three) {
+  const double size = std::hypot(five, 0.1 * three);
+  return size > 0.0 ? five * five / size : 0.0;
+}
+
+/// Local error in units of the tolerance.
+template <class Space> double ExplicitRk<Space>::error(double h) {
+  e_.weights(y_, w_);
+  auto size = [&](std::span<const double> weights) {
+    combine(h, weights);
+    return e_.norm(w_, space_.of_bodies(x_, stage_));
+  };
+  if (pair_.order == 5)
+    return size(tableaux::rk5_e);
+  const double five = size(tableaux::rk8_e5);
+  return of_order_8(five, size(tableaux::rk8_e3));
+}
+
+/// Do the accelerations at the end of the step agree with those of the last stage, which lies there
+/// as well? The estimate of order 8 knows the first alone: a stop that the stages miss and the end
+/// hits would not be seen. They differ by little more than in the steps before where all is smooth;
+/// what is allowed was found on pendulums, linkages and floating bodies: 34 times the common at
+/// most.
+template <class Space> bool ExplicitRk<Space>::is_smooth(double h) {
+  constexpr double allowed = 100.0, least = 3.0, memory = 0.8;
+  if (pair_.order == 5)
+    return true; // its estimate knows the end
+  stage_.setZero();
+  stage_.head(n_) = h * (k_.col(pair_.stages) - k_.col(pair_.stages - 1));
+  const double jump = std::max(e_.norm(w_, space_.of_bodies(x_, stage_)), least);
+  const double common = std::max(usual_jump_, least);
+  if (!(jump <= allowed * common))
+    return false;
+  usual_jump_ = std::pow(common, memory) * std::pow(jump, 1.0 - memory);
+  return true;
+}
+
+/// Where nothing moves no error bounds the steps, and beyond the stability of the method they make
+/// a motion from rounding, the faster the longer they are: its bounds are about 5 (order 8) and 2.5
+/// (order 5) over the fastest rate, found once in each rest.
+template <class Space> double ExplicitRk<Space>::longest_at_rest(double err) {
+  constexpr double nothing = 1e-6; // of the tolerance
+  if (err >= nothing) {
+    rest_step_ = 0.0;
+    return HUGE_VAL;
+  }
+  if (rest_step_ == 0.0) {
+    const double rate = fastest_rate(e_.system, full_pattern_, t_, y_, yp_);
+    rest_step_ = rate > 0.0 ? (pair_.order == 5 ? 2.5 : 5.0) / rate : HUGE_VAL;
+  }
+  return rest_step_;
+}
+
+template <class Space> double ExplicitRk<Space>::step(double end, double bound) {
+  constexpr double safety = 0.9, least = 0.2, most = 6.0;
+  const double power = 1.0 / (pair_.order == 5 ? 5.0 : 8.0);
+  extended_ = false;
+  bool failed = false;
+  space_.follow();
+  for (;;) {
+    const double left = end - t_, wanted = h_;
+    const double allowed = fixed_ ? left : std::min(left, bound - t_);
+    double h = std::min(h_, allowed);
+    if (allowed - h < 0.1 * h) // no sliver of a step behind it
+      h = allowed;
+    if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
+      fail(failed ? "the local error stays too large however short the step"
+                  : "the step has become too short");
+    if (!try_step(h)) {
+      ++e_.statistics.convergence_failures;
+      if (fixed_)
+        fail("no finite accelerations within the step");
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
+    const double err = fixed_ ? 0.0 : error(h);
+    const bool good = err <= 1.0 && std::isfinite(err);
+    if (good && !(space_.project(t_ + h, trial_) && find_end(h))) {
+      if (fixed_)
+        fail("the constraints cannot be met at the end of the step");
+      ++e_.statistics.convergence_failures;
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
+    if (good && !fixed_ && !is_smooth(h)) {
+      ++e_.statistics.error_test_failures;
+      h_ = 0.25 * h;
+      failed = true;
+      continue;
+    }
+    if (!good) {
+      ++e_.statistics.error_test_failures;
+      h_ = h * (std::isfinite(err) ? std::max(least, safety * std::pow(err, -power)) : least);
+      failed = true;
+      continue;
+    }
+    x0_ = x_;
+    x_ = trial_;
+    xp_ = trial_xp_;
+    t0_ = t_;
+    done_ = h;
+    t_ = h == left ? end : t_ + h;
+    if (!space_.leave(t_, x_, xp_, y_, yp_))
+      fail("no finite accelerations");
+    space_.accept(t_, x_, xp_);
+    if (!fixed_) {
+      // Proportional-integral control (Gustafsson 1991).
+      const double e = std::max(err, 1e-10);
+      const double grow =
+          std::clamp(safety * std::pow(e, -0.7 * power) * std::pow(last_error_, 0.3 * power), least,
+                     failed ? 1.0 : most);
+      last_error_ = std::max(e, 1e-4);
+      h_ = h * grow;
+      if (h == left) // a step that was cut says nothing against longer ones
+        h_ = std::max(h_, wanted);
+      h_ = std::min({h_, max_step_, longest_at_rest(err)});
+    }
+    ++e_.statistics.steps;
+    e_.statistics.last_step = done_;
+    e_.statistics.last_order = pair_.order;
+    guard_.after_step(t_, [&] { return e_.diagnosis(t_, y_, yp_); });
+    return t_;
+  }
+}
+
+template <class Space>
+bool ExplicitRk<Space>::restart(double t, const VectorX& y, const VectorX& yp) {
+  t_ = t0_ = t;
+  y_ = y;
+  yp_ = yp;
+  space_.follow();
+  space_.enter(t_, y_, yp_, x_, xp_);
+  x0_ = x_;
+  done_ = usual_jump_ = 0.0;
+  last_error_ = 1e-4;
+  rest_step_ = 0.0;
+  extended_ = false;
+  return find_rates();
+}
+
+/// The three further stages of the interpolant of order 7, and its coefficients.
+template <class Space> void ExplicitRk<Space>::extend() {
+  if (extended_ || pair_.order == 5)
+    return;
+  for (int i = 0; i < 3; ++i) {
+    set_stage(x0_, done_, 13 + i,
+              std::span(tableaux::rk8_extra_a).subspan(static_cast<std::size_t>(16 * i)));
+    if (!space_.rates(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_xp_))
+      fail("no finite accelerations inside the step");
+    k_.col(13 + i) = stage_xp_.head(n_);
+  }
+  // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
+  const auto dy = x_.head(n_) - x0_.head(n_);
+  dense_.setZero(n_, 7);
+  dense_.col(0) = dy;
+  dense_.col(1) = done_ * k_.col(0) - dy;
+  dense_.col(2) = 2.0 * dy - done_ * (k_.col(12) + k_.col(0));
+  for (int i = 3; i < 7; ++i)
+    for (int j = 0; j < 16; ++j)
+      if (const double d = tableaux::rk8_d[16 * (i - 3) + j]; d != 0.0)
+        dense_.col(i) += done_ * d * k_.col(j);
+  extended_ = true;
+}
+
+/// inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
+template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
+  inside_ = x0_;
+  inside_xp_ = xp_;
+  if (pair_.order == 5) {
+    inside_xp_.head(n_).setZero();
+    for (int i = 0; i < 7; ++i) {
+      double weight = 0.0, slope = 0.0, power = 1.0;
+      for (int k = 0; k < 4; ++k, power *= x) {
+        weight += tableaux::rk5_p[4 * i + k] * power * x;
+        slope += tableaux::rk5_p[4 * i + k] * power * (k + 1);
+      }
+      inside_.head(n_) += done_ * weight * k_.col(i);
+      inside_xp_.head(n_) += slope * k_.col(i);
+    }
+    return;
+  }
+  extend();
+  sum_.setZero(n_);
+  slope_.setZero(n_);
+  for (int i = 6; i >= 0; --i) { // nested in x and 1 - x
+    sum_ += dense_.col(i);
+    const double factor = i % 2 == 0 ? x : 1.0 - x;
+    slope_ = factor * slope_ + (i % 2 == 0 ? sum_ : -sum_);
+    sum_ *= factor;
+  }
+  inside_.head(n_) += sum_;
+  inside_xp_.head(n_) = slope_ / done_;
+}
+
+template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y, VectorX& yp) {
+  if (idle_reactions_)
+    follow_motion(t, y, yp);
+  else
+    interpolate(t, y, yp);
+}
+
+template <class Space> double ExplicitRk<Space>::stage(std::size_t i, VectorX& y, VectorX& yp) {
+  const auto s = static_cast<std::size_t>(pair_.stages);
+  set_stage(x0_, done_, static_cast<int>(i), pair_.a.subspan(i * s));
+  y = y_;
+  yp = yp_;
+  y.head(n_) = stage_.head(n_);
+  yp.head(n_) = k_.col(static_cast<Index>(i));
+  normalise(y);
+  return t0_ + pair_.c[i] * done_;
+}
+
+/// Quaternions of free bodies.
+template <class Space> void ExplicitRk<Space>::normalise(VectorX& y) const {
+  for (const system::BodyData& b : e_.system.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
+template <class Space> void ExplicitRk<Space>::follow_motion(double t, VectorX& y, VectorX& yp) {
+  if (!Space::is_of_bodies || t >= t_ || done_ == 0.0)
+    return interpolate(t, y, yp);
+  follow_polynomial((t - t0_) / done_);
+  y = y_;
+  yp = yp_;
+  y.head(n_) = inside_.head(n_);
+  yp.head(n_) = inside_xp_.head(n_);
+  normalise(y);
+}
+
+template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y, VectorX& yp) {
+  if (t >= t_ || done_ == 0.0) {
+    y = y_;
+    yp = yp_;
+    return;
+  }
+  follow_polynomial((t - t0_) / done_);
+  // The polynomial misses the joints by its error, which `close` takes out of them.
+  if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
+      !space_.leave(t, inside_, inside_xp_, y, yp))
+    fail("no finite accelerations inside the step");
+  normalise(y);
+}
+
+} // namespace
+
+std::unique_ptr<Integrator> make_explicit_rk(const system::Regime& system,
+                                             const system::Pattern& pattern,
+                                             const model::SolverOptions& options, double t0,
+                                             const VectorX& y, const VectorX& yp) {
+  if (options.coordinates == "reduced")
+    return std::make_unique<ExplicitRk<tree::JointSpace>>(system, pattern, options, t0, y, yp);
+  return std::make_unique<ExplicitRk<BodySpace>>(system, pattern, options, t0, y, yp);
+}
+
+} // namespace hydrodae::integrate

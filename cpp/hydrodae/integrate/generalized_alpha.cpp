@@ -1,0 +1,229 @@
+#include "hydrodae/integrate/generalized_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+#include "hydrodae/linalg/equations.h"
+#include "hydrodae/linalg/newton_matrix.h"
+#include "hydrodae/math/rotation.h"
+#include "hydrodae/system/retract.h"
+
+namespace hydrodae::integrate {
+
+namespace {
+
+constexpr double newton_tolerance = 1e-8; ///< the step alone decides on the error
+
+/// With x = (u, z), a the algorithm's own accelerations, n the step:
+///
+///   q_{n+1} = q_n o exp(h dq),  dq = u_n + h (1/2 - beta) a_n + h beta a_{n+1} + G^T mu
+///   x_{n+1} = x_n + h (1 - gamma) a_n + h gamma a_{n+1}
+///   (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) x'_{n+1} + alpha_f x'_n
+///
+/// and F = 0 with x'_{n+1} at n+1. The Newton matrix is the Jacobian with d x' = d x c_x and, as
+/// exp is near the identity, d q' = d q c_q:  c_x = (1 - alpha_m) / ((1 - alpha_f) h gamma),
+/// c_q = gamma / (beta h).
+class GeneralizedAlpha : public Integrator {
+public:
+  GeneralizedAlpha(const system::Regime& system, const system::Pattern& pattern,
+                   const model::SolverOptions& options, double t0, const VectorX& y,
+                   const VectorX& yp)
+      : s_(system), pattern_(linalg::condensed(system, pattern)),
+        e_(system, pattern_, newton_tolerance), newton_matrix_(system, pattern_), t_(t0), t0_(t0),
+        h_(options.step), n_x_(system.n_u + system.n_z), y_(y), yp_(yp), y0_(y), yp0_(yp),
+        trial_(y), trial_yp_(yp), residual_(y), w_(y), a_(yp.segment(system.u0, n_x_)), a_new_(a_),
+        velocity_(VectorX::Zero(system.n_u)) {
+    const double rho = options.spectral_radius;
+    alpha_m_ = (2.0 * rho - 1.0) / (rho + 1.0);
+    alpha_f_ = rho / (rho + 1.0);
+    gamma_ = 0.5 - alpha_m_ + alpha_f_;
+    beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
+    e_.accept(t_, y_, yp_);
+  }
+
+  double step(double end, double bound) override;
+  void interpolate(double t, VectorX& y, VectorX& yp) override;
+  int degree() const override { return 3; }
+  linalg::Statistics statistics() const override { return e_.statistics; }
+  void remember(Archive& a) override {
+    a(a_, y0_, yp0_, t0_, e_.statistics.last_step, e_.statistics.last_order);
+  }
+
+private:
+  template <class Visit> void each_tangent(const VectorX& rows, Visit&& visit) const;
+  void update(double h);
+  bool refresh(double t, double h);
+  bool newton(double t, double h);
+  [[noreturn]] void fail(const std::string& reason);
+
+  const system::Regime& s_;
+  const system::Pattern pattern_;
+  linalg::Equations e_;
+  linalg::NewtonMatrix<double> newton_matrix_;
+  double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0, gamma_ = 0;
+  double t_ = 0.0, t0_ = 0.0, h_;
+  Index n_x_;
+  VectorX y_, yp_, y0_, yp0_, trial_, trial_yp_, residual_, w_, a_, a_new_;
+  VectorX velocity_;      ///< G^T mu of the last residual, tangent
+  double factored_ = 0.0; ///< step of the matrix at hand [s]; 0: none
+};
+
+/// From the rows of q, whose last part is E(q) v, the tangent velocity v of each body:
+/// visit(place in (n_u,), v_k).
+template <class Visit>
+void GeneralizedAlpha::each_tangent(const VectorX& rows, Visit&& visit) const {
+  for (const system::BodyData& b : s_.bodies) {
+    const bool free = b.rotation == system::BodyData::Rotation::free;
+    const Index u = b.u0 - s_.u0;
+    for (int k = 0; k < (free ? b.n_translations : b.n_active); ++k)
+      visit(u + k, rows[b.q0 + k]);
+    if (!free)
+      continue;
+    const Index q = b.q0 + b.n_translations;
+    const Vector3 turn = 2.0 *
+                         quaternion_rate_matrix<double>(Vector4(trial_.segment<4>(q))).transpose() *
+                         rows.segment<4>(q);
+    for (int k = 0; k < 3; ++k)
+      visit(u + b.n_translations + k, turn[k]);
+  }
+}
+
+void GeneralizedAlpha::fail(const std::string& reason) {
+  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", step " +
+                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+}
+
+/// trial_ and its rates from a_new_, mu and the last G^T mu.
+void GeneralizedAlpha::update(double h) {
+  trial_.segment(s_.u0, n_x_) =
+      y_.segment(s_.u0, n_x_) + h * ((1.0 - gamma_) * a_ + gamma_ * a_new_);
+  trial_yp_.segment(s_.u0, n_x_) =
+      ((1.0 - alpha_m_) * a_new_ + alpha_m_ * a_ - alpha_f_ * yp_.segment(s_.u0, n_x_)) /
+      (1.0 - alpha_f_);
+  trial_.head(s_.n_q) = y_.head(s_.n_q);
+  const Index n = s_.n_u;
+  system::retract(s_,
+                  h * (y_.segment(s_.u0, n) +
+                       h * ((0.5 - beta_) * a_.head(n) + beta_ * a_new_.head(n)) + velocity_),
+                  trial_);
+}
+
+bool GeneralizedAlpha::refresh(double t, double h) {
+  e_.jacobian(t, trial_, trial_yp_);
+  const double by_x = (1.0 - alpha_m_) / ((1.0 - alpha_f_) * h * gamma_),
+               by_q = gamma_ / (beta_ * h);
+  factored_ = h;
+  return newton_matrix_.factorise(e_.parts, {by_x, by_q, by_x});
+}
+
+bool GeneralizedAlpha::newton(double t, double h) {
+  constexpr int most = 12, stale = 4;
+  constexpr double accuracy = 1e-4;
+  double before = 0.0;
+  for (int i = 0; i < most; ++i) {
+    update(h);
+    if (!e_.residual(t, trial_, trial_yp_, residual_))
+      return false;
+    // The rows of q are q' - E (u + G^T mu), and q' = 0 here.
+    each_tangent(residual_, [&](Index k, double row) { velocity_[k] = -row - trial_[s_.u0 + k]; });
+    residual_.head(s_.n_q).setZero();
+    residual_.tail(s_.n - s_.sigma0).setZero();
+    newton_matrix_.solve(residual_.data());
+    ++e_.statistics.newton_iterations;
+    a_new_ -= residual_.segment(s_.u0, n_x_) / (h * gamma_);
+    // What the increment of mu adds to the velocity of q: c_q dq - du.
+    const double by_q = gamma_ / (beta_ * h), share = beta_ / gamma_;
+    each_tangent(residual_, [&](Index k, double row) {
+      velocity_[k] -= share * (by_q * row - residual_[s_.u0 + k]);
+    });
+    trial_.segment(s_.lambda0, s_.n_lambda) -= residual_.segment(s_.lambda0, s_.n_lambda);
+    trial_.segment(s_.mu0, s_.n_mu) -= beta_ / gamma_ * residual_.segment(s_.mu0, s_.n_mu);
+    const double size = e_.norm(w_, residual_);
+    if (!std::isfinite(size))
+      return false;
+    const double rate = i > 0 ? size / before : 1.0;
+    if (size * std::min(1.0, rate / std::max(1.0 - rate, 0.1)) <= accuracy && i > 0) {
+      update(h);
+      if (i >= stale)
+        factored_ = 0.0; // a new Jacobian at the next step
+      return true;
+    }
+    if (i > 1 && rate > 0.9)
+      return false;
+    before = size;
+  }
+  return false;
+}
+
+double GeneralizedAlpha::step(double end, double) {
+  double h = h_;
+  if (end - t_ < 1.0001 * h)
+    h = end - t_;
+  e_.weights(y_, w_);
+  bool done = false;
+  for (int attempt = 0; attempt < 2 && !done; ++attempt) {
+    trial_ = y_;
+    trial_yp_ = yp_;
+    trial_yp_.head(s_.n_q).setZero();
+    a_new_ = (yp_.segment(s_.u0, n_x_) - alpha_m_ * a_) / (1.0 - alpha_m_); // x'_{n+1} = x'_n
+    velocity_.setZero();
+    trial_.segment(s_.mu0, s_.n_mu).setZero();
+    update(h);
+    if ((attempt > 0 || factored_ != h) && !refresh(t_ + h, h))
+      fail("the Jacobian is singular");
+    done = newton(t_ + h, h);
+    if (!done)
+      ++e_.statistics.convergence_failures;
+  }
+  if (!done && trial_.allFinite() && refresh(t_ + h, h)) { // with the Jacobian of where it got to
+    done = newton(t_ + h, h);
+    factored_ = 0.0;
+  }
+  if (!done)
+    fail("Newton's iteration does not converge at the fixed step");
+  y0_ = y_;
+  yp0_ = yp_;
+  t0_ = t_;
+  t_ = h == end - t_ ? end : t_ + h;
+  y_ = trial_;
+  yp_ = trial_yp_;
+  yp_.head(s_.n_q).setZero();
+  e_.residual(t_, y_, yp_, residual_);        // rates of q, for the interpolant
+  yp_.head(s_.n_q) -= residual_.head(s_.n_q); // the rows are q' - E(q) (u + G^T mu)
+  a_ = a_new_;
+  e_.accept(t_, y_, yp_);
+  ++e_.statistics.steps;
+  e_.statistics.last_step = h;
+  e_.statistics.last_order = 2;
+  return t_;
+}
+
+/// Cubic in q, u, z from values and rates at both ends; reactions linear.
+void GeneralizedAlpha::interpolate(double t, VectorX& y, VectorX& yp) {
+  y = y_;
+  yp = yp_;
+  if (t >= t_ || t_ == t0_)
+    return;
+  const double h = t_ - t0_, x = (t - t0_) / h, v = 1.0 - x;
+  const Index n = s_.lambda0;
+  const VectorX slope = (y_ - y0_) / h;
+  y = v * y0_ + x * y_;
+  y.head(n) += h * x * v * (v * (yp0_ - slope) - x * (yp_ - slope)).head(n);
+  yp = v * yp0_ + x * yp_;
+  for (const system::BodyData& b : s_.bodies)
+    if (b.rotation == system::BodyData::Rotation::free)
+      y.segment<4>(b.q0 + b.n_translations).normalize();
+}
+
+} // namespace
+
+std::unique_ptr<Integrator> make_generalized_alpha(const system::Regime& system,
+                                                   const system::Pattern& pattern,
+                                                   const model::SolverOptions& options, double t0,
+                                                   const VectorX& y, const VectorX& yp) {
+  return std::make_unique<GeneralizedAlpha>(system, pattern, options, t0, y, yp);
+}
+
+} // namespace hydrodae::integrate

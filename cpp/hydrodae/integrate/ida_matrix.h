@@ -1,0 +1,22 @@
+#pragma once
+/// NewtonMatrix as IDA sees it: a matrix of our own, and a direct solver for it.
+
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include "hydrodae/linalg/newton_matrix.h"
+
+namespace hydrodae::integrate {
+
+/// The Jacobian callback sets the parts and alpha; the solver factorises and solves.
+struct IdaMatrix {
+  linalg::NewtonMatrix<double> newton;
+  const system::JacobianParts* parts = nullptr;
+  double alpha = 0.0;
+};
+
+/// Null when there is no memory.
+SUNMatrix make_ida_matrix(SUNContext context);
+SUNLinearSolver make_ida_solver(IdaMatrix& matrix, SUNContext context);
+
+} // namespace hydrodae::integrate

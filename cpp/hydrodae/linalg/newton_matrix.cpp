@@ -1,0 +1,206 @@
+#include "hydrodae/linalg/newton_matrix.h"
+
+#include <algorithm>
+
+namespace hydrodae::linalg {
+
+using system::BodyData;
+using system::HydroBody;
+using system::HydroData;
+
+template <class Scalar>
+NewtonMatrix<Scalar>::NewtonMatrix(const system::Regime& s, const system::Pattern& pattern)
+    : s_(s), lu_(pattern.column_start, pattern.row),
+      n_of_positions_(
+          static_cast<std::size_t>(pattern.column_start[static_cast<std::size_t>(s.n_q)])) {
+  const HydroData& h = s.hydro;
+  if (!s.has_memory())
+    return;
+  input_ = MatrixX::Zero(h.n_states, h.n_moving);
+  for (const HydroData::Input& in : h.inputs)
+    input_(in.state, in.coordinate) = in.value;
+  z_.resize(h.n_states, 1);
+  U_.resize(h.n_moving);
+  find_slots(pattern);
+}
+
+/// Visits the entries of L T U_x: visit(row, column, i, component of i, j, k) with bodies i and j
+/// of the water, and k the rotation unknown or, from 4 on, the velocity unknown of j.
+template <class Scalar>
+template <class Visit>
+void NewtonMatrix<Scalar>::for_each_entry(Visit&& visit) const {
+  const std::vector<HydroBody>& bodies = s_.hydro.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < bodies.size(); ++j) {
+      if (!bodies[i].moves || !bodies[j].moves)
+        continue;
+      const BodyData &a = s_.bodies[static_cast<std::size_t>(bodies[i].body)],
+                     &b = s_.bodies[static_cast<std::size_t>(bodies[j].body)];
+      for (int m = 0; m < a.n_active; ++m) {
+        for (int k = 0; k < b.n_position - b.n_translations; ++k)
+          visit(a.u0 + m, b.q0 + b.n_translations + k, i, a.active[static_cast<std::size_t>(m)], j,
+                k);
+        for (int k = 0; k < b.n_active; ++k)
+          visit(a.u0 + m, b.u0 + k, i, a.active[static_cast<std::size_t>(m)], j, 4 + k);
+      }
+    }
+}
+
+template <class Scalar> void NewtonMatrix<Scalar>::find_slots(const system::Pattern& p) {
+  for_each_entry([&](Index row, Index column, std::size_t, int, std::size_t, int) {
+    const auto first = p.row.begin() + p.column_start[column],
+               last = p.row.begin() + p.column_start[column + 1];
+    slots_.push_back(static_cast<Index>(std::lower_bound(first, last, row) - p.row.begin()));
+  });
+}
+
+/// x y, of complex numbers without a look at whether they are finite.
+double product(double x, double y) { return x * y; }
+std::complex<double> product(const std::complex<double>& x, const std::complex<double>& y) {
+  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
+}
+
+/// D^-1 in place: z / (alpha - a), or of the pair with
+///   D = [[alpha - a, b], [-b, alpha - a]].
+template <class Scalar> void NewtonMatrix<Scalar>::divide(Eigen::Ref<MatrixS> z) const {
+  for (Index c = 0; c < z.cols(); ++c) {
+    Scalar* const column = z.col(c).data();
+    std::size_t k = 0;
+    for (const HydroData::Block& block : s_.hydro.blocks) {
+      const auto& [own, other] = inverse_[k++];
+      const Scalar x = column[block.state];
+      column[block.state] = product(own, x);
+      if (!block.pair)
+        continue;
+      const Scalar y = column[block.state + 1];
+      column[block.state] -= product(other, y);
+      column[block.state + 1] = product(other, x) + product(own, y);
+    }
+  }
+}
+
+/// D^-1 = [[own, -other], [other, own]] of each block.
+template <class Scalar> void NewtonMatrix<Scalar>::invert() {
+  inverse_.clear();
+  for (const HydroData::Block& block : s_.hydro.blocks) {
+    const Scalar d = alpha_ - block.a, b(block.pair ? block.b : 0.0), size = d * d + b * b;
+    inverse_.push_back({d / size, b / size});
+  }
+}
+
+template <class Scalar> void NewtonMatrix<Scalar>::find_transfer(Scalar alpha) {
+  if (known_ && alpha == alpha_)
+    return;
+  alpha_ = alpha;
+  invert();
+  driven_ = input_.template cast<Scalar>();
+  divide(driven_);
+  if constexpr (std::is_same_v<Scalar, double>) {
+    transfer_.noalias() = s_.hydro.output * driven_;
+  } else { // two real products: C is real
+    transfer_.resize(s_.hydro.n_moving, s_.hydro.n_moving);
+    transfer_.real().noalias() = s_.hydro.output * MatrixX(driven_.real());
+    transfer_.imag().noalias() = s_.hydro.output * MatrixX(driven_.imag());
+  }
+  known_ = true;
+}
+
+/// L T U_x, body by body.
+template <class Scalar> void NewtonMatrix<Scalar>::add_memory() {
+  using Block = Eigen::Matrix<Scalar, 6, 6>;
+  using Columns = Eigen::Matrix<Scalar, 6, 10>;
+  const std::vector<HydroBody>& bodies = s_.hydro.bodies;
+  std::vector<Scalar>& values = lu_.values();
+  std::size_t last_i = bodies.size(), last_j = last_i;
+  Columns of_pair;
+  auto slot = slots_.begin();
+  for_each_entry([&](Index, Index, std::size_t i, int component, std::size_t j, int k) {
+    if (i != last_i || j != last_j) {
+      Block T = Block::Zero();
+      for (int m = 0; m < 6; ++m)
+        for (int n = 0; n < 6; ++n)
+          if (bodies[i].moving[m] >= 0 && bodies[j].moving[n] >= 0)
+            T(m, n) = transfer_(bodies[i].moving[m], bodies[j].moving[n]);
+      of_pair.noalias() = (parts_->memory[i].L.template cast<Scalar>() * T) *
+                          parts_->memory[j].by_unknown.template cast<Scalar>();
+      last_i = i;
+      last_j = j;
+    }
+    values[static_cast<std::size_t>(*slot++)] += of_pair(component, k);
+  });
+}
+
+template <class Scalar>
+bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const Alphas& alphas,
+                                     bool careful) {
+  parts_ = &parts;
+  std::vector<Scalar>& values = lu_.values();
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = parts.by_y[k] +
+                (k < n_of_positions_ ? alphas.of_positions : alphas.of_most) * parts.by_yp[k];
+  if (s_.has_memory()) {
+    find_transfer(alphas.of_memory);
+    add_memory();
+  }
+  return lu_.factorise(careful);
+}
+
+template <class Scalar>
+void NewtonMatrix<Scalar>::subtract_memory_loads(const VectorS& z, Scalar* b) {
+  const HydroData& h = s_.hydro;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    U_.noalias() = h.output * z;
+  } else { // two real products: C is real
+    part_ = z.real();
+    load_.noalias() = h.output * part_;
+    U_.real() = load_;
+    part_ = z.imag();
+    load_.noalias() = h.output * part_;
+    U_.imag() = load_;
+  }
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const HydroBody& hb = h.bodies[i];
+    const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
+    Vec6<Scalar> force = Vec6<Scalar>::Zero();
+    for (int c = 0; c < 6; ++c)
+      if (hb.moving[c] >= 0)
+        force[c] = U_[hb.moving[c]];
+    force = parts_->memory[i].L.template cast<Scalar>() * force;
+    for (int k = 0; k < body.n_active; ++k)
+      b[body.u0 + k] -= force[body.active[static_cast<std::size_t>(k)]];
+  }
+}
+
+template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
+  const HydroData& h = s_.hydro;
+  if (!s_.has_memory())
+    return lu_.solve(b);
+  Eigen::Map<MatrixS> r_z(b + h.z0, h.n_states, 1);
+  z_ = r_z;
+  r_z.setZero(); // their rows of the matrix are those of the identity
+  w_ = z_.col(0);
+  divide(w_);
+  subtract_memory_loads(w_, b);
+  lu_.solve(b);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const HydroBody& hb = h.bodies[i];
+    const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
+    Vec6<Scalar> velocity = Vec6<Scalar>::Zero();
+    const auto& by = parts_->memory[i].by_unknown;
+    for (int k = 0; k < body.n_position - body.n_translations; ++k)
+      velocity += b[body.q0 + body.n_translations + k] * by.col(k).template cast<Scalar>();
+    for (int k = 0; k < body.n_active; ++k)
+      velocity += b[body.u0 + k] * by.col(4 + k).template cast<Scalar>();
+    for (int c = 0; c < 6; ++c)
+      if (hb.moving[c] >= 0)
+        U_[hb.moving[c]] = velocity[c];
+  }
+  h.add_input<Scalar>(1.0, U_.data(), z_.data());
+  divide(z_);
+  r_z = z_;
+}
+
+template class NewtonMatrix<double>;
+template class NewtonMatrix<std::complex<double>>;
+
+} // namespace hydrodae::linalg

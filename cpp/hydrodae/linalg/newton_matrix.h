@@ -1,0 +1,86 @@
+#pragma once
+/// The matrix dF/dy + alpha dF/dy' of Newton's iteration, real or complex, with the radiation
+/// memory eliminated by hand. Its states z feel the bodies through their velocities U only, and are
+/// block diagonal, D = alpha - A_r in blocks of one or two:
+///
+///   [ J     L C ] [dx]   [r_x]        (J + L T U_x) dx = r_x - L C D^-1 r_z,   T = C D^-1 B_r
+///   [ -B U_x  D ] [dz] = [r_z]        dz = D^-1 (r_z + B_r U_x dx)
+///
+/// T is as dense as the added mass between the bodies, and depends on alpha alone. What is left
+/// goes to KLU. Without memory states it is KLU alone.
+
+#include <complex>
+#include <vector>
+
+#include "hydrodae/linalg/klu.h"
+#include "hydrodae/system/jacobian.h"
+
+namespace hydrodae::linalg {
+
+template <class Scalar> class NewtonMatrix {
+public:
+  /// `pattern`: of Part::condensed, or any where there is no memory. Both must outlive it.
+  NewtonMatrix(const system::Regime& system, const system::Pattern& pattern);
+
+  /// False when the matrix is singular or holds values that are not finite. The parts are read
+  /// until the next call. `careful`: see SparseLu.
+  bool factorise(const system::JacobianParts& parts, Scalar alpha, bool careful = false) {
+    return factorise(parts, {alpha, alpha, alpha}, careful);
+  }
+
+  /// The same with an alpha of their own for the rates of the positions, and of the memory states.
+  struct Alphas {
+    Scalar of_most, of_positions, of_memory;
+  };
+  bool factorise(const system::JacobianParts& parts, const Alphas& alphas, bool careful = false);
+
+  /// Overwrites b (n,) with the solution.
+  void solve(Scalar* b);
+
+  /// b -= L C z for memory states z (n_states,), with the parts of the last `factorise`.
+  void subtract_memory_loads(const VecX<Scalar>& z, Scalar* b);
+
+  /// See SparseLu.
+  Elimination elimination() const { return lu_.elimination(); }
+  typename SparseLu<Scalar>::Work work() const { return lu_.work(); }
+
+private:
+  using VectorS = VecX<Scalar>;
+  using MatrixS = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  template <class Visit> void for_each_entry(Visit&& visit) const;
+  void find_slots(const system::Pattern& pattern);
+  void find_transfer(Scalar alpha);
+  void add_memory();
+  void invert();
+  void divide(Eigen::Ref<MatrixS> z) const;
+
+  const system::Regime& s_;
+  const system::JacobianParts* parts_ = nullptr;
+  SparseLu<Scalar> lu_;
+  std::size_t n_of_positions_; ///< entries in the columns of the positions, which come first
+  std::vector<Index> slots_; ///< of the entries that the memory adds to, in the order of its visits
+  Scalar alpha_{};
+  bool known_ = false; ///< T is that of alpha
+  MatrixS transfer_;   ///< T (n_moving, n_moving)
+  MatrixX input_;      ///< B_r (n_states, n_moving)
+  MatrixS driven_;     ///< D^-1 B_r
+  MatrixS z_;          ///< (n_states, 1) scratch
+  VectorS w_;          ///< (n_states,) scratch
+  VectorS U_;          ///< (n_moving,) scratch
+  VectorX part_;       ///< (n_states,) scratch
+  VectorX load_;       ///< (n_moving,) scratch
+  struct Inverse {
+    Scalar own, other;
+  };
+  std::vector<Inverse> inverse_; ///< D^-1, block by block
+};
+
+/// `pattern` without the radiation memory: what a NewtonMatrix is made of.
+inline system::Pattern condensed(const system::Regime& s, const system::Pattern& pattern) {
+  return s.has_memory() ? system::find_pattern(s, system::Part::condensed) : pattern;
+}
+
+extern template class NewtonMatrix<double>;
+extern template class NewtonMatrix<std::complex<double>>;
+
+} // namespace hydrodae::linalg

@@ -1,0 +1,34 @@
+#pragma once
+#include "hydrodae/core/archive.h"
+
+namespace hydrodae::linalg {
+
+/// What an integrator did so far.
+struct Statistics {
+  long steps = 0;
+  long residual_calls = 0;
+  long jacobian_calls = 0;
+  long newton_iterations = 0;
+  long error_test_failures = 0;
+  long convergence_failures = 0;
+  double last_step = 0.0; ///< [s]
+  int last_order = 0;
+
+  void remember(Archive& a) {
+    a(steps, residual_calls, jacobian_calls, newton_iterations, error_test_failures,
+      convergence_failures, last_step, last_order);
+  }
+
+  /// Adds the counts of another part of the same run; the last step stays.
+  Statistics& operator+=(const Statistics& other) {
+    steps += other.steps;
+    residual_calls += other.residual_calls;
+    jacobian_calls += other.jacobian_calls;
+    newton_iterations += other.newton_iterations;
+    error_test_failures += other.error_test_failures;
+    convergence_failures += other.convergence_failures;
+    return *this;
+  }
+};
+
+} // namespace hydrodae::linalg

@@ -1,0 +1,317 @@
+#pragma once
+/// The equations of a dynamic line. Nodes 0 .. N at the ends of segments of unstretched length l_i;
+/// node 0 is end A, node N end B or free; half of each segment goes with either node.
+///
+///   m a = T_i+1/2 e_i+1/2 - T_i-1/2 e_i-1/2 - m g z + w rho g V z + F_water + F_bend + F_bed
+///   T       = EA s(strain) + C strain' s'(strain)       s: max(0, .), smooth; none where slack,
+///                                                        or with `damps_slack` C strain'
+///                                                        throughout
+///   F_water = w (Morison's force), along and across t_i = (x_i+1 - x_i-1) / |.|    (morison.h)
+///   F_bend  = -grad sum_i EI / l_i (1 - e_i-1/2 . e_i+1/2)
+///   F_bed   = (k s(d) + c s'(d) p(-v_z)) z - mu k s(d) v_h / sqrt(v_h^2 + v_s^2)
+///
+/// w: wet part of the node; d: depth of the node in the bed [m]; p: what is above zero, smooth, so
+/// that the bed never pulls; or with `bed_damps_up` p(v) = v, and then it may. The end nodes have
+/// no inertia of their own: it is that of half a segment beside that of the body.
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "hydrodae/element/surroundings.h"
+#include "hydrodae/water/morison.h"
+
+namespace hydrodae::line {
+
+struct LineSegment {
+  double length = 0.0;    ///< unstretched [m]
+  double stiffness = 0.0; ///< EA [N]
+  double damping = 0.0;   ///< C [N s]
+  double slack = 0.0;     ///< half the width in which s bends, a strain [-]
+  double strength = std::numeric_limits<double>::infinity(); ///< breaking load [N]
+};
+
+struct LineNode {
+  double at = 0.0;                    ///< unstretched length from A [m]
+  double mass = 0.0;                  ///< [kg]
+  double bending = 0.0;               ///< EI / l [N m]
+  water::MorisonSegment line;         ///< the water on the line
+  water::MorisonSegment body;         ///< and on what is attached
+  double lift = 0.0, body_lift = 0.0; ///< rho g V of both [N]
+  double displaced = 0.0;             ///< rho V: waves press along the line too, as at rest [kg]
+  double bed_stiffness = 0.0;         ///< k [N/m]
+  double bed_damping = 0.0;           ///< c [N s/m]
+  double bed_width = 0.0;             ///< half of that in which s(d) bends [m]
+  double friction = 0.0;              ///< mu
+  double axis_height = 0.0;           ///< over the bed where it just touches [m]
+};
+
+struct LineModel {
+  std::vector<LineSegment> segments; ///< (N,)
+  std::vector<LineNode> nodes;       ///< (N + 1,)
+  double gravity = 9.81;
+  double bed = -std::numeric_limits<double>::infinity(); ///< its height [m]
+  bool wet = false;                                      ///< is there water?
+  bool bends = false;
+  bool damps_slack = false;  ///< does C act in slack segments, too?
+  bool bed_damps_up = false; ///< does c act on the way up, too?
+  bool free_end = false;
+
+  int n() const { return static_cast<int>(segments.size()); }
+  int n_points() const { return free_end ? 1 : 2; }
+  int n_unknown() const { return free_end ? n() : n() - 1; } ///< nodes
+  bool is_end(int i) const { return i == 0 || (i == n() && !free_end); }
+};
+
+inline constexpr double slip_speed =
+    0.01; ///< v_s, and in which the damping of the bed begins [m/s]
+
+/// max(0, x), twice differentiable: it bends where |x| < w, a polynomial of degree four.
+template <class S> struct Plus {
+  S value, slope, curvature;
+};
+template <class S> Plus<S> plus(const S& x, double w) {
+  if (!(x > S(-w)))
+    return {S(0), S(0), S(0)};
+  if (!(x < S(w)))
+    return {x, S(1), S(0)};
+  const S y = x / S(w), y2 = y * y;
+  return {S(w) * (S(0.5) * y + S(0.375) * y2 - S(0.0625) * y2 * y2 + S(0.1875)),
+          S(0.5) + S(0.75) * y - S(0.25) * y2 * y, S(0.75 / w) * (S(1) - y2)};
+}
+/// Its integral from -w on.
+inline double plus_integral(double x, double w) {
+  if (x <= -w)
+    return 0.0;
+  if (x >= w)
+    return 0.5 * x * x + 0.05 * w * w;
+  const double y = x / w;
+  return w * w * (0.25 * y * y + 0.125 * y * y * y - 0.0125 * std::pow(y, 5) + 0.1875 * y + 0.05);
+}
+
+/// Where a law keeps the nodes: x, v of the ends as in `points`, states [place | velocity] of the
+/// others node by node.
+template <class S> struct LineView {
+  const LineModel& m;
+  const S *x, *v, *z;
+  int parted = -1; ///< segment that has parted
+  Vec3<S> place(int i) const { return Eigen::Map<const Vec3<S>>(at(i, x, 0)); }
+  Vec3<S> velocity(int i) const { return Eigen::Map<const Vec3<S>>(at(i, v, 3)); }
+
+  /// s(strain) of segment k of this length.
+  Plus<S> stretch(int k, const S& length) const {
+    if (k == parted)
+      return {S(0), S(0), S(0)};
+    const LineSegment& seg = m.segments[static_cast<std::size_t>(k)];
+    return plus<S>((length - S(seg.length)) / S(seg.length), seg.slack);
+  }
+  /// By what the damping of segment k acts, of the same s.
+  Plus<S> damped(int k, const Plus<S>& s) const {
+    return m.damps_slack && k != parted ? Plus<S>{s.value, S(1), S(0)} : s;
+  }
+  /// EI / l at node k, between two segments.
+  double bending(int k) const {
+    return k == parted || k == parted + 1 ? 0.0 : m.nodes[static_cast<std::size_t>(k)].bending;
+  }
+
+private:
+  const S* at(int i, const S* end, int part) const {
+    return i == 0 ? end : m.is_end(i) ? end + 3 : z + 6 * (i - 1) + part;
+  }
+};
+
+template <class S> S length_of(const Vec3<S>& d) {
+  using std::sqrt;
+  return sqrt(d.cwiseProduct(d).sum());
+}
+
+/// Nodes by which the direction of the line at node i goes: its neighbours, but not over a segment
+/// that has parted, unless it is all there is.
+template <class S> int node_before(const LineView<S>& at, int i) {
+  return i == 0 || (at.parted == i - 1 && i < at.m.n()) ? i : i - 1;
+}
+template <class S> int node_behind(const LineView<S>& at, int i) {
+  return i == at.m.n() || (at.parted == i && i > 0) ? i : i + 1;
+}
+
+/// Along the line at node i: from its neighbour before to that behind.
+template <class S> Vec3<S> tangent(const LineView<S>& at, int i) {
+  const Vec3<S> d = at.place(node_behind(at, i)) - at.place(node_before(at, i));
+  return d / length_of<S>(d);
+}
+
+template <class S> struct SegmentPull {
+  Vec3<S> e;
+  S length, rate, tension;
+};
+template <class S> SegmentPull<S> segment_pull(const LineView<S>& at, int k) {
+  const LineSegment& seg = at.m.segments[static_cast<std::size_t>(k)];
+  SegmentPull<S> out;
+  const Vec3<S> d = at.place(k + 1) - at.place(k);
+  out.length = length_of<S>(d);
+  out.e = d / out.length;
+  out.rate = out.e.cwiseProduct(at.velocity(k + 1) - at.velocity(k)).sum();
+  const Plus<S> s = at.stretch(k, out.length);
+  out.tension =
+      S(seg.stiffness) * s.value + S(seg.damping / seg.length) * out.rate * at.damped(k, s).slope;
+  return out;
+}
+
+/// The water at a node, and how much of the node and of its attachment is in it. Beneath the bed
+/// the water moves as at the bed.
+template <class S> struct NodeWater {
+  Vec3<S> t;
+  sea::FluidPoint<S> fluid;
+  S line, body; ///< wet parts
+};
+template <class S>
+NodeWater<S> node_water(const LineView<S>& at, const sea::WaveField& sea, double t, int i,
+                        sea::FluidGradient* gradient = nullptr) {
+  const LineNode& node = at.m.nodes[static_cast<std::size_t>(i)];
+  NodeWater<S> out;
+  out.t = tangent<S>(at, i);
+  Vec3<S> x = at.place(i);
+  const S height = x[2];
+  const Vec3<S> none = Vec3<S>::Zero();
+  if (sea.terms.empty()) {
+    out.fluid = {sea.current.template cast<S>(), none, S(0)};
+    if (gradient)
+      *gradient = {Matrix3::Zero(), Matrix3::Zero(), Vector3::Zero()};
+  } else {
+    const bool below = x[2] < S(-sea.depth);
+    if (below)
+      x[2] = S(-sea.depth);
+    sea::fluid_on_line<S>(sea, t, x, none, 1, &out.fluid, gradient);
+    if (gradient && below)
+      gradient->velocity.col(2).setZero(), gradient->acceleration.col(2).setZero();
+  }
+  const S above = height - out.fluid.elevation;
+  const double reach = std::max(node.line.half_length, node.line.radius); // no part is farther off
+  out.line = node.line.radius == 0.0 || above > S(reach) ? S(0)
+             : above < S(-reach) ? S(1)
+                                 : water::wet_part<S>(node.line, above, out.t[2]);
+  out.body = node.body.radius > 0.0 ? water::wet_part<S>(node.body, above, S(0)) : S(0);
+  return out;
+}
+
+/// Force of the water on a node that has the acceleration a.
+template <class S>
+Vec3<S> water_force(const LineNode& node, const NodeWater<S>& w, const Vec3<S>& v,
+                    const Vec3<S>& a) {
+  const Vec3<S> u = w.fluid.velocity - v, none = Vec3<S>::Zero();
+  Vec3<S> f = none;
+  if (node.line.radius > 0.0)
+    f = w.line * (water::morison_force<S>(node.line, w.t, u, w.fluid.acceleration, a) +
+                  S(node.displaced) * w.t.cwiseProduct(w.fluid.acceleration).sum() * w.t);
+  if (node.body.radius > 0.0)
+    f += w.body * water::morison_force<S>(node.body, none, u, w.fluid.acceleration, a);
+  f[2] += w.line * S(node.lift) + w.body * S(node.body_lift);
+  return f;
+}
+
+/// p(v) of the damping of the bed, v downwards: v beyond v_s, none on the way up or at rest, so
+/// that it only takes energy and never pulls. Twice differentiable. `both`: v itself.
+template <class S> Plus<S> down_rate(const S& v, bool both) {
+  if (both)
+    return {v, S(1), S(0)};
+  if (!(v > S(0)))
+    return {S(0), S(0), S(0)};
+  const S y = v * v / S(slip_speed * slip_speed), part = y / (S(1) + y);
+  return {v * part, part * (S(3) - S(2) * part), S(0)};
+}
+
+template <class S>
+Vec3<S> bed_force(const LineModel& m, const LineNode& node, const Vec3<S>& x, const Vec3<S>& v) {
+  using std::sqrt;
+  Vec3<S> f = Vec3<S>::Zero();
+  const Plus<S> s = plus<S>(S(m.bed + node.axis_height) - x[2], node.bed_width);
+  if (!(s.value > S(0)))
+    return f;
+  const S down = down_rate<S>(S(-v[2]), m.bed_damps_up).value;
+  const S drag = S(-node.friction * node.bed_stiffness) * s.value /
+                 sqrt(v[0] * v[0] + v[1] * v[1] + S(slip_speed * slip_speed));
+  f << drag * v[0], drag * v[1],
+      S(node.bed_stiffness) * s.value + S(node.bed_damping) * s.slope * down;
+  return f;
+}
+
+/// Mass of a node across and along the line, that of the water included.
+template <class S> struct NodeMass {
+  S across, along;
+};
+template <class S> NodeMass<S> node_mass(const LineNode& node, const S& line, const S& body) {
+  const S m = S(node.mass) + body * S(node.body.mass_body);
+  return {m + line * S(node.line.mass_body), m + line * S(node.line.mass_axial)};
+}
+
+/// Forces of the segments and of bending into `force` (3 (N + 1),).
+template <class S> void add_elastic(const LineView<S>& at, S* force) {
+  const int n = at.m.n();
+  Vec3<S> e_before = Vec3<S>::Zero();
+  S l_before(1);
+  const auto on = [&](int i) { return Eigen::Map<Vec3<S>>(force + 3 * i); };
+  for (int k = 0; k < n; ++k) {
+    const SegmentPull<S> p = segment_pull<S>(at, k);
+    on(k) += p.tension * p.e;
+    on(k + 1) -= p.tension * p.e;
+    const double c = k > 0 ? at.bending(k) : 0.0;
+    if (c > 0.0) {
+      const S s = e_before.cwiseProduct(p.e).sum();
+      const Vec3<S> q_a = S(-c) / l_before * (p.e - s * e_before),
+                    q_b = S(-c) / p.length * (e_before - s * p.e);
+      on(k - 1) += q_a;
+      on(k) += q_b - q_a;
+      on(k + 1) -= q_b;
+    }
+    e_before = p.e;
+    l_before = p.length;
+  }
+}
+
+/// Loads on the ends and rates of the states; `force` (3 (N + 1),) is scratch.
+template <class S>
+void evaluate_line(const LineView<S>& at, const sea::WaveField& sea, double t, S* force, S* load,
+                   S* z_dot) {
+  const LineModel& m = at.m;
+  const int n = m.n();
+  std::fill_n(force, 3 * (n + 1), S(0));
+  add_elastic<S>(at, force);
+  const Vec3<S> still = Vec3<S>::Zero();
+  for (int i = 0; i <= n; ++i) {
+    const LineNode& node = m.nodes[static_cast<std::size_t>(i)];
+    Eigen::Map<Vec3<S>> f(force + 3 * i);
+    const Vec3<S> v = at.velocity(i);
+    f[2] -= S(node.mass * m.gravity);
+    f += bed_force<S>(m, node, at.place(i), v);
+    NodeWater<S> w{still, {still, still, S(0)}, S(0), S(0)};
+    if (m.wet) {
+      w = node_water<S>(at, sea, t, i);
+      f += water_force<S>(node, w, v, still);
+    }
+    if (m.is_end(i)) {
+      Eigen::Map<Vec3<S>>(load + (i == 0 ? 0 : 3)) = f;
+      continue;
+    }
+    const NodeMass<S> mass = node_mass<S>(node, w.line, w.body);
+    const S along = (S(1) / mass.along - S(1) / mass.across) * w.t.cwiseProduct(f).sum();
+    Eigen::Map<Vec3<S>> rate(z_dot + 6 * (i - 1)), acceleration(z_dot + 6 * (i - 1) + 3);
+    rate = v;
+    acceleration = f / mass.across + along * w.t;
+  }
+}
+
+/// (row, column) of the entries of d (load, z_dot) / d (x, v, z) that can differ from zero.
+std::vector<std::array<int, 2>> line_sparsity(const LineModel& model);
+
+/// Scratch of the derivatives: 3x3 blocks of each node by places (5) and velocities (3) nearby.
+struct LineBlocks {
+  std::vector<std::array<Matrix3, 5>> by_place;
+  std::vector<std::array<Matrix3, 3>> by_velocity;
+};
+
+/// The values of `line_sparsity`, by hand; `rates`: z_dot at the same place.
+/// @returns the end of `values`
+double* line_jacobian(const LineView<double>& at, const sea::WaveField& sea, double t,
+                      const double* rates, LineBlocks& blocks, double* values);
+
+} // namespace hydrodae::line

@@ -1,0 +1,255 @@
+#include "hydrodae/line/line_statics.h"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
+
+namespace hydrodae::line {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Accelerations of the nodes at rest, and what they follow from.
+class Rest {
+public:
+  Rest(const LineModel& m, const sea::WaveField& sea, const double* x)
+      : m_(m), sea_(sea), x_(x), still_(VectorX::Zero(3 * m.n_points())),
+        z(VectorX::Zero(6 * m.n_unknown())), load(VectorX::Zero(3 * m.n_points())),
+        rates_(z.size()), force_(3 * (m.n() + 1)), sparsity_(line_sparsity(m)),
+        values_(static_cast<Index>(sparsity_.size())) {}
+
+  void place(const VectorX& places) {
+    for (int i = 0; i < m_.n_unknown(); ++i)
+      z.segment<3>(6 * i) = places.segment<3>(3 * i);
+  }
+  VectorX accelerations() {
+    evaluate_line<double>(view(), sea_, 0.0, force_.data(), load.data(), rates_.data());
+    VectorX out(3 * m_.n_unknown());
+    for (int i = 0; i < m_.n_unknown(); ++i)
+      out.segment<3>(3 * i) = rates_.segment<3>(6 * i + 3);
+    return out;
+  }
+  /// On the nodes that move, at the places of the last `accelerations`.
+  VectorX forces() const { return force_.segment(3, 3 * m_.n_unknown()); }
+  /// -d accelerations / d places + sigma; by the ends' places, and the loads by both.
+  Sparse matrix(double sigma) {
+    line_jacobian(view(), sea_, 0.0, rates_.data(), blocks_, values_.data());
+    std::vector<Eigen::Triplet<double>> entries;
+    const int w = 3 * m_.n_points(), n = 3 * m_.n_unknown();
+    by_end = MatrixX::Zero(n, w);
+    load_by_end = MatrixX::Zero(w, w);
+    load_by_node = MatrixX::Zero(w, n);
+    for (std::size_t k = 0; k < sparsity_.size(); ++k) {
+      const auto [row, column] = sparsity_[k];
+      const int r = row - w, c = column - 2 * w;
+      const double value = values_[static_cast<Index>(k)];
+      if ((r >= 0 && r % 6 < 3) || (c >= 0 && c % 6 >= 3) || (c < 0 && column >= w))
+        continue; // rows of places, columns of velocities
+      const int i = 3 * (r / 6) + r % 6 - 3, j = 3 * (c / 6) + c % 6;
+      if (r >= 0 && c >= 0)
+        entries.emplace_back(i, j, -value);
+      else if (r >= 0)
+        by_end(i, column) = value;
+      else if (c >= 0)
+        load_by_node(row, j) = value;
+      else
+        load_by_end(row, column) = value;
+    }
+    for (int i = 0; i < n; ++i)
+      entries.emplace_back(i, i, sigma);
+    Sparse out(n, n);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  }
+  double largest_tension() const {
+    double most = 0.0;
+    for (int k = 0; k < m_.n(); ++k)
+      most = std::max(most, std::abs(segment_pull<double>(view(), k).tension));
+    return most;
+  }
+  LineView<double> view() const { return {m_, x_, still_.data(), z.data()}; }
+
+private:
+  const LineModel& m_;
+  const sea::WaveField& sea_;
+  const double* x_;
+  VectorX still_;
+
+public:
+  VectorX z, load;
+  MatrixX by_end, load_by_end, load_by_node;
+
+private:
+  VectorX rates_, force_;
+  std::vector<std::array<int, 2>> sparsity_;
+  VectorX values_;
+  LineBlocks blocks_;
+};
+
+/// Largest force that is not in balance, over the mass.
+double largest_of(const VectorX& a) { return a.allFinite() ? a.cwiseAbs().maxCoeff() : HUGE_VAL; }
+
+/// Plain Newton with limited steps. Where EA is large the accelerations grow before they shrink, so
+/// they say nothing of a step.
+/// @returns whether it came to rest
+bool find_directly(Rest& rest, VectorX& places, double longest, double enough, double floor) {
+  constexpr int most_steps = 40;
+  Eigen::SparseLU<Sparse> lu;
+  double before = HUGE_VAL;
+  for (int step = 0; step < most_steps; ++step) {
+    rest.place(places);
+    const VectorX a = rest.accelerations();
+    const double now = largest_of(a);
+    if (now <= enough || (now <= floor && now >= 0.5 * before))
+      return true;
+    before = now;
+    lu.compute(rest.matrix(0.0));
+    if (!std::isfinite(now) || lu.info() != Eigen::Success)
+      return false;
+    VectorX change = lu.solve(a);
+    const double most = largest_of(change);
+    if (!std::isfinite(most))
+      return false;
+    places += std::min(1.0, longest / most) * change;
+  }
+  return false;
+}
+
+/// Goes down in energy, which is convex where nothing bends: elastic segments that only pull,
+/// weight, the bed. Steps of (K + sigma M) d = f, as long as f . d stays positive along them.
+/// @returns whether it came to rest
+bool descend(Rest& rest, VectorX& places, double longest, double start, double enough,
+             double floor) {
+  constexpr int most_steps = 400, most_cuts = 30;
+  Eigen::SparseLU<Sparse> lu;
+  double sigma = start, before = HUGE_VAL;
+  for (int step = 0; step < most_steps; ++step) {
+    rest.place(places);
+    const VectorX a = rest.accelerations();
+    const double now = largest_of(a);
+    if (now <= enough || (now <= floor && now >= 0.5 * before))
+      return true;
+    before = now;
+    const VectorX f = rest.forces();
+    lu.compute(rest.matrix(sigma));
+    VectorX d = lu.info() == Eigen::Success ? VectorX(lu.solve(a)) : a;
+    double slope = f.dot(d);
+    if (!(slope > 0.0) || !d.allFinite()) { // no way down: a shorter step along the accelerations
+      sigma = std::max(10.0 * sigma, start);
+      d = a / sigma;
+      slope = f.dot(d);
+    }
+    if (const double most = largest_of(d); most > longest) {
+      d *= longest / most;
+      slope *= longest / most;
+    }
+    double part = 1.0, low = 0.0, high = 0.0; // where f . d is positive, and where no longer
+    for (int cut = 0; cut < most_cuts; ++cut) {
+      rest.place(places + part * d);
+      const double there = rest.accelerations().allFinite() ? rest.forces().dot(d) : -HUGE_VAL;
+      if (std::abs(there) <= 0.5 * slope || (there > 0.0 && part == 1.0))
+        break;
+      (there > 0.0 ? low : high) = part;
+      part = 0.5 * (low + high);
+    }
+    places += part * d;
+    sigma *= part == 1.0 ? 0.2 : part > 0.3 ? 1.0 : 3.0;
+    if (sigma < 1e-9 * start)
+      sigma = 0.0;
+    else if (sigma > 1e6 * start)
+      return false;
+  }
+  return false;
+}
+
+/// Sizes that tell rest.
+struct RestScales {
+  double g = 1.0, shortest = HUGE_VAL, whole = 0.0, weight = 0.0, stiffest = 0.0, floor = 0.0;
+
+  RestScales(const LineModel& m, const VectorX& places) : whole(m.nodes.back().at) {
+    double least_mass = HUGE_VAL, per_length = 0.0;
+    g = m.gravity > 0.0 ? m.gravity : 1.0;
+    for (const LineSegment& seg : m.segments) {
+      shortest = std::min(shortest, seg.length);
+      stiffest = std::max(stiffest, seg.stiffness);
+      per_length = std::max(per_length, seg.stiffness / seg.length);
+    }
+    for (const LineNode& node : m.nodes) {
+      least_mass = std::min(least_mass, node.mass);
+      weight += std::abs(node.mass * g - node.lift - node.body_lift);
+    }
+    // What rounding of the places leaves.
+    const double reach = whole + places.cwiseAbs().maxCoeff();
+    floor = std::max(1e-11 * g, 20.0 * 2.2e-16 * reach * per_length / least_mass);
+  }
+};
+
+/// Places near rest: of ever stiffer lines, the first so soft that it stretches by a part of its
+/// length.
+void stiffen(const LineModel& m, const sea::WaveField& sea, const double* x, const RestScales& size,
+             VectorX& places) {
+  constexpr double strain = 0.1;
+  double part = std::min(1.0, size.weight / (strain * size.stiffest));
+  for (; part < 0.5; part *= 10.0) {
+    LineModel soft = m;
+    for (LineSegment& segment : soft.segments) {
+      segment.stiffness *= part;
+      segment.slack = std::min(segment.slack / part, strain);
+      segment.damping = 0.0;
+    }
+    Rest rest(soft, sea, x);
+    VectorX found = places;
+    descend(rest, found, 0.1 * size.whole, size.g / size.shortest, 1e-6 * size.g, size.floor);
+    places = found;
+  }
+}
+
+void find_rest(const LineModel& m, const sea::WaveField& sea, const double* x, Rest& rest,
+               VectorX& places, const std::string& name) {
+  const RestScales size(m, places);
+  const auto directly = [&] {
+    return find_directly(rest, places, size.shortest, 1e-13 * size.g, size.floor);
+  };
+  const VectorX first = places;
+  if (directly())
+    return;
+  places = first;
+  stiffen(m, sea, x, size, places);
+  VectorX near = places;
+  if (directly())
+    return;
+  const bool found =
+      descend(rest, near, 0.1 * size.whole, size.g / size.shortest, 1e-13 * size.g, size.floor);
+  places = near;
+  if (found || directly())
+    return;
+  rest.place(near);
+  throw ModelError("force." + name, "line " + in_quotes(name) +
+                                        " finds no rest where its ends are: the largest " +
+                                        "acceleration that is left is " +
+                                        number_text(largest_of(rest.accelerations())) + " m/s2");
+}
+
+} // namespace
+
+LineAtRest line_at_rest(const LineModel& m, const sea::WaveField& sea, const double* x,
+                        const Vector3& free_end, const std::string& name, bool with_slope) {
+  VectorX places = line_shape(m, x, free_end);
+  Rest rest(m, sea, x);
+  find_rest(m, sea, x, rest, places, name);
+  LineAtRest out{rest.z, rest.load, {}, rest.largest_tension()};
+  if (with_slope) { // a slack piece has no stiffness of its own across
+    Eigen::SparseLU<Sparse> lu(rest.matrix(0.0));
+    for (double sigma = 1e-9; lu.info() != Eigen::Success && sigma < 1.0; sigma *= 10.0)
+      lu.compute(rest.matrix(sigma));
+    if (lu.info() != Eigen::Success)
+      throw ModelError("force." + name, "line " + in_quotes(name) + " has no stiffness at rest");
+    out.slope = rest.load_by_end + rest.load_by_node * MatrixX(lu.solve(rest.by_end));
+  }
+  return out;
+}
+
+} // namespace hydrodae::line

@@ -1,0 +1,27 @@
+#pragma once
+/// A line at rest.
+
+#include "hydrodae/line/line_model.h"
+
+namespace hydrodae::line {
+
+/// A line with the ends at x (3 n_points,), in water without waves.
+struct LineAtRest {
+  VectorX z;          ///< (6 n_unknown,) states, at rest
+  VectorX load;       ///< (3 n_points,) on the ends [N]
+  MatrixX slope;      ///< (3 n_points, 3 n_points) d load / dx
+  double tension = 0; ///< the largest [N]
+};
+
+/// About where a line hangs between its ends (line_shape.cpp): as a catenary, where there is one,
+/// or with a free end straight down and along the seabed towards `free_end`; (3 n_unknown,).
+VectorX line_shape(const LineModel& model, const double* x, const Vector3& free_end);
+
+/// Newton's method on the places of the nodes from the shape of a catenary, with steps that shrink
+/// where it does not converge (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer.
+/// Anal. 35 (1998) 508). Friction of the seabed does not act at rest. Throws ModelError about
+/// `name`.
+LineAtRest line_at_rest(const LineModel& model, const sea::WaveField& sea, const double* x,
+                        const Vector3& free_end, const std::string& name, bool with_slope);
+
+} // namespace hydrodae::line

@@ -1,0 +1,85 @@
+#pragma once
+/// Wave excitation of all hydrodynamic bodies, by the tables of the database.
+///
+///   load = L sum_m b_m(psi) f_m(t)      along the hydrodynamic axes of each body (hydro_axes.h)
+///
+/// f_m are functions of time; or, where the phase of the waves moves with the bodies, of time and
+/// the horizontal displacement of each body as well. b_m are functions of the yaw of the body
+/// (yaw_functions.h): in axes that follow it, waves act with the force of their heading relative to
+/// the body. In the others b is 1 alone.
+
+#include "hydrodae/element/elements.h"
+#include "hydrodae/sea/drifting.h"
+#include "hydrodae/sea/signals.h"
+#include "hydrodae/water/hydro_axes.h"
+#include "hydrodae/water/yaw_functions.h"
+
+namespace hydrodae::water {
+
+class Excitation final : public element::Elements {
+public:
+  /// A function of time that acts along a coordinate (0..5) as often as b_m says.
+  struct Term {
+    int coordinate = 0, m = 0;
+  };
+  /// Successive functions of time, from `first` on.
+  struct Terms {
+    Index first = 0;
+    std::vector<Term> list;
+    Index count() const { return static_cast<Index>(list.size()); }
+  };
+  struct Body {
+    std::string name;
+    HydroBody wet;
+    Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
+    double length = 1.0;                 ///< that tells noise of moments from that of forces [m]
+    YawFunctions yaw;
+    Terms moving;        ///< loads along the coordinates that move
+    Terms still;         ///< along the others, which are reported
+    Terms froude_krylov; ///< the Froude-Krylov part of all; empty where only the sum is known
+  };
+
+  /// The functions of time: `moving` of all bodies, the other terms, last the elevation at the
+  /// origin [m].
+  Excitation(HydroAxes axes, std::vector<Body> bodies, bool split);
+  void set(sea::Signals functions) { fixed_ = std::move(functions); }
+  void set(sea::DriftingSignals functions) { drifting_ = std::move(functions); }
+
+  /// Takes the axes of the bodies, as they are turned now.
+  void turn(const std::vector<HydroBody>& bodies);
+
+  void evaluate(double t, const double* in, const double*, double* out) const override;
+  void evaluate(double t, const Dual* in, const double*, Dual* out) const override;
+  void jacobian(double t, const double* in, const double*, double* jacobian) const override;
+  void energy(const double*, const double*, double* joules) const override;
+  void observe(double, const double*, const double*, const double*, double*) const override {}
+  /// Throws SolverError where the yaw of a body leaves what the headings of the database cover.
+  void report(double t, const double* in, const double*, double* loads) const override;
+  bool lost_at_rest(std::size_t) const override { return false; }
+  element::WavesFelt waves() const override;
+  double elevation(double t) const override;
+  std::shared_ptr<const element::Elements> calm() const override;
+  std::shared_ptr<const element::Elements>
+  stirred(const std::function<double()>& draw) const override;
+
+private:
+  template <class S> void loads(double t, const S* in, S* out) const;
+  template <class S>
+  Vec6<S> force(double t, const Body& body, const Terms& terms, const S* in,
+                const YawFunctions::Values<S>& b, const double* f) const;
+  template <class S>
+  void yaw_values(const Body& body, const S* in, YawFunctions::Values<S>& b) const;
+  Eigen::Matrix<double, 6, 2> by_place(double t, const Body& body, const double* in,
+                                       const YawFunctions::Values<double>& b) const;
+  void check_yaw(double t, const Body& body, const double* in) const;
+  Index count() const { return fixed_.size() + drifting_.size(); }
+  VectorX least(const VectorX& largest) const;
+
+  HydroAxes axes_;
+  std::vector<Body> bodies_;
+  Index n_moving_ = 0; ///< functions of time that load coordinates that move
+  sea::Signals fixed_; ///< one of the two is empty; both: still water
+  sea::DriftingSignals drifting_;
+};
+
+} // namespace hydrodae::water
