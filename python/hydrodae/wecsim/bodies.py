@@ -83,7 +83,10 @@ class Bodies:
         point = item.vector("centerGravity", [])
         if point.size != 3:
             place = self.read.place(item.line)
-            raise CaseError(f"{place}: {item.title} has no centre of gravity")
+            raise CaseError(
+                f"{place}: {item.title} has no centre of gravity that could be read; "
+                f"write {item.title}.centerGravity = [x y z]"
+            )
         return point
 
     def volume(self, number: int) -> float:

@@ -105,7 +105,7 @@ def _model_file(read: InputFile) -> Path:
     folder = read.path.parent
     simu = read.get("simu")
     stated = "" if simu is None else simu.text("simMechanicsFile")
-    if stated:
+    if stated.strip(".") not in ("", "slx", "*.slx"):
         path = folder / stated.replace("\\", "/")
         return path if path.suffix else path.with_suffix(".slx")
     found = sorted(folder.glob("*.slx"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -138,5 +139,9 @@ def with_radiation(
         "a fit that misses its target was taken, since the tables allow neither a good fit "
         f"({refused}) nor a convolution ({second}); see hydrodae hdb doctor",
     )
-    made_fit = fit(database, inputs, name="moving", band=band, accept=("target", "passive"))
-    return made_fit, "exponential"
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        taken = fit(database, inputs, name="moving", band=band, accept=("target", "passive"))
+    for warning in told:
+        file.remarks.assumed("radiation", str(warning.message))
+    return taken, "exponential"

@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 #: Fields of simu that only steer Simulink, its files and its pictures.
 IDLE = (
     "simMechanicsFile mode explorer dt solver cicDt nonlinearDt morisonDt domainSize "
-    "paraview.option paraview.dt paraview.path paraview.startTime paraview.endTime saveText saveStructure "
-    "saveWorkspace saveMat outputDir rateTransition zeroCross reloadH5Data keepPool "
+    "paraview.option paraview.dt paraview.path paraview.startTime paraview.endTime saveText "
+    "saveStructure saveWorkspace saveMat outputDir rateTransition zeroCross reloadH5Data keepPool "
     "autoRateTranBlk pressureDis pressure cicEndTime stateSpace FIR"
 ).split()
 
@@ -152,7 +152,12 @@ def _formula(waves: Item, read: InputFile) -> dict[str, Any] | None:
     keys: dict[str, Any] = {"significant_height": height, "peak_period": period}
     if not (height > 0.0 and period > 0.0):
         waves.used |= {"gamma", "direction", "spread", "phaseSeed", "bem.option", "bem.count"}
-        read.remarks.assumed(read.place(waves.line), f"waves of height {height:g} m: still water")
+        if {"height", "period"} <= set(waves.entries):
+            text = f"waves of {height:g} m and {period:g} s: still water"
+            read.remarks.assumed(read.place(waves.line), text)
+        else:
+            text = "waves whose height or period was not read: still water"
+            read.remarks.left_out(read.place(waves.line), text)
         return None
     if spectrum in ("PM", "BS"):
         return {"type": "bretschneider"} | keys

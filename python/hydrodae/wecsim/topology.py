@@ -116,7 +116,8 @@ class _Finder:
         for block in blocks:
             if block.kind == "Fixed" and len(block.nets) == 2:
                 first, second = block.nets.values()
-                self._item(block, "constraint")
+                if (item := self._item(block, "constraint")) is not None:
+                    item.used |= set(item.entries)  # where a weld is does not matter
                 self.parents[self._root(second)] = self._root(first)
         taken: set[str] = {"ground"}
         for block in blocks:
