@@ -162,6 +162,7 @@ def test_expressions_have_the_values_of_matlab(text: str, value, tmp_path: Path)
     file.write_text(f"a = [10 20 30]; b.c = 7;\nsimu = simulationClass();\nsimu.x = {text};\n")
     read = read_input(file)
     simu = read.get("simu")
+    assert simu is not None
     if value is None:
         assert [r.place for r in read.remarks.of("left out")] == ["wecSimInputFile.m:3"]
     else:
@@ -181,7 +182,9 @@ def test_statements_that_are_not_understood_are_listed_with_their_lines(tmp_path
         "s = 'it''s % no comment';\n"
     )
     read = read_input(file)
-    assert read.get("simu").get("dt") == 0.2
+    simu = read.get("simu")
+    assert simu is not None
+    assert simu.get("dt") == 0.2
     assert read.variables["s"].value == "it's % no comment"
     lines = [r.place.partition(":")[2] for r in read.remarks.of("left out")]
     assert lines == ["5", "11", "14"]
@@ -193,6 +196,7 @@ def test_names_of_version_4_are_read(tmp_path: Path) -> None:
         "pto(1) = ptoClass('PTO1');\npto(1).k = 3; pto(1).c = 4; pto(1).loc = [1 2 3];\n"
     )
     pto = read_input(file).get("pto")
+    assert pto is not None
     assert pto.get("stiffness") == 3.0
     assert pto.get("damping") == 4.0
     assert pto.vector("location", []).tolist() == [1.0, 2.0, 3.0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
@@ -226,7 +227,11 @@ def _carriers(text: CaseText, topology: Topology, bodies: Bodies) -> dict[int, s
         for number in group.bodies[1:]:
             if group.motion != "fixed":
                 name = topology.names[number]
-                keys = {"name": f"weld_{name}", "type": "fixed", "body_a": carriers[key]}
+                keys: dict[str, Any] = {
+                    "name": f"weld_{name}",
+                    "type": "fixed",
+                    "body_a": carriers[key],
+                }
                 keys |= {"body_b": name, "point": bodies.center_of_gravity(number)}
                 text.table("[[joint]]", keys)
     return carriers

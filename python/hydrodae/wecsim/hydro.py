@@ -104,8 +104,9 @@ def read_database(
     for name in old:
         if name not in renaming:
             renaming[name] = f"unused_{name}"
-    water = {"rho": rho, "gravity": gravity} if rho else {}
-    database, report = import_database(source, names=renaming, **water)
+    database, report = import_database(
+        source, names=renaming, rho=rho or None, gravity=gravity or None
+    )
     for finding in report.left([]):
         file.remarks.assumed(
             source.name, f"check {finding.name}: {finding.message}; taken as it is"

@@ -137,7 +137,8 @@ def _transposes(tokens: list[Token], spaced: bool, brackets: list[str]) -> bool:
 
 
 def _string(text: str, start: int, line: int) -> tuple[str, int]:
-    quote, at, out = text[start], start + 1, []
+    quote, at = text[start], start + 1
+    out: list[str] = []
     while at < len(text) and text[at] != "\n":
         if text[at] == quote:
             if text[at + 1 : at + 2] != quote:

@@ -301,7 +301,8 @@ def _function(name: str, values: list[Any]) -> Any:
         made = np.full(tuple(shape) if len(shape) == 2 else (shape[0], shape[0]), 0.0)
         return made + (name == "ones")
     if name == "eye" and len(values) <= 2:
-        return np.eye(*[int(_number(value)) for value in values or [1.0]])
+        sizes = [int(_number(value)) for value in values or [1.0]]
+        return np.eye(sizes[0], sizes[-1])
     if name in _ELEMENTWISE and len(values) == 1:
         return _ELEMENTWISE[name](values[0])
     if name == "diag" and len(values) == 1:
