@@ -17,6 +17,7 @@ from tests.attack import (  # noqa: F401  the modules register their families
     drives,
     hinges,
     impacts,
+    light,
     long,
     mechanisms,
     memories,

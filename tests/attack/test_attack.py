@@ -35,6 +35,7 @@ SAMPLE = (
     "submerged_pendulum_3", "compliant_stop_1", "pressed_incline_3", "timed_impact_2", "pi_block_2",
     "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3",
     "wound_vector_1", "wound_vector_3", "spring_at_one_place_1", "folded_rope_1",
+    "point_on_hinge_1", "point_on_hinge_4", "bob_on_links_1", "bob_on_links_4",
 )  # fmt: skip
 
 

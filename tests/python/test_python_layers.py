@@ -31,7 +31,7 @@ LAYERS = [
     {"linear", "pictures", "simulation"},
     {"control", "fmu", "mooring"},
     # many runs of a case, and what people ask about it
-    {"study", "viewer"},
+    {"study", "viewer", "wecsim"},
     {"report"},
     {"commands"},
     {"", "__main__"},

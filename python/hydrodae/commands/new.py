@@ -3,38 +3,91 @@
 from __future__ import annotations
 
 import argparse
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hydrodae.errors import CaseError
+
+if TYPE_CHECKING:
+    from hydrodae.wecsim import Converted
+
+PROGRAMS = ("wecsim",)
 
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
     parser = commands.add_parser(
         "new",
-        help="write a commented case that runs at once",
+        help="write a commented case that runs at once, or one from a run of WEC-Sim",
         description="Write a folder with a commented case file, its hydrodynamic database and what "
-        "made it, and a study of its power; without KIND, list the kinds.",
+        "made it, and a study of its power; without KIND, list the kinds. With --from wecsim PATH "
+        "the case is that of a run of WEC-Sim, and what it does not hold is printed.",
     )
-    parser.add_argument("kind", metavar="KIND", nargs="?", help="such as point_absorber or flap")
+    parser.add_argument(
+        "kind", metavar="KIND", nargs="?", help="such as point_absorber or flap; none with --from"
+    )
     parser.add_argument(
         "folder", metavar="FOLDER", nargs="?", help="a new or empty folder (default: KIND)"
+    )
+    parser.add_argument(
+        "--from",
+        dest="origin",
+        metavar=("PROGRAM", "PATH"),
+        nargs=2,
+        help="wecsim and the folder with wecSimInputFile.m and its Simulink model",
     )
     parser.set_defaults(call=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write a starter, or list their kinds; returns 0."""
-    import shlex
-
+    """Write a starter, or what a run of WEC-Sim is here, or list the kinds; returns 0."""
+    if arguments.origin is not None:
+        return _convert(arguments)
     from hydrodae.starters import KINDS, create
 
     if arguments.kind is None:
         for kind, meaning in KINDS.items():
             print(f"{kind:16}{meaning}")
         return 0
-    case = create(arguments.kind, arguments.folder)
+    _tell(create(arguments.kind, arguments.folder))
+    return 0
+
+
+def _tell(case: Path) -> None:
     print(f"written: {case.parent}")
     for file in sorted(case.parent.iterdir()):
         print(f"  {file.name}")
     results = case.with_suffix(".h5")
     print(f"next: hydrodae run {shlex.quote(str(case))}")
     print(f"      hydrodae plot {shlex.quote(str(results))}")
+
+
+def _convert(arguments: argparse.Namespace) -> int:
+    program, path = arguments.origin
+    if program not in PROGRAMS:
+        raise CaseError(f"--from {program}: expected one of {', '.join(PROGRAMS)}")
+    if arguments.kind is None or arguments.folder is not None:
+        raise CaseError(f"hydrodae new FOLDER --from {program} {path}: one folder is needed")
+    from hydrodae.wecsim import convert
+
+    converted = convert(path, arguments.kind)
+    _print_remarks(converted)
+    _tell(converted.case)
     return 0
+
+
+def _print_remarks(converted: Converted) -> None:
+    remarks = converted.remarks
+    for kind, header in (("left out", "not in the case"), ("assumed", "assumed")):
+        found = remarks.of(kind)
+        print(f"{header}: {len(found) or 'nothing'}")
+        for remark in found:
+            print(f"  {remark}")
+    idle = remarks.of("not needed")
+    if idle:
+        print(f"not needed: {len(idle)}")
+        for place in dict.fromkeys(remark.place.rpartition(":")[0] for remark in idle):
+            here = [r for r in idle if r.place.rpartition(":")[0] == place]
+            told = (f"{r.text} ({r.place.rpartition(':')[2]})" for r in here)
+            print(f"  {place}, by line: {', '.join(told)}")

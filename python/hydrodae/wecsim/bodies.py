@@ -1,0 +1,284 @@
+"""Bodies of an input file as tables of a case, with their drag."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import CaseError
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.text import CaseText
+
+Array = NDArray[np.float64]
+
+#: Fields of bodies that are for pictures, or that nothing here depends on.
+IDLE = {
+    "adjMassFactor": "added mass at infinite frequency stands in the mass matrix here",
+    "viz.color": "",
+    "viz.opacity": "",
+    "paraview": "",
+    "bodyparaview": "",
+    "name": "",
+    "dof": "",
+    "geometryFile": "the viewer draws the wetted hull that the database has",
+}
+#: Fields of effects that the kernel has another way, or not at all.
+LACKING = {
+    "nonlinearHydro": "nonlinear hydrodynamics (pressure on the mesh at each instant)",
+    "meanDrift": "mean drift forces",
+    "QTFs": "second-order forces (QTF)",
+    "flex": "generalised body modes",
+    "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
+    "largeXYDisplacement.option": 'large displacements: [sea] phase = "moving" is near to it',
+    "hydroStiffness": "a hydrostatic stiffness of one's own; that of the database is used",
+}
+
+
+class Bodies:
+    """Numbers of the bodies: what the case says of each.
+
+    Parameters
+    ----------
+    read : InputFile
+    names : dict of str
+        By number.
+    database : HydroDatabase or None
+    rho : float
+        Density of the water [kg/m3].
+    """
+
+    def __init__(
+        self,
+        read: InputFile,
+        names: dict[int, str],
+        database: HydroDatabase | None,
+        rho: float,
+    ) -> None:
+        self.read, self.names, self.database, self.rho = read, names, database, rho
+
+    def item(self, number: int) -> Item:
+        """Entries of a body."""
+        item = self.read.get("body", number)
+        if item is None:
+            raise CaseError(f"{self.read.path}: there is no body({number})")
+        return item
+
+    def is_wet(self, number: int) -> bool:
+        """Whether it has a body in the database."""
+        dry = int(self.item(number).number_of("nonHydro"))
+        return self.database is not None and not dry and self.names[number] in self.database.bodies
+
+    def center_of_gravity(self, number: int) -> Array:
+        """World [m]: of the database, or of the input file for bodies without one."""
+        item = self.item(number)
+        if self.is_wet(number) and self.database is not None:
+            item.used |= {"centerGravity"}
+            point = self.database.bodies[self.names[number]].reference_point
+            if point is not None:
+                return np.asarray(point)
+        point = item.vector("centerGravity", [])
+        if point.size != 3:
+            place = self.read.place(item.line)
+            raise CaseError(
+                f"{place}: {item.title} has no centre of gravity that could be read; "
+                f"write {item.title}.centerGravity = [x y z]"
+            )
+        return point
+
+    def volume(self, number: int) -> float:
+        """Displaced volume [m3]."""
+        item = self.item(number)
+        if self.is_wet(number) and self.database is not None:
+            statics = self.database.bodies[self.names[number]].hydrostatics
+            item.used |= {"volume", "centerBuoyancy"}
+            return 0.0 if statics is None else float(statics.displaced_volume)
+        return item.number_of("volume")
+
+    def start(self, number: int) -> tuple[Array, Array]:
+        """Displacement of the centre of gravity [m] and rotation vector [rad] at the start."""
+        item = self.item(number)
+        shift = item.vector("initial.displacement", [0.0, 0.0, 0.0])
+        axis = item.vector("initial.axis", [0.0, 1.0, 0.0])
+        angle = item.number_of("initial.angle")
+        size = float(np.linalg.norm(axis))
+        return shift, axis / (size or 1.0) * angle
+
+    def add(self, text: CaseText, number: int, motion: str) -> None:
+        """Add [[body]] and its damping."""
+        item, name = self.item(number), self.names[number]
+        keys: dict[str, Any] = {"name": name}
+        if self.is_wet(number):
+            keys["hydro"] = name
+        keys["motion"] = motion if motion != "rigid" else None
+        keys["mass"], comment = self._mass(item, number)
+        keys["center_of_gravity"] = self.center_of_gravity(number)
+        keys |= self._inertia(item)
+        if not self.is_wet(number):
+            volume = self.volume(number)
+            if volume > 0.0:
+                keys["volume"] = volume
+                center = item.vector("centerBuoyancy", [])
+                keys["center_of_buoyancy"] = center if center.size == 3 else None
+        shift, rotation = self.start(number)
+        if motion != "fixed" and (shift.any() or rotation.any()):
+            initial: dict[str, Any] = {}
+            if shift.any():
+                initial["displacement"] = shift
+            if rotation.any():
+                initial["rotation_deg"] = np.rad2deg(rotation)
+            keys["initial"] = initial
+        elif shift.any() or rotation.any():
+            self._left_out(item, "initial.displacement", "start of a body that is fixed")
+        text.table("[[body]]", keys, f"{item.title}{comment}")
+        self._notes(item)
+        if motion != "fixed":
+            self._damping(text, item, name)
+        self._morison(text, item, number, name)
+
+    def _left_out(self, item: Item, field: str, text: str) -> None:
+        item.used.add(field)
+        self.read.remarks.left_out(self.read.place(item.line_of(field)), f"{item.title}: {text}")
+
+    def _mass(self, item: Item, number: int) -> tuple[float, str]:
+        value = item.get("mass")
+        if isinstance(value, str) and value.lower() == "equilibrium":
+            volume = self.volume(number)
+            if not volume > 0.0:
+                raise CaseError(
+                    f"{self.read.place(item.line_of('mass'))}: {item.title}.mass is 'equilibrium', "
+                    "but no displaced volume is known"
+                )
+            return self.rho * volume, f": mass = rho V for 'equilibrium', V = {volume:.6g} m3"
+        if isinstance(value, float | np.ndarray):
+            return item.number_of("mass"), ""
+        if isinstance(value, str) and value.lower() in ("fixed", "user"):
+            return 999.0, ": mass as for a body that does not move"
+        raise CaseError(
+            f"{self.read.place(item.line_of('mass'))}: {item.title}.mass could not be read; "
+            "write a number of kg or 'equilibrium'"
+        )
+
+    def _inertia(self, item: Item) -> dict[str, Any]:
+        inertia = item.vector("inertia", [])
+        if inertia.size != 3:
+            if not isinstance(item.get("inertia"), str):
+                self._left_out(item, "inertia", "inertia could not be read; 0 is taken")
+            return {}
+        products = item.vector("inertiaProducts", [0.0, 0.0, 0.0])
+        keys: dict[str, Any] = {"inertia": inertia}
+        if products.any():  # WEC-Sim: xy, xz, yz
+            keys["products_of_inertia"] = products[[0, 2, 1]]
+        return keys
+
+    def _notes(self, item: Item) -> None:
+        remarks = self.read.remarks
+        for field, text in LACKING.items():
+            if np.any(item.vector(field, [0.0]) != 0.0):
+                self._left_out(item, field, text)
+        for field in item.entries:
+            if field.startswith("variableHydro."):
+                item.used.add(field)
+        for field, why in IDLE.items():
+            if field in item.entries:
+                item.used.add(field)
+                place = self.read.place(item.line_of(field))
+                remarks.not_needed(place, f"{item.title}.{field}" + (f" ({why})" if why else ""))
+
+    def _damping(self, text: CaseText, item: Item, name: str) -> None:
+        linear = _six(item.get("linearDamping"))
+        quadratic = _six(item.get("quadDrag.drag"))
+        area = item.vector("quadDrag.area", [])
+        factor = item.vector("quadDrag.cd", [])
+        if not quadratic.any() and area.size == 6 and factor.size == 6:
+            quadratic = np.diag(0.5 * self.rho * factor * area)
+        if not (linear.any() or quadratic.any()):
+            return
+        keys: dict[str, Any] = {"type": "viscous_damping", "name": f"{name}_drag", "body": name}
+        keys["linear"] = _short(linear) if linear.any() else None
+        keys["quadratic"] = _short(quadratic) if quadratic.any() else None
+        text.table("[[force]]", keys, f"linearDamping and quadDrag of {item.title}")
+
+    def _morison(self, text: CaseText, item: Item, number: int, name: str) -> None:
+        option = int(item.number_of("morisonElement.option"))
+        fields = ("cd", "ca", "area", "VME", "rgME", "z")
+        rows = {f: np.atleast_2d(item.get(f"morisonElement.{f}", 0.0)) for f in fields}
+        if option == 0:
+            return
+        center = self.center_of_gravity(number)
+        for index in range(max(len(value) for value in rows.values())):
+            element = {f: v[min(index, len(v) - 1)].ravel() for f, v in rows.items()}
+            keys = _member(option, element, center)
+            if keys is None:
+                self._left_out(
+                    item,
+                    "morisonElement.option",
+                    f"Morison element {index + 1}: drag areas or added masses differ along the "
+                    "axes in a way that neither a sphere nor a cylinder has",
+                )
+                continue
+            text.table(
+                "[[morison]]",
+                {"name": f"{name}_morison{index + 1}", "body": name} | keys,
+                f"Morison element {index + 1} of {item.title}",
+            )
+
+
+def _six(value: Any) -> Array:
+    """Six numbers or a 6 x 6 matrix as a matrix."""
+    if not isinstance(value, float | np.ndarray):
+        return np.zeros((6, 6))
+    array = np.atleast_2d(np.asarray(value, dtype=float))
+    if array.size in (5, 6) and 1 in array.shape:
+        array = np.diag(np.pad(array.ravel(), (0, 6 - array.size)))
+    made = np.zeros((6, 6))
+    rows, columns = min(array.shape[0], 6), min(array.shape[1], 6)
+    if array.size > 1:
+        made[:rows, :columns] = array[:rows, :columns]
+    return made
+
+
+def _short(matrix: Array) -> Array:
+    """A diagonal matrix by its six numbers."""
+    diagonal = np.diag(matrix)
+    return diagonal if not (matrix - np.diag(diagonal)).any() else matrix
+
+
+def _member(option: int, element: dict[str, Array], center: Array) -> dict[str, Any] | None:
+    """Keys of a [[morison]] table: a point with the same drag all round, or a cylinder."""
+    padded = {f: np.pad(v, (0, max(3 - v.size, 0))) for f, v in element.items()}
+    drag, added = padded["cd"] * padded["area"], padded["ca"]
+    volume = float(element["VME"][0])
+    point = center + padded["rgME"]
+    axis = padded["z"] if padded["z"].any() else np.array([0.0, 0.0, 1.0])
+    axis = axis / np.linalg.norm(axis)
+    normal, along, added_along = drag[0], drag[1], added[1]
+    area = float(padded["area"][0])
+    if option == 1:
+        if np.ptp(drag) <= 1e-9 * max(drag.max(), 1e-30) and np.ptp(added) <= 1e-9:
+            keys = {"point": point, "area": float(padded["area"].max()), "volume": volume}
+            keys["drag_coefficient"] = float(drag.max() / (padded["area"].max() or 1.0))
+            return keys | ({"added_mass_coefficient": float(added[0])} if volume else {})
+        if abs(drag[0] - drag[1]) > 1e-9 * drag.max() or abs(added[0] - added[1]) > 1e-9:
+            return None
+        axis, along, added_along = np.array([0.0, 0.0, 1.0]), drag[2], added[2]
+    if not area > 0.0:
+        return None
+    diameter = 4.0 * volume / (math.pi * area) or 1.0  # a slender one where only drag counts
+    length = area / diameter
+    ends = point - 0.5 * length * axis, point + 0.5 * length * axis
+    keys = {
+        "point_a": ends[0],
+        "point_b": ends[1],
+        "diameter": diameter,
+        "drag_coefficient": float(normal / area),
+        "drag_axial": float(along / (math.pi * area)),
+        "segments": 1,
+    }
+    if volume > 0.0:
+        keys["added_mass_coefficient"] = float(added[0])
+        keys["added_mass_axial"] = float(added_along)
+    return keys

@@ -1,0 +1,254 @@
+"""From a folder of WEC-Sim to a folder of hydrodae."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hydrodae.case.case import Case
+from hydrodae.errors import CaseError
+from hydrodae.hdb.database import HydroDatabase
+from hydrodae.wecsim.bodies import Bodies
+from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
+from hydrodae.wecsim.links import Links
+from hydrodae.wecsim.m_file import InputFile, read_input
+from hydrodae.wecsim.moorings import add_mooring
+from hydrodae.wecsim.remarks import Remarks
+from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
+from hydrodae.wecsim.slx import Model, read_slx
+from hydrodae.wecsim.text import CaseText
+from hydrodae.wecsim.topology import Topology, find_topology
+
+INPUT = "wecSimInputFile.m"
+#: Coordinates of the database that move with each motion of a body.
+_KEEP = {"rigid": "all", "planar": "planar", "heave": "heave"}
+#: What PTO-Sim and its peers become by hand.
+_OTHERS = {
+    "ptoSim": "PTO-Sim; see the forces pto_hydraulic, pto_general, pto_lagged",
+    "cable": "a cable; see the force rope",
+    "wind": "wind",
+    "windTurbine": "a wind turbine",
+}
+
+
+@dataclass
+class Converted:
+    """What was written.
+
+    Attributes
+    ----------
+    case : Path
+        The case file.
+    remarks : Remarks
+        What it does not hold, and what was assumed.
+    """
+
+    case: Path
+    remarks: Remarks
+
+
+def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> Converted:
+    """Write a case for a run of WEC-Sim: case.toml, hydro.h5 and what they need.
+
+    Parameters
+    ----------
+    source : path
+        The folder with `wecSimInputFile.m` and its Simulink model, or the input file.
+    folder : path
+        A new or empty folder.
+
+    Raises
+    ------
+    CaseError
+        A file is missing or cannot be understood, or the folder is not empty.
+    DatabaseError
+        The database cannot be read.
+    """
+    target = Path(folder)
+    if target.exists() and (not target.is_dir() or any(target.iterdir())):
+        raise CaseError(f"{target}: is there already; name a new or empty folder")
+    read = read_input(_input_file(Path(source)))
+    model = read_slx(_model_file(read))
+    topology = find_topology(model, read)
+    database, radiation, why = _database(read, topology)
+    made = not target.exists()
+    target.mkdir(parents=True, exist_ok=True)
+    try:
+        text = _write(read, model, topology, database, radiation, why, target)
+        if database is not None:
+            database.write(target / "hydro.h5")
+        case = target / "case.toml"
+        case.write_text(str(text), encoding="utf-8")
+    except BaseException:
+        for file in ("case.toml", "hydro.h5"):
+            (target / file).unlink(missing_ok=True)
+        if made and not any(target.iterdir()):
+            target.rmdir()
+        raise
+    _unused(read)
+    return Converted(Case.read(case).path or case, read.remarks)
+
+
+def _input_file(source: Path) -> Path:
+    if source.is_dir():
+        found = source / INPUT
+        if not found.is_file():
+            raise CaseError(f"{source}: there is no {INPUT} in this folder")
+        return found
+    if not source.is_file():
+        raise CaseError(f"{source}: there is no such file or folder")
+    return source
+
+
+def _model_file(read: InputFile) -> Path:
+    folder = read.path.parent
+    simu = read.get("simu")
+    stated = "" if simu is None else simu.text("simMechanicsFile")
+    if stated.strip(".") not in ("", "slx", "*.slx"):
+        path = folder / stated.replace("\\", "/")
+        return path if path.suffix else path.with_suffix(".slx")
+    found = sorted(folder.glob("*.slx"))
+    if len(found) != 1:
+        names = ", ".join(path.name for path in found) or "none"
+        raise CaseError(f"{read.path}: simu.simMechanicsFile is not set; .slx beside it: {names}")
+    read.remarks.assumed(read.path.name, f"model {found[0].name}, the only one beside it")
+    return found[0]
+
+
+def _database(
+    read: InputFile, topology: Topology
+) -> tuple[HydroDatabase | None, dict[str, float | str], str]:
+    """The database with the radiation that the case asks for, and the keys of [hydro]."""
+    wet: dict[int, str] = {}
+    sources: dict[str, list[int]] = {}
+    for number, name in sorted(topology.names.items()):
+        item = read.get("body", number)
+        stated = item.arguments[0] if item is not None and item.arguments else ""
+        if item is None or int(item.number_of("nonHydro")) or not stated:
+            continue
+        if isinstance(stated, list):
+            stated = stated[0]
+            read.remarks.left_out(
+                read.place(item.line), f"{item.title}: variable hydrodynamics; the first database"
+            )
+        wet[number] = name
+        sources.setdefault(str(stated), []).append(number)
+    if not wet:
+        return None, {}, ""
+    if len(sources) > 1:
+        raise CaseError(
+            f"{read.path}: the bodies are in {len(sources)} databases ({', '.join(sources)}); "
+            "a case has one, with all bodies: compute them together"
+        )
+    simu = read.get("simu")
+    rho = 1000.0 if simu is None else simu.number_of("rho", 1000.0)
+    gravity = 9.81 if simu is None else simu.number_of("gravity", 9.81)
+    database = read_database(find_source(next(iter(sources)), read), wet, rho, gravity, read)
+    if len(wet) > 1 and (simu is None or not simu.number_of("b2b")):
+        database = database.without_coupling()
+        read.remarks.assumed(
+            read.path.name, "simu.b2b is 0: the bodies do not radiate into each other, as there"
+        )
+    kind, frequency, why = radiation_of(read)
+    moving = [
+        f"{wet[number]}.{_KEEP[group.motion]}"
+        for group in topology.groups.values()
+        for number in group.bodies
+        if number in wet and group.motion != "fixed"
+    ]
+    database, kind = with_radiation(database, moving, kind, read)
+    keys: dict[str, float | str] = {"database": "hydro.h5"}
+    turning = [b for b in read.of("body") if b.number_of("yaw.option")]
+    for body in read.of("body"):
+        body.used |= {"yaw.option", "yaw.threshold"}
+    if turning:
+        keys["axes"] = "yaw"
+    keys["radiation"] = kind
+    if frequency is not None and kind == "constant":
+        keys["frequency"] = frequency
+    return database, keys, why
+
+
+def _write(
+    read: InputFile,
+    model: Model,
+    topology: Topology,
+    database: HydroDatabase | None,
+    hydro: dict[str, float | str],
+    why: str,
+    target: Path,
+) -> CaseText:
+    simu = read.get("simu")
+    rho = 1000.0 if simu is None else simu.number_of("rho", 1000.0)
+    gravity = 9.81 if simu is None else simu.number_of("gravity", 9.81)
+    if database is not None:
+        rho, gravity = database.rho, database.gravity
+    text = CaseText()
+    text.comment(f"From {read.path.name} and {model.path.name} of WEC-Sim.")
+    text.value("title", f"{model.path.stem}, from WEC-Sim")
+    text.table(
+        "[environment]",
+        {"gravity": gravity, "water_density": None if database is not None else rho},
+    )
+    if database is not None:
+        text.table("[hydro]", hydro, why)
+    add_waves(text, read, target, None if database is None else database.omega)
+    bodies = Bodies(read, topology.names, database, rho)
+    carriers = _carriers(text, topology, bodies)
+    links = Links(read, topology, bodies, carriers)
+    for link in topology.links:
+        links.add(text, link, model.place(link.block))
+    for block, group in topology.moorings:
+        held = topology.groups[group].bodies
+        add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)
+    add_solver(text, read)
+    return text
+
+
+def _carriers(text: CaseText, topology: Topology, bodies: Bodies) -> dict[int, str]:
+    """Write all bodies and the welds between them; returns the body that stands for each group."""
+    carriers: dict[int, str] = {}
+    for count, (key, group) in enumerate(topology.groups.items(), 1):
+        for number in group.bodies:
+            bodies.add(text, number, group.motion)
+        if group.is_ground:
+            carriers[key] = "ground"
+        elif group.bodies:
+            carriers[key] = topology.names[group.bodies[0]]
+        else:
+            carriers[key] = f"frame{count}"
+            text.table(
+                "[[body]]",
+                {"name": f"frame{count}", "mass": 0.0, "center_of_gravity": [0.0, 0.0, 0.0]},
+                "A frame between two joints, without mass.",
+            )
+        for number in group.bodies[1:]:
+            if group.motion != "fixed":
+                name = topology.names[number]
+                keys: dict[str, Any] = {
+                    "name": f"weld_{name}",
+                    "type": "fixed",
+                    "body_a": carriers[key],
+                }
+                keys |= {"body_b": name, "point": bodies.center_of_gravity(number)}
+                text.table("[[joint]]", keys)
+    return carriers
+
+
+def _unused(read: InputFile) -> None:
+    """Note every entry that nothing asked for, and objects without a block."""
+    for item in read.items.values():
+        if item.kind in _OTHERS:
+            text = f"{item.title}: {_OTHERS[item.kind]}"
+            read.remarks.left_out(read.place(item.line), text)
+            continue
+        if item.kind in ("body", "constraint", "pto") and "" not in item.used:
+            read.remarks.left_out(
+                read.place(item.line), f"{item.title} has no block in the Simulink model"
+            )
+            continue
+        for field, entry in item.entries.items():
+            if field not in item.used:
+                read.remarks.left_out(read.place(entry.line), f"{item.title}.{field}")

@@ -1,0 +1,218 @@
+"""Constraints and power take-offs of a model as joints and forces of a case."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.wecsim.bodies import Bodies
+from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.text import CaseText
+from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
+
+Array = NDArray[np.float64]
+
+_TYPES = {
+    "Rotational": "revolute",
+    "Translational": "prismatic",
+    "Spherical": "spherical",
+    "Universal": "universal",
+    "Floating (3DOF)": "planar",
+}
+#: Springs and stops of hinges are by the degree in WEC-Sim, angles in degrees.
+_PER_DEGREE = 180.0 / math.pi
+
+
+class Links:
+    """Writes the joints between groups, and what acts along them.
+
+    Parameters
+    ----------
+    read : InputFile
+    topology : Topology
+    bodies : Bodies
+    carriers : dict of str
+        The body of the case that stands for each group, or ground.
+    """
+
+    def __init__(
+        self, read: InputFile, topology: Topology, bodies: Bodies, carriers: dict[int, str]
+    ) -> None:
+        self.read, self.topology, self.bodies, self.carriers = read, topology, bodies, carriers
+        self.taken: set[str] = set()
+
+    def add(self, text: CaseText, link: Link, place: str) -> None:
+        """Add the joint of a link, with its take-off and stops."""
+        item, groups = link.item, self.topology.groups
+        base, follower = groups[link.base], groups[link.follower]
+        free = link.kind == "Floating (6DOF)" or (
+            link.kind == "Floating (3DOF)"
+            and base.motion == "fixed"
+            and follower.motion == "planar"
+        )
+        name = unique(plain_name(self._name(item), item.title), self.taken)
+        if free:
+            for field in ("location", "initial.displacement", "orientation.y", "orientation.z"):
+                item.used.add(field)
+            return
+        keys: dict[str, Any] = {"name": name, "type": _TYPES[link.kind]}
+        keys["body_a"], keys["body_b"] = self.carriers[link.base], self.carriers[link.follower]
+        keys["point"] = self._point(link)
+        axis = self._axis(link)
+        if axis is not None:
+            keys["axis"] = axis
+        if link.kind == "Universal":
+            keys["axis_x"] = link.axis("x")
+        start = self._start(link, axis)
+        if extension := self._extension(link):
+            start += extension
+            kind = "displacement" if link.kind == "Translational" else "angle_deg"
+            keys["initial"] = {kind: start if kind == "displacement" else math.degrees(start)}
+        text.table("[[joint]]", keys, f"{item.title}, block {link.block.name!r}")
+        if link.is_pto:
+            self._take_off(text, link, name, start)
+        self._stops(text, link, name, start)
+        if link.actuated:
+            sources = ", ".join(dict.fromkeys(link.block.feeds))
+            motion = "Motion" in link.block.kind
+            self.read.remarks.left_out(
+                place,
+                f"{'motion' if motion else 'force'} of {item.title} from Simulink"
+                + (f" ({sources})" if sources else "")
+                + (": see [[constraint]]" if motion else ": see [[controller]] and python_load"),
+            )
+
+    def _name(self, item: Item) -> str:
+        name = item.arguments[0] if item.arguments else None
+        return name if isinstance(name, str) and name != "NOT DEFINED" else item.title
+
+    def _axis(self, link: Link) -> Array | None:
+        for field in ("orientation.x", "orientation.rotationMatrix"):
+            link.item.used.add(field)
+        if link.kind == "Spherical":
+            return None
+        return link.axis("y" if link.kind in ("Rotational", "Floating (3DOF)") else "z")
+
+    def _point(self, link: Link) -> Array:
+        """Place of the joint in the reference pose, from its place at the start of WEC-Sim."""
+        item = link.item
+        place = item.vector("location", [0.0, 0.0, 0.0])
+        if "location" not in item.entries:
+            self.read.remarks.assumed(
+                self.read.place(item.line), f"{item.title} has no location: the origin is taken"
+            )
+        place = place + item.vector("initial.displacement", [0.0, 0.0, 0.0])
+        ends = [self._before(group, place) for group in (link.base, link.follower)]
+        return ends[0] if link.base not in self._grounds() else ends[-1]
+
+    def _grounds(self) -> set[int]:
+        return {k for k, group in self.topology.groups.items() if group.motion == "fixed"}
+
+    def _before(self, group: int, place: Array) -> Array:
+        """Where a point of a group, at `place` at the start, is in its reference pose."""
+        found = self.topology.groups[group]
+        if not found.bodies or found.motion == "fixed":
+            return place
+        number = found.bodies[0]
+        shift, rotation = self.bodies.start(number)
+        center = self.bodies.center_of_gravity(number)
+        back = _rotation(rotation).T @ (place - center - shift)
+        return np.asarray(center + back)
+
+    def _start(self, link: Link, axis: Array | None) -> float:
+        """Coordinate of the joint here where WEC-Sim counts zero [m or rad]."""
+        if axis is None or link.kind not in ("Rotational", "Translational"):
+            return 0.0
+        total = 0.0
+        for group, sign in ((link.follower, 1.0), (link.base, -1.0)):
+            found = self.topology.groups[group]
+            if found.bodies and found.motion != "fixed":
+                shift, rotation = self.bodies.start(found.bodies[0])
+                total += sign * float(axis @ (rotation if link.kind == "Rotational" else shift))
+        return total
+
+    def _extension(self, link: Link) -> float:
+        item = link.item
+        item.used.add("extension.PositionTargetPriority")
+        value = item.number_of("extension.PositionTargetValue")
+        if not item.number_of("extension.PositionTargetSpecify") or not value:
+            return 0.0
+        return math.radians(value) if link.kind == "Rotational" else value
+
+    def _take_off(self, text: CaseText, link: Link, name: str, start: float) -> None:
+        item = link.item
+        stiffness = item.vector("stiffness", [0.0])
+        damping = item.vector("damping", [0.0])
+        pretension = item.number_of("pretension")
+        neutral = item.number_of("equilibriumPosition")
+        for field, values in (("stiffness", stiffness), ("damping", damping)):
+            if values.size > 1:
+                self.read.remarks.left_out(
+                    self.read.place(item.line_of(field)),
+                    f"{item.title}.{field} has {values.size} values; the first is taken, and "
+                    "`hydrodae sweep` runs them all",
+                )
+        k, c = float(stiffness[0]), float(damping[0])
+        if link.kind == "Rotational":  # about -y in Simscape's joint
+            neutral = -math.radians(neutral)
+        if not neutral and pretension and k:
+            neutral = -pretension / k
+        elif pretension and not k:
+            self.read.remarks.left_out(
+                self.read.place(item.line_of("pretension")),
+                f"{item.title}.pretension without stiffness, which WEC-Sim ignores too",
+            )
+        if link.kind in ("Rotational", "Translational"):
+            keys: dict[str, Any] = {"type": "pto_linear", "name": name, "joint": name}
+            keys |= {"damping": c, "stiffness": k or None}
+            keys["neutral"] = (neutral + start) if k and neutral + start else None
+        elif link.kind == "Spherical":
+            keys = {"type": "pto_rotary", "name": name, "damping": [c] * 3, "stiffness": [k] * 3}
+            keys["body_a"] = self.carriers[link.base]
+            keys["body_b"] = self.carriers[link.follower]
+        else:
+            keys = {"type": "pto_linear", "name": name, "joint": name, "coordinate": "angle"}
+            keys |= {"damping": c, "stiffness": k or None}
+            self.read.remarks.assumed(
+                self.read.place(item.line), f"{item.title}: the take-off acts on the first angle"
+            )
+        if c or k:
+            text.table("[[force]]", keys, f"Take-off {item.title}")
+
+    def _stops(self, text: CaseText, link: Link, name: str, start: float) -> None:
+        item = link.item
+        turns = link.kind == "Rotational"
+        unit = _PER_DEGREE if turns else 1.0
+        for side, other in (("upper", "lower"), ("lower", "upper")):
+            entry = f"hardStops.{side}Limit"
+            on = item.text(f"{entry}Specify", "off") == "on"
+            bound = item.number_of(f"{entry}Bound", 1.0 if side == "upper" else -1.0)
+            stiffness = item.number_of(f"{entry}Stiffness", 1e6) * unit
+            damping = item.number_of(f"{entry}Damping", 1e3) * unit
+            width = item.number_of(f"{entry}TransitionRegionWidth", 1e-4) / unit
+            if not on or link.kind not in ("Rotational", "Translational"):
+                continue
+            where = other if turns else side  # about -y in Simscape's joint
+            bound = -bound if turns else bound
+            keys = {
+                "type": "end_stop",
+                "name": f"{name}_{where}_stop",
+                "joint": name,
+                f"{where}_deg" if turns else where: bound
+                + (math.degrees(start) if turns else start),
+                "stiffness": stiffness,
+                "exponent": 1.0,
+                "viscous": damping,
+                "width": width,
+            }
+            text.table("[[force]]", keys, f"Hard stop of {item.title}")
+
+
+def _rotation(vector: Array) -> Array:
+    """Matrix of a rotation vector."""
+    from scipy.spatial.transform import Rotation
+
+    return np.asarray(Rotation.from_rotvec(vector).as_matrix())

@@ -1,0 +1,325 @@
+"""Values of MATLAB expressions: numbers, strings, arrays, simple functions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.wecsim.m_text import NotEvaluated, Token
+
+#: A number or an array of them (two axes), a string, or a list (of a cell array).
+Value: TypeAlias = "float | str | NDArray[np.float64] | list[Any]"
+
+_CONSTANTS = {
+    "pi": math.pi,
+    "Inf": math.inf,
+    "inf": math.inf,
+    "NaN": math.nan,
+    "nan": math.nan,
+    "true": 1.0,
+    "false": 0.0,
+    "eps": float(np.finfo(float).eps),
+}
+_ELEMENTWISE: dict[str, Callable[[Any], Any]] = {
+    "sqrt": np.sqrt,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "atan": np.arctan,
+    "exp": np.exp,
+    "log": np.log,
+    "abs": np.abs,
+    "round": np.round,
+    "floor": np.floor,
+    "ceil": np.ceil,
+    "deg2rad": np.deg2rad,
+    "rad2deg": np.rad2deg,
+    "sind": lambda x: np.sin(np.deg2rad(x)),
+    "cosd": lambda x: np.cos(np.deg2rad(x)),
+    "tand": lambda x: np.tan(np.deg2rad(x)),
+    "atanh": np.arctanh,
+    "sinh": np.sinh,
+    "cosh": np.cosh,
+    "tanh": np.tanh,
+    "double": lambda x: x,
+    "string": lambda x: x,
+    "char": lambda x: x,
+}
+_OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    ".*": lambda a, b: a * b,
+    "./": lambda a, b: a / b,
+    ".^": lambda a, b: a**b,
+    "==": lambda a, b: a == b,
+    "~=": lambda a, b: a != b,
+    "<": lambda a, b: a < b,
+    ">": lambda a, b: a > b,
+    "<=": lambda a, b: a <= b,
+    ">=": lambda a, b: a >= b,
+    "&&": lambda a, b: bool(np.all(a)) and bool(np.all(b)),
+    "||": lambda a, b: bool(np.all(a)) or bool(np.all(b)),
+}
+_LEVELS = (
+    ("||", "|"),
+    ("&&", "&"),
+    ("==", "~=", "!=", "<", ">", "<=", ">="),
+    (":",),
+    ("+", "-"),
+    ("*", "/", ".*", "./"),
+)
+
+
+def plain(value: Any) -> Any:
+    """An array of one number as that number; strings and lists as they are."""
+    if isinstance(value, np.ndarray):
+        return float(value.flat[0]) if value.size == 1 else np.asarray(value, dtype=float)
+    if isinstance(value, bool | int | float | np.generic):
+        return float(value)
+    return value
+
+
+class Expression:
+    """Evaluates tokens of one expression.
+
+    Parameters
+    ----------
+    tokens : tuple of Token
+    look_up : function
+        Value of a name with its indices and fields, given as tokens read so far:
+        ``look_up(name, path)``; raises NotEvaluated where there is none.
+    """
+
+    def __init__(
+        self, tokens: tuple[Token, ...], look_up: Callable[[str, tuple[str, ...]], Any]
+    ) -> None:
+        self.tokens, self.look_up, self.at = tokens, look_up, 0
+        self.rows = 0  # depth of brackets in which white space separates
+
+    def value(self) -> Any:
+        """Evaluate all; whatever is left over is not understood."""
+        result = self._level(0)
+        if self.at < len(self.tokens):
+            raise NotEvaluated(f"{self.tokens[self.at].text!r} is not understood here")
+        return plain(result)
+
+    def _peek(self) -> Token | None:
+        return self.tokens[self.at] if self.at < len(self.tokens) else None
+
+    def _take(self, text: str) -> bool:
+        token = self._peek()
+        if token is not None and token.kind == "operator" and token.text == text:
+            self.at += 1
+            return True
+        return False
+
+    def _level(self, level: int) -> Any:
+        if level == len(_LEVELS):
+            return self._unary()
+        left = self._level(level + 1)
+        while (token := self._peek()) is not None and token.kind == "operator":
+            if token.text not in _LEVELS[level] or self._starts_element(token):
+                break
+            self.at += 1
+            if token.text == ":":
+                left = self._range(left, self._level(level + 1))
+                continue
+            left = _combine(token.text, left, self._level(level + 1))
+        return left
+
+    def _starts_element(self, token: Token) -> bool:
+        """Within brackets, "1 -2" is two elements and "1 - 2" one."""
+        if not (self.rows and token.spaced and token.text in "+-"):
+            return False
+        following = self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else None
+        return following is not None and not following.spaced
+
+    def _range(self, first: Any, second: Any) -> Any:
+        step, last = 1.0, second
+        if self._take(":"):
+            step, last = second, self._level(4)
+        count = math.floor((last - first) / step + 1e-10) + 1
+        return (first + step * np.arange(max(count, 0)))[None, :]
+
+    def _unary(self) -> Any:
+        if self._take("-"):
+            return -_number(self._unary())
+        if self._take("+"):
+            return self._unary()
+        if self._take("~") or self._take("!"):
+            return not np.all(self._unary())
+        base = self._postfix()
+        token = self._peek()
+        if token is not None and token.text in ("^", ".^") and token.kind == "operator":
+            self.at += 1
+            return _number(base) ** _number(self._unary())
+        return base
+
+    def _postfix(self) -> Any:
+        value = self._atom()
+        while (token := self._peek()) is not None and token.kind == "operator":
+            if token.text not in ("'", ".'") or token.spaced:
+                break
+            self.at += 1
+            value = value.T if isinstance(value, np.ndarray) else value
+        return value
+
+    def _atom(self) -> Any:
+        token = self._peek()
+        if token is None:
+            raise NotEvaluated("the expression ends too early")
+        self.at += 1
+        if token.kind == "number":
+            return float(token.text.lower().replace("d", "e"))
+        if token.kind == "string":
+            return token.text
+        if token.kind == "name":
+            return self._name(token.text)
+        if token.text == "(":
+            rows, self.rows = self.rows, 0
+            value = self._level(0)
+            self.rows = rows
+            self._expect(")")
+            return value
+        if token.text in "[{":
+            return self._bracket("]" if token.text == "[" else "}")
+        raise NotEvaluated(f"{token.text!r} is not understood here")
+
+    def _expect(self, text: str) -> None:
+        if not self._take(text):
+            raise NotEvaluated(f"{text!r} is missing")
+
+    def _arguments(self) -> list[Any]:
+        rows, self.rows = self.rows, 0
+        values: list[Any] = []
+        while not self._take(")"):
+            if self._peek() is None:
+                raise NotEvaluated("')' is missing")
+            if not self._take(","):
+                values.append(self._level(0))
+        self.rows = rows
+        return values
+
+    def _name(self, name: str) -> Any:
+        path, arguments = [], None
+        while (token := self._peek()) is not None and token.kind == "operator":
+            if token.text == "(" and not (self.rows and token.spaced):
+                self.at += 1
+                arguments = self._arguments()
+                path.append(f"({','.join(_index(value) for value in arguments)})")
+            elif token.text == "." and self._is_field():
+                path.append(self.tokens[self.at + 1].text)
+                self.at += 2
+            else:
+                break
+        try:
+            return self.look_up(name, tuple(path))
+        except NotEvaluated:
+            if name in _CONSTANTS and not path:
+                return _CONSTANTS[name]
+            if len(path) <= 1 and (arguments is not None) == bool(path):
+                return _function(name, arguments or [])
+            raise
+
+    def _is_field(self) -> bool:
+        following = self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else None
+        return following is not None and following.kind == "name"
+
+    def _bracket(self, end: str) -> Any:
+        rows: list[list[Any]] = [[]]
+        self.rows += 1
+        while not self._take(end):
+            token = self._peek()
+            if token is None:
+                raise NotEvaluated(f"{end!r} is missing")
+            if token.kind == "newline" or token.text == ";":
+                self.at += 1
+                rows.append([])
+            elif not self._take(","):
+                rows[-1].append(self._level(0))
+        self.rows -= 1
+        rows = [row for row in rows if row]
+        if end == "}":
+            return [plain(value) for row in rows for value in row]
+        return _matrix(rows)
+
+
+def _matrix(rows: list[list[Any]]) -> Any:
+    if any(isinstance(value, str) for row in rows for value in row):
+        if len(rows) == 1 and all(isinstance(value, str) for value in rows[0]):
+            return "".join(rows[0])
+        raise NotEvaluated("strings and numbers in one array")
+    try:
+        blocks = [np.hstack([np.atleast_2d(_number(value)) for value in row]) for row in rows]
+        return np.vstack(blocks).astype(float) if blocks else np.zeros((0, 0))
+    except ValueError:
+        raise NotEvaluated("the rows of an array differ in length") from None
+
+
+def _index(value: Any) -> str:
+    value = plain(value)
+    return f"{value:.0f}" if isinstance(value, float) and math.isfinite(value) else ":"
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, str | list):
+        raise NotEvaluated("a number is needed")
+    return value
+
+
+def _combine(operator: str, left: Any, right: Any) -> Any:
+    if isinstance(left, str) or isinstance(right, str):
+        if operator == "==":
+            return left == right
+        if operator == "+" and isinstance(left, str) and isinstance(right, str):
+            return left + right
+        raise NotEvaluated(f"{operator!r} of strings")
+    left, right = _number(left), _number(right)
+    scalar = np.size(left) == 1 or np.size(right) == 1
+    if operator in "*/" and scalar:
+        operator = f".{operator}"
+    try:
+        if operator == "*":
+            return np.atleast_2d(left) @ np.atleast_2d(right)
+        operator = {"!=": "~=", "&": "&&", "|": "||"}.get(operator, operator)
+        with np.errstate(all="ignore"):
+            return _OPERATIONS[operator](left, right)
+    except (ValueError, KeyError, ZeroDivisionError) as error:
+        raise NotEvaluated(f"{operator!r} of these values ({error})") from None
+
+
+def _function(name: str, values: list[Any]) -> Any:
+    """Value of a function of MATLAB that is known here."""
+    if name in ("zeros", "ones") and len(values) <= 2:
+        shape = [int(_number(value)) for value in values] or [1]
+        made = np.full(tuple(shape) if len(shape) == 2 else (shape[0], shape[0]), 0.0)
+        return made + (name == "ones")
+    if name == "eye" and len(values) <= 2:
+        sizes = [int(_number(value)) for value in values or [1.0]]
+        return np.eye(sizes[0], sizes[-1])
+    if name in _ELEMENTWISE and len(values) == 1:
+        return _ELEMENTWISE[name](values[0])
+    if name == "diag" and len(values) == 1:
+        array = np.atleast_2d(_number(values[0]))
+        return np.diag(array.ravel()) if 1 in array.shape else np.diag(array)[:, None]
+    if name == "linspace" and len(values) in (2, 3):
+        return np.linspace(values[0], values[1], int(values[2]) if values[2:] else 100)[None, :]
+    if name in ("max", "min") and len(values) in (1, 2):
+        function = np.max if name == "max" else np.min
+        return function(np.hstack([np.ravel(_number(value)) for value in values]))
+    if name == "fullfile" and values and all(isinstance(value, str) for value in values):
+        return "/".join(values)
+    if name in ("strcat", "append") and all(isinstance(value, str) for value in values):
+        return "".join(values)
+    if name == "struct" and len(values) % 2 == 0:
+        raise NotEvaluated("a struct of pairs")
+    raise NotEvaluated(f"{name} is not known here")
+
+
+Names: TypeAlias = Mapping[str, Any]

@@ -1,0 +1,339 @@
+"""Waves and simulation of an input file as tables of a case."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.old_names import WAVES
+from hydrodae.wecsim.text import CaseText
+
+Array = NDArray[np.float64]
+
+#: Fields of simu that only steer Simulink, its files and its pictures.
+IDLE = (
+    "simMechanicsFile mode explorer dt solver cicDt nonlinearDt morisonDt domainSize "
+    "paraview.option paraview.dt paraview.path paraview.startTime paraview.endTime saveText "
+    "saveStructure saveWorkspace saveMat outputDir rateTransition zeroCross reloadH5Data keepPool "
+    "autoRateTranBlk pressureDis pressure cicEndTime stateSpace FIR"
+).split()
+
+
+def radiation_of(read: InputFile) -> tuple[str, float | None, str]:
+    """Kind of radiation that a run has in WEC-Sim: kind here, frequency [rad/s], and why."""
+    waves = read.of("waves")
+    kind = _kind(waves[0]) if waves else "noWaveCIC"
+    if kind in ("regular", "noWave"):
+        period = waves[0].number_of("period")
+        if period > 0.0:
+            text = (
+                f"{kind}: added mass and damping at the frequency of the wave, as in WEC-Sim. "
+                'With radiation = "exponential" and `hydrodae hdb fit` transients are right too.'
+            )
+            return "constant", 2.0 * math.pi / period, text
+    return "exponential", None, f"{kind}: a fitted memory stands for the convolution of WEC-Sim."
+
+
+def _kind(waves: Item) -> str:
+    kind = str(waves.arguments[0]) if waves.arguments else "noWaveCIC"
+    return WAVES.get(kind, kind)
+
+
+def add_waves(text: CaseText, read: InputFile, folder: Path, omega: Array | None) -> None:
+    """Add [sea] and every [[wave]].
+
+    Parameters
+    ----------
+    text : CaseText
+    read : InputFile
+    folder : Path
+        Where data of imported elevations go.
+    omega : array or None
+        Frequencies of the database [rad/s].
+    """
+    all_waves = read.of("waves")
+    if not all_waves:
+        read.remarks.left_out(read.path.name, "there is no waves = waveClass(...): still water")
+    simu = read.get("simu")
+    ramp = 100.0 if simu is None else simu.number_of("rampTime", 100.0)
+    tables: list[tuple[dict[str, Any], str]] = []
+    for waves in all_waves:
+        tables += _tables(waves, read, folder)
+    for keys, _ in tables:
+        _allow_loss(keys, omega, read)
+    current = _current(all_waves, read)
+    if tables or current:
+        text.table(
+            "[sea]",
+            {"ramp": max(ramp, 0.0), "current": current},
+            "The ramp of WEC-Sim is half a cosine; here it has three continuous derivatives.",
+        )
+    for keys, comment in tables:
+        text.table("[[wave]]", keys, *([comment] if comment else []))
+
+
+def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, Any], str]]:
+    kind = _kind(waves)
+    place = read.place(waves.line)
+    name = "waves" if waves.number == 1 else f"waves{waves.number}"
+    for field in ("marker.location", "marker.size", "marker.style", "marker.graphicColor"):
+        waves.used.add(field)
+    for field in ("viz.numPointsX", "viz.numPointsY"):
+        waves.used.add(field)
+    if "marker.location" in waves.entries:
+        read.remarks.left_out(
+            read.place(waves.line_of("marker.location")), "wave markers: see [[gauge]]"
+        )
+    if kind in ("noWave", "noWaveCIC"):
+        for field in ("period", "height", "direction", "spectrumType"):
+            waves.used.add(field)
+        return []
+    first = {"name": name}
+    if kind in ("regular", "regularCIC"):
+        heading = waves.vector("direction", [0.0])
+        _only_one(waves, "direction", heading, read)
+        height, period = waves.number_of("height"), waves.number_of("period")
+        if not period > 0.0:
+            read.remarks.left_out(place, "regular waves without a height and a period that is read")
+            return []
+        keys = first | {
+            "type": "regular",
+            "height": height,
+            "period": period,
+            "heading_deg": _turned(float(heading[0])),
+        }
+        _only_one(waves, "height", waves.vector("height", [0.0]), read)
+        _only_one(waves, "period", waves.vector("period", [0.0]), read)
+        return [(keys, "")]
+    if kind == "elevationImport":
+        return _elevation(waves, read, folder, first)
+    if kind in ("irregular", "spectrumImport"):
+        spectrum = _imported(waves, read) if kind == "spectrumImport" else _formula(waves, read)
+        return [] if spectrum is None else _directions(waves, read, first, spectrum)
+    read.remarks.left_out(place, f"waves of type {kind!r}")
+    return []
+
+
+def _allow_loss(keys: dict[str, Any], omega: Array | None, read: InputFile) -> None:
+    """Let a spectrum lose what the frequencies of the database do not hold, as WEC-Sim does."""
+    if omega is None or "peak_period" not in keys:
+        return
+    ends = np.array([omega[0], omega[-1]]) * keys["peak_period"] / (2.0 * math.pi)
+    held = np.exp(-1.25 * ends**-4.0)  # of Pierson and Moskowitz
+    lost = 1.0 - float(held[1] - held[0])
+    if lost > 0.09:
+        keys["lost_variance"] = 1.0
+        read.remarks.assumed(
+            read.path.name,
+            f"some {100 * lost:.0f} % of the energy of {keys['name']} is outside the frequencies "
+            "of the database and left out, as in WEC-Sim",
+        )
+
+
+def _only_one(item: Item, field: str, values: Array, read: InputFile) -> None:
+    if values.size > 1:
+        read.remarks.left_out(
+            read.place(item.line_of(field)),
+            f"{item.title}.{field} has {values.size} values; the first is taken, and "
+            "`hydrodae sweep` runs them all",
+        )
+
+
+def _formula(waves: Item, read: InputFile) -> dict[str, Any] | None:
+    spectrum = waves.text("spectrumType", "PM")
+    height, period = waves.number_of("height"), waves.number_of("period")
+    for field in ("height", "period"):
+        _only_one(waves, field, waves.vector(field, [0.0]), read)
+    keys: dict[str, Any] = {"significant_height": height, "peak_period": period}
+    if not (height > 0.0 and period > 0.0):
+        waves.used |= {"gamma", "direction", "spread", "phaseSeed", "bem.option", "bem.count"}
+        if {"height", "period"} <= set(waves.entries):
+            text = f"waves of {height:g} m and {period:g} s: still water"
+            read.remarks.assumed(read.place(waves.line), text)
+        else:
+            text = "waves whose height or period was not read: still water"
+            read.remarks.left_out(read.place(waves.line), text)
+        return None
+    if spectrum in ("PM", "BS"):
+        return {"type": "bretschneider"} | keys
+    if spectrum == "JS":
+        gamma = waves.number_of("gamma", math.nan)
+        if not math.isfinite(gamma):  # IEC TS 62600-2, as WEC-Sim has it
+            ratio = period / math.sqrt(height) if height > 0.0 else 5.0
+            gamma = min(max(math.exp(5.75 - 1.15 * ratio), 1.0), 5.0)
+        return {"type": "jonswap"} | keys | {"gamma": gamma}
+    read.remarks.left_out(
+        read.place(waves.line_of("spectrumType")), f"spectrum {spectrum!r}: PM, JS and BS are read"
+    )
+    return None
+
+
+def _imported(waves: Item, read: InputFile) -> dict[str, Any] | None:
+    table = _data(waves, "spectrumFile", read)
+    if table is None:
+        return None
+    if table.shape[1] > 2:
+        read.remarks.left_out(
+            read.place(waves.line_of("spectrumFile")), "phases of the imported spectrum: a seed"
+        )
+    kept = table[:, 0] > 0.0
+    return {
+        "type": "table",
+        "frequency": table[kept, 0] * 2.0 * math.pi,
+        "density": np.maximum(table[kept, 1], 0.0) / (2.0 * math.pi),
+    }
+
+
+def _directions(
+    waves: Item, read: InputFile, first: dict[str, Any], spectrum: dict[str, Any]
+) -> list[tuple[dict[str, Any], str]]:
+    """One wave system for each direction, with its share of the energy."""
+    headings = waves.vector("direction", [0.0])
+    shares = waves.vector("spread", [1.0])
+    if shares.size != headings.size:
+        shares = np.full(headings.size, 1.0 / headings.size)
+        read.remarks.assumed(
+            read.place(waves.line_of("direction")), "as many spreads as directions: equal shares"
+        )
+    seed = int(waves.number_of("phaseSeed", 0.0)) or 1
+    option = waves.text("bem.option", "EqualEnergy")
+    extra: dict[str, Any] = {"seed": seed}
+    count = waves.number_of("bem.count", 0.0)
+    if count > 1.0:
+        extra["components"] = int(count)
+    elif option != "EqualEnergy":
+        extra["components"] = 1000
+    if option != "EqualEnergy":
+        extra["spacing"] = "frequency"
+    limits = waves.vector("bem.range", [])
+    if limits.size == 2:
+        extra["frequency_range"] = limits
+    read.remarks.assumed(
+        read.place(waves.line), f"random phases by seed {seed} of hydrodae, not those of MATLAB"
+    )
+    tables = []
+    for index, (heading, share) in enumerate(zip(headings, shares, strict=True)):
+        keys = first | spectrum | {"heading_deg": _turned(heading)} | extra
+        if headings.size > 1:
+            keys["name"] = f"{first['name']}_{index + 1}"
+            keys["seed"] = seed + index
+            if "density" in keys:
+                keys["density"] = keys["density"] * share
+            else:
+                keys["significant_height"] = keys["significant_height"] * math.sqrt(share)
+        note = "" if headings.size == 1 else f"{100 * share:g} % of the energy."
+        if spectrum["type"] == "bretschneider":
+            note = f"{note} PM of WEC-Sim has a peak period of its own: JONSWAP with gamma 1."
+        tables.append((keys, note.strip()))
+    return tables
+
+
+def _turned(heading: float) -> float:
+    return float((heading + 180.0) % 360.0 - 180.0)
+
+
+def _elevation(
+    waves: Item, read: InputFile, folder: Path, first: dict[str, Any]
+) -> list[tuple[dict[str, Any], str]]:
+    table = _data(waves, "elevationFile", read)
+    if table is None:
+        return []
+    time = np.linspace(table[0, 0], table[-1, 0], len(table))
+    values = np.interp(time, table[:, 0], table[:, 1])
+    file = f"{first['name']}.csv"
+    rows = "\n".join(f"{t:.9g},{z:.9g}" for t, z in zip(time - time[0], values, strict=True))
+    (folder / file).write_text(f"time,elevation\n{rows}\n", encoding="utf-8")
+    keys = first | {
+        "type": "measured",
+        "file": file,
+        "heading_deg": _turned(float(waves.vector("direction", [0.0])[0])),
+        "taper": min(30.0, 0.1 * float(time[-1] - time[0])),
+        "lost_variance": 0.5,
+    }
+    note = "The record fades at both ends over `taper`: give a longer record, or a shorter run."
+    return [(keys, note)]
+
+
+def _data(waves: Item, field: str, read: InputFile) -> Array | None:
+    """Columns of a file of numbers: MATLAB's .mat (to version 7), or text."""
+    name = waves.text(field)
+    place = read.place(waves.line_of(field))
+    path = read.path.parent / name.replace("\\", "/")
+    try:
+        table = _columns(path)
+    except (OSError, ValueError, NotImplementedError) as error:
+        read.remarks.left_out(place, f"{waves.title}.{field}: {name!r} cannot be read ({error})")
+        return None
+    return table
+
+
+def _columns(path: Path) -> Array:
+    if path.suffix.lower() == ".mat":
+        from scipy.io import loadmat
+
+        arrays = [v for k, v in loadmat(path).items() if not k.startswith("__")]
+        arrays = [a for a in arrays if isinstance(a, np.ndarray) and a.ndim == 2 and a.shape[1] > 1]
+        if not arrays:
+            raise ValueError("no table of two columns in it")
+        table = np.asarray(arrays[0], dtype=float)
+    else:
+        lines = path.read_text(encoding="utf-8", errors="replace").replace(",", " ").splitlines()
+        rows = []
+        for line in lines:
+            try:
+                rows.append([float(word) for word in line.split()])
+            except ValueError:
+                continue
+        rows = [row for row in rows if len(row) > 1]
+        if not rows:
+            raise ValueError("no table of two columns in it")
+        table = np.array([row[: len(rows[0])] for row in rows])
+    if len(table) < 4 or not np.isfinite(table).all():
+        raise ValueError("too few rows, or values that are not finite")
+    return table
+
+
+def _current(all_waves: list[Item], read: InputFile) -> Array | None:
+    for waves in all_waves:
+        option = int(waves.number_of("current.option", 3.0))
+        speed = waves.number_of("current.speed")
+        heading = math.radians(waves.number_of("current.direction"))
+        if option == 0 and speed:
+            return np.array([speed * math.cos(heading), speed * math.sin(heading), 0.0])
+        waves.used.add("current.depth")
+        if option in (1, 2) and speed:
+            read.remarks.left_out(
+                read.place(waves.line_of("current.option")), "current that varies with the depth"
+            )
+    return None
+
+
+def add_solver(text: CaseText, read: InputFile) -> None:
+    """Add [solver] and [output]."""
+    simu = read.get("simu") or Item("simu", 1)
+    end = simu.number_of("endTime", 400.0)
+    start = simu.number_of("startTime", 0.0)
+    if start:
+        read.remarks.assumed(read.place(simu.line_of("startTime")), f"starts at 0, not {start:g} s")
+    method = simu.text("solver", "ode4")
+    step = simu.number_of("dt", 0.1)
+    text.table(
+        "[solver]",
+        {"end_time": end},
+        f"{method} with dt = {step:g} s in WEC-Sim; here the steps are chosen by their error.",
+    )
+    text.table("[output]", {"step": simu.number_of("dtOut", step)})
+    for field in IDLE:
+        if field in simu.entries:
+            simu.used.add(field)
+            read.remarks.not_needed(read.place(simu.line_of(field)), f"simu.{field}")
+    for field in ("mcrMatFile", "mcrExcelFile", "mcrCaseFile"):
+        if simu.get(field):
+            read.remarks.left_out(
+                read.place(simu.line_of(field)), f"simu.{field}: runs of many cases; hydrodae sweep"
+            )

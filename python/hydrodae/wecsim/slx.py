@@ -1,0 +1,257 @@
+"""Blocks of a Simulink model and the lines between them, from its .slx file (a zip of XML)."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from xml.etree import ElementTree
+
+from hydrodae.errors import CaseError
+
+#: Largest file within a model that is read [bytes]; those of WEC-Sim are below 2 MB.
+LARGEST = 200_000_000
+
+#: Joints of Simscape, and the constraint of WEC-Sim that each is the core of.
+_JOINTS = {
+    "sm_lib/Joints/Weld Joint": "Fixed",
+    "sm_lib/Joints/Prismatic Joint": "Translational",
+    "sm_lib/Joints/Revolute Joint": "Rotational",
+    "sm_lib/Joints/Planar Joint": "Floating (3DOF)",
+    "sm_lib/Joints/6-DOF Joint": "Floating (6DOF)",
+    "sm_lib/Joints/Spherical Joint": "Spherical",
+    "sm_lib/Joints/Universal Joint": "Universal",
+}
+
+Port = tuple[str, str, str]  # path of the system, block, port such as rconn:1
+
+
+@dataclass
+class Block:
+    """A block of a library, or of Simulink.
+
+    Attributes
+    ----------
+    name : str
+        With the names of the subsystems around it, separated by /.
+    own : str
+        Without them.
+    library : str
+        First part of its source, such as WECSim_Lib_PTOs; empty for blocks of Simulink itself.
+    kind : str
+        Last part of its source, such as "Translational PTO", or its type.
+    parameters : dict
+        Text by name, of its mask too.
+    nets : dict
+        Number of the net of each physical port (lconn:1, rconn:1).
+    feeds : list of str
+        Names of the blocks whose signals enter it.
+    ports : dict
+        Physical ports by the names that a copy of a library block gives them, such as B and F.
+    """
+
+    name: str
+    own: str
+    library: str
+    kind: str
+    parameters: dict[str, str] = field(default_factory=dict)
+    nets: dict[str, int] = field(default_factory=dict)
+    feeds: list[str] = field(default_factory=list)
+    ports: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class Model:
+    """Blocks of a model, subsystems taken apart; `path` is the file."""
+
+    path: Path
+    blocks: list[Block]
+
+    def place(self, block: Block) -> str:
+        """Model and block, as remarks have it."""
+        return f"{self.path.name}, block {block.name!r}"
+
+
+def read_slx(path: Path) -> Model:
+    """Read the topology of a model.
+
+    Raises
+    ------
+    CaseError
+        There is no such file, or it is no .slx file (an old .mdl file: save it as .slx).
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return _Reader(path, archive).run()
+    except FileNotFoundError:
+        raise CaseError(f"{path}: there is no such file") from None
+    except (zipfile.BadZipFile, OSError) as error:
+        why = "an .mdl file? save it as .slx in Simulink" if path.suffix == ".mdl" else str(error)
+        raise CaseError(f"{path}: no .slx file of Simulink ({why})") from None
+    except (ElementTree.ParseError, KeyError, ValueError) as error:
+        raise CaseError(f"{path}: its XML is damaged ({error})") from None
+
+
+def _values(element: ElementTree.Element) -> dict[str, str]:
+    return {p.get("Name", ""): p.text or "" for p in element.findall("P")}
+
+
+class _Reader:
+    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+        self.path, self.archive = path, archive
+        self.parents: dict[Port, Port] = {}
+        self.blocks: dict[tuple[str, str], Block] = {}
+        self.ports: list[Port] = []
+        self.signals: list[tuple[Port, Port]] = []
+
+    def run(self) -> Model:
+        root = self._xml("simulink/blockdiagram.xml")
+        model = root.find("Model")
+        model = root.find("Library") if model is None else model
+        system = None if model is None else model.find("System")
+        if system is None:
+            raise CaseError(f"{self.path}: there is no model in this file")
+        self._system(system, "", "", "simulink")
+        self._close()
+        return Model(self.path, list(self.blocks.values()))
+
+    def _xml(self, name: str) -> ElementTree.Element:
+        info = self.archive.getinfo(name)
+        if info.file_size > LARGEST:
+            raise CaseError(f"{self.path}: {name} is too large ({info.file_size} bytes)")
+        text = self.archive.read(info)
+        if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
+            raise CaseError(f"{self.path}: {name} declares entities, which no model does")
+        return ElementTree.fromstring(text)
+
+    def _system(self, system: ElementTree.Element, path: str, names: str, folder: str) -> None:
+        """Enter a system; path: block numbers of the subsystems, names: their names."""
+        reference = system.get("Ref")
+        if reference is not None:
+            home = folder if folder.endswith("systems") else f"{folder}/systems"
+            system, folder = self._xml(str(PurePosixPath(home) / f"{reference}.xml")), home
+        inside: list[tuple[str, str, str]] = []
+        for element in system.findall("Block"):
+            values = _values(element)
+            if values.get("Commented") in ("on", "through"):
+                continue
+            self._block(element, values, path, names, folder)
+            if element.get("BlockType") == "PMIOPort":
+                side = values.get("Side", "Left").lower()
+                inside.append((side, values.get("Port", "1"), element.get("SID", "")))
+        for line in system.findall("Line"):
+            self._line(line, path)
+        if path:
+            self._open(path, inside)
+
+    def _block(
+        self,
+        element: ElementTree.Element,
+        values: dict[str, str],
+        path: str,
+        names: str,
+        folder: str,
+    ) -> None:
+        sid = element.get("SID", "")
+        own = " ".join((element.get("Name") or "").split())
+        name = names + own
+        child = element.find("System")
+        mask = {
+            p.get("Name", ""): p.findtext("Value") or ""
+            for p in element.findall("Mask/MaskParameter")
+        }
+        source = " ".join(values.get("SourceBlock", "").split())
+        if child is not None and not source and not _is_wecsim(mask):
+            self._system(child, f"{path}/{sid}", f"{name}/", folder)
+            return
+        instance = element.find("InstanceData")
+        parameters = values | mask | ({} if instance is None else _values(instance))
+        library, _, rest = source.partition("/")
+        kind = rest.rsplit("/", 1)[-1] or element.get("BlockType", "")
+        block = self.blocks[path, sid] = Block(name, own, library, kind, parameters)
+        if child is not None and not source:  # a copy of a library block whose link was broken
+            block.library = "WECSim_Lib"
+            self._copy(block, child, folder)
+
+    def _copy(self, block: Block, system: ElementTree.Element, folder: str) -> None:
+        """Find what a copy of a block of WEC-Sim is by its joint, and where its ports are."""
+        if (reference := system.get("Ref")) is not None:
+            home = folder if folder.endswith("systems") else f"{folder}/systems"
+            system = self._xml(f"{home}/{reference}.xml")
+        counts = {"left": 0, "right": 0}
+        ports = [(e, _values(e)) for e in system.findall("Block")]
+        ports.sort(key=lambda pair: int(pair[1].get("Port", "1") or 1))
+        actuated = any(e.get("BlockType") == "Inport" for e, _ in ports)
+        block.kind = "Rigid Body" if "body" in block.parameters else block.kind
+        for element, values in ports:
+            if element.get("BlockType") == "PMIOPort":
+                side = values.get("Side", "Left").lower()
+                counts[side] += 1
+                name = (element.get("Name") or "").split()[0]
+                block.ports[name] = f"{side[0]}conn:{counts[side]}"
+            source = " ".join(values.get("SourceBlock", "").split())
+            kind = _JOINTS.get(source)
+            if kind is not None and "body" not in block.parameters:
+                block.kind = f"{kind} PTO" if "pto" in block.parameters else kind
+                block.kind += " Actuation Force" if actuated else ""
+
+    def _line(self, line: ElementTree.Element, path: str) -> None:
+        ends = [self._port(path, p) for p in line.iter("P") if p.get("Name") in ("Src", "Dst")]
+        found = [end for end in ends if end is not None]
+        if not found:
+            return
+        if line.get("LineType") == "Connection" or "conn" in found[0][2]:
+            for end in found:
+                self.ports.append(end)
+                self._join(found[0], end)
+        else:
+            self.signals += [(found[0], end) for end in found[1:]]
+
+    def _port(self, path: str, element: ElementTree.Element) -> Port | None:
+        sid, hash_, port = (element.text or "").partition("#")
+        return (path, sid, port) if hash_ else None
+
+    def _open(self, path: str, inside: list[tuple[str, str, str]]) -> None:
+        """Join the ports of a subsystem with the blocks that stand for them inside."""
+        outer, _, sid = path.rpartition("/")
+        for side in ("left", "right"):
+            own = sorted((int(p), s) for where, p, s in inside if where == side)
+            for count, (_, port_block) in enumerate(own, 1):
+                self._join((outer, sid, f"{side[0]}conn:{count}"), (path, port_block, "rconn:1"))
+
+    def _root(self, port: Port) -> Port:
+        while (parent := self.parents.get(port, port)) != port:
+            port = parent
+        return port
+
+    def _join(self, first: Port, second: Port) -> None:
+        a, b = self._root(first), self._root(second)
+        if a != b:
+            self.parents[b] = a
+
+    def _close(self) -> None:
+        """Number the nets and enter them, and what feeds what, at the blocks."""
+        numbers: dict[Port, int] = {}
+        for port in self.ports:
+            net = numbers.setdefault(self._root(port), len(numbers))
+            block = self.blocks.get(port[:2])
+            if block is not None:
+                block.nets[port[2]] = net
+        for source, target in self.signals:
+            feeding, fed = self.blocks.get(source[:2]), self.blocks.get(target[:2])
+            if feeding is not None and fed is not None:
+                fed.feeds.append(feeding.name)
+
+
+def _is_wecsim(mask: dict[str, str]) -> bool:
+    """Whether a masked subsystem is a copy of a block of WEC-Sim."""
+    for key in ("body", "constraint", "pto", "mooring"):
+        if mask.get(key, "").startswith(f"{key}("):
+            return True
+    return False
+
+
+def wecsim_blocks(model: Model) -> Iterator[Block]:
+    """Blocks of the libraries of WEC-Sim."""
+    return (block for block in model.blocks if block.library.startswith("WECSim_Lib"))

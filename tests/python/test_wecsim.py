@@ -1,0 +1,451 @@
+"""Runs of WEC-Sim become cases: input files, Simulink models and databases made here."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+import pytest
+
+import hydrodae
+from hydrodae import hdb
+from hydrodae.commands import cli
+from hydrodae.errors import CaseError
+from hydrodae.wecsim import convert
+from hydrodae.wecsim.m_file import read_input
+from hydrodae.wecsim.slx import read_slx
+
+LIBRARIES = {
+    "Rigid Body": "WECSim_Lib_Body_Elements/Rigid Body",
+    "Global Reference Frame": "WECSim_Lib_Frames/Global Reference Frame",
+    "Fixed": "WECSim_Lib_Constraints/Fixed",
+    "Floating (3DOF)": "WECSim_Lib_Constraints/Floating (3DOF)",
+    "Translational": "WECSim_Lib_Constraints/Translational",
+    "Translational PTO": "WECSim_Lib_PTOs/Translational PTO",
+    "Translational PTO Actuation Force": "WECSim_Lib_PTOs/Translational PTO&#xA;Actuation Force",
+    "Rotational PTO": "WECSim_Lib_PTOs/Rotational PTO",
+    "MooringMatrix": "WECSim_Lib_Moorings/MooringMatrix",
+    "Cable": "WECSim_Lib_Cables/Cable",
+}
+
+
+def write_slx(path: Path, blocks: list[tuple[str, str, str]], lines: list[str]) -> None:
+    """A model of blocks (name, kind, mask parameter such as body(1)) and lines "1r-2l-3r".
+
+    An end of a line is the number of a block from 1 on, and its left or right port.
+    """
+    text = "<System>"
+    for number, (name, kind, parameter) in enumerate(blocks, 1):
+        mask = parameter.partition("(")[0]
+        text += f'<Block BlockType="Reference" Name={quoteattr(name)} SID="{number}">'
+        text += f'<P Name="SourceBlock">{LIBRARIES[kind]}</P><InstanceData>'
+        text += f'<P Name="{mask}">{parameter}</P></InstanceData></Block>'
+    for line in lines:
+        ends = [f"{end[:-1]}#{end[-1]}conn:1" for end in line.split("-")]
+        text += f'<Line LineType="Connection"><P Name="Dst">{ends[-1]}</P>'
+        text += "".join(f'<Branch><P Name="Src">{end}</P></Branch>' for end in ends[:-1])
+        text += "</Line>"
+    with zipfile.ZipFile(path, "w") as archive:
+        root = '<ModelInformation><Model><System Ref="system_root"/></Model></ModelInformation>'
+        archive.writestr("simulink/blockdiagram.xml", root)
+        archive.writestr("simulink/systems/system_root.xml", text + "</System>")
+
+
+def write_database(folder: Path, kind: str) -> hdb.HydroDatabase:
+    """Database of a starter, in the place of that of BEMIO (it has some coordinates only)."""
+    source = Path(hydrodae.__file__).parent / "starters" / kind / "hydro.h5"
+    database = hdb.read(source)
+    (folder / "hydroData").mkdir(parents=True)
+    database.write(folder / "hydroData" / "device.h5")
+    return database
+
+
+@pytest.fixture(scope="module")
+def cylinders(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two cylinders of radius 5 m and draught 4 m as BEMIO writes them."""
+    water = hdb.Water(omega=np.linspace(0.2, 2.6, 20), depth=50.0)
+    places = {"one": (0.0, 0.0), "two": (20.0, 0.0)}
+    database, _ = hdb.cylinders(places, hdb.Cylinder(5.0, 4.0, -1.5), water, orders=2, modes=6)
+    path = tmp_path_factory.mktemp("bemio") / "device.h5"
+    hdb.export(database, path)
+    return path
+
+
+TWO_BODIES = [
+    ("Float", "Rigid Body", "body(1)"),
+    ("Spar/Plate", "Rigid Body", "body(2)"),
+    ("Global Reference Frame", "Global Reference Frame", "simu"),
+    ("Floating (3DOF)", "Floating (3DOF)", "constraint(1)"),
+    ("Translational PTO", "Translational PTO", "pto(1)"),
+]
+# ground - constraint - spar - power take-off, whose follower is on its left, - float
+TWO_BODY_LINES = ["3r-4l", "4r-2r-5r", "5l-1r"]
+TWO_BODY_INPUT = """
+%% Simulation
+simu = simulationClass();
+simu.simMechanicsFile = 'model.slx';
+simu.rho = 1025;  simu.rampTime = 20;
+simu.endTime = 60; simu.dt = 0.1;
+simu.b2b = 1;
+waves = waveClass('regular');      % waves = waveClass('irregular');
+waves.height = 2.5; waves.period = 8;
+body(1) = bodyClass('hydroData/device.h5');
+body(1).mass = 'equilibrium';
+body(1).inertia = [1 2 3]*1e6;
+body(2) = bodyClass('hydroData/device.h5');
+body(2).mass = 450000;
+body(2).inertia = [4e6, 5e6, ...
+                   6e6];
+body(2).quadDrag.drag(3,3) = 1e5;
+constraint(1) = constraintClass('Constraint1');
+constraint(1).location = [0 0 0];
+pto(1) = ptoClass('PTO1');
+pto(1).stiffness = 1e4;
+pto(1).pretension = 5e3;
+pto(1).damping = 1.2e6;
+pto(1).location = [0 0 -2];
+"""
+
+
+@pytest.fixture
+def two_bodies(tmp_path: Path, cylinders: Path) -> Path:
+    folder = tmp_path / "source"
+    (folder / "hydroData").mkdir(parents=True)
+    (folder / "hydroData" / "device.h5").write_bytes(cylinders.read_bytes())
+    write_slx(folder / "model.slx", TWO_BODIES, TWO_BODY_LINES)
+    (folder / "wecSimInputFile.m").write_text(TWO_BODY_INPUT)
+    return folder
+
+
+def append(folder: Path, text: str) -> None:
+    with (folder / "wecSimInputFile.m").open("a") as file:
+        file.write(text)
+
+
+def tables(folder: Path) -> dict:
+    from hydrodae.case.contents import case_tables
+
+    return case_tables(hydrodae.Case.read(folder / "case.toml"))
+
+
+def left_out(converted) -> str:
+    return "\n".join(map(str, converted.remarks.of("left out")))
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2*pi/8", np.pi / 4),
+        ("[1 -2]", [1, -2]),
+        ("[1 - 2]", [-1]),
+        ("[1, 2; 3 4]", [1, 2, 3, 4]),
+        ("[1 2\n 3 4]'", [1, 3, 2, 4]),
+        ("-2^2", -4),
+        ("30*pi/180 % degrees", np.pi / 6),
+        ("sind(30)", 0.5),
+        ("0:0.5:1", [0, 0.5, 1]),
+        ("diag([1 2])", [1, 0, 0, 2]),
+        ("2*eye(2)", [2, 0, 0, 2]),
+        ("1e3*[1;2]", [1000, 2000]),
+        ("zeros(1,2)", [0, 0]),
+        ("a(2) + a(end_)", None),
+        ("b.c/2", 3.5),
+        ("a(1,2)", 20),
+        ("5.", 5),
+        ("-[1 2]+[3 4]", [2, 2]),
+    ],
+)
+def test_expressions_have_the_values_of_matlab(text: str, value, tmp_path: Path) -> None:
+    file = tmp_path / "wecSimInputFile.m"
+    file.write_text(f"a = [10 20 30]; b.c = 7;\nsimu = simulationClass();\nsimu.x = {text};\n")
+    read = read_input(file)
+    simu = read.get("simu")
+    assert simu is not None
+    if value is None:
+        assert [r.place for r in read.remarks.of("left out")] == ["wecSimInputFile.m:3"]
+    else:
+        assert read.remarks.items == []
+        np.testing.assert_allclose(np.ravel(simu.get("x")), np.ravel(value), atol=1e-14)
+
+
+def test_statements_that_are_not_understood_are_listed_with_their_lines(tmp_path: Path) -> None:
+    file = tmp_path / "wecSimInputFile.m"
+    file.write_text(
+        "%{\nsimu = broken\n%}\n"
+        "simu = simulationClass();\n"
+        "load('data.mat')\n"
+        "if simu.rho == 1000\n  simu.dt = 0.2;\nelse\n  simu.dt = 0.3;\nend\n"
+        "for i = 1:3\n  simu.dt = i;\nend\n"
+        "body(1).mass = someFunction(3);\n"
+        "s = 'it''s % no comment';\n"
+    )
+    read = read_input(file)
+    simu = read.get("simu")
+    assert simu is not None
+    assert simu.get("dt") == 0.2
+    assert read.variables["s"].value == "it's % no comment"
+    lines = [r.place.partition(":")[2] for r in read.remarks.of("left out")]
+    assert lines == ["5", "11", "14"]
+
+
+def test_names_of_version_4_are_read(tmp_path: Path) -> None:
+    file = tmp_path / "wecSimInputFile.m"
+    file.write_text(
+        "pto(1) = ptoClass('PTO1');\npto(1).k = 3; pto(1).c = 4; pto(1).loc = [1 2 3];\n"
+    )
+    pto = read_input(file).get("pto")
+    assert pto is not None
+    assert pto.get("stiffness") == 3.0
+    assert pto.get("damping") == 4.0
+    assert pto.vector("location", []).tolist() == [1.0, 2.0, 3.0]
+
+
+def test_lines_of_a_model_join_ports_through_subsystems(tmp_path: Path) -> None:
+    """The body stands in a subsystem whose one port is on its left."""
+    path = tmp_path / "model.slx"
+    body = '<Block BlockType="Reference" Name="Buoy" SID="7"><P Name="SourceBlock">'
+    body += 'WECSim_Lib/Body Elements/Rigid Body</P><P Name="body">body(1)</P></Block>'
+    port = '<Block BlockType="PMIOPort" Name="In" SID="8"><P Name="Side">Left</P></Block>'
+    line = (
+        '<Line LineType="Connection"><P Name="Src">7#rconn:1</P><P Name="Dst">8#rconn:1</P></Line>'
+    )
+    frame = '<Block BlockType="Reference" Name="Frame" SID="2"><P Name="SourceBlock">'
+    frame += "WECSim_Lib/Frames/Global Reference Frame</P></Block>"
+    gone = frame.replace("</Block>", '<P Name="Commented">on</P></Block>').replace('"2"', '"3"')
+    outer = '<Block BlockType="SubSystem" Name="Sub" SID="1"><System>'
+    outer += f"{body}{port}{line}</System></Block>"
+    join = (
+        '<Line LineType="Connection"><P Name="Src">1#lconn:1</P><P Name="Dst">2#rconn:1</P></Line>'
+    )
+    with zipfile.ZipFile(path, "w") as archive:
+        text = f"<M><Model><System>{outer}{frame}{gone}{join}</System></Model></M>"
+        archive.writestr("simulink/blockdiagram.xml", text)
+    blocks = {block.name: block for block in read_slx(path).blocks}
+    assert "Frame" in blocks
+    assert len([b for b in blocks.values() if b.kind == "Global Reference Frame"]) == 1
+    assert blocks["Sub/Buoy"].nets["rconn:1"] == blocks["Frame"].nets["rconn:1"]
+
+
+def test_two_bodies_become_a_case(two_bodies: Path, tmp_path: Path) -> None:
+    converted = convert(two_bodies, tmp_path / "case")
+    assert left_out(converted) == ""
+    found = tables(tmp_path / "case")
+    bodies = {body["name"]: body for body in found["body"]}
+    assert set(bodies) == {"float", "spar_plate"}
+    volume = np.pi * 5.0**2 * 4.0
+    assert bodies["float"]["mass"] == pytest.approx(1025.0 * volume, rel=1e-6)
+    assert bodies["spar_plate"]["mass"] == 450000.0
+    assert bodies["spar_plate"]["inertia"] == [4e6, 5e6, 6e6]
+    assert bodies["float"]["motion"] == bodies["spar_plate"]["motion"] == "planar"
+    assert bodies["float"]["center_of_gravity"] == pytest.approx([0.0, 0.0, -1.5])
+    (joint,) = found["joint"]
+    assert (joint["type"], joint["body_a"], joint["body_b"]) == (
+        "prismatic",
+        "spar_plate",
+        "float",
+    )
+    assert joint["point"] == [0.0, 0.0, -2.0]
+    forces = {force["type"]: force for force in found["force"]}
+    assert forces["pto_linear"]["damping"] == 1.2e6
+    # WEC-Sim makes pretension by the place where the spring is slack
+    assert forces["pto_linear"]["neutral"] == pytest.approx(-0.5)
+    assert forces["viscous_damping"]["quadratic"] == [0.0, 0.0, 1e5, 0.0, 0.0, 0.0]
+    assert found["hydro"]["radiation"] == "constant"
+    assert found["hydro"]["frequency"] == pytest.approx(2.0 * np.pi / 8.0)
+    assert found["solver"]["end_time"] == 60.0
+    results = hydrodae.run(tmp_path / "case" / "case.toml", set={"solver.end_time": 20.0})
+    assert results.status == "completed"
+
+
+def write_one_body(source: Path, waves: str, pto: str) -> hdb.HydroDatabase:
+    """A buoy on a power take-off against the ground."""
+    database = write_database(source, "point_absorber")
+    blocks = [
+        ("Buoy", "Rigid Body", "body(1)"),
+        ("World", "Global Reference Frame", "simu"),
+        ("PTO", "Translational PTO", "pto(1)"),
+    ]
+    write_slx(source / "one.slx", blocks, ["2r-3r", "3l-1r"])
+    (source / "wecSimInputFile.m").write_text(f"""
+simu = simulationClass(); simu.simMechanicsFile = 'one.slx'; simu.rho = 1025;
+simu.endTime = 200; simu.rampTime = 60;
+{waves}
+body(1) = bodyClass('hydroData\\device.h5');
+body(1).mass = 'equilibrium'; body(1).inertia = [1e6 1e6 1e6];
+pto(1) = ptoClass('PTO1'); pto(1).location = [0 0 0];
+{pto}
+""")
+    return database
+
+
+def test_heave_of_one_body_is_that_of_its_tables(tmp_path: Path) -> None:
+    """At a frequency of the table."""
+    source = tmp_path / "source"
+    damping, stiffness, height, omega = 1.5e5, 2e4, 1.0, 1.05
+    database = write_one_body(
+        source,
+        f"waves = waveClass('regular'); waves.height = {height}; waves.period = 2*pi/{omega};",
+        f"pto(1).damping = {damping}; pto(1).stiffness = {stiffness};",
+    )
+    assert database.omega[6] == pytest.approx(omega)
+    convert(source, tmp_path / "case")
+    assert tables(tmp_path / "case")["body"][0]["motion"] == "heave"
+    results = hydrodae.run(tmp_path / "case" / "case.toml")
+    time, heave = np.asarray(results.time), np.asarray(results["joints/pto1/displacement"]).ravel()
+    last = time > 200.0 - 4.0 * np.pi / omega
+    statics = database.bodies["buoy"].hydrostatics
+    assert statics is not None
+    mass = 1025.0 * statics.displaced_volume + database.added_mass[6, 0, 0]
+    spring = 1025.0 * database.gravity * statics.waterplane_area + stiffness
+    damped = database.radiation_damping[6, 0, 0] + damping
+    force = abs(database.excitation[6, 0, 0]) * height / 2.0
+    expected = force / abs(spring - omega**2 * mass + 1j * omega * damped)
+    assert np.ptp(heave[last]) / 2.0 == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_flap_on_a_fixed_base_is_planar(tmp_path: Path) -> None:
+    source = tmp_path / "source"
+    write_database(source, "flap")
+    blocks = [
+        ("Flap", "Rigid Body", "body(1)"),
+        ("Base", "Rigid Body", "body(2)"),
+        ("World", "Global Reference Frame", "simu"),
+        ("Fixed", "Fixed", "constraint(1)"),
+        ("Rotational PTO", "Rotational PTO", "pto(1)"),
+    ]
+    write_slx(source / "flap.slx", blocks, ["3r-4l", "4r-2r-5l", "5r-1r"])
+    (source / "wecSimInputFile.m").write_text("""
+simu = simulationClass(); simu.simMechanicsFile = 'flap.slx'; simu.rho = 1025; simu.endTime = 20;
+waves = waveClass('irregular'); waves.height = 2; waves.period = 9; waves.spectrumType = 'PM';
+waves.direction = [0 200]; waves.spread = [0.25 0.75]; waves.phaseSeed = 4;
+body(1) = bodyClass('hydroData/device.h5');
+body(1).mass = 150000; body(1).inertia = [2e6 2e6 2e6];
+body(2) = bodyClass(''); body(2).nonHydro = 1; body(2).name = 'base';
+body(2).mass = 999; body(2).inertia = [999 999 999];
+body(2).centerGravity = [0 0 -10]; body(2).volume = 0;
+constraint(1) = constraintClass('Constraint1'); constraint(1).location = [0 0 -10];
+pto(1) = ptoClass('PTO1'); pto(1).damping = 1e4; pto(1).stiffness = 1e5;
+pto(1).equilibriumPosition = 3;
+pto(1).hardStops.upperLimitSpecify = 'on'; pto(1).hardStops.upperLimitBound = 40;
+pto(1).location = [0 0 -9];
+""")
+    converted = convert(source, tmp_path / "case")
+    assert left_out(converted) == ""
+    found = tables(tmp_path / "case")
+    motions = {body["name"]: body.get("motion", "rigid") for body in found["body"]}
+    assert motions == {"flap": "planar", "base": "fixed"}
+    joint = found["joint"][0]
+    assert (joint["type"], joint["body_a"], joint["axis"]) == ("revolute", "ground", [0, 1, 0])
+    forces = {force["type"]: force for force in found["force"]}
+    # WEC-Sim's hinge turns about -y; degrees of its springs and stops are degrees
+    assert forces["pto_linear"]["neutral"] == pytest.approx(-np.radians(3.0))
+    assert forces["end_stop"]["lower_deg"] == pytest.approx(-40.0)
+    assert forces["end_stop"]["stiffness"] == pytest.approx(1e6 * 180.0 / np.pi)
+    heights = [wave["significant_height"] for wave in found["wave"]]
+    assert heights == pytest.approx([1.0, 2.0 * np.sqrt(0.75)])
+    assert [wave["heading_deg"] for wave in found["wave"]] == [0.0, -160.0]
+    assert [wave["seed"] for wave in found["wave"]] == [4, 5]
+    assert found["hydro"]["radiation"] == "exponential"
+    assert hdb.read(tmp_path / "case" / "hydro.h5").memory
+
+
+def test_a_mooring_matrix_moves_to_the_centre_of_gravity(two_bodies: Path, tmp_path: Path) -> None:
+    blocks = [*TWO_BODIES, ("Mooring", "MooringMatrix", "mooring(1)")]
+    write_slx(two_bodies / "model.slx", blocks, ["3r-4l", "4r-2r-5r-6l", "5l-1r"])
+    append(
+        two_bodies,
+        "mooring(1) = mooringClass('Lines'); mooring(1).location = [0 0 8.5];\n"
+        "mooring(1).matrix.stiffness = zeros(6,6); mooring(1).matrix.stiffness(1,1) = 1e5;\n"
+        "mooring(1).matrix.preTension = [0 0 -2e4 0 0 0];\n",
+    )
+    convert(two_bodies, tmp_path / "case")
+    mooring = {f["type"]: f for f in tables(tmp_path / "case")["force"]}["mooring_matrix"]
+    stiffness = np.array(mooring["stiffness"])
+    arm = 10.0  # above the centre of gravity, at -1.5: pitch moves the point by it
+    assert stiffness[0, 0] == 1e5
+    assert stiffness[0, 4] == stiffness[4, 0] == pytest.approx(1e5 * arm)
+    assert stiffness[4, 4] == pytest.approx(1e5 * arm**2)
+    assert mooring["pretension"] == pytest.approx(
+        [0, 0, -2e4, 0, -4e5, 0]
+    )  # at x = 0, the body at 20
+
+
+def test_what_the_case_does_not_hold_is_listed(two_bodies: Path, tmp_path: Path, capsys) -> None:
+    blocks = [*TWO_BODIES, ("Rope", "Cable", "cable(1)")]
+    blocks[4] = ("PTO", "Translational PTO Actuation Force", "pto(1)")
+    write_slx(two_bodies / "model.slx", blocks, ["3r-4l", "4r-2r-5l-6l", "5r-1r"])
+    append(
+        two_bodies,
+        "body(1).nonlinearHydro = 2;\nbody(1).unknownField = 3;\nbody(1).viz.color = [1 0 0];\n"
+        "ptoSim(1) = ptoSimClass('motor');\nsimu.mcrMatFile = 'mcr.mat';\n",
+    )
+    lines = TWO_BODY_INPUT.count("\n")
+    case = str(tmp_path / "case")
+    assert cli.main(["new", case, "--from", "wecsim", str(two_bodies)]) == 0
+    out = capsys.readouterr().out
+    assert f"wecSimInputFile.m:{lines + 1}: body(1): nonlinear hydrodynamics" in out
+    assert f"wecSimInputFile.m:{lines + 2}: body(1).unknownField" in out
+    assert f"body(1).viz.color ({lines + 3})" in out
+    assert f"wecSimInputFile.m:{lines + 4}: ptoSim(1): PTO-Sim" in out
+    assert f"wecSimInputFile.m:{lines + 5}: simu.mcrMatFile" in out
+    assert "model.slx, block 'Rope': Cables Cable" in out
+    assert "model.slx, block 'PTO': force of pto(1) from Simulink" in out
+    assert f"next: hydrodae run {case}" in out
+
+
+def test_results_beside_a_missing_database_are_read(two_bodies: Path, tmp_path: Path) -> None:
+    data = two_bodies / "hydroData"
+    (data / "raw.h5").write_bytes((data / "device.h5").read_bytes())
+    (data / "device.h5").write_text("version https://git-lfs.github.com/spec/v1\n")
+    converted = convert(two_bodies, tmp_path / "case")
+    assert "is a pointer of Git LFS; read raw.h5 beside it" in "\n".join(
+        map(str, converted.remarks.of("assumed"))
+    )
+    (data / "raw.h5").unlink()
+    with pytest.raises(CaseError, match="Git LFS"):
+        convert(two_bodies, tmp_path / "second")
+    assert not (tmp_path / "second").exists()
+
+
+def test_an_imported_elevation_becomes_a_file(tmp_path: Path) -> None:
+    source = tmp_path / "source"
+    text = "waves = waveClass('elevationImport'); waves.elevationFile = 'eta.txt';"
+    write_one_body(source, text, "pto(1).damping = 1e5;")
+    time = np.arange(0.0, 300.0, 0.25)
+    table = np.column_stack([time, 0.5 * np.cos(0.8 * time)])
+    np.savetxt(source / "eta.txt", table)
+    convert(source, tmp_path / "case")
+    (wave,) = tables(tmp_path / "case")["wave"]
+    assert wave["type"] == "measured"
+    data = np.loadtxt(tmp_path / "case" / wave["file"], delimiter=",", skiprows=1)
+    np.testing.assert_allclose(data, table, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("simu.simMechanicsFile = 'other.slx';", "other.slx: there is no such file"),
+        ("body(1).mass = unknown;", "mass could not be read"),
+        ("body(2) = bodyClass('hydroData/second.h5'); body(2).mass = 1;", "2 databases"),
+    ],
+)
+def test_what_cannot_be_converted_is_one_error(
+    change: str, message: str, two_bodies: Path, tmp_path: Path
+) -> None:
+    path = two_bodies / "wecSimInputFile.m"
+    text = path.read_text()
+    if "mass = unknown" in change:
+        text = text.replace("body(1).mass = 'equilibrium';", "")
+    path.write_text(f"{text}{change}\n")
+    with pytest.raises(CaseError, match=message):
+        convert(two_bodies, tmp_path / "case")
+    assert not (tmp_path / "case").exists()
+
+
+def test_command_wants_one_folder_and_a_known_program(tmp_path: Path, capsys) -> None:
+    assert cli.main(["new", "a", "b", "--from", "wecsim", str(tmp_path)]) == 2
+    assert cli.main(["new", "a", "--from", "other", str(tmp_path)]) == 2
+    assert cli.main(["new", str(tmp_path / "a"), "--from", "wecsim", str(tmp_path)]) == 2
+    assert "there is no wecSimInputFile.m" in capsys.readouterr().err
