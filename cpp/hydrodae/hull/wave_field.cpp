@@ -58,47 +58,109 @@ struct Sums {
   Block xs = Block::Zero(), ys = Block::Zero(), ss = Block::Zero();
 };
 
+/// Columns of complex amplitudes, real and imaginary part: of the elevation; of e^{ks} and e^{-ks}
+/// in q; of both in the potential.
+enum Part { elevation_part = 0, up_part = 2, back_part = 4, up_flow = 6, back_flow = 8, parts = 10 };
+
+/// Re and Im of a e^{-i angle}; Im is the derivative of Re by the angle.
+struct Turned {
+  Block re, im;
+};
+Turned turned(const WaveView& view, std::size_t node, int part, const Block& c, const Block& s) {
+  const auto j = static_cast<Eigen::Index>(node);
+  const double re = view.nodes(j, part), im = view.nodes(j, part + 1);
+  return {re * c + im * s, im * c - re * s};
+}
+
+void add(const WaveView& view, const Node& node, std::size_t j, const Block& c, const Block& s,
+         Surface& surface) {
+  const Turned wave = turned(view, j, elevation_part, c, s);
+  surface.eta += wave.re;
+  surface.by_x += node.kx * wave.im;
+  surface.by_y += node.ky * wave.im;
+}
+
 } // namespace
 
-WaveField::WaveField(const Water& water, const std::vector<Wave>& waves) : water_(water) {
+WaveField::WaveField(const Water& water, const std::vector<Wave>& waves, double reach)
+    : water_(water), reach_(reach) {
+  double most = 0.0, square = 0.0;
   for (const Wave& w : waves) {
     if (!(w.omega > 0.0 && w.wavenumber > 0.0))
       throw Error("a wave needs a frequency and a wavenumber above zero");
-    const double kd = w.wavenumber * water.depth;
+    most += std::abs(w.amplitude);
+    square += w.amplitude * w.amplitude;
     // Beyond, e^{-kd} is less than what rounding leaves.
-    const double reflection = kd < 40.0 ? std::exp(-2.0 * kd) : 0.0;
-    terms_.push_back({w.omega, w.phase, w.amplitude, w.wavenumber,
-                      w.wavenumber * std::cos(w.heading), w.wavenumber * std::sin(w.heading),
-                      reflection, water.gravity / w.omega});
+    finite_ |= w.wavenumber * water.depth < 40.0;
   }
+  // Wheeler's heights are farther from the origin by the elevation: of irregular waves less than 8
+  // standard deviations.
+  const double crest =
+      water.stretching == Stretching::wheeler ? std::min(most, 8.0 * std::sqrt(0.5 * square)) : 0.0;
+  waves_ = make_nodes(waves, reach + crest);
 }
 
 WaveView WaveField::make_view() const {
-  const std::size_t n = terms_.size(), block = water_.stretching == Stretching::wheeler
-                                                   ? static_cast<std::size_t>(block_size)
-                                                   : 0;
-  return {std::vector<double>(n), std::vector<double>(n), std::vector<double>(n * block),
-          std::vector<double>(n * block)};
+  const auto n = static_cast<Eigen::Index>(waves_.waves.size());
+  const auto m = static_cast<Eigen::Index>(waves_.nodes.size());
+  const std::size_t stored = water_.stretching == Stretching::wheeler
+                                 ? waves_.nodes.size() * static_cast<std::size_t>(block_size)
+                                 : 0;
+  WaveView view;
+  view.waves.setZero(n, parts);
+  view.nodes.setZero(m, parts);
+  view.angle.resize(n);
+  view.cosine.resize(n);
+  view.sine.resize(n);
+  view.cosines.resize(stored);
+  view.sines.resize(stored);
+  return view;
 }
 
-void WaveField::look(const Instant& instant, double x, double y, WaveView& view) const {
-  for (std::size_t j = 0; j < terms_.size(); ++j) {
-    const Term& term = terms_[j];
-    view.phases[j] =
-        std::remainder(term.omega * instant.time + term.phase - term.kx * x - term.ky * y, 2 * pi);
-    view.amplitudes[j] = term.amplitude * instant.growth;
+void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& view) const {
+  view.height =
+      water_.stretching == Stretching::vertical ? std::min(origin[2], 0.0) : origin[2];
+  view.here = view.most = view.steep = 0.0;
+  const auto n = static_cast<Eigen::Index>(waves_.waves.size());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
+    const double along = std::cos(w.heading) * origin[0] + std::sin(w.heading) * origin[1];
+    view.angle[j] =
+        std::remainder(w.omega * instant.time + w.phase - w.wavenumber * along, 2 * pi);
   }
+  cos_sin(view.angle, view.cosine, view.sine);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
+    const double k = w.wavenumber, a = w.amplitude * instant.growth;
+    // f(s) = (e^{ks} + e^{-k(s + 2d)}) / (1 + e^{-2kd})
+    const double d = water_.depth, whole = 1.0 + std::exp(-2.0 * k * d);
+    const double up = std::exp(k * view.height) / whole;
+    const double back = finite_ ? std::exp(-k * (2.0 * d + view.height)) / whole : 0.0;
+    const double speed = water_.gravity / w.omega;
+    const double re = a * view.cosine[j], im = a * view.sine[j];
+    const std::array<double, 5> factors{1.0, up, back, speed * up, speed * back};
+    for (int part = 0; part < 5; ++part) {
+      view.waves(j, 2 * part) = factors[static_cast<std::size_t>(part)] * re;
+      view.waves(j, 2 * part + 1) = factors[static_cast<std::size_t>(part)] * im;
+    }
+    view.here += re;
+    view.most += std::abs(a);
+    view.steep += std::abs(a) * k;
+  }
+  for (const Band& band : waves_.bands)
+    for (int part = 0; part < parts; ++part) {
+      const auto from = view.waves.col(part).segment(band.first_wave, band.waves);
+      auto to = view.nodes.col(part).segment(band.first_node, band.nodes);
+      if (band.weights.size() == 0)
+        to = from;
+      else
+        for (int i = 0; i < band.nodes; ++i)
+          to[i] = (band.weights.col(i).array() * from).sum();
+    }
 }
 
 double WaveField::highest(const WaveView& view, double radius) const {
-  double most = 0.0, here = 0.0, slope = 0.0;
-  for (std::size_t j = 0; j < terms_.size(); ++j) {
-    const double a = std::abs(view.amplitudes[j]);
-    most += a;
-    slope += a * terms_[j].k;
-    here += view.amplitudes[j] * std::cos(view.phases[j]);
-  }
-  return std::min(most, std::abs(here) + slope * radius);
+  return std::min(view.most, std::abs(view.here) + view.steep * radius);
 }
 
 void WaveField::elevation(const WaveView& view, const PointLists& points,
@@ -107,14 +169,11 @@ void WaveField::elevation(const WaveView& view, const PointLists& points,
     const Block x = read(points.x, first, points.size), y = read(points.y, first, points.size);
     Surface surface;
     Block c, s;
-    for (std::size_t j = 0; j < terms_.size(); ++j) {
-      const Term& term = terms_[j];
-      const double a = view.amplitudes[j];
-      const Block angle = view.phases[j] - term.kx * x - term.ky * y;
+    for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
+      const Node& node = waves_.nodes[j];
+      const Block angle = node.kx * x + node.ky * y;
       cos_sin(angle, c, s);
-      surface.eta += a * c;
-      surface.by_x += (a * term.kx) * s;
-      surface.by_y += (a * term.ky) * s;
+      add(view, node, j, c, s, surface);
     }
     write(surface.eta, first, points.size, out.value);
     write(surface.by_x, first, points.size, out.by_x);
@@ -122,7 +181,7 @@ void WaveField::elevation(const WaveView& view, const PointLists& points,
   }
 }
 
-template <bool gradient, bool bernoulli>
+template <bool gradient, bool bernoulli, bool finite>
 void WaveField::pressure_of_block(WaveView& view, const PointLists& points, int first,
                                   const FieldLists& out) const {
   const Block x = read(points.x, first, points.size), y = read(points.y, first, points.size);
@@ -130,58 +189,64 @@ void WaveField::pressure_of_block(WaveView& view, const PointLists& points, int 
   Block c, s;
   Surface surface;
   if (wheeler) // the height s needs the elevation first
-    for (std::size_t j = 0; j < terms_.size(); ++j) {
-      const Term& term = terms_[j];
-      const Block angle = view.phases[j] - term.kx * x - term.ky * y;
+    for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
+      const Node& node = waves_.nodes[j];
+      const Block angle = node.kx * x + node.ky * y;
       cos_sin(angle, c, s);
       Block::Map(view.cosines.data() + j * block_size) = c;
       Block::Map(view.sines.data() + j * block_size) = s;
-      surface.eta += view.amplitudes[j] * c;
-      surface.by_x += (view.amplitudes[j] * term.kx) * s;
-      surface.by_y += (view.amplitudes[j] * term.ky) * s;
+      add(view, node, j, c, s, surface);
     }
   const Height at = height(water_, surface, read(points.z, first, points.size));
+  const Block rise = at.s - view.height;
   Sums sum;
-  for (std::size_t j = 0; j < terms_.size(); ++j) {
-    const Term& term = terms_[j];
-    const double k = term.k, kx = term.kx, ky = term.ky, h = term.mobility;
+  for (std::size_t j = 0; j < waves_.nodes.size(); ++j) {
+    const auto [k, kx, ky] = waves_.nodes[j];
     if (wheeler) {
       c = Block::Map(view.cosines.data() + j * block_size);
       s = Block::Map(view.sines.data() + j * block_size);
     } else {
-      const Block angle = view.phases[j] - kx * x - ky * y;
+      const Block angle = kx * x + ky * y;
       cos_sin(angle, c, s);
     }
-    // a = A f, b = A f' = A df/ds
-    Block a = (k * at.s).exp(), b;
-    if (term.reflection > 0.0) {
-      const double A = view.amplitudes[j] / (1.0 + term.reflection);
-      const Block back = term.reflection / a;
-      b = (A * k) * (a - back);
-      a = A * (a + back);
-    } else {
-      a *= view.amplitudes[j];
-      b = k * a;
-    }
-    const Block ac = a * c;
-    sum.q += ac;
-    if constexpr (bernoulli) {
-      sum.u += (h * kx) * ac;
-      sum.v += (h * ky) * ac;
-      sum.w -= h * b * s;
-    }
+    const Block e = (k * rise).exp();
+    Block back;
+    if constexpr (finite)
+      back = 1.0 / e;
+    // Sum and difference of the parts with e^{ks} and e^{-ks}: the difference is d/ds over k.
+    const auto add_up = [&](int up, int down, Turned& plus, Turned& minus) {
+      plus = turned(view, j, up, c, s);
+      plus.re *= e;
+      plus.im *= e;
+      minus = plus;
+      if constexpr (finite) {
+        const Turned other = turned(view, j, down, c, s);
+        plus.re += back * other.re;
+        plus.im += back * other.im;
+        minus.re -= back * other.re;
+        minus.im -= back * other.im;
+      }
+    };
+    Turned plus, minus;
+    add_up(up_part, back_part, plus, minus);
+    sum.q += plus.re;
     if constexpr (gradient) {
-      const Block as = a * s, bc = b * c;
-      sum.q_x += kx * as;
-      sum.q_y += ky * as;
-      sum.q_s += bc;
-      if constexpr (bernoulli) {
-        sum.xx += (h * kx * kx) * as;
-        sum.xy += (h * kx * ky) * as;
-        sum.yy += (h * ky * ky) * as;
-        sum.xs += (h * kx) * bc;
-        sum.ys += (h * ky) * bc;
-        sum.ss -= (h * k * k) * as;
+      sum.q_x += kx * plus.im;
+      sum.q_y += ky * plus.im;
+      sum.q_s += k * minus.re;
+    }
+    if constexpr (bernoulli) {
+      add_up(up_flow, back_flow, plus, minus);
+      sum.u += kx * plus.re;
+      sum.v += ky * plus.re;
+      sum.w -= k * minus.im;
+      if constexpr (gradient) {
+        sum.xx += (kx * kx) * plus.im;
+        sum.xy += (kx * ky) * plus.im;
+        sum.yy += (ky * ky) * plus.im;
+        sum.xs += (k * kx) * minus.re;
+        sum.ys += (k * ky) * minus.re;
+        sum.ss -= (k * k) * plus.im;
       }
     }
   }
@@ -204,15 +269,16 @@ void WaveField::pressure_of_block(WaveView& view, const PointLists& points, int 
 }
 
 void WaveField::pressure(WaveView& view, const PointLists& points, const FieldLists& out) const {
-  const auto block = [&]() {
+  const auto block = [&]<bool finite>() {
     if (out.by_x)
-      return water_.bernoulli ? &WaveField::pressure_of_block<true, true>
-                              : &WaveField::pressure_of_block<true, false>;
-    return water_.bernoulli ? &WaveField::pressure_of_block<false, true>
-                            : &WaveField::pressure_of_block<false, false>;
-  }();
+      return water_.bernoulli ? &WaveField::pressure_of_block<true, true, finite>
+                              : &WaveField::pressure_of_block<true, false, finite>;
+    return water_.bernoulli ? &WaveField::pressure_of_block<false, true, finite>
+                            : &WaveField::pressure_of_block<false, false, finite>;
+  };
+  const auto chosen = finite_ ? block.template operator()<true>() : block.template operator()<false>();
   for (int first = 0; first < points.size; first += block_size)
-    (this->*block)(view, points, first, out);
+    (this->*chosen)(view, points, first, out);
 }
 
 } // namespace hydrodae::hull

@@ -16,17 +16,9 @@
 #include <vector>
 
 #include "hydrodae/core/types.h"
+#include "hydrodae/hull/wave_nodes.h"
 
 namespace hydrodae::hull {
-
-/// eta = amplitude cos(omega t - wavenumber (x cos heading + y sin heading) + phase)
-struct Wave {
-  double omega = 0.0;      ///< [rad/s], > 0
-  double wavenumber = 0.0; ///< [rad/m], > 0
-  double heading = 0.0;    ///< direction of travel [rad]
-  double amplitude = 0.0;  ///< [m]
-  double phase = 0.0;      ///< [rad]
-};
 
 enum class Stretching { vertical, wheeler, extrapolated };
 
@@ -55,25 +47,37 @@ struct FieldLists {
   double *by_x = nullptr, *by_y = nullptr, *by_z = nullptr; ///< [-] or [Pa/m]
 };
 
-/// The waves at one instant, seen from one point of the water plane, and scratch.
+/// The waves at one instant, seen from one point, and scratch.
 struct WaveView {
-  std::vector<double> phases, amplitudes; ///< th at the origin, in [-pi, pi]; with the growth
-  std::vector<double> cosines, sines;     ///< of a block of points, by component
+  double height = 0.0;                       ///< that the nodes' e^{+-ks} refer to [m]
+  double here = 0.0, most = 0.0, steep = 0.0; ///< eta at the origin, sum |A| [m], sum |A| k [-]
+  Eigen::ArrayXXd waves;                     ///< (waves, 10): parts of the complex amplitudes ...
+  Eigen::ArrayXXd nodes;                     ///< (nodes, 10): ... in the order of `Part`
+  Eigen::ArrayXd angle, cosine, sine;        ///< of the waves
+  std::vector<double> cosines, sines;        ///< of a block of points, by node
 };
 
 class WaveField {
 public:
-  /// Without waves: still water.
-  WaveField(const Water& water, const std::vector<Wave>& waves);
+  /// @param reach largest distance [m] of a point from the origin of a view. The error of the sums
+  /// grows beyond.
+  WaveField(const Water& water, const std::vector<Wave>& waves, double reach);
+
+  /// Still water.
+  explicit WaveField(const Water& water) : WaveField(water, {}, INFINITY) {}
 
   const Water& water() const { return water_; }
-  bool still() const { return terms_.empty(); }
+  bool still() const { return waves_.waves.empty(); }
+  double reach() const { return reach_; }
+
+  /// Plane waves that are evaluated at each point (wave_nodes.h).
+  int nodes() const { return static_cast<int>(waves_.nodes.size()); }
 
   /// A view large enough for this field.
   WaveView make_view() const;
 
-  /// Moves a view; `x`, `y` are the world coordinates of its origin.
-  void look(const Instant& instant, double x, double y, WaveView& view) const;
+  /// Moves a view to another time and origin, in world axes.
+  void look(const Instant& instant, const Vector3& origin, WaveView& view) const;
 
   /// Bound of |eta| at all points not farther than `radius` [m] from the origin of the view.
   double highest(const WaveView& view, double radius) const;
@@ -86,17 +90,13 @@ public:
   void pressure(WaveView& view, const PointLists& points, const FieldLists& out) const;
 
 private:
-  struct Term {
-    double omega, phase, amplitude;
-    double k, kx, ky;  ///< wavenumber and its parts along x and y [rad/m]
-    double reflection; ///< e^{-2kd}; 0 in deep water
-    double mobility;   ///< g / w: velocity potential over elevation [m/s]
-  };
-  template <bool gradient, bool bernoulli>
+  template <bool gradient, bool bernoulli, bool finite>
   void pressure_of_block(WaveView& view, const PointLists& points, int first,
                          const FieldLists& out) const;
   Water water_;
-  std::vector<Term> terms_;
+  double reach_;
+  bool finite_ = false; ///< does the bed show in any wave?
+  WaveNodes waves_;
 };
 
 } // namespace hydrodae::hull

@@ -1,5 +1,9 @@
 #include "hydrodae/hull/wet_surface.h"
 
+#include <algorithm>
+
+#include "hydrodae/core/error.h"
+
 namespace hydrodae::hull {
 namespace {
 
@@ -182,6 +186,10 @@ Workspace::Workspace(const Mesh& mesh, const WaveField& field)
       wet(static_cast<std::size_t>(mesh.triangles.rows())),
       is_needed(static_cast<std::size_t>(mesh.vertices.rows())),
       needed_place(mesh.vertices.rows(), 3), needed_surface(mesh.vertices.rows(), 3) {
+  if (!field.still() && mesh.radius > field.reach())
+    throw Error("the mesh reaches " + std::to_string(mesh.radius) +
+                " m from the origin of its body, farther than its waves are prepared for (" +
+                std::to_string(field.reach()) + " m)");
   needed.reserve(is_needed.size());
   crossing.reserve(wet.size());
   reserve(points, static_cast<int>(mesh.edges.size()));
@@ -195,7 +203,7 @@ void find_wet_surface(const Mesh& mesh, const WaveField& field, const Pose& pose
   // Without waves the pressure is linear on both sides of z = 0.
   const bool kink = !field.still() && field.water().stretching == Stretching::vertical;
   if (!field.still()) {
-    field.look(instant, pose.position[0], pose.position[1], work.view);
+    field.look(instant, pose.position, work.view);
     find_elevations(mesh, field, work);
   }
   find_sides(mesh, kink, work);

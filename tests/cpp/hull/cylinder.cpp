@@ -97,7 +97,7 @@ TEST_CASE("small waves: heave rho g A pi a^2 2 J1(ka)/(ka) e^{-kd}, surge 2 pi r
     const double J1 = std::cyl_bessel_j(1.0, k * a), end = std::exp(-k * draught);
     const double heave = weight * pi * a * a * 2 * J1 / (k * a) * end;
     const double surge = 2 * pi * weight * a * J1 * (1 - end) / k;
-    const hull::WaveField field({rho, g}, {w});
+    const hull::WaveField field({rho, g}, {w}, 10.0);
     // Two meshes remove the error of the facets, of second order.
     std::array<double, 2> found_heave{}, found_surge{};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -128,7 +128,7 @@ TEST_CASE("a fixed cylinder in 3 m waves: mean and three harmonics, however they
     for (bool bernoulli : {false, true}) {
       CAPTURE(int(stretching));
       CAPTURE(bernoulli);
-      const hull::WaveField field({rho, g, INFINITY, stretching, bernoulli}, {w});
+      const hull::WaveField field({rho, g, INFINITY, stretching, bernoulli}, {w}, 10.0);
       hull::Workspace work(mesh, field);
       const Harmonics found = harmonics(period, [&](double t) {
         const hull::Loads l = hull::loads(mesh, field, {}, {t}, work);

@@ -12,7 +12,7 @@ using namespace hydrodae;
 namespace {
 
 constexpr double rho = 1000.0, g = 9.81, weight = rho * g;
-const hull::WaveField still({rho, g}, {});
+const hull::WaveField still({rho, g});
 
 /// -rho g integral z dV over the displaced volume: by Gauss's theorem a sum over the wet points.
 double potential(const hull::Workspace& work) {

@@ -31,7 +31,7 @@ void compare(const hull::Water& water, const std::vector<hull::Wave>& waves, uns
   for (Vector3& v : arrays.vertices)
     v += Vector3(0.3, -0.2, 0.1 * v[0]);
   const hull::Mesh mesh = arrays.mesh();
-  const hull::WaveField field(water, waves);
+  const hull::WaveField field(water, waves, mesh.radius);
   hull::Workspace work(mesh, field);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> draw(-1.0, 1.0);
@@ -76,7 +76,7 @@ TEST_CASE("the gradient is the slope of the load from pose to pose") {
   for (Stretching stretching :
        {Stretching::vertical, Stretching::wheeler, Stretching::extrapolated}) {
     CAPTURE(int(stretching));
-    const hull::WaveField field({1025.0, 9.81, depth, stretching, true}, sea(depth));
+    const hull::WaveField field({1025.0, 9.81, depth, stretching, true}, sea(depth), mesh.radius);
     hull::Workspace work(mesh, field);
     const Matrix3 R = rotation_matrix<double>(quaternion_from_rotation_vector({0.2, -0.3, 0.5}));
     const hull::Pose pose{{1.0, 2.0, -0.3}, R};

@@ -13,7 +13,7 @@ namespace {
 
 const hull::Water water{1000.0, 9.81};
 constexpr double weight = 9810.0; ///< rho g
-const hull::WaveField still(water, {});
+const hull::WaveField still(water);
 
 Vector6 load_at(const hull::Mesh& mesh, const hull::Pose& pose, hull::Workspace& work) {
   return hull::loads(mesh, still, pose, {}, work).hydrostatic;

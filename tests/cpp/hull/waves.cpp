@@ -32,7 +32,7 @@ struct Value {
 
 Value at(const hull::WaveField& field, double t, const Vector3& point) {
   hull::WaveView view = field.make_view();
-  field.look({t}, 30.0, -20.0, view);
+  field.look({t}, {30.0, -20.0, -1.5}, view);
   const double x = point[0] - 30.0, y = point[1] + 20.0;
   Value out{};
   double unused = 0.0;
@@ -68,7 +68,7 @@ TEST_CASE("a regular wave: pressure at crest, side and node, by hand") {
     const double fp = std::isfinite(depth) ? k * std::sinh(k * (z + depth)) / std::cosh(k * depth)
                                            : k * std::exp(k * z);
     for (bool bernoulli : {false, true}) {
-      const hull::WaveField field({rho, g, depth, Stretching::vertical, bernoulli}, {w});
+      const hull::WaveField field({rho, g, depth, Stretching::vertical, bernoulli}, {w}, 40.0);
       const Value crest = at(field, t, {x, 5.0, z});
       const double u = bernoulli ? g * k / w.omega * A * f : 0.0;
       CHECK(crest.eta == doctest::Approx(A).epsilon(1e-14));
@@ -87,7 +87,7 @@ TEST_CASE("what each continuation gives at the crest") {
   const double k = 0.1, A = 1.2, depth = 15.0;
   const hull::Wave w = wave(k, depth, 0.0, A, 0.0);
   const auto p = [&](Stretching stretching, double z) {
-    return at(hull::WaveField({rho, g, depth, stretching}, {w}), 0.0, {0.0, 0.0, z}).p;
+    return at(hull::WaveField({rho, g, depth, stretching}, {w}, 40.0), 0.0, {0.0, 0.0, z}).p;
   };
   const auto f = [&](double s) { return std::cosh(k * (s + depth)) / std::cosh(k * depth); };
   CHECK(p(Stretching::vertical, 0.7) == doctest::Approx(rho * g * A));
@@ -104,7 +104,7 @@ TEST_CASE("a list of points is the points one by one, and gradients are those of
     for (Stretching stretching :
          {Stretching::vertical, Stretching::wheeler, Stretching::extrapolated})
       for (bool bernoulli : {false, true}) {
-        const hull::WaveField field({rho, g, depth, stretching, bernoulli}, sea(depth));
+        const hull::WaveField field({rho, g, depth, stretching, bernoulli}, sea(depth), 30.0);
         constexpr int n = 150;
         Eigen::ArrayXd x(n), y(n), z(n), p(n), alone(n);
         Eigen::ArrayX3d slope(n, 3);
@@ -114,7 +114,7 @@ TEST_CASE("a list of points is the points one by one, and gradients are those of
           z[i] = 3 * draw(random) - 2;
         }
         hull::WaveView view = field.make_view();
-        field.look({11.0, 0.8}, 30.0, -20.0, view);
+        field.look({11.0, 0.8}, {30.0, -20.0, -1.5}, view);
         const hull::PointLists points{n, x.data(), y.data(), z.data()};
         field.pressure(view, points, {alone.data()});
         field.pressure(view, points,
@@ -140,12 +140,58 @@ TEST_CASE("a list of points is the points one by one, and gradients are those of
       }
 }
 
+TEST_CASE("nodes stand for many waves: elevation, pressure and gradient to 1e-12") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> draw(0.0, 1.0);
+  constexpr double radius = 6.0;
+  constexpr int n = 64;
+  for (double depth : {14.0, 50.0, double(INFINITY)}) {
+    std::vector<hull::Wave> waves;
+    double size = 0.0;
+    for (int j = 0; j < 300; ++j) {
+      const double w = 0.25 + 2.5 * draw(random), k = w * w / g; // any k is a solution of Laplace's
+      waves.push_back({w, k, j < 200 ? 0.3 : -1.2, 0.1 * draw(random) * std::exp(-w), 6 * draw(random)});
+      size += rho * g * waves.back().amplitude;
+    }
+    for (Stretching stretching :
+         {Stretching::vertical, Stretching::wheeler, Stretching::extrapolated})
+      for (double height : {0.5, -7.0}) {
+        CAPTURE(depth);
+        CAPTURE(int(stretching));
+        CAPTURE(height);
+        const hull::Water water{rho, g, depth, stretching, true};
+        const hull::WaveField many(water, waves, 1e6), few(water, waves, radius);
+        CHECK(many.nodes() == 300);
+        CHECK(few.nodes() < 100);
+        Eigen::ArrayX3d x(n, 3);
+        for (int i = 0; i < n; ++i) {
+          const Vector3 from(draw(random) - 0.5, draw(random) - 0.5, draw(random) - 0.5);
+          x.row(i) = (radius * from.normalized() + Vector3(0.0, 0.0, height)).transpose();
+        }
+        const hull::PointLists points{n, x.col(0).data(), x.col(1).data(), x.col(2).data()};
+        std::array<Eigen::ArrayXXd, 2> found;
+        for (std::size_t i = 0; i < 2; ++i) {
+          const hull::WaveField& field = i == 0 ? many : few;
+          hull::WaveView view = field.make_view();
+          field.look({77.0}, {20.0, 10.0, height}, view);
+          found[i].resize(n, 7);
+          const auto column = [&](int j) { return found[i].col(j).data(); };
+          field.pressure(view, points, {column(0), column(1), column(2), column(3)});
+          field.elevation(view, points, {column(4), column(5), column(6), nullptr});
+        }
+        const Eigen::ArrayXXd error = (found[1] - found[0]).abs();
+        CHECK(error.leftCols(4).maxCoeff() < 2e-13 * size);
+        CHECK(error.rightCols(3).maxCoeff() < 2e-13 * size / (rho * g));
+      }
+  }
+}
+
 TEST_CASE("the bound of the elevation holds") {
-  const hull::WaveField field({rho, g, INFINITY}, sea(INFINITY));
+  const hull::WaveField field({rho, g, INFINITY}, sea(INFINITY), 100.0);
   hull::WaveView view = field.make_view();
   for (double t : {0.0, 3.0, 8.0})
     for (double radius : {0.5, 5.0, 100.0}) {
-      field.look({t}, 3.0, 4.0, view);
+      field.look({t}, {3.0, 4.0, 0.0}, view);
       const double highest = field.highest(view, radius);
       CHECK(highest <= 1.9 + 1e-12);
       for (int i = 0; i < 100; ++i) {
