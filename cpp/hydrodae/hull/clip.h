@@ -43,8 +43,7 @@ template <bool gradient> void between(const Corner& a, const Corner& b, Corner& 
   out.level = 0.0;
   out.slides = gradient;
   if constexpr (gradient) {
-    const PoseRow by_pose =
-        (a.level * b.level_by_pose - b.level * a.level_by_pose) / (span * span);
+    const PoseRow by_pose = (a.level * b.level_by_pose - b.level * a.level_by_pose) / (span * span);
     out.slide.noalias() = (b.x - a.x) * by_pose;
     if (a.slides)
       out.slide += (1.0 - s) * a.slide;

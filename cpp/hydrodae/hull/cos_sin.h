@@ -19,10 +19,16 @@ template <class Array> void cos_sin(const Array& angle, Array& cosine, Array& si
   turns -= to_integer;
   const Array a = 0.125 * ((angle - turns * high) - turns * low);
   const Array q = a * a;
-  Array s = a + a * q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880 +
-                q * (-1.0 / 39916800 + q * (1.0 / 6227020800))))));
-  Array v = q * (1.0 / 2 + q * (-1.0 / 24 + q * (1.0 / 720 + q * (-1.0 / 40320 +
-            q * (1.0 / 3628800 + q * (-1.0 / 479001600))))));
+  Array s =
+      a +
+      a * q *
+          (-1.0 / 6 +
+           q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880 + q * (-1.0 / 39916800 +
+                                                                        q * (1.0 / 6227020800))))));
+  Array v =
+      q * (1.0 / 2 +
+           q * (-1.0 / 24 + q * (1.0 / 720 + q * (-1.0 / 40320 +
+                                                  q * (1.0 / 3628800 + q * (-1.0 / 479001600))))));
   for (int k = 0; k < 3; ++k) {
     const Array t = 2.0 * s;
     v = (1.0 - v).eval();

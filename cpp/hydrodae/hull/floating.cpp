@@ -31,8 +31,8 @@ Floating floating(const Mesh& mesh, const WaveField& still, const Pose& pose, Wo
 
 Matrix3 Floating::stiffness(double weight) const {
   Matrix3 C;
-  C << plane_area, plane_y, -plane_x,                            //
-      plane_y, plane_yy + volume * buoyancy[2], -plane_xy,       //
+  C << plane_area, plane_y, -plane_x,                      //
+      plane_y, plane_yy + volume * buoyancy[2], -plane_xy, //
       -plane_x, -plane_xy, plane_xx + volume * buoyancy[2];
   return weight * C;
 }

@@ -8,10 +8,10 @@ namespace hydrodae::hull {
 /// Integrals over the displaced volume and over the water plane at z = 0. x, y are world axes from
 /// the body's origin.
 struct Floating {
-  double volume = 0.0;                ///< V [m3]
-  Vector3 buoyancy = Vector3::Zero(); ///< centre of V relative to the body's origin [m]
-  double wetted_area = 0.0;           ///< [m2]
-  double plane_area = 0.0;            ///< A [m2]
+  double volume = 0.0;                 ///< V [m3]
+  Vector3 buoyancy = Vector3::Zero();  ///< centre of V relative to the body's origin [m]
+  double wetted_area = 0.0;            ///< [m2]
+  double plane_area = 0.0;             ///< A [m2]
   double plane_x = 0.0, plane_y = 0.0; ///< integrals of x and y over the water plane [m3]
   double plane_xx = 0.0, plane_xy = 0.0, plane_yy = 0.0; ///< of x^2, x y, y^2 [m4]
 

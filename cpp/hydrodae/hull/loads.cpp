@@ -1,11 +1,13 @@
 #include "hydrodae/hull/loads.h"
 
+#include <algorithm>
+
 namespace hydrodae::hull {
 namespace {
 
-constexpr int block_size = 128; ///< points at a time; all of their lists stay in the first cache
-using List = Eigen::Array<double, Eigen::Dynamic, 1, 0, block_size, 1>;
-using Lists = Eigen::Array<double, Eigen::Dynamic, 6, 0, block_size, 6>;
+constexpr int batch = 128; ///< points at a time; all of their lists stay in the first cache
+using List = Eigen::Array<double, Eigen::Dynamic, 1, 0, batch, 1>;
+using Lists = Eigen::Array<double, Eigen::Dynamic, 6, 0, batch, 6>;
 
 /// [w, x cross w] of points: the load of unit pressure, but for its sign.
 void wrenches(const Columns& x, const Columns& w, int first, int n, Lists& out) {
@@ -24,9 +26,8 @@ Loads sum_points(const WetPoints& points, double weight, bool still, Matrix6* gr
   Loads sum;
   Lists arms, moved;
   List pressure;
-  Columns g;
-  for (int first = 0; first < points.size; first += block_size) {
-    const int n = std::min(block_size, points.size - first);
+  for (int first = 0; first < points.size; first += batch) {
+    const int n = std::min(batch, points.size - first);
     wrenches(points.x, points.weight, first, n, arms);
     pressure = (-weight) * points.height.segment(first, n);
     for (int i = 0; i < 6; ++i) {

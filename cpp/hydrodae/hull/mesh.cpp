@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <string>
+#include <tuple>
 
 #include "hydrodae/core/error.h"
 

@@ -18,15 +18,15 @@ struct Edge {
 
 /// A checked mesh. Constant during a run; several bodies and threads may share it.
 struct Mesh {
-  Columns vertices;        ///< (n, 3) [m]
-  Triangles triangles;     ///< (m, 3) vertices, anticlockwise as seen from the water
-  Columns areas;           ///< (m, 3) area times outward unit normal [m2]
-  std::vector<Edge> edges; ///< 3 m / 2 of them
-  int shells = 0;          ///< closed surfaces that share no edge
-  int degenerate = 0;      ///< triangles without area; they carry no load
-  double volume = 0.0;     ///< enclosed by the whole surface [m3]
-  double area = 0.0;       ///< of the surface [m2]
-  double radius = 0.0;     ///< largest distance of a vertex from the body's origin [m]
+  Columns vertices;                   ///< (n, 3) [m]
+  Triangles triangles;                ///< (m, 3) vertices, anticlockwise as seen from the water
+  Columns areas;                      ///< (m, 3) area times outward unit normal [m2]
+  std::vector<Edge> edges;            ///< 3 m / 2 of them
+  int shells = 0;                     ///< closed surfaces that share no edge
+  int degenerate = 0;                 ///< triangles without area; they carry no load
+  double volume = 0.0;                ///< enclosed by the whole surface [m3]
+  double area = 0.0;                  ///< of the surface [m2]
+  double radius = 0.0;                ///< largest distance of a vertex from the body's origin [m]
   Vector3 centroid = Vector3::Zero(); ///< of the enclosed volume [m]
 };
 

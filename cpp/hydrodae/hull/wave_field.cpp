@@ -1,6 +1,7 @@
 #include "hydrodae/hull/wave_field.h"
 
 #include <algorithm>
+#include <array>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/hull/cos_sin.h"
@@ -60,7 +61,14 @@ struct Sums {
 
 /// Columns of complex amplitudes, real and imaginary part: of the elevation; of e^{ks} and e^{-ks}
 /// in q; of both in the potential.
-enum Part { elevation_part = 0, up_part = 2, back_part = 4, up_flow = 6, back_flow = 8, parts = 10 };
+enum Part {
+  elevation_part = 0,
+  up_part = 2,
+  back_part = 4,
+  up_flow = 6,
+  back_flow = 8,
+  parts = 10
+};
 
 /// Re and Im of a e^{-i angle}; Im is the derivative of Re by the angle.
 struct Turned {
@@ -109,26 +117,30 @@ WaveView WaveField::make_view() const {
   WaveView view;
   view.waves.setZero(n, parts);
   view.nodes.setZero(m, parts);
-  view.angle.resize(n);
-  view.cosine.resize(n);
-  view.sine.resize(n);
+  const Eigen::Index padded = (n + block_size - 1) / block_size * block_size;
+  view.angle.setZero(padded);
+  view.cosine.resize(padded);
+  view.sine.resize(padded);
   view.cosines.resize(stored);
   view.sines.resize(stored);
   return view;
 }
 
 void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& view) const {
-  view.height =
-      water_.stretching == Stretching::vertical ? std::min(origin[2], 0.0) : origin[2];
+  view.height = water_.stretching == Stretching::vertical ? std::min(origin[2], 0.0) : origin[2];
   view.here = view.most = view.steep = 0.0;
   const auto n = static_cast<Eigen::Index>(waves_.waves.size());
   for (Eigen::Index j = 0; j < n; ++j) {
     const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
     const double along = std::cos(w.heading) * origin[0] + std::sin(w.heading) * origin[1];
-    view.angle[j] =
-        std::remainder(w.omega * instant.time + w.phase - w.wavenumber * along, 2 * pi);
+    view.angle[j] = std::remainder(w.omega * instant.time + w.phase - w.wavenumber * along, 2 * pi);
   }
-  cos_sin(view.angle, view.cosine, view.sine);
+  for (Eigen::Index j = 0; j < view.angle.size(); j += block_size) {
+    Block c, s; // of fixed size: no allocation
+    cos_sin(Block(view.angle.segment<block_size>(j)), c, s);
+    view.cosine.segment<block_size>(j) = c;
+    view.sine.segment<block_size>(j) = s;
+  }
   for (Eigen::Index j = 0; j < n; ++j) {
     const Wave& w = waves_.waves[static_cast<std::size_t>(j)];
     const double k = w.wavenumber, a = w.amplitude * instant.growth;
@@ -276,7 +288,8 @@ void WaveField::pressure(WaveView& view, const PointLists& points, const FieldLi
     return water_.bernoulli ? &WaveField::pressure_of_block<false, true, finite>
                             : &WaveField::pressure_of_block<false, false, finite>;
   };
-  const auto chosen = finite_ ? block.template operator()<true>() : block.template operator()<false>();
+  const auto chosen =
+      finite_ ? block.template operator()<true>() : block.template operator()<false>();
   for (int first = 0; first < points.size; first += block_size)
     (this->*chosen)(view, points, first, out);
 }

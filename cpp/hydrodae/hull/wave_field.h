@@ -43,18 +43,18 @@ struct PointLists {
 
 /// Where results go; a null gradient is not computed.
 struct FieldLists {
-  double* value = nullptr;                                   ///< [m] or [Pa]
+  double* value = nullptr;                                  ///< [m] or [Pa]
   double *by_x = nullptr, *by_y = nullptr, *by_z = nullptr; ///< [-] or [Pa/m]
 };
 
 /// The waves at one instant, seen from one point, and scratch.
 struct WaveView {
-  double height = 0.0;                       ///< that the nodes' e^{+-ks} refer to [m]
+  double height = 0.0;                        ///< that the nodes' e^{+-ks} refer to [m]
   double here = 0.0, most = 0.0, steep = 0.0; ///< eta at the origin, sum |A| [m], sum |A| k [-]
-  Eigen::ArrayXXd waves;                     ///< (waves, 10): parts of the complex amplitudes ...
-  Eigen::ArrayXXd nodes;                     ///< (nodes, 10): ... in the order of `Part`
-  Eigen::ArrayXd angle, cosine, sine;        ///< of the waves
-  std::vector<double> cosines, sines;        ///< of a block of points, by node
+  Eigen::ArrayXXd waves;                      ///< (waves, 10): parts of the complex amplitudes ...
+  Eigen::ArrayXXd nodes;                      ///< (nodes, 10): ... in the order of `Part`
+  Eigen::ArrayXd angle, cosine, sine;         ///< of the waves, padded to blocks
+  std::vector<double> cosines, sines;         ///< of a block of points, by node
 };
 
 class WaveField {

@@ -28,11 +28,11 @@ struct Pose {
 /// Weighted points. All vectors are in world axes, x relative to the body's origin.
 struct WetPoints {
   int size = 0;
-  Columns x;                 ///< (capacity, 3) [m]
-  Columns weight;            ///< (capacity, 3) [m2], along the outward normal
-  Eigen::ArrayXd height;     ///< above still water [m]
-  Eigen::ArrayXd dynamic;    ///< dynamic pressure [Pa]
-  Columns dynamic_gradient;  ///< by the place in the world [Pa/m]
+  Columns x;                ///< (capacity, 3) [m]
+  Columns weight;           ///< (capacity, 3) [m2], along the outward normal
+  Eigen::ArrayXd height;    ///< above still water [m]
+  Eigen::ArrayXd dynamic;   ///< dynamic pressure [Pa]
+  Columns dynamic_gradient; ///< by the place in the world [Pa/m]
 };
 
 /// A triangle of the clipped part whose corners slide; its three points follow each other.
@@ -55,10 +55,10 @@ struct Workspace {
   std::vector<int> needed;        ///< vertices where the elevation is needed
   std::vector<char> is_needed;
   Columns needed_place, needed_surface;
-  std::vector<int> crossing;      ///< triangles
+  std::vector<int> crossing; ///< triangles
   WetPoints points;
-  std::vector<Facet> facets;      ///< only if gradients are asked for
-  std::vector<Corner> corners;    ///< that `facets` name
+  std::vector<Facet> facets;   ///< only if gradients are asked for
+  std::vector<Corner> corners; ///< that `facets` name
 };
 
 /// Fills the points of a workspace, and with `gradient` its facets. Pressures are not set.

@@ -10,7 +10,8 @@
 #include "hull/meshes.h"
 #include "hydrodae/hull/loads.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_cylinder {
+
 using hull::Stretching;
 
 namespace {
@@ -73,9 +74,7 @@ std::array<double, 2> exact(const hull::Wave& w, Stretching stretching, bool ber
   double surge = 0.0, heave = 0.0;
   for (int i = 0; i < around; ++i) {
     const double c = std::cos(2 * pi * i / around);
-    const auto p = [&](double x, double z) {
-      return pressure(w, stretching, bernoulli, t, x, z);
-    };
+    const auto p = [&](double x, double z) { return pressure(w, stretching, bernoulli, t, x, z); };
     const double x = a * c, eta = w.amplitude * std::cos(w.omega * t - w.wavenumber * x);
     const double below = std::min(eta, 0.0);
     const double side = gauss(-draught, below, 4, [&](double z) { return p(x, z); }) +
@@ -152,3 +151,5 @@ TEST_CASE("a fixed cylinder in 3 m waves: mean and three harmonics, however they
       }
     }
 }
+
+} // namespace hydrodae::test_hull_cylinder

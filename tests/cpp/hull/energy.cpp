@@ -7,7 +7,7 @@
 #include "hull/meshes.h"
 #include "hydrodae/hull/loads.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_energy {
 
 namespace {
 
@@ -56,7 +56,8 @@ TEST_CASE("the loads of still water are minus the gradient of the potential") {
 TEST_CASE("no work around a closed path of poses in still water") {
   for (const hull::Mesh& mesh : {tests::box(5.0, 3.0, 2.0).mesh(), cone()}) {
     hull::Workspace work(mesh, still);
-    // The load is twice differentiable along the path: the rule of equal steps has order 4 at least.
+    // The load is twice differentiable along the path: the rule of equal steps has order 4 at
+    // least.
     constexpr int n = 20000;
     double net = 0.0, gross = 0.0;
     for (int i = 0; i < n; ++i) {
@@ -120,3 +121,5 @@ TEST_CASE("a sphere and a cone bob without damping: no energy comes or goes in 1
     CHECK(std::abs(energy() - start) < 1e-6 * swing);
   }
 }
+
+} // namespace hydrodae::test_hull_energy

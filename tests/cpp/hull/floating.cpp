@@ -7,7 +7,7 @@
 #include "hull/meshes.h"
 #include "hydrodae/hull/loads.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_floating {
 
 namespace {
 
@@ -37,8 +37,8 @@ TEST_CASE("in any pose the water plane gives the gradient of the loads of still 
   const hull::Mesh mesh = arrays.mesh();
   hull::Workspace work(mesh, still);
   for (double angle : {0.0, 0.3, -0.7}) {
-    const Matrix3 R = rotation_matrix<double>(
-        quaternion_from_rotation_vector(Vector3(angle, 0.4 * angle, 1.0)));
+    const Matrix3 R =
+        rotation_matrix<double>(quaternion_from_rotation_vector(Vector3(angle, 0.4 * angle, 1.0)));
     const hull::Pose pose{{1.0, 2.0, 0.2}, R};
     const hull::Floating f = hull::floating(mesh, still, pose, work);
     Matrix6 gradient;
@@ -64,3 +64,5 @@ TEST_CASE("a body in the air displaces nothing, and one beneath the water has no
   CHECK((deep.buoyancy - mesh.centroid).norm() < 1e-12);
   CHECK(std::abs(deep.plane_area) < 1e-12);
 }
+
+} // namespace hydrodae::test_hull_floating

@@ -7,14 +7,15 @@
 #include "hull/meshes.h"
 #include "hull/oracle.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_gradient {
+
 using hull::Stretching;
 
 namespace {
 
 std::vector<hull::Wave> sea(double depth) {
-  std::vector<hull::Wave> out{{0.0, 0.11, 0.4, 0.7, 0.3}, {0.0, 0.25, -2.0, 0.4, 2.0},
-                              {0.0, 0.8, 1.3, 0.15, -1.0}};
+  std::vector<hull::Wave> out{
+      {0.0, 0.11, 0.4, 0.7, 0.3}, {0.0, 0.25, -2.0, 0.4, 2.0}, {0.0, 0.8, 1.3, 0.15, -1.0}};
   for (hull::Wave& w : out)
     w.omega = std::sqrt(9.81 * w.wavenumber *
                         (std::isfinite(depth) ? std::tanh(w.wavenumber * depth) : 1.0));
@@ -98,3 +99,5 @@ TEST_CASE("the gradient is the slope of the load from pose to pose") {
     }
   }
 }
+
+} // namespace hydrodae::test_hull_gradient

@@ -7,7 +7,7 @@
 #include "hull/meshes.h"
 #include "hydrodae/core/error.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_mesh {
 
 namespace {
 
@@ -79,3 +79,5 @@ TEST_CASE("a bad mesh is refused by the name of its fault") {
   CHECK(contains(complaint(endless), "vertex 4 "));
   CHECK(contains(complaint({}), "no triangles"));
 }
+
+} // namespace hydrodae::test_hull_mesh

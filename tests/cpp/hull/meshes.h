@@ -65,8 +65,8 @@ inline MeshArrays sphere(double radius, int level) {
 inline MeshArrays box(double length, double width, double height) {
   MeshArrays out;
   for (int i = 0; i < 8; ++i)
-    out.vertices.push_back(0.5 * Vector3(i & 1 ? length : -length, i & 2 ? width : -width,
-                                         i & 4 ? height : -height));
+    out.vertices.push_back(
+        0.5 * Vector3(i & 1 ? length : -length, i & 2 ? width : -width, i & 4 ? height : -height));
   const auto face = [&](int a, int b, int c, int d) {
     out.triangles.push_back({a, b, c});
     out.triangles.push_back({a, c, d});

@@ -58,8 +58,7 @@ template <class S> struct OracleCorner {
   S level;
 };
 
-template <class S>
-std::vector<OracleCorner<S>> below(const std::vector<OracleCorner<S>>& polygon) {
+template <class S> std::vector<OracleCorner<S>> below(const std::vector<OracleCorner<S>>& polygon) {
   std::vector<OracleCorner<S>> out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const OracleCorner<S>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];

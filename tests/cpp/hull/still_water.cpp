@@ -7,7 +7,7 @@
 #include "hull/meshes.h"
 #include "hydrodae/hull/loads.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_still_water {
 
 namespace {
 
@@ -75,8 +75,7 @@ TEST_CASE("a body in the air has no load, and one beneath the water the load of 
   CHECK(hull::loads(mesh, still, raised(1.001), {}, work, &gradient).hydrostatic.norm() == 0.0);
   CHECK(gradient.norm() == 0.0);
   for (double z : {-1.5, -300.0}) {
-    const Vector6 load =
-        hull::loads(mesh, still, raised(z), {}, work, &gradient).hydrostatic;
+    const Vector6 load = hull::loads(mesh, still, raised(z), {}, work, &gradient).hydrostatic;
     CHECK(load[2] == doctest::Approx(weight * mesh.volume).epsilon(1e-12));
     CHECK(gradient.norm() < 1e-9 * weight * std::abs(z));
   }
@@ -98,3 +97,5 @@ TEST_CASE("the stiffness of a floating box is that of its water plane") {
   gradient(2, 2) = gradient(3, 3) = gradient(4, 4) = 0.0;
   CHECK(gradient.norm() < 1e-10 * weight * V);
 }
+
+} // namespace hydrodae::test_hull_still_water

@@ -7,7 +7,8 @@
 #include "hydrodae/hull/cos_sin.h"
 #include "hydrodae/hull/wave_field.h"
 
-using namespace hydrodae;
+namespace hydrodae::test_hull_waves {
+
 using hull::Stretching;
 
 namespace {
@@ -63,8 +64,8 @@ TEST_CASE("a regular wave: pressure at crest, side and node, by hand") {
     const double k = 0.1, A = 1.2, z = -3.0, x = 7.0;
     const hull::Wave w = wave(k, depth, 0.0, A, 0.5);
     const double t = (k * x - 0.5) / w.omega; // the crest is at x
-    const double f = std::isfinite(depth) ? std::cosh(k * (z + depth)) / std::cosh(k * depth)
-                                          : std::exp(k * z);
+    const double f =
+        std::isfinite(depth) ? std::cosh(k * (z + depth)) / std::cosh(k * depth) : std::exp(k * z);
     const double fp = std::isfinite(depth) ? k * std::sinh(k * (z + depth)) / std::cosh(k * depth)
                                            : k * std::exp(k * z);
     for (bool bernoulli : {false, true}) {
@@ -78,7 +79,8 @@ TEST_CASE("a regular wave: pressure at crest, side and node, by hand") {
       CHECK(node.p == doctest::Approx(-0.5 * rho * v * v).epsilon(1e-10).scale(1.0));
       // Horizontal velocity of the kinematics elsewhere in hydrodae: A w cosh / sinh.
       if (bernoulli && std::isfinite(depth))
-        CHECK(u == doctest::Approx(A * w.omega * std::cosh(k * (z + depth)) / std::sinh(k * depth)));
+        CHECK(u ==
+              doctest::Approx(A * w.omega * std::cosh(k * (z + depth)) / std::sinh(k * depth)));
     }
   }
 }
@@ -150,7 +152,8 @@ TEST_CASE("nodes stand for many waves: elevation, pressure and gradient to 1e-12
     double size = 0.0;
     for (int j = 0; j < 300; ++j) {
       const double w = 0.25 + 2.5 * draw(random), k = w * w / g; // any k is a solution of Laplace's
-      waves.push_back({w, k, j < 200 ? 0.3 : -1.2, 0.1 * draw(random) * std::exp(-w), 6 * draw(random)});
+      waves.push_back(
+          {w, k, j < 200 ? 0.3 : -1.2, 0.1 * draw(random) * std::exp(-w), 6 * draw(random)});
       size += rho * g * waves.back().amplitude;
     }
     for (Stretching stretching :
@@ -202,3 +205,5 @@ TEST_CASE("the bound of the elevation holds") {
       }
     }
 }
+
+} // namespace hydrodae::test_hull_waves
