@@ -62,10 +62,11 @@ Loads sum_points(const WetPoints& points, double weight, bool still, Matrix6* gr
   return sum;
 }
 
-/// What the slides of the corners of a clipped triangle give to the gradient. With its area A and
-/// the middles x_m of its edges, F = -A/3 n sum p_m and M = -A/3 sum p_m x_m cross n.
-void add_slides(const Facet& facet, const Workspace& work, double weight, bool still,
-                Matrix6& gradient) {
+/// What the slides of the corners of a clipped triangle give to the gradient in waves. In still
+/// water it is zero: there the rule is exact, and the pressure vanishes where the corners slide.
+/// With its area A and the middles x_m of its edges, F = -A/3 n sum p_m and M = -A/3 sum p_m x_m
+/// cross n.
+void add_slides(const Facet& facet, const Workspace& work, double weight, Matrix6& gradient) {
   const WetPoints& points = work.points;
   const auto corner = [&](int i) -> const Corner& {
     return work.corners[static_cast<std::size_t>(facet.corner[static_cast<std::size_t>(i % 3)])];
@@ -86,12 +87,9 @@ void add_slides(const Facet& facet, const Workspace& work, double weight, bool s
     const int at = facet.point + m;
     const Corner &a = corner(m), &b = corner(m + 1);
     const Vector3 x = points.x.row(at).transpose();
-    double p = -weight * points.height[at];
-    Vector3 g(0.0, 0.0, -weight);
-    if (!still) {
-      p += points.dynamic[at];
-      g += points.dynamic_gradient.row(at).transpose().matrix();
-    }
+    const double p = points.dynamic[at] - weight * points.height[at];
+    Vector3 g = points.dynamic_gradient.row(at).transpose();
+    g[2] -= weight;
     PoseRow by_pose = (p / 3.0) * area_by_pose;
     const auto move = [&](const PoseRows& slide) {
       by_pose.noalias() += (0.5 * third) * g.transpose() * slide;
@@ -114,7 +112,7 @@ void add_slides(const Facet& facet, const Workspace& work, double weight, bool s
 
 Loads loads(const Mesh& mesh, const WaveField& field, const Pose& pose, const Instant& instant,
             Workspace& work, Matrix6* gradient) {
-  find_wet_surface(mesh, field, pose, instant, gradient != nullptr, work);
+  find_wet_surface(mesh, field, pose, instant, gradient && !field.still(), work);
   const double weight = field.water().density * field.water().gravity;
   WetPoints& points = work.points;
   if (!field.still()) {
@@ -131,7 +129,7 @@ Loads loads(const Mesh& mesh, const WaveField& field, const Pose& pose, const In
   const Loads sum = sum_points(points, weight, field.still(), gradient);
   if (gradient) {
     for (const Facet& facet : work.facets)
-      add_slides(facet, work, weight, field.still(), *gradient);
+      add_slides(facet, work, weight, *gradient);
     // The load turns with the body.
     const Vector6 whole = sum.hydrostatic + sum.dynamic;
     gradient->topRightCorner<3, 3>() -= skew<double>(whole.head<3>());

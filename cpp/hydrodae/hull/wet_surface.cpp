@@ -196,7 +196,7 @@ Workspace::Workspace(const Mesh& mesh, const WaveField& field)
 }
 
 void find_wet_surface(const Mesh& mesh, const WaveField& field, const Pose& pose,
-                      const Instant& instant, bool gradient, Workspace& work) {
+                      const Instant& instant, bool slides, Workspace& work) {
   turn(mesh.vertices, pose.rotation, work.place);
   turn(mesh.areas, pose.rotation, work.areas);
   work.height = work.place.col(2) + pose.position[2];
@@ -210,7 +210,7 @@ void find_wet_surface(const Mesh& mesh, const WaveField& field, const Pose& pose
   add_edges(mesh, work);
   work.facets.clear();
   work.corners.clear();
-  if (gradient)
+  if (slides)
     add_crossing<true>(mesh, pose, kink, work);
   else
     add_crossing<false>(mesh, pose, kink, work);

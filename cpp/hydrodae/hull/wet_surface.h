@@ -57,12 +57,12 @@ struct Workspace {
   Columns needed_place, needed_surface;
   std::vector<int> crossing; ///< triangles
   WetPoints points;
-  std::vector<Facet> facets;   ///< only if gradients are asked for
+  std::vector<Facet> facets;   ///< only if slides are asked for
   std::vector<Corner> corners; ///< that `facets` name
 };
 
-/// Fills the points of a workspace, and with `gradient` its facets. Pressures are not set.
+/// Fills the points of a workspace, and with `slides` its facets. Pressures are not set.
 void find_wet_surface(const Mesh& mesh, const WaveField& field, const Pose& pose,
-                      const Instant& instant, bool gradient, Workspace& work);
+                      const Instant& instant, bool slides, Workspace& work);
 
 } // namespace hydrodae::hull
