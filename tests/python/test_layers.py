@@ -8,7 +8,7 @@ from pathlib import Path
 LAYERS = [
     {"core"},
     {"math"},
-    {"sea", "hydro"},
+    {"sea", "hydro", "hull"},
     {"joint", "element", "control"},
     {"model"},
     {"io", "system"},

@@ -1,0 +1,147 @@
+#include "hydrodae/hull/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include "hydrodae/core/error.h"
+
+namespace hydrodae::hull {
+namespace {
+
+/// Below this part of the square of its longest edge, the area of a triangle is rounding.
+constexpr double no_area = 1e-12;
+
+struct Directed {
+  int low, high, triangle;
+  bool forward; ///< from low to high
+};
+
+std::string place(const Vertices& vertices, int i) {
+  char text[100];
+  std::snprintf(text, sizeof text, "vertex %d at (%.6g, %.6g, %.6g)", i, vertices(i, 0),
+                vertices(i, 1), vertices(i, 2));
+  return text;
+}
+
+void check_numbers(const Vertices& vertices, const Triangles& triangles) {
+  if (triangles.rows() == 0)
+    throw Error("the mesh has no triangles");
+  for (int i = 0; i < vertices.rows(); ++i)
+    if (!vertices.row(i).allFinite())
+      throw Error("vertex " + std::to_string(i) + " of the mesh is not finite");
+  for (int i = 0; i < triangles.rows(); ++i)
+    if (triangles.row(i).minCoeff() < 0 || triangles.row(i).maxCoeff() >= vertices.rows())
+      throw Error("triangle " + std::to_string(i) + " of the mesh names a vertex outside 0 .. " +
+                  std::to_string(vertices.rows() - 1));
+}
+
+std::vector<Directed> directed_edges(const Triangles& triangles) {
+  std::vector<Directed> out;
+  out.reserve(3 * static_cast<std::size_t>(triangles.rows()));
+  for (int i = 0; i < triangles.rows(); ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int a = triangles(i, j), b = triangles(i, (j + 1) % 3);
+      out.push_back({std::min(a, b), std::max(a, b), i, a < b});
+    }
+  std::sort(out.begin(), out.end(), [](const Directed& p, const Directed& q) {
+    return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
+  });
+  return out;
+}
+
+std::vector<Edge> pair_edges(const Vertices& vertices, const Triangles& triangles) {
+  const std::vector<Directed> all = directed_edges(triangles);
+  std::vector<Edge> edges;
+  edges.reserve(all.size() / 2);
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i;
+    while (end < all.size() && all[end].low == all[i].low && all[end].high == all[i].high)
+      ++end;
+    const std::string ends =
+        "between " + place(vertices, all[i].low) + " and " + place(vertices, all[i].high);
+    if (end - i != 2)
+      throw Error("the mesh is not closed: the edge " + ends + " belongs to " +
+                  std::to_string(end - i) +
+                  " triangles instead of 2; add the missing triangles (a lid, for example) or "
+                  "merge doubled vertices");
+    if (all[i].forward == all[i + 1].forward)
+      throw Error("the normals of the mesh disagree: triangles " + std::to_string(all[i].triangle) +
+                  " and " + std::to_string(all[i + 1].triangle) + " pass the edge " + ends +
+                  " in the same direction; reverse the order of the vertices of one of them");
+    const Directed &left = all[i].forward ? all[i] : all[i + 1],
+                   &right = all[i].forward ? all[i + 1] : all[i];
+    edges.push_back({left.low, left.high, left.triangle, right.triangle});
+    i = end;
+  }
+  return edges;
+}
+
+/// For each triangle the first triangle of its shell.
+std::vector<int> shells_of(const Triangles& triangles, const std::vector<Edge>& edges) {
+  std::vector<int> parent(static_cast<std::size_t>(triangles.rows()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[static_cast<std::size_t>(i)] != i)
+      i = parent[static_cast<std::size_t>(i)] =
+          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
+    return i;
+  };
+  for (const Edge& e : edges) {
+    const int a = root(e.left), b = root(e.right);
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  for (int i = 0; i < triangles.rows(); ++i)
+    parent[static_cast<std::size_t>(i)] = root(i);
+  return parent;
+}
+
+} // namespace
+
+Mesh make_mesh(const Vertices& vertices, const Triangles& triangles) {
+  check_numbers(vertices, triangles);
+  Mesh mesh;
+  mesh.vertices = vertices.array();
+  mesh.triangles = triangles;
+  mesh.edges = pair_edges(vertices, triangles);
+  mesh.areas.resize(triangles.rows(), 3);
+  mesh.radius = vertices.rowwise().norm().maxCoeff();
+  const std::vector<int> shell = shells_of(triangles, mesh.edges);
+  std::vector<double> volumes(shell.size(), 0.0);
+  // Tetrahedra over a point near the surface, not over an origin that may be far away.
+  const Vector3 middle = vertices.colwise().mean();
+  Vector3 moment = Vector3::Zero();
+  for (int i = 0; i < triangles.rows(); ++i) {
+    const Vector3 a = vertices.row(triangles(i, 0)).transpose() - middle,
+                  b = vertices.row(triangles(i, 1)).transpose() - middle,
+                  c = vertices.row(triangles(i, 2)).transpose() - middle;
+    const Vector3 area = 0.5 * (b - a).cross(c - a);
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    mesh.degenerate += area.norm() <= no_area * longest;
+    mesh.areas.row(i) = area.transpose().array();
+    mesh.area += area.norm();
+    const double volume = a.dot(area) / 3.0;
+    volumes[static_cast<std::size_t>(shell[static_cast<std::size_t>(i)])] += volume;
+    moment += volume * 0.25 * (a + b + c);
+  }
+  for (int i = 0; i < triangles.rows(); ++i) {
+    if (shell[static_cast<std::size_t>(i)] != i)
+      continue;
+    ++mesh.shells;
+    const double volume = volumes[static_cast<std::size_t>(i)];
+    if (!(volume > 0.0))
+      throw Error("the closed surface of the mesh that holds triangle " + std::to_string(i) +
+                  " encloses a volume of " + std::to_string(volume) +
+                  " m3: its normals point inwards; reverse the order of the vertices of its "
+                  "triangles");
+    mesh.volume += volume;
+  }
+  mesh.centroid = middle + moment / mesh.volume;
+  return mesh;
+}
+
+} // namespace hydrodae::hull

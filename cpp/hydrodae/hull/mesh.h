@@ -1,0 +1,40 @@
+#pragma once
+/// Closed surface of a body as plane triangles, in body axes.
+
+#include <vector>
+
+#include "hydrodae/core/types.h"
+
+namespace hydrodae::hull {
+
+using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>; ///< (n, 3) [m]
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;   ///< (m, 3)
+using Columns = Eigen::Array<double, Eigen::Dynamic, 3>; ///< (n, 3), each coordinate contiguous
+
+/// Edge from vertex a to b. Triangle `left` passes it from a to b, triangle `right` from b to a.
+struct Edge {
+  int a = 0, b = 0, left = 0, right = 0;
+};
+
+/// A checked mesh. Constant during a run; several bodies and threads may share it.
+struct Mesh {
+  Columns vertices;                   ///< (n, 3) [m]
+  Triangles triangles;                ///< (m, 3) vertices, anticlockwise as seen from the water
+  Columns areas;                      ///< (m, 3) area times outward unit normal [m2]
+  std::vector<Edge> edges;            ///< 3 m / 2 of them
+  int shells = 0;                     ///< closed surfaces that share no edge
+  int degenerate = 0;                 ///< triangles without area; they carry no load
+  double volume = 0.0;                ///< enclosed by the whole surface [m3]
+  double area = 0.0;                  ///< of the surface [m2]
+  double radius = 0.0;                ///< largest distance of a vertex from the body's origin [m]
+  Vector3 centroid = Vector3::Zero(); ///< of the enclosed volume [m]
+};
+
+/// Checks a surface and prepares it. Throws Error, naming the place, if
+/// - there is no triangle, a number is not finite, or a triangle names a missing vertex,
+/// - an edge does not belong to two triangles (the surface has a hole, or vertices are doubled),
+/// - two triangles pass their common edge in the same direction (the normals disagree),
+/// - a shell encloses a negative volume (its normals point inwards) or none.
+Mesh make_mesh(const Vertices& vertices, const Triangles& triangles);
+
+} // namespace hydrodae::hull

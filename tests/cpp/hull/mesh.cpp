@@ -1,0 +1,83 @@
+/// Checks of a mesh, and the volume of bodies.
+
+#include "hydrodae/hull/mesh.h"
+
+#include <doctest/doctest.h>
+
+#include "hull/meshes.h"
+#include "hydrodae/core/error.h"
+
+namespace hydrodae::test_hull_mesh {
+
+namespace {
+
+std::string complaint(const tests::MeshArrays& arrays) {
+  try {
+    arrays.mesh();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("a box: volume, centroid, area, edges, wherever its axes are") {
+  tests::MeshArrays arrays = tests::box(2.0, 3.0, 4.0);
+  const Vector3 shift(1e3, -2e3, 7.0);
+  for (Vector3& v : arrays.vertices)
+    v += shift;
+  const hull::Mesh mesh = arrays.mesh();
+  CHECK(mesh.volume == doctest::Approx(24.0).epsilon(1e-12));
+  CHECK((mesh.centroid - shift).norm() < 1e-11);
+  CHECK(mesh.area == doctest::Approx(52.0));
+  CHECK(mesh.edges.size() == 18);
+  CHECK(mesh.shells == 1);
+  CHECK(mesh.degenerate == 0);
+  CHECK(mesh.areas.colwise().sum().matrix().norm() < 1e-12);
+}
+
+TEST_CASE("two bodies in one mesh are two shells, and a triangle without area is counted") {
+  tests::MeshArrays arrays = tests::box(1.0, 1.0, 1.0), other = tests::sphere(1.0, 1);
+  for (const Vector3& v : other.vertices)
+    arrays.vertices.push_back(v + Vector3(5.0, 0.0, 0.0));
+  for (auto [a, b, c] : other.triangles)
+    arrays.triangles.push_back({a + 8, b + 8, c + 8});
+  CHECK(arrays.mesh().shells == 2);
+  // A vertex on the edge of two triangles, joined to one of them by a triangle without area.
+  tests::MeshArrays flat = tests::box(1.0, 1.0, 1.0);
+  const auto [a, b, c] = flat.triangles[0];
+  flat.vertices.push_back(0.5 * (flat.vertices[std::size_t(a)] + flat.vertices[std::size_t(c)]));
+  flat.triangles[0] = {a, b, 8};
+  flat.triangles.push_back({b, c, 8});
+  flat.triangles.push_back({a, 8, c});
+  const hull::Mesh mesh = flat.mesh();
+  CHECK(mesh.degenerate == 1);
+  CHECK(mesh.volume == doctest::Approx(1.0));
+}
+
+TEST_CASE("a bad mesh is refused by the name of its fault") {
+  tests::MeshArrays open = tests::box(1.0, 1.0, 1.0);
+  open.triangles.pop_back();
+  CHECK(contains(complaint(open), "not closed"));
+  tests::MeshArrays crossed = tests::box(1.0, 1.0, 1.0);
+  std::swap(crossed.triangles[3][0], crossed.triangles[3][1]);
+  CHECK(contains(complaint(crossed), "same direction"));
+  tests::MeshArrays inward = tests::box(1.0, 1.0, 1.0);
+  for (auto& triangle : inward.triangles)
+    std::swap(triangle[0], triangle[1]);
+  CHECK(contains(complaint(inward), "point inwards"));
+  tests::MeshArrays missing = tests::box(1.0, 1.0, 1.0);
+  missing.triangles[2][1] = 8;
+  CHECK(contains(complaint(missing), "triangle 2 "));
+  tests::MeshArrays endless = tests::box(1.0, 1.0, 1.0);
+  endless.vertices[4][2] = NAN;
+  CHECK(contains(complaint(endless), "vertex 4 "));
+  CHECK(contains(complaint({}), "no triangles"));
+}
+
+} // namespace hydrodae::test_hull_mesh
