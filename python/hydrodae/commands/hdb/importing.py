@@ -58,6 +58,12 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_water_options(add)
     add.add_argument(
+        "--time-convention",
+        metavar="WORD",
+        help="time factor of the forces: format (the format's own) or other, of all of them or of "
+        "each (froude-krylov=other,diffraction=other); default: what the long waves say",
+    )
+    add.add_argument(
         "--keep",
         metavar="SPEC",
         help="coordinates to keep, e.g. base.planar,flap1.pitch; the checks see these only",
@@ -123,6 +129,7 @@ def run(args: argparse.Namespace) -> int:
         source_points=dict(parse_point("--origin", text) for text in args.origin),
         meshes=dict(parse_file("--mesh", text) for text in args.mesh),
         **water_of(args),
+        time_convention=args.time_convention,
         keep=args.keep,
         cut=args.cut,
         band=_band(args),

@@ -36,6 +36,7 @@ def import_database(
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
+    time_convention: str | None = None,
     keep: str | None = None,
     cut: float | None = None,
     band: Band | Callable[[HydroDatabase], Band] | None = None,
@@ -60,6 +61,8 @@ def import_database(
         body follow, where the source has none or wrong ones.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    time_convention : str, optional
+        Of the forces, as in `read`.
     keep : str, optional
         Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
     cut : float, optional
@@ -79,13 +82,17 @@ def import_database(
         Missing or wrong files, unknown bodies, points that cannot be moved.
     """
     if kind(source) == "hydro":
+        if time_convention is not None:
+            raise DatabaseError(f"{source}: finished; its forces are e^(+iwt) (time_convention)")
         if cut is not None:
             raise DatabaseError(f"{source}: frequencies are cut where a source is imported (cut)")
         database = read(source, rho=rho, depth=depth, gravity=gravity)
         noticed = [closing_finding(database.heading)] if goes_round(database.heading) else []
         database = closed(database)
     else:
-        data = read_source(source, rho=rho, depth=depth, gravity=gravity)
+        data = read_source(
+            source, rho=rho, depth=depth, gravity=gravity, time_convention=time_convention
+        )
         if cut is not None:
             _cut(data, cut)
         new = {name: name for name in bodies_of(data.coordinates)}
