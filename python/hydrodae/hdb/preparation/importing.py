@@ -22,6 +22,7 @@ from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.headings import FORCES
 from hydrodae.hdb.readers.kinds import kind
 from hydrodae.hdb.readers.reading import read, read_source
+from hydrodae.hdb.readers.reference import without_moments
 from hydrodae.hdb.readers.source import SourceData
 
 
@@ -97,7 +98,10 @@ def import_database(
             _cut(data, cut)
         new = {name: name for name in bodies_of(data.coordinates)}
         new.update(_renaming(list(new), names))
-        _state_points(data, {v: k for k, v in new.items()}, source_points or {})
+        free = {new[name] for name in without_moments(data) if name in data.assumed_points}
+        anywhere = {k: v for k, v in (reference_points or {}).items() if k in free}
+        stated = {**anywhere, **(source_points or {})}
+        _state_points(data, {v: k for k, v in new.items()}, stated)
         database = finish(data)
         noticed = data.findings
     database = database.renamed(_renaming(list(database.bodies), names))

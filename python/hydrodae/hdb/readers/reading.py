@@ -14,6 +14,7 @@ from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.formats import formats
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
 from hydrodae.hdb.readers.kinds import others, resolve
+from hydrodae.hdb.readers.reference import settle_points
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
 from hydrodae.hdb.readers.time_sense import correct_time_sense
 
@@ -53,6 +54,7 @@ def read_source(
         with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are told below
             data = _read(path, what, water)
         _check_tables(path, data)
+        settle_points(data)
         correct_time_sense(data, time_convention)
     except DatabaseError as error:
         raise _naming(path, error) from None

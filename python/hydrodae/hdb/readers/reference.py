@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.hdb.database.coordinates import bodies_of, split_label
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.nemoh_hydrostatics import FileHydrostatics
 from hydrodae.hdb.readers.source import SourceData
@@ -15,6 +16,26 @@ Array = NDArray[np.float64]
 LONGEST = 0.1
 #: Difference of K55, over the size of its parts, that the point found may leave.
 AGREE = 0.03
+
+
+def without_moments(data: SourceData) -> list[str]:
+    """Bodies of which a source holds translations only: their forces do not know a point."""
+    turning = {body for body, dof in map(split_label, data.coordinates) if dof >= 3}
+    return [name for name in bodies_of(data.coordinates) if name not in turning]
+
+
+def settle_points(data: SourceData) -> None:
+    """Take the origin as the point of bodies without moments whose point no file says."""
+    for name in without_moments(data):
+        if data.reference_points.get(name) is not None:
+            continue
+        data.reference_points[name] = np.zeros(3)
+        data.assumed_points.add(name)
+        text = (
+            f"{name}: the forces hold no moments and are the same about any point; the origin is "
+            f"taken (--cog {name}=x,y,z: another one)"
+        )
+        data.findings.append(Finding("info", "assumption", text))
 
 
 def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -> Array | None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import DOFS, bodies_of, unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
@@ -76,7 +76,9 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
     control = read_control(stem)
     findings: list[Finding] = []
-    rho, depth, gravity, length = settled(stem, control, water or Water(), findings)
+    rho, depth, gravity, length = settled(
+        stem, control, water or Water(), findings, waves=lambda: _holds_waves(stem)
+    )
     numeric, listed = beside(stem, ".1"), beside(stem, ".out")
     radiation = numeric or listed
     assert radiation is not None  # that is what makes a stem
@@ -180,6 +182,13 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     return data
 
 
+def _holds_waves(stem: Path) -> bool:
+    """Tell whether a run has forces of waves, in tables or in its listing alone."""
+    tables_of = (".2", ".3", ".3fk", ".3sc")
+    listed = beside(stem, ".1") is None
+    return listed or any(beside(stem, suffix) is not None for suffix in tables_of)
+
+
 def _waves(stem: Path) -> Array | None:
     """Lines (m, 7) of the exciting forces of a run, or None."""
     path = beside(stem, ".3") or beside(stem, ".2")
@@ -280,6 +289,7 @@ def _attach_hydrostatics(
                 rho_g * block, point, statics.volume, center, data.rho, data.gravity
             )
             data.hydrostatics[name] = (hydrostatics, point)
+    missing = [name for name in missing if name in bodies_of(data.coordinates)]
     if missing:
         text = f"no complete .hst and .mmx files of {missing}"
         data.findings.append(without_hydrostatics(text, missing))

@@ -2,7 +2,8 @@
 
 Depth and body axes stand in `.pot` or `.out`, gravity and the length scale in `.mmx`, `.out` or the
 `.gdf`, volumes and centres in `.mmx` or `.out`, the density in `.frc` (alternative form 2). HAMS,
-which writes the same tables, has depth and reference point in `ControlFile.in`.
+which writes the same tables, has depth and reference point in `ControlFile.in`; the input of
+OpenFAST's HydroDyn tells what it takes them for.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.hydrodyn import hydrodyn_of
 from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
 from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
 
@@ -73,6 +75,8 @@ def read_control(stem: Path) -> Control:
     if hams is not None and control.depth is None:
         _hams(hams, control)
         control.files.append(hams)
+    if control.depth is None:
+        _hydrodyn(stem, control)
     if control.gravity is None or control.length is None:
         for name in control.names or [stem.name]:
             path = beside(stem.with_name(name), ".gdf")
@@ -81,6 +85,18 @@ def read_control(stem: Path) -> Control:
                 control.files.append(path)
                 break
     return control
+
+
+def _hydrodyn(stem: Path, control: Control) -> None:
+    """Water, length and reference point of the input of HydroDyn that names these tables."""
+    found = hydrodyn_of(stem)
+    if found is None:
+        return
+    control.depth, control.files = found.depth, [*control.files, found.path]
+    control.rho = found.rho if control.rho is None else control.rho
+    control.length = found.length if control.length is None else control.length
+    if not control.points:
+        control.points.append(np.zeros(3))
 
 
 def beside(stem: Path, suffix: str) -> Path | None:
