@@ -17,9 +17,10 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
+from hydrodae.hdb.readers.mesh_beside import statics_of_file
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.wamit_asked import asked_findings
-from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
+from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
 
@@ -289,10 +290,18 @@ def _attach_hydrostatics(
                 rho_g * block, point, statics.volume, center, data.rho, data.gravity
             )
             data.hydrostatics[name] = (hydrostatics, point)
-    missing = [name for name in missing if name in bodies_of(data.coordinates)]
-    if missing:
-        text = f"no complete .hst and .mmx files of {missing}"
-        data.findings.append(without_hydrostatics(text, missing))
+    block = None if path is None else _stiffness(path, control, len(names), every)
+    for i, name in enumerate(names):
+        if name not in missing or name not in bodies_of(data.coordinates):
+            continue
+        text = f"{name}: no complete .hst and .mmx files"
+        mesh = mesh_of(stem, name, len(names) == 1)
+        if mesh is None:
+            data.findings.append(without_hydrostatics(text, [name]))
+            continue
+        area = None if block is None else float(block[6 * i + 2, 6 * i + 2]) * length**2
+        shift = data.reference_points[name] if mesh[1] else None
+        statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
 
 
 def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:

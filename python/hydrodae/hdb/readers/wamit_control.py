@@ -71,7 +71,7 @@ def read_control(stem: Path) -> Control:
             reader(path, control)
             control.files.append(path)
     _frc(stem, control)
-    hams = _hams_file(stem)
+    hams = hams_file(stem, "ControlFile.in")
     if hams is not None and control.depth is None:
         _hams(hams, control)
         control.files.append(hams)
@@ -264,14 +264,27 @@ def _frc(stem: Path, control: Control) -> None:
             control.files.append(path)
 
 
-def _hams_file(stem: Path) -> Path | None:
-    """`ControlFile.in` of HAMS in the folder of the tables, above it, or in `Input` beside it."""
+def hams_file(stem: Path, name: str) -> Path | None:
+    """An input of HAMS in the folder of the tables, above it, or in `Input` beside it."""
     for folder in (stem.parent, stem.parent.parent, stem.parent.parent.parent):
         for place in (folder, named(folder, "Input")):
-            path = named(place, "ControlFile.in")
+            path = named(place, name)
             if path is not None and path.is_file():
                 return path
     return None
+
+
+def mesh_of(stem: Path, name: str, alone: bool) -> tuple[Path, bool] | None:
+    """Mesh of a body of WAMIT (`.gdf`, in body axes: True) or HAMS (`HullMesh.pnl`), or None.
+
+    One that is `alone` may have its mesh under the name of the run.
+    """
+    for file in dict.fromkeys((name, stem.name) if alone else (name,)):
+        path = beside(stem.with_name(file), ".gdf")
+        if path is not None:
+            return path, True
+    path = hams_file(stem, "HullMesh.pnl") if alone else None
+    return None if path is None else (path, False)
 
 
 def _hams(path: Path, control: Control) -> None:
