@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hydrodae import hdb
+from hydrodae.commands import cli
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.readers.reading import read_source
 
@@ -108,3 +109,19 @@ def test_inputs_of_hydrodyn_that_differ_are_not_taken(tmp_path):
         (tmp_path / f"{name}.dat").write_text(text)
     with pytest.raises(DatabaseError, match="--depth"):
         read_source(tmp_path)
+
+
+def test_one_body_needs_no_name(tmp_path, capsys):
+    tables(tmp_path, dofs=(1, 3, 5))
+    out = tmp_path / "hydro.h5"
+    words = ["hdb", "import", str(tmp_path), "--depth", "50", "--accept", "phase-convention"]
+    words += ["--accept", "damping-from-one-heading", "--accept", "heading"]
+    cli.main([*words, "--origin=0,0,-1", "--cog=0,0,-2", "-o", str(out)])
+    np.testing.assert_array_equal(hdb.read(out).reference_point("buoy"), [0, 0, -2])
+    two = "\n".join(f"{2 * np.pi / w:.6f} {i} {i} 2.0 0.1" for w in OMEGA for i in (3, 9))
+    (tmp_path / "buoy.1").write_text(two + "\n")
+    (tmp_path / "buoy.3").unlink()
+    with pytest.raises(
+        DatabaseError, match=r"of which body\? There are body1, body2: write body1="
+    ):
+        hdb.import_database(tmp_path, reference_points={"": [0, 0, 0]})
