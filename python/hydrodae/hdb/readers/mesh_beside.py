@@ -13,6 +13,7 @@ from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.nemoh_hydrostatics import mesh_file
+from hydrodae.hdb.readers.reference import origin_by_moments
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.relations.dispersion import wavenumber
 
@@ -81,6 +82,16 @@ def statics_of_file(
         wrong = f"its stiffness in heave is that of {area:.5g} m2"
     elif share is not None and abs(share - 1.0) > ALIKE:
         wrong = f"their long-wave heave force is {share:.2f} of that"
+    if wrong is None and point is None:
+        miss = origin_by_moments(data, name, statics)
+        if miss is not None and miss < ALIKE:
+            point = data.reference_points[name] = np.zeros(3)
+            data.assumed_points.add(name)
+            said = (
+                f"{name}: the files do not say about which point moments are: taken about the "
+                f"origin, as those of long waves agree to {miss:.2g} (--origin)"
+            )
+            data.findings.append(Finding("info", "assumption", said))
     if wrong is not None or point is None:
         text = f"{missing}, and its mesh {path.name} ({shown}) is not the hull of the tables: "
         text = missing if wrong is None else text + wrong

@@ -6,6 +6,7 @@ dimensionless: A/(rho L^k), B/(rho w L^k), F/(rho g L^m), C/(rho g L^j).
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ from hydrodae.hdb.readers.wamit_asked import asked_findings
 from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
+from hydrodae.hdb.relations.depth import depth_of_bodies
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -77,8 +79,11 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
     control = read_control(stem)
     findings: list[Finding] = []
+    water = water or Water()
+    if control.depth is None and water.depth is None and _holds_waves(stem):
+        water = _of_told_depth(path, control, water, findings)
     rho, depth, gravity, length = settled(
-        stem, control, water or Water(), findings, waves=lambda: _holds_waves(stem)
+        stem, control, water, findings, waves=lambda: _holds_waves(stem)
     )
     numeric, listed = beside(stem, ".1"), beside(stem, ".out")
     radiation = numeric or listed
@@ -181,6 +186,30 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     data.reference_points.update(zip(names, control.points, strict=False))
     _attach_hydrostatics(data, stem, control, names, length, every)
     return data
+
+
+def _of_told_depth(path: Path, control: Control, water: Water, findings: list[Finding]) -> Water:
+    """Enter the depth that damping and force of heave tell, else what HydroDyn takes it for."""
+    deep = read_wamit(path, replace(water, depth=np.inf))
+    told = depth_of_bodies(
+        deep.coordinates,
+        deep.omega,
+        deep.radiation_damping,
+        deep.heading,
+        deep.excitation,
+        deep.rho,
+        deep.gravity,
+    )
+    likely = control.likely_depth
+    if likely is not None and (told is None or told.agrees(likely)):
+        return replace(water, depth=likely)
+    if told is None or not told.decided:
+        return water
+    said = "no file says the depth" if likely is None else f"HydroDyn takes {likely:g} m"
+    best = f"{told.depth:.4g} m" if np.isfinite(told.depth) else f"infinite (over {told.low:.3g} m)"
+    text = f"water depth {best}: with that damping and force of heave agree; {said} (--depth)"
+    findings.append(Finding("warning", "assumption", text))
+    return replace(water, depth=told.depth)
 
 
 def _holds_waves(stem: Path) -> bool:

@@ -39,9 +39,13 @@ class Statics:
 
 @dataclass
 class Control:
-    """Settings of a run; None where no file says."""
+    """Settings of a run; None where no file says.
+
+    `likely_depth` is that of a program that uses the tables, which may be of another depth.
+    """
 
     depth: float | None = None
+    likely_depth: float | None = None
     gravity: float | None = None
     length: float | None = None
     rho: float | None = None
@@ -92,7 +96,7 @@ def _hydrodyn(stem: Path, control: Control) -> None:
     found = hydrodyn_of(stem)
     if found is None:
         return
-    control.depth, control.files = found.depth, [*control.files, found.path]
+    control.likely_depth, control.files = found.depth, [*control.files, found.path]
     control.rho = found.rho if control.rho is None else control.rho
     control.length = found.length if control.length is None else control.length
     if not control.points:
