@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -105,7 +107,7 @@ def test_units_of_length_mass_and_force_are_independent(tmp_path, words, length,
         rest = "".join(f"\n  {key}: {word}" for key, word in keys)
         system = f"User{rest}\n  g: {9.80665 / length:.12g}"
     path = write(tmp_path / "hull.yml", headings=[0], units=(system, length, mass, force))
-    data = read_source(path)
+    data: Any = read_source(path)
     assert (data.rho, data.gravity, data.water_depth) == pytest.approx((1025.0, 9.80665, 200.0))
     np.testing.assert_allclose(data.added_mass[0], ADDED)
     np.testing.assert_allclose(data.radiation_damping[0], DAMPING)
@@ -125,7 +127,7 @@ def test_units_of_length_mass_and_force_are_independent(tmp_path, words, length,
     ],
 )
 def test_the_other_directions_of_symmetric_hulls(tmp_path, symmetry, given, found):
-    data = read_source(write(tmp_path / "hull.yml", headings=given, symmetry=symmetry))
+    data: Any = read_source(write(tmp_path / "hull.yml", headings=given, symmetry=symmetry))
     beta = np.radians(found)
     if data.heading[-1] > 6.0:  # all round: closed by the forces of the first
         beta = np.append(beta, 2.0 * np.pi)
@@ -141,7 +143,7 @@ def test_a_symmetry_of_another_name_names_what_to_save(tmp_path):
 
 
 def test_mirrors_turn_moments_the_other_way():
-    force = np.arange(1.0, 7.0)[None, None] + 0j
+    force = np.arange(1.0, 7.0)[None, None].astype(complex)
     heading, both = mirrored_forces(np.array([0.5]), force, across=True)
     np.testing.assert_allclose(heading, [0.5, 2.0 * np.pi - 0.5])
     np.testing.assert_array_equal(both[0, 1].real, [1, -2, 3, -4, 5, -6])

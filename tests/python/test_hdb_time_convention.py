@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,7 +47,7 @@ def write(path, turned=(), bodies=1, left_out=()):
     for i in range(n):
         a[:, i, i] = 0.5e5 if i % 2 == 0 else 0.6e5
         b[:, i, i] = damping_of_heave() * (1.0 if i % 2 else OMEGA**4 / 20.0)
-    variables = {
+    variables: dict[str, Any] = {
         "added_mass": (("omega", "influenced_dof", "radiating_dof"), a),
         "radiation_damping": (("omega", "influenced_dof", "radiating_dof"), b),
     }
@@ -76,7 +77,7 @@ NAMES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
 
 def told(source, **options):
-    data = read_source(source, **options)
+    data: Any = read_source(source, **options)
     fk, diffraction = (np.asarray(f) for f in forces(len(data.coordinates) // 2))
     np.testing.assert_allclose(data.excitation[:, 0], fk + diffraction, atol=1e-3)
     np.testing.assert_allclose(data.froude_krylov[:, 0], fk, atol=1e-3)

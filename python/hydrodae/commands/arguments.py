@@ -68,10 +68,11 @@ ONLY_BODY = ""
 def parse_point(option: str, text: str, *, alone: bool = False) -> tuple[str, list[float]]:
     """Read NAME=X,Y,Z [m], or X,Y,Z of a body `alone`; raise CaseError if it is something else."""
     name, equals, values = text.partition("=")
-    if alone and not equals:
+    if alone and not equals and "," in text:
         return ONLY_BODY, parse_numbers(option, text, 3)
     if not equals:
-        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
+        other = ", or X,Y,Z of the only body" if alone else ""
+        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z{other}")
     return name.strip(), parse_numbers(option, values, 3)
 
 

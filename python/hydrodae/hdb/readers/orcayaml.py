@@ -17,7 +17,7 @@ _NULL = re.compile(r"~?$")
 _BASE: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-class _Loader(_BASE):  # type: ignore[misc]
+class _Loader(_BASE):
     """Numbers and nothing; no dates, no yes and no, no 12:30 as a number in base 60."""
 
     yaml_implicit_resolvers: dict[str, Any] = {}  # noqa: RUF012

@@ -128,7 +128,7 @@ def _of_another_sense(data: SourceData) -> list[str] | None:
     scale = np.nanmax(np.abs(total), axis=(0, 1), initial=0.0)
     scale[scale <= 1e-6 * scale.max(initial=0.0)] = np.inf
 
-    def missed(turned: tuple[bool, bool]) -> float:
+    def missed(turned: tuple[bool, ...]) -> float:
         one, other = (np.conj(f) if t else f for f, t in zip((fk, scattered), turned, strict=True))
         return float(np.nanmax(np.abs(one + other - total) / scale, initial=0.0))
 

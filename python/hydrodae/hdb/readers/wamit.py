@@ -319,7 +319,7 @@ def _attach_hydrostatics(
                 rho_g * block, point, statics.volume, center, data.rho, data.gravity
             )
             data.hydrostatics[name] = (hydrostatics, point)
-    block = None if path is None else _stiffness(path, control, len(names), every)
+    table = None if path is None else _stiffness(path, control, len(names), every)
     for i, name in enumerate(names):
         if name not in missing or name not in bodies_of(data.coordinates):
             continue
@@ -328,7 +328,7 @@ def _attach_hydrostatics(
         if mesh is None:
             data.findings.append(without_hydrostatics(text, [name]))
             continue
-        area = None if block is None else float(block[6 * i + 2, 6 * i + 2]) * length**2
+        area = None if table is None else float(table[6 * i + 2, 6 * i + 2]) * length**2
         shift = data.reference_points[name] if mesh[1] else None
         statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
 
