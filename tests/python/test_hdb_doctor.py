@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+from typing import Any
 
 import numpy as np
 import pytest
@@ -47,7 +48,7 @@ def test_group_velocity_of_deep_and_shallow_water():
 
 @pytest.mark.parametrize("folder", ["sphere_nemoh_v2.3", "sphere_nemoh_v3.0.2", "sphere_wamit"])
 def test_damping_follows_from_the_excitation_of_a_sphere(reference, folder):
-    rho = {"rho": 1000.0} if "wamit" in folder else {}
+    rho: dict[str, Any] = {"rho": 1000.0} if "wamit" in folder else {}
     db = hdb.read(reference / "hdb" / folder, **rho)
     found = energy_identity(db)
     assert found is not None

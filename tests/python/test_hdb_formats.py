@@ -286,8 +286,8 @@ def test_the_yaml_of_orcaflex(tmp_path):
     assert model["General"] == {"Depth": float("inf"), "Empty": None}
     assert model["Types"][0] == {"Name": "one", "A, B": [[1.0, 2500.0, -3.0], []], "Last": -1e-6}
     assert model["Types"][1] == {"Name": "two"}
-    path.write_text("General:\n  no colon here\n")
-    with pytest.raises(DatabaseError, match=r"model.yml:2: expected `key: value`"):
+    path.write_text("no colon here\n")
+    with pytest.raises(DatabaseError, match=r"model.yml: not a data file of OrcaFlex"):
         read_yaml(path)
 
 
@@ -326,8 +326,8 @@ def test_orcaflex_in_kilograms_and_newtons(reference, tmp_path):
     assert kilograms.rho == pytest.approx(1.025)
     for name in ("added_mass", "radiation_damping", "excitation"):
         np.testing.assert_allclose(getattr(tonnes, name), 1e3 * getattr(kilograms, name))
-    with pytest.raises(DatabaseError, match=r"units ft kg N: expected SI, or m, te, kN"):
-        hdb.read(in_units("ft", "kg", "N"))
+    with pytest.raises(DatabaseError, match=r"LengthUnits cubit: expected m, km, mm"):
+        hdb.read(in_units("cubit", "kg", "N"))
 
 
 def test_a_reader_is_a_module_and_its_name(tmp_path, monkeypatch):

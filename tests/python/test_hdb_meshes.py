@@ -297,5 +297,5 @@ def test_other_files_are_refused(tmp_path):
     with pytest.raises(DatabaseError, match="no such mesh file"):
         read_mesh(tmp_path / "none.stl")
     (tmp_path / "x.stl").write_text("hello")
-    with pytest.raises(DatabaseError, match="expected a mesh of STL, GDF, Nemoh or GMSH"):
+    with pytest.raises(DatabaseError, match="expected a mesh of STL, GDF, PNL, Nemoh or GMSH"):
         read_mesh(tmp_path / "x.stl")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -28,7 +30,7 @@ FILES: dict[str, tuple[int, float, float, float, list[float | None]]] = {
 @pytest.mark.parametrize("name", FILES)
 def test_what_stands_in_the_file(reference, name):
     count, depth, asymmetry, phase, volumes = FILES[name]
-    options = {"rho": 1000.0} if name.endswith("wamit") else {}
+    options: dict[str, Any] = {"rho": 1000.0} if name.endswith("wamit") else {}
     source = read_source(reference / "hdb" / name, **options)
     a = np.asarray(source.added_mass)
     found = np.abs(a - a.transpose(0, 2, 1)).max() / np.abs(a).max()

@@ -216,7 +216,7 @@ def test_a_and_b_tell_what_the_first_column_holds(reference, tmp_path, option):
         first = {1: period, 2: w, 3: w**2 / known.gravity, 4: k}[option]
         lines.append(" ".join([f"{first:.6E}", *words[1:]]))
     (tmp_path / "bare.1").write_text("\n".join(lines))
-    water = {"depth": known.water_depth, "rho": 1000.0, "gravity": known.gravity}
+    water: dict[str, Any] = {"depth": known.water_depth, "rho": 1000.0, "gravity": known.gravity}
     data = read_source(tmp_path, **water)
     np.testing.assert_allclose(data.omega, known.omega, rtol=1e-5)
     told = [f.message for f in data.findings if "first column" in f.message]

@@ -61,17 +61,26 @@ def parse_headings(option: str, text: str) -> Array:
     return np.asarray(np.radians(degrees))
 
 
-def parse_point(option: str, text: str) -> tuple[str, list[float]]:
-    """Read NAME=X,Y,Z [m]; raise CaseError if it is something else."""
+#: Name of the only body there is, where an option leaves it out.
+ONLY_BODY = ""
+
+
+def parse_point(option: str, text: str, *, alone: bool = False) -> tuple[str, list[float]]:
+    """Read NAME=X,Y,Z [m], or X,Y,Z of a body `alone`; raise CaseError if it is something else."""
     name, equals, values = text.partition("=")
+    if alone and not equals and "," in text:
+        return ONLY_BODY, parse_numbers(option, text, 3)
     if not equals:
-        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z")
+        other = ", or X,Y,Z of the only body" if alone else ""
+        raise CaseError(f"{option} {text!r}: expected NAME=X,Y,Z{other}")
     return name.strip(), parse_numbers(option, values, 3)
 
 
-def parse_file(option: str, text: str) -> tuple[str, str]:
-    """Read NAME=FILE; raise CaseError if it is something else."""
+def parse_file(option: str, text: str, *, alone: bool = False) -> tuple[str, str]:
+    """Read NAME=FILE, or FILE of a body `alone`; raise CaseError if it is something else."""
     name, equals, file = text.partition("=")
+    if alone and not equals and text.strip():
+        return ONLY_BODY, text.strip()
     if not equals or not file.strip():
         raise CaseError(f"{option} {text!r}: expected NAME=FILE")
     return name.strip(), file.strip()

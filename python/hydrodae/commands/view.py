@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="cylinder:radius=R:length=L, sphere:radius=R, box:length=L:width=W:height=H, each "
         "may be followed by :x=..:y=..:z=.. from the centre of gravity; rods:diameter=D to what "
-        "is attached; or a mesh file (STL, GDF, Nemoh, GMSH); may be repeated",
+        "is attached; or a mesh file (STL, GDF, PNL, Nemoh, GMSH); may be repeated",
     )
     what.add_argument(
         "--freeboard",

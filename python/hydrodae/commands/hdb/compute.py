@@ -45,8 +45,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="sphere:radius=R[:x=..:y=..:z=..], cylinder:radius=R:draft=D[:top=..:x=..:y=..], "
         "box:length=L:width=W:draft=D[..], cone:radius=R:draft=D[:bottom=RADIUS..], "
         "ring:radius=R:inner=R:draft=D[..] in metres; revolution:profile=FILE[:x=..:y=..:z=..] "
-        "with points r z a line; or a mesh file (STL, GDF, Nemoh, GMSH), which may be followed by "
-        ":x=..:y=..:z=.. to move it, :mirror=y (x, xy) if it is a half and "
+        "with points r z a line; or a mesh file (STL, GDF, PNL, Nemoh, GMSH), which may be "
+        "followed by :x=..:y=..:z=.. to move it, :mirror=y (x, xy) if it is a half and "
         ":scale=0.001 if it is in millimetres; may be repeated",
     )
     compute.add_argument(

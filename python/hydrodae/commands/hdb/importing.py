@@ -32,8 +32,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="read files of Nemoh, Capytaine, WAMIT, AQWA ..., check them, write hydro.h5",
         description="Read the files of a boundary-element code (Nemoh, Capytaine, WAMIT, HAMS, "
         "AQWA, OrcaWave, BEMIO ...), print what was assumed and what the checks found, and write "
-        "hydro.h5. Nothing is written if a check finds an error in the band that the device feels: "
-        "that of --band, or of --case, or what the excitation tells.",
+        "hydro.h5. One body needs no NAME. Nothing is written if a check finds an error in the "
+        "band that the device feels: that of --band, or of --case, or what the excitation tells.",
     )
     add.add_argument(
         "source",
@@ -44,19 +44,25 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
     add.add_argument(
         "--cog",
-        metavar="NAME=X,Y,Z",
+        metavar="[NAME=]X,Y,Z",
         action="append",
         default=[],
         help="move A, B, F and the stiffness of a body to this point [m]; may be repeated",
     )
     add.add_argument(
         "--origin",
-        metavar="NAME=X,Y,Z",
+        metavar="[NAME=]X,Y,Z",
         action="append",
         default=[],
         help="the point [m] of the moments in the source, where it does not say",
     )
     add_water_options(add)
+    add.add_argument(
+        "--time-convention",
+        metavar="WORD",
+        help="time factor of the forces: format (the format's own) or other, of all of them or of "
+        "each (froude-krylov=other,diffraction=other); default: what the long waves say",
+    )
     add.add_argument(
         "--keep",
         metavar="SPEC",
@@ -88,7 +94,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add.add_argument(
         "--mesh",
-        metavar="NAME=FILE",
+        metavar="[NAME=]FILE",
         action="append",
         default=[],
         help="hydrostatics of a body from the mesh of its wetted hull, where the source has none; "
@@ -119,10 +125,11 @@ def run(args: argparse.Namespace) -> int:
     database, report = import_database(
         args.source,
         names=names,
-        reference_points=dict(parse_point("--cog", text) for text in args.cog),
-        source_points=dict(parse_point("--origin", text) for text in args.origin),
-        meshes=dict(parse_file("--mesh", text) for text in args.mesh),
+        reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
+        source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
+        meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
         **water_of(args),
+        time_convention=args.time_convention,
         keep=args.keep,
         cut=args.cut,
         band=_band(args),

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydrodae.hdb.checks.band import LEAST_DAMPING, Band, damping_sizes, felt_band, inside
+from hydrodae.hdb.checks.depth import depth_findings
 from hydrodae.hdb.checks.energy import energy_findings
 from hydrodae.hdb.checks.fits import fit_findings
 from hydrodae.hdb.checks.ground import of_what_moves
@@ -61,6 +62,7 @@ def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
             ),
             *lone_findings(database, judged),
             *energy_findings(database, judged),
+            *depth_findings(database),
             *([] if _negative(database) else one_heading_findings(database)),
             *size_findings(database),
             *place_findings(database),

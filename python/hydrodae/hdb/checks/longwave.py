@@ -163,7 +163,10 @@ def _phase(db: HydroDatabase, body: Body, wave: _Wave) -> list[Finding]:
     severity = "error" if off > 1.0 else "warning" if off > 0.2 else "info"
     text = f"{body.name}: {dof} force leads the elevation by {angle:+.3f} rad (+1.571 expected)"
     if abs(angle + 0.5 * np.pi) < 1.0:
-        text += ": phases of the other time convention, or headings from where the waves come"
+        text += (
+            ": phases of the other time convention (--time-convention other), or headings from "
+            "where the waves come"
+        )
     return [Finding(severity, "phase convention", text, off, wave.omega)]
 
 

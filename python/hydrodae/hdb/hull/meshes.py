@@ -1,4 +1,4 @@
-"""Mesh files: STL, GDF of WAMIT, Nemoh, GMSH (ASCII 2.2 and 4.1).
+"""Mesh files: STL, GDF of WAMIT, PNL of HAMS, Nemoh, GMSH (ASCII 2.2 and 4.1).
 
 All are read into panels (n, 4, 3) [m], triangles with their last corner repeated.
 """
@@ -28,7 +28,7 @@ def read_mesh(path: str | Path) -> Array:
     Returns
     -------
     (n, 4, 3) array
-        Symmetric halves that the file leaves out (Nemoh, GDF) are added.
+        Symmetric halves that the file leaves out (Nemoh, GDF, PNL) are added.
 
     Raises
     ------
@@ -51,7 +51,9 @@ def read_mesh(path: str | Path) -> Array:
         return _nemoh(file, lines)
     if file.suffix.lower() == ".gdf":
         return _gdf(file, lines)
-    raise DatabaseError(f"{file}: expected a mesh of STL, GDF, Nemoh or GMSH")
+    if file.suffix.lower() == ".pnl":
+        return _pnl(file, lines)
+    raise DatabaseError(f"{file}: expected a mesh of STL, GDF, PNL, Nemoh or GMSH")
 
 
 def mirrored(panels: Array, axes: str) -> Array:
@@ -145,6 +147,29 @@ def _gdf(path: Path, lines: list[str]) -> Array:
         )
     found = np.array(numbers[: 12 * int(count)]).reshape(-1, 4, 3).tolist()
     return _with_mirrored(path, found, [axis for axis in (0, 1) if symmetric[axis] == 1.0])
+
+
+def _pnl(path: Path, lines: list[str]) -> Array:
+    """Numbers of panels and nodes, ISX ISY, then `i x y z` a node, then `i n corners` a panel."""
+    rows = [(i, w) for i, line in enumerate(lines, start=1) if (w := line.split("!")[0].split())]
+    rows = [(i, w) for i, w in rows if w[0].lstrip("+-").replace(".", "", 1).isdigit()]
+    where = rows[0][0] if rows else 1
+    first = _floats(path, where, rows[0][1] if rows else [], 4, "panels nodes ISX ISY")
+    count, nodes = int(first[0]), int(first[1])
+    if len(rows) < 1 + nodes + count:
+        raise DatabaseError(
+            f"{path}: {len(rows) - 1} lines for {nodes} nodes and {count} panels: expected one each"
+        )
+    points = {}
+    for i, words in rows[1 : 1 + nodes]:
+        values = _floats(path, i, words, 4, "node x y z")
+        points[int(values[0])] = values[1:]
+    panels = []
+    for i, words in rows[1 + nodes : 1 + nodes + count]:
+        corners = int(_floats(path, i, words[:2], 2, "panel, its number of corners")[1])
+        numbers = _floats(path, i, words[2:], corners, f"{corners} corners")
+        panels.append([_point(path, i, points, int(n)) for n in numbers])
+    return _with_mirrored(path, panels, [axis for axis in (0, 1) if first[2 + axis] == 1.0])
 
 
 def _gmsh(path: Path, lines: list[str]) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +23,10 @@ from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.headings import FORCES
 from hydrodae.hdb.readers.kinds import kind
 from hydrodae.hdb.readers.reading import read, read_source
+from hydrodae.hdb.readers.reference import without_moments
 from hydrodae.hdb.readers.source import SourceData
+
+T = TypeVar("T")
 
 
 def import_database(
@@ -36,6 +40,7 @@ def import_database(
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
+    time_convention: str | None = None,
     keep: str | None = None,
     cut: float | None = None,
     band: Band | Callable[[HydroDatabase], Band] | None = None,
@@ -48,7 +53,7 @@ def import_database(
         As in `read`.
     names : list or dict, optional
         New body names, in the order of the source, or {old: new}. All other arguments use the new
-        names.
+        names; the name "" is that of the only body.
     reference_points : dict of (3,) arrays, optional
         Points to move to, usually the centres of gravity, world [m].
     source_points : dict of (3,) arrays, optional
@@ -56,10 +61,12 @@ def import_database(
     hydrostatics : dict of Hydrostatics, optional
         Where the source has none, or wrong ones; waterplane moments about `reference_points`.
     meshes : dict of path, optional
-        Mesh files of the wetted hulls (STL, GDF, Nemoh, GMSH), from which the hydrostatics of a
-        body follow, where the source has none or wrong ones.
+        Mesh files of the wetted hulls (STL, GDF, PNL, Nemoh, GMSH), from which the hydrostatics of
+        a body follow, where the source has none or wrong ones.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    time_convention : str, optional
+        Of the forces, as in `read`.
     keep : str, optional
         Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
     cut : float, optional
@@ -79,18 +86,32 @@ def import_database(
         Missing or wrong files, unknown bodies, points that cannot be moved.
     """
     if kind(source) == "hydro":
+        if time_convention is not None:
+            raise DatabaseError(f"{source}: finished; its forces are e^(+iwt) (time_convention)")
         if cut is not None:
             raise DatabaseError(f"{source}: frequencies are cut where a source is imported (cut)")
         database = read(source, rho=rho, depth=depth, gravity=gravity)
         noticed = [closing_finding(database.heading)] if goes_round(database.heading) else []
         database = closed(database)
+        renamed = database.renamed(_renaming(list(database.bodies), names))
+        reference_points = _of_only_body(reference_points, list(renamed.bodies))
+        meshes = _of_only_body(meshes, list(renamed.bodies))
     else:
-        data = read_source(source, rho=rho, depth=depth, gravity=gravity)
+        data = read_source(
+            source, rho=rho, depth=depth, gravity=gravity, time_convention=time_convention
+        )
         if cut is not None:
             _cut(data, cut)
         new = {name: name for name in bodies_of(data.coordinates)}
         new.update(_renaming(list(new), names))
-        _state_points(data, {v: k for k, v in new.items()}, source_points or {})
+        bodies = [new[name] for name in bodies_of(data.coordinates)]
+        reference_points = _of_only_body(reference_points, bodies)
+        source_points = _of_only_body(source_points, bodies)
+        meshes = _of_only_body(meshes, bodies)
+        free = {new[name] for name in without_moments(data) if name in data.assumed_points}
+        anywhere = {k: v for k, v in (reference_points or {}).items() if k in free}
+        stated = {**anywhere, **(source_points or {})}
+        _state_points(data, {v: k for k, v in new.items()}, stated)
         database = finish(data)
         noticed = data.findings
     database = database.renamed(_renaming(list(database.bodies), names))
@@ -113,6 +134,17 @@ def import_database(
         database = database.select(expand(keep, database.coordinates))
     judged = band(database) if callable(band) else band
     return database, CheckReport([*noticed, *check(database, judged).findings])
+
+
+def _of_only_body(given: Mapping[str, T] | None, bodies: Sequence[str]) -> Mapping[str, T] | None:
+    """Give what is stated of the only body, "", its name."""
+    if not given or "" not in given:
+        return given
+    if len(bodies) != 1:
+        raise DatabaseError(
+            f"{given['']}: of which body? There are {', '.join(bodies)}: write {bodies[0]}=..."
+        )
+    return {bodies[0] if name == "" else name: value for name, value in given.items()}
 
 
 def _cut(data: SourceData, highest: float) -> None:

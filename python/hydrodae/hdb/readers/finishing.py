@@ -30,7 +30,8 @@ def finish(data: SourceData) -> HydroDatabase:
     _drop_rows_with_nan(data)
     if data.omega.size < 4:
         raise DatabaseError(
-            f"{data.name}: {data.omega.size} frequencies > 0; 4 are needed at least"
+            f"{data.name}: {data.omega.size} frequencies > 0; 4 are needed at least: "
+            f"compute more where they come from"
         )
     asymmetry_finding(data)
     exchange_finding(data)

@@ -9,10 +9,10 @@ import h5py
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.coordinates import nearest
+from hydrodae.hdb.readers.below import runs_below
 from hydrodae.hdb.readers.bemio import is_bemio_file
 from hydrodae.hdb.readers.foreign import foreign, foreign_in
 from hydrodae.hdb.readers.formats import expected_files, formats
-from hydrodae.hdb.readers.nemoh_hydrostatics import find
 from hydrodae.support.damaged import opened
 
 
@@ -50,9 +50,8 @@ def kind(source: str | Path) -> str:
 
 
 def _folder(path: Path) -> tuple[Path, str]:
-    if find(path, "Nemoh.cal") is not None:
-        if find(path, "RadiationCoefficients.tec") is not None or not _tables(path):
-            return path, "nemoh"
+    if _nemoh(path):
+        return path, "nemoh"
     for name, format in formats().items():
         found = format.find(path)
         if found is not None:
@@ -63,16 +62,17 @@ def _folder(path: Path) -> tuple[Path, str]:
     if inside:
         names = ", ".join(p.name for p in inside[:6])
         raise DatabaseError(f"{path}: which one is meant? {names}: name the file")
-    below = [p for p in sorted(path.iterdir()) if p.is_dir() and _holds_one(p)]
+    below = runs_below(path, _holds_one)
     if len(below) == 1:
         return _folder(below[0])
     if below:
-        names = ", ".join(p.name for p in below[:6])
-        raise DatabaseError(f"{path}: databases are in the folders {names}: name one of them")
+        names = ", ".join(str(p.relative_to(path)) for p in below[:8])
+        more = f" and {len(below) - 8} more" if len(below) > 8 else ""
+        raise DatabaseError(f"{path}: databases are in the folders {names}{more}: name one of them")
     runs = [p.name for p in sorted(path.iterdir()) if p.suffix == ".1"]
     if len(runs) > 1:
         raise DatabaseError(f"{path}: which one is meant? {', '.join(runs[:6])}: name the file")
-    lost = find(path, "RadiationCoefficients.tec")
+    lost = next(iter(_named(path, "RadiationCoefficients.tec")), None)
     if lost is not None:
         raise DatabaseError(
             f"{path}: {lost.relative_to(path)} without the Nemoh.cal of its run, which holds the "
@@ -87,9 +87,37 @@ def _folder(path: Path) -> tuple[Path, str]:
     )
 
 
+def _nemoh(path: Path) -> bool:
+    """Tell whether a folder is that of a Nemoh run: with Nemoh.cal, and results there or below.
+
+    A Nemoh.cal in a folder beside the results belongs to it; one above its own results does not.
+    """
+    cals = _named(path, "Nemoh.cal")
+    if len(cals) != 1:
+        return False
+    if cals[0].parent == path:
+        return bool(_named(path, "RadiationCoefficients.tec")) or not _tables(path)
+    results = _named(path, "RadiationCoefficients.tec")
+    return len(results) == 1
+
+
+def _named(path: Path, name: str) -> list[Path]:
+    """Files of that name, whatever its case, in a folder; where there is none, one folder below."""
+    for folders in ([path], [p for p in sorted(path.iterdir()) if p.is_dir()]):
+        found = [
+            p
+            for folder in folders
+            for p in sorted(folder.iterdir())
+            if p.is_file() and p.name.lower() == name.lower()
+        ]
+        if found:
+            return found
+    return []
+
+
 def _holds_one(path: Path) -> bool:
     """Tell whether a folder itself holds a database."""
-    if _tables(path):
+    if _tables(path) or _nemoh(path):
         return True
     try:
         return any(format.find(path) is not None for format in formats().values())

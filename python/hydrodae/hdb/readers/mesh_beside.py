@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.findings import Finding
@@ -12,9 +13,11 @@ from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.hdb.readers.nemoh_hydrostatics import mesh_file
+from hydrodae.hdb.readers.reference import origin_by_moments
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
 from hydrodae.hdb.relations.dispersion import wavenumber
 
+Array = NDArray[np.float64]
 #: What flat panels, and the slope of the waves, may leave of the long-wave force.
 ALIKE = 0.1
 
@@ -32,23 +35,66 @@ def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
         The body, and its mesh in Nemoh.cal, without suffix.
     """
     missing = f"{name}: no pair of Hydrostatics and KH files"
-    path, point = mesh_file(root, mesh), data.reference_points.get(name)
-    if path is None or point is None:
+    path = mesh_file(root, mesh)
+    if path is None or data.reference_points.get(name) is None:
         why = f", nor {mesh}.dat" if path is None else ""
         data.findings.append(without_hydrostatics(missing + why, [name]))
         return
+    statics_of_file(data, name, path, missing)
+
+
+def statics_of_file(
+    data: SourceData,
+    name: str,
+    path: Path,
+    missing: str,
+    *,
+    shift: Array | None = None,
+    area: float | None = None,
+) -> None:
+    """Take the hydrostatics of a body from one mesh file; as `statics_of_mesh`.
+
+    Parameters
+    ----------
+    data, name
+        As there.
+    path : Path
+        The mesh.
+    missing : str
+        What the source lacks, for the messages.
+    shift : (3,) array, optional
+        Place of the axes of the mesh [m].
+    area : float, optional
+        Waterplane by a stiffness of the source [m2], which the mesh must have.
+    """
+    point = data.reference_points[name]
     try:
-        statics = mesh_statics(read_mesh(path), point)
+        panels = read_mesh(path)
+        panels = panels if shift is None else panels + shift
+        statics = mesh_statics(panels, np.zeros(3) if point is None else point)
     except DatabaseError as error:
         data.findings.append(without_hydrostatics(f"{missing}; {path.name}: {error}", [name]))
         return
     shown = f"{statics.displaced_volume:.5g} m3, {statics.waterplane_area:.5g} m2 of waterplane"
+    wrong = None
     share = long_wave_share(data, name, statics)
-    if share is not None and abs(share - 1.0) > ALIKE:
-        text = (
-            f"{missing}, and its mesh {path.name} ({shown}) is not the hull of the tables: their "
-            f"long-wave heave force is {share:.2f} of that"
-        )
+    if area is not None and abs(statics.waterplane_area - area) > ALIKE * abs(area):
+        wrong = f"its stiffness in heave is that of {area:.5g} m2"
+    elif share is not None and abs(share - 1.0) > ALIKE:
+        wrong = f"their long-wave heave force is {share:.2f} of that"
+    if wrong is None and point is None:
+        miss = origin_by_moments(data, name, statics)
+        if miss is not None and miss < ALIKE:
+            point = data.reference_points[name] = np.zeros(3)
+            data.assumed_points.add(name)
+            said = (
+                f"{name}: the files do not say about which point moments are: taken about the "
+                f"origin, as those of long waves agree to {miss:.2g} (--origin)"
+            )
+            data.findings.append(Finding("info", "assumption", said))
+    if wrong is not None or point is None:
+        text = f"{missing}, and its mesh {path.name} ({shown}) is not the hull of the tables: "
+        text = missing if wrong is None else text + wrong
         data.findings.append(without_hydrostatics(text, [name]))
         return
     proof = (
@@ -58,6 +104,7 @@ def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
     )
     text = f"{missing}; taken from its mesh {path.name}: {shown}; {proof}"
     data.hydrostatics[name] = (statics, point)
+    data.meshes[name] = panels
     data.files.append(path)
     data.findings.append(Finding("info" if share is not None else "warning", "assumption", text))
 

@@ -21,7 +21,6 @@ from hydrodae.hdb.readers import tecplot
 from hydrodae.hdb.readers.mesh_beside import statics_of_mesh
 from hydrodae.hdb.readers.nemoh_cal import CalBody, NemohCal, read_cal
 from hydrodae.hdb.readers.source import SourceData
-from hydrodae.hdb.readers.time_sense import correct_time_sense
 from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
@@ -69,7 +68,6 @@ def read_nemoh(path: Path) -> SourceData:
     meshes = [body.mesh for body in cal.bodies]
     _attach_hydrostatics(data, root, names, meshes)
     data.meshes = nh.wetted_meshes(root, dict(zip(names, meshes, strict=True)))
-    correct_time_sense(data)
     return data
 
 

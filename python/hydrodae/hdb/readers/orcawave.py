@@ -1,9 +1,9 @@
 """Results of OrcaWave as a vessel type of an OrcaFlex data file (`.yml`).
 
-Units of OrcaFlex's SI are t, kN and m: tables are multiplied by 1000, unless the file says kg, N
-and m. Amplitudes and phases follow
-the conventions stated in the file; they are turned into x(t) = Re(X e^{+iwt}) with the phase zero
-of the wave at the origin. Directions are those of travel.
+Units are those that the file says; OrcaFlex's SI are t, kN and m. Amplitudes and phases follow the
+conventions stated in the file; they are turned into x(t) = Re(X e^{+iwt}) with the phase zero of
+the wave at the origin. Directions are those of travel; where the file states a symmetry, it holds
+one part of them, and the others follow.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.foreign import CONVERTER
 from hydrodae.hdb.readers.formats import Format
-from hydrodae.hdb.readers.orcawave_units import kilograms_of, water_of
+from hydrodae.hdb.readers.orcawave_units import Units, units_of, water_of
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.source import SourceData, without_hydrostatics
+from hydrodae.hdb.readers.symmetric import mirrored_forces, turned_forces
 from hydrodae.hdb.readers.text import line_of, read_text
 from hydrodae.hdb.relations.dispersion import wavenumber
 
@@ -36,6 +37,14 @@ SENSES = {
     "RollPositiveStarboard": "down",
     "PitchPositiveBow": "down",
     "YawPositiveBow": "port",
+}
+#: Planes of symmetry by OrcaFlex's words: y = 0 (across), x = 0 (along).
+SYMMETRIES = {
+    "None": {},
+    "xz plane": {"across": True},
+    "yz plane": {"along": True},
+    "xz and yz planes": {"across": True, "along": True},
+    "Circular": {},
 }
 _TABLES = "FrequencyDependentAddedMassAndDamping"
 
@@ -86,9 +95,9 @@ def read_orcawave(path: Path) -> SourceData:
     if not isinstance(types, list) or not types:
         raise DatabaseError(f"{path}: no VesselTypes in it")
     findings: list[Finding] = []
-    unit, _ = kilograms_of(path, model.get("General") or {})
+    units = units_of(path, model.get("General") or {})
     rho, gravity, depth, files = water_of(path, model, findings)
-    bodies = [_Vessel(path, vessel, depth, gravity, unit) for vessel in types]
+    bodies = [_Vessel(path, vessel, depth, gravity, units) for vessel in types]
     names = unique_names([str(b.name).removesuffix(" type") for b in bodies])
     omega, heading = bodies[0].omega, bodies[0].heading
     for body in bodies[1:]:
@@ -139,24 +148,25 @@ class _Vessel:
     """Tables of one vessel type, at its first draught, in SI units."""
 
     def __init__(
-        self, path: Path, vessel: dict[str, Any], depth: float, gravity: float, unit: float
+        self, path: Path, vessel: dict[str, Any], depth: float, gravity: float, units: Units
     ) -> None:
-        self.path, self.name, self.kilograms = path, vessel.get("Name", "vessel"), unit
+        self.path, self.name, self.units = path, vessel.get("Name", "vessel"), units
         self.sign = np.array(
             [1.0 if vessel.get(key, word) == word else -1.0 for key, word in SENSES.items()]
         )
-        if vessel.get("Symmetry", "None") != "None":
+        self.symmetry = str(vessel.get("Symmetry", "None"))
+        if self.symmetry not in SYMMETRIES:
             raise DatabaseError(
-                f"{path}: {self.name}: Symmetry {vessel['Symmetry']!r}: export all directions "
-                f"(Symmetry None)"
+                f"{path}: {self.name}: Symmetry {self.symmetry!r}: expected one of "
+                f"{', '.join(SYMMETRIES)}; save all directions in OrcaFlex (Symmetry: None)"
             )
         draught = self._entry(vessel, "Draughts")[0]
         self.draught = draught
         self.waves = vessel.get("WavesReferredToBy", "period (s)")
         entries = self._entry(draught, _TABLES)
         w = np.array([self._omega(e.get("AMDPeriodOrFrequency")) for e in entries])
-        a = np.array([self._square(e, "AddedMassMatrixX") for e in entries])
-        b = np.array([self._square(e, "DampingX") for e in entries])
+        a = np.array([self._square(e, "AddedMassMatrixX", units.mass) for e in entries])
+        b = np.array([self._square(e, "DampingX", units.force / units.length) for e in entries])
         usual = np.isfinite(w) & (w > 0.0)
         order = np.flatnonzero(usual)[np.argsort(w[usual])]
         self.omega, self.added_mass, self.damping = w[order], a[order], b[order]
@@ -171,7 +181,7 @@ class _Vessel:
         return value
 
     def _vector(self, where: dict[str, Any], key: str) -> Array:
-        return self._numbers(where.get(key), key, (3,))
+        return self.units.length * self._numbers(where.get(key), key, (3,))
 
     def _numbers(self, value: Any, key: str, shape: tuple[int, ...]) -> Array:
         """Return a list, or a list of rows, as an array of that shape."""
@@ -204,10 +214,15 @@ class _Vessel:
             return float(np.inf)
         return float(2.0 * np.pi / value)
 
-    def _square(self, entry: dict[str, Any], first: str) -> Array:
+    def _square(self, entry: dict[str, Any], first: str, unit: float) -> Array:
         rows = next((v for key, v in entry.items() if key.startswith(first)), None)
         table = self._numbers(rows, first, (6, 6))
-        return self.kilograms * table * np.outer(self.sign, self.sign)
+        return unit * table * np.outer(self._scale, self._scale)
+
+    @property
+    def _scale(self) -> Array:
+        """Signs of the axes, and the length by which moments and angles are another unit."""
+        return self.sign * self.units.length ** np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
 
     def _forces(
         self, vessel: dict[str, Any], depth: float, gravity: float
@@ -216,7 +231,7 @@ class _Vessel:
         loads = self.draught.get("LoadRAOs") or {}
         blocks = self._entry(loads, "RAOs")
         origin, phase_origin = loads.get("RAOOrigin"), loads.get("PhaseOrigin")
-        if not np.allclose(self._numbers(origin, "RAOOrigin", (3,)), self.point, atol=1e-6):
+        if not np.allclose(self._vector(loads, "RAOOrigin"), self.point, atol=1e-6):
             raise DatabaseError(
                 f"{self.path}: {self.name}: RAOOrigin {origin} is not ReferenceOrigin "
                 f"{self.point.tolist()}: export both about one point"
@@ -227,7 +242,7 @@ class _Vessel:
             raise DatabaseError(f"{self.path}: {self.name}: phases in {unit} about the {relative}")
         sense = 1.0 if vessel.get("RAOPhaseConvention", "leads") == "leads" else -1.0
         sense *= np.pi / 180.0 if unit == "degrees" else 1.0
-        factor = self.kilograms * (1.0 if relative == "crest" else -1.0)
+        factor = self.units.force / self.units.length * (1.0 if relative == "crest" else -1.0)
         if vessel.get("RAOWaveUnit", "amplitude") != "amplitude":
             factor *= 2.0
         stated = [block.get("RAODirection") for block in blocks]
@@ -251,11 +266,18 @@ class _Vessel:
         if phase_origin is None or any(v is None for v in phase_origin):
             place = self.point  # `~` stands for the RAO origin
         else:
-            place = self._numbers(phase_origin, "PhaseOrigin", (3,))
-        k = wavenumber(self.omega, depth, gravity)
+            place = self._vector(loads, "PhaseOrigin")
+        result *= self._scale
         beta = np.radians(heading)
+        if self.symmetry == "Circular":
+            beta, result = turned_forces(beta, result)
+        else:
+            beta, result = mirrored_forces(beta, result, **SYMMETRIES[self.symmetry])
+        order = np.argsort(beta)
+        beta, result = beta[order], result[:, order]
+        k = wavenumber(self.omega, depth, gravity)
         along = place[0] * np.cos(beta) + place[1] * np.sin(beta)
-        return beta, result * self.sign * np.exp(-1j * np.outer(k, along))[:, :, None]
+        return beta, result * np.exp(-1j * np.outer(k, along))[:, :, None]
 
     def hydrostatics(self, rho: float, gravity: float) -> Hydrostatics | None:
         """Waterplane from the stiffness of heave, roll and pitch, about the centre of mass.
@@ -267,13 +289,16 @@ class _Vessel:
         )
         block = self._numbers(rows, "HydrostaticStiffness", (3, 3))
         stiffness = np.zeros((6, 6))
-        stiffness[2:5, 2:5] = self.kilograms * block * np.outer(self.sign[2:5], self.sign[2:5])
+        scale = self._scale[2:5]
+        unit = self.units.force / self.units.length
+        stiffness[2:5, 2:5] = unit * block * np.outer(scale, scale)
         mass_center = self._vector(self.draught, "CentreOfMass")
         if abs(mass_center[2] - self.point[2]) > 1e-6:
             return None  # the file does not say whether the weight is in the stiffness
         volume = self.draught.get("DisplacedVolume")
         if not isinstance(volume, float):
             raise DatabaseError(f"{self.path}: {self.name}: DisplacedVolume: expected a number")
+        volume *= self.units.length**3
         center = self._vector(self.draught, "CentreOfBuoyancy")
         return Hydrostatics.from_stiffness(stiffness, self.point, volume, center, rho, gravity)
 

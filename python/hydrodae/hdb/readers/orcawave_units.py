@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,28 +11,68 @@ from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.orcayaml import read_yaml
 from hydrodae.hdb.readers.text import read_text
 
-#: kg in the unit of mass, by the units of length, mass and force of OrcaFlex's system "User".
-USER_UNITS = {("m", "te", "kN"): 1000.0, ("m", "kg", "N"): 1.0}
+#: By the words of OrcaFlex's system "User" [m], [kg], [N].
+LENGTHS = {"m": 1.0, "km": 1e3, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
+MASSES = {"kg": 1.0, "te": 1e3, "t": 1e3, "lb": 0.45359237, "lbm": 0.45359237}
+FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": 4.4482216152605, "kip": 4448.2216152605}
 STANDARD_GRAVITY = 9.80665
 
 
-def kilograms_of(path: Path, settings: dict[str, Any]) -> tuple[float, float]:
-    """Return kg in the unit of mass of a file, and gravity [m/s2]."""
+@dataclass(frozen=True)
+class Units:
+    """Units of a file: of length [m], mass [kg] and force [N], each by itself; and gravity.
+
+    Added masses are masses times lengths; damping, stiffness and loads are forces times lengths.
+    The unit of time is the second.
+
+    Attributes
+    ----------
+    length, mass, force : float
+        [m], [kg], [N].
+    gravity : float
+        [m/s2].
+    """
+
+    length: float = 1.0
+    mass: float = 1e3
+    force: float = 1e3
+    gravity: float = STANDARD_GRAVITY
+
+    @property
+    def density(self) -> float:
+        """[kg/m3]."""
+        return self.mass / self.length**3
+
+
+def units_of(path: Path, settings: dict[str, Any]) -> Units:
+    """Return the units of a file: SI, which is m, t and kN, or those of the system "User".
+
+    Raises
+    ------
+    DatabaseError
+        Another system or unit.
+    """
     system = settings.get("UnitsSystem", "SI")
     if system == "SI":
-        return 1000.0, STANDARD_GRAVITY
-    keys = ("LengthUnits", "MassUnits", "ForceUnits")
-    units = tuple(str(settings.get(key)) for key in keys)
-    if system != "User" or units not in USER_UNITS:
-        named = " ".join(units) if system == "User" else str(system)
+        return Units()
+    if system != "User":
         raise DatabaseError(
-            f"{path}: units {named}: expected SI, or m, te, kN or m, kg, N: choose them in "
-            f"OrcaFlex and save again"
+            f"{path}: UnitsSystem {system}: expected SI or User: choose one in OrcaFlex and save "
+            f"again"
         )
-    gravity = settings.get("g", STANDARD_GRAVITY)
+    found = []
+    for key, known in (("LengthUnits", LENGTHS), ("MassUnits", MASSES), ("ForceUnits", FORCES)):
+        word = str(settings.get(key))
+        if word not in known:
+            raise DatabaseError(
+                f"{path}: {key} {word}: expected {', '.join(known)}: choose one in OrcaFlex and "
+                f"save again"
+            )
+        found.append(known[word])
+    gravity = settings.get("g", STANDARD_GRAVITY / found[0])
     if not isinstance(gravity, float):
         raise DatabaseError(f"{path}: g: expected a number, got {gravity!r}")
-    return USER_UNITS[units], gravity
+    return Units(found[0], found[1], found[2], gravity * found[0])
 
 
 def water_of(
@@ -53,16 +94,17 @@ def water_of(
         if isinstance(rho, float) and isinstance(depth, float):
             text = f"density and depth from {beside.name} beside it"
             findings.append(Finding("info", "assumption", text))
-            unit, gravity = kilograms_of(beside, settings)
-            return unit * rho, gravity, depth, [path, beside]
-    unit, gravity = kilograms_of(path, model.get("General") or {})
+            units = units_of(beside, settings)
+            return units.density * rho, units.gravity, units.length * depth, [path, beside]
+    units = units_of(path, model.get("General") or {})
     environment = model.get("Environment") or {}
     rho, depth = environment.get("Density"), environment.get("WaterDepth")
     if not isinstance(rho, float) or not isinstance(depth, float):
         raise DatabaseError(f"{path}: no Density and WaterDepth in Environment")
+    depth *= units.length
     text = (
         f"depth {depth:g} m is that of the OrcaFlex model; the diffraction analysis may have had "
         f"another one (OrcaWave's own .yml, put beside it, tells)"
     )
     findings.append(Finding("warning", "assumption", text))
-    return unit * rho, gravity, depth, [path]
+    return units.density * rho, units.gravity, depth, [path]

@@ -14,7 +14,9 @@ from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.formats import formats
 from hydrodae.hdb.readers.headings import FORCES, settle_headings
 from hydrodae.hdb.readers.kinds import others, resolve
+from hydrodae.hdb.readers.reference import settle_points
 from hydrodae.hdb.readers.source import LARGEST, SourceData, Water
+from hydrodae.hdb.readers.time_sense import correct_time_sense
 
 #: Depths beyond [m] stand for infinitely deep water.
 DEEPEST = 12e3
@@ -26,6 +28,7 @@ def read_source(
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
+    time_convention: str | None = None,
 ) -> SourceData:
     """Read files of Nemoh, Capytaine, BEMIO, WAMIT, HAMS, AQWA or OrcaWave, as they are.
 
@@ -35,6 +38,9 @@ def read_source(
         File or folder.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    time_convention : str, optional
+        "format", the convention that is the format's own, or "other", of all forces or of each, as
+        in "froude-krylov=other,diffraction=other"; default: what the long waves say.
 
     Raises
     ------
@@ -48,6 +54,8 @@ def read_source(
         with np.errstate(over="ignore", invalid="ignore"):  # rows that hold inf are told below
             data = _read(path, what, water)
         _check_tables(path, data)
+        settle_points(data)
+        correct_time_sense(data, time_convention)
     except DatabaseError as error:
         raise _naming(path, error) from None
     if what not in formats() or not formats()[what].takes_water:
@@ -135,6 +143,7 @@ def read(
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
+    time_convention: str | None = None,
 ) -> HydroDatabase:
     """Read any supported source: `hydro.h5`, or what `read_source` reads.
 
@@ -144,6 +153,9 @@ def read(
         File or folder.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
+    time_convention : str, optional
+        "format", the convention that is the format's own, or "other", of all forces or of each, as
+        in "froude-krylov=other,diffraction=other"; default: what the long waves say.
 
     Returns
     -------
@@ -160,4 +172,6 @@ def read(
         database = HydroDatabase.read(path)
         _check_water(path, database, Water(rho, depth, gravity))
         return database
-    return finish(read_source(path, rho=rho, depth=depth, gravity=gravity))
+    return finish(
+        read_source(path, rho=rho, depth=depth, gravity=gravity, time_convention=time_convention)
+    )

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.hdb.database.coordinates import bodies_of, split_label
 from hydrodae.hdb.database.findings import Finding
+from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers.nemoh_hydrostatics import FileHydrostatics
 from hydrodae.hdb.readers.source import SourceData
 from hydrodae.hdb.relations.dispersion import wavenumber
@@ -15,6 +17,69 @@ Array = NDArray[np.float64]
 LONGEST = 0.1
 #: Difference of K55, over the size of its parts, that the point found may leave.
 AGREE = 0.03
+
+
+def without_moments(data: SourceData) -> list[str]:
+    """Bodies of which a source holds translations only: their forces do not know a point."""
+    turning = {body for body, dof in map(split_label, data.coordinates) if dof >= 3}
+    return [name for name in bodies_of(data.coordinates) if name not in turning]
+
+
+def settle_points(data: SourceData) -> None:
+    """Take the origin as the point of bodies without moments whose point no file says."""
+    for name in without_moments(data):
+        if data.reference_points.get(name) is not None:
+            continue
+        data.reference_points[name] = np.zeros(3)
+        data.assumed_points.add(name)
+        text = (
+            f"{name}: the forces hold no moments and are the same about any point; the origin is "
+            f"taken (--cog {name}=x,y,z: another one)"
+        )
+        data.findings.append(Finding("info", "assumption", text))
+
+
+def origin_by_moments(data: SourceData, body: str, statics: Hydrostatics) -> float | None:
+    """Error with which long-wave moments are about the origin, of a hull known by its mesh.
+
+    About the point p of the tables F_5 = i k cos(beta) (K_55(p) + g A_51) - rho g S_x(p), and roll
+    likewise: A_51 of the tables shares their point, so that a point dz higher changes the bracket
+    by rho g V dz, and one dx ahead S_x by A_w dx. Surge, which leads, tells the time convention.
+
+    Parameters
+    ----------
+    data : SourceData
+        With its forces.
+    body : str
+    statics : Hydrostatics
+        With waterplane moments about the origin.
+
+    Returns
+    -------
+    float or None
+        Over the sizes of its parts; None if no wave is long enough, or a motion is lacking.
+    """
+    at = {dof: f"{body}.{dof}" for dof in ("surge", "heave", "roll", "pitch")}
+    if data.excitation is None or any(label not in data.coordinates for label in at.values()):
+        return None
+    i = {dof: data.coordinates.index(label) for dof, label in at.items()}
+    h = int(np.abs(np.cos(data.heading)).argmax())
+    cosine = float(np.cos(data.heading[h]))
+    k = float(wavenumber(data.omega[:1], data.water_depth, data.gravity)[0])
+    depth = 2.0 * abs(statics.center_of_buoyancy[2])
+    if abs(cosine) < 0.9 or k * max(np.sqrt(max(statics.waterplane_area, 0.0)), depth) > 0.3:
+        return None
+    force, rho_g = data.excitation[0, h], data.rho * data.gravity
+    sx, sy, sxx, _, _ = statics.waterplane_moments
+    lever = statics.displaced_volume * abs(statics.center_of_buoyancy[2])
+    k55 = statics.stiffness(np.zeros(3), data.rho, data.gravity)[4, 4]
+    bracket = k55 + data.gravity * data.added_mass[0, i["pitch"], i["surge"]]
+    leads = np.sign(force[i["surge"]].imag * cosine)
+    height = abs(leads * force[i["pitch"]].imag / (k * cosine) - bracket) / (rho_g * (sxx + lever))
+    width = abs(force[i["heave"]]) * np.sqrt(max(statics.waterplane_area, 1e-12))
+    ahead = abs(force[i["pitch"]].real + rho_g * sx) / width
+    aside = abs(force[i["roll"]].real - rho_g * sy) / width
+    return float(max(height, ahead, aside))
 
 
 def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -> Array | None:

@@ -5,15 +5,20 @@ In x(t) = Re(X e^{+iwt}) a body that is small against the waves feels, about its
     F_1 = + i |F_1| sign(cos beta),   F_3 = K_33 - w^2 (rho V + A_33) + i w B_33,
 
 so that conjugate phases (the other time convention) turn the signs of both F_1 and Im F_3;
-headings from where the waves come turn that of F_1 only. Normals out of the water instead of out of
-the body turn the Froude-Krylov force alone: F_1 -> - F_1, F_3 -> - F_3.
+headings from where the waves come turn that of F_1 only. Files hold forces of both conventions,
+too: then excitation = Froude-Krylov + diffraction after some of them are conjugated. Normals out of
+the water instead of out of the body turn the Froude-Krylov force alone: F_1 -> - F_1, F_3 -> - F_3.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from itertools import product
+
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.coordinates import bodies_of
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.readers.source import SourceData
@@ -27,15 +32,46 @@ LONGEST = 10
 CLEAR = 5.0
 
 
-def correct_time_sense(data: SourceData) -> None:
-    """Conjugate the forces if all bodies say that they are of the other convention, and tell it.
+#: Error of excitation = Froude-Krylov + diffraction, of the largest force, that is print accuracy,
+#: and one that is not.
+ADDS_UP, MISSES = 1e-3, 1e-2
+#: The three forces by their words in `--time-convention`.
+PARTS = {
+    "excitation": "excitation",
+    "froude-krylov": "froude_krylov",
+    "diffraction": "diffraction",
+}
+#: What may be said of them.
+FORMAT, OTHER = "format", "other"
+
+
+def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
+    """Conjugate the forces that are of the other convention than the format has, and tell it.
 
     Parameters
     ----------
     data : SourceData
         Changed in place: forces, findings.
+    stated : str, optional
+        What the user says: "format", "other", or the same of each force, as in
+        "froude-krylov=other,diffraction=other". Else physics decides, if it can: all bodies must
+        say so.
+
+    Raises
+    ------
+    DatabaseError
+        Other words, or a force that the source has not.
     """
+    if stated is not None:
+        for name, word in _statement(data, stated).items():
+            if word == OTHER:
+                _conjugate(data, [name])
+        return
     if not data.heading.size or _correct_froude_krylov(data):
+        return
+    odd = _of_another_sense(data)
+    if odd is not None:
+        _settle_odd(data, odd)
         return
     force = data.excitation if data.excitation is not None else data.diffraction
     if force is None:
@@ -45,18 +81,86 @@ def correct_time_sense(data: SourceData) -> None:
     vertical = [s for body in bodies if (s := _vertical(data, force, body)) is not None]
     if not horizontal or not vertical or max(horizontal) > -0.5 or max(vertical) > -0.5:
         return
-    for name in ("excitation", "froude_krylov", "diffraction"):
-        value = getattr(data, name)
-        if value is not None:
-            setattr(data, name, np.conj(value))
+    _conjugate(data, list(PARTS.values()))
     data.findings.append(
         Finding(
             "warning",
             "time convention",
             "surge and heave lag where they must lead: the phases are of the other time "
-            "convention than the format has, and are taken so",
+            "convention than the format has, and are taken so (--time-convention other)",
         )
     )
+
+
+def _statement(data: SourceData, stated: str) -> Mapping[str, str]:
+    """What the user says of each force of the source, by its name there."""
+    there = [word for word, name in PARTS.items() if getattr(data, name) is not None]
+    if stated in (FORMAT, OTHER):
+        return {PARTS[word]: stated for word in there}
+    found = {}
+    for item in stated.split(","):
+        word, equals, value = item.strip().partition("=")
+        if not equals or word not in PARTS or value not in (FORMAT, OTHER):
+            raise DatabaseError(
+                f"time convention {item.strip()!r}: expected format or other, for all forces or as "
+                f"in froude-krylov=other,diffraction=other"
+            )
+        if word not in there:
+            raise DatabaseError(
+                f"time convention of {word}: the source holds {', '.join(there) or 'no forces'}"
+            )
+        found[PARTS[word]] = value
+    return found
+
+
+def _conjugate(data: SourceData, names: list[str]) -> None:
+    for name in names:
+        value = getattr(data, name)
+        if value is not None:
+            setattr(data, name, np.conj(value))
+
+
+def _of_another_sense(data: SourceData) -> list[str] | None:
+    """Forces whose sense is not that of the excitation: conjugated, the three add up."""
+    total, fk, scattered = data.excitation, data.froude_krylov, data.diffraction
+    if total is None or fk is None or scattered is None:
+        return None
+    scale = np.nanmax(np.abs(total), axis=(0, 1), initial=0.0)
+    scale[scale <= 1e-6 * scale.max(initial=0.0)] = np.inf
+
+    def missed(turned: tuple[bool, ...]) -> float:
+        one, other = (np.conj(f) if t else f for f, t in zip((fk, scattered), turned, strict=True))
+        return float(np.nanmax(np.abs(one + other - total) / scale, initial=0.0))
+
+    if missed((False, False)) < MISSES:
+        return None
+    right = [t for t in product((False, True), repeat=2) if missed(t) < ADDS_UP]
+    if len(right) != 1:
+        return None
+    names = ("froude_krylov", "diffraction")
+    return [name for name, turned in zip(names, right[0], strict=True) if turned]
+
+
+def _settle_odd(data: SourceData, odd: list[str]) -> None:
+    """Bring the three forces to one sense: that in which the total pushes before the crest.
+
+    Headings from where the waves come would turn all three alike: here the surge force decides.
+    """
+    total = data.excitation
+    assert total is not None  # `_of_another_sense`
+    bodies = bodies_of(data.coordinates)
+    sine = [s for body in bodies if (s := _horizontal(data, total, body)) is not None]
+    if not sine or min(np.abs(sine)) < 0.5 or min(sine) < 0.0 < max(sine):
+        return
+    turned = odd if sine[0] > 0.0 else [name for name in PARTS.values() if name not in odd]
+    _conjugate(data, turned)
+    words = [word for word, name in PARTS.items() if name in turned]
+    text = (
+        f"{' and '.join(words)}: of the other time convention than the rest of the file (the sum "
+        f"and the surge force tell), and taken so "
+        f"(--time-convention {','.join(f'{w}=other' for w in words)})"
+    )
+    data.findings.append(Finding("warning", "time convention", text))
 
 
 def _correct_froude_krylov(data: SourceData) -> bool:

@@ -6,22 +6,25 @@ dimensionless: A/(rho L^k), B/(rho w L^k), F/(rho g L^m), C/(rho g L^j).
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database.coordinates import DOFS, unique_names
+from hydrodae.hdb.database.coordinates import DOFS, bodies_of, unique_names
 from hydrodae.hdb.database.findings import Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.readers import wamit_tables as tables
 from hydrodae.hdb.readers.formats import Format
+from hydrodae.hdb.readers.mesh_beside import statics_of_file
 from hydrodae.hdb.readers.source import SourceData, Water, without_hydrostatics
 from hydrodae.hdb.readers.wamit_asked import asked_findings
-from hydrodae.hdb.readers.wamit_control import Control, beside, read_control
+from hydrodae.hdb.readers.wamit_control import Control, beside, mesh_of, read_control
 from hydrodae.hdb.readers.wamit_listing import is_listing, read_listing
 from hydrodae.hdb.readers.wamit_settled import at_infinity, first_column, settled
+from hydrodae.hdb.relations.depth import depth_of_bodies
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -76,7 +79,12 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
         raise DatabaseError(f"{path}: no WAMIT output file .1 or .out beside it")
     control = read_control(stem)
     findings: list[Finding] = []
-    rho, depth, gravity, length = settled(stem, control, water or Water(), findings)
+    water = water or Water()
+    if control.depth is None and water.depth is None and _holds_waves(stem):
+        water = _of_told_depth(path, control, water, findings)
+    rho, depth, gravity, length = settled(
+        stem, control, water, findings, waves=lambda: _holds_waves(stem)
+    )
     numeric, listed = beside(stem, ".1"), beside(stem, ".out")
     radiation = numeric or listed
     assert radiation is not None  # that is what makes a stem
@@ -180,6 +188,37 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     return data
 
 
+def _of_told_depth(path: Path, control: Control, water: Water, findings: list[Finding]) -> Water:
+    """Enter the depth that damping and force of heave tell, else what HydroDyn takes it for."""
+    deep = read_wamit(path, replace(water, depth=np.inf))
+    told = depth_of_bodies(
+        deep.coordinates,
+        deep.omega,
+        deep.radiation_damping,
+        deep.heading,
+        deep.excitation,
+        deep.rho,
+        deep.gravity,
+    )
+    likely = control.likely_depth
+    if likely is not None and (told is None or told.agrees(likely)):
+        return replace(water, depth=likely)
+    if told is None or not told.decided:
+        return water
+    said = "no file says the depth" if likely is None else f"HydroDyn takes {likely:g} m"
+    best = f"{told.depth:.4g} m" if np.isfinite(told.depth) else f"infinite (over {told.low:.3g} m)"
+    text = f"water depth {best}: with that damping and force of heave agree; {said} (--depth)"
+    findings.append(Finding("warning", "assumption", text))
+    return replace(water, depth=told.depth)
+
+
+def _holds_waves(stem: Path) -> bool:
+    """Tell whether a run has forces of waves, in tables or in its listing alone."""
+    tables_of = (".2", ".3", ".3fk", ".3sc")
+    listed = beside(stem, ".1") is None
+    return listed or any(beside(stem, suffix) is not None for suffix in tables_of)
+
+
 def _waves(stem: Path) -> Array | None:
     """Lines (m, 7) of the exciting forces of a run, or None."""
     path = beside(stem, ".3") or beside(stem, ".2")
@@ -280,9 +319,18 @@ def _attach_hydrostatics(
                 rho_g * block, point, statics.volume, center, data.rho, data.gravity
             )
             data.hydrostatics[name] = (hydrostatics, point)
-    if missing:
-        text = f"no complete .hst and .mmx files of {missing}"
-        data.findings.append(without_hydrostatics(text, missing))
+    table = None if path is None else _stiffness(path, control, len(names), every)
+    for i, name in enumerate(names):
+        if name not in missing or name not in bodies_of(data.coordinates):
+            continue
+        text = f"{name}: no complete .hst and .mmx files"
+        mesh = mesh_of(stem, name, len(names) == 1)
+        if mesh is None:
+            data.findings.append(without_hydrostatics(text, [name]))
+            continue
+        area = None if table is None else float(table[6 * i + 2, 6 * i + 2]) * length**2
+        shift = data.reference_points[name] if mesh[1] else None
+        statics_of_file(data, name, mesh[0], text, shift=shift, area=area or None)
 
 
 def _stiffness(path: Path | None, control: Control, bodies: int, every: Array) -> Array:

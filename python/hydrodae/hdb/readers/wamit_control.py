@@ -2,7 +2,8 @@
 
 Depth and body axes stand in `.pot` or `.out`, gravity and the length scale in `.mmx`, `.out` or the
 `.gdf`, volumes and centres in `.mmx` or `.out`, the density in `.frc` (alternative form 2). HAMS,
-which writes the same tables, has depth and reference point in `ControlFile.in`.
+which writes the same tables, has depth and reference point in `ControlFile.in`; the input of
+OpenFAST's HydroDyn tells what it takes them for.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import DatabaseError
+from hydrodae.hdb.readers.hydrodyn import hydrodyn_of
 from hydrodae.hdb.readers.text import NUMBER, read_lines, read_text, words
 from hydrodae.hdb.readers.wamit_asked import HAMS, Asked, of_hams, steps
 
@@ -37,9 +39,13 @@ class Statics:
 
 @dataclass
 class Control:
-    """Settings of a run; None where no file says."""
+    """Settings of a run; None where no file says.
+
+    `likely_depth` is that of a program that uses the tables, which may be of another depth.
+    """
 
     depth: float | None = None
+    likely_depth: float | None = None
     gravity: float | None = None
     length: float | None = None
     rho: float | None = None
@@ -69,10 +75,12 @@ def read_control(stem: Path) -> Control:
             reader(path, control)
             control.files.append(path)
     _frc(stem, control)
-    hams = _hams_file(stem)
+    hams = hams_file(stem, "ControlFile.in")
     if hams is not None and control.depth is None:
         _hams(hams, control)
         control.files.append(hams)
+    if control.depth is None:
+        _hydrodyn(stem, control)
     if control.gravity is None or control.length is None:
         for name in control.names or [stem.name]:
             path = beside(stem.with_name(name), ".gdf")
@@ -81,6 +89,18 @@ def read_control(stem: Path) -> Control:
                 control.files.append(path)
                 break
     return control
+
+
+def _hydrodyn(stem: Path, control: Control) -> None:
+    """Water, length and reference point of the input of HydroDyn that names these tables."""
+    found = hydrodyn_of(stem)
+    if found is None:
+        return
+    control.likely_depth, control.files = found.depth, [*control.files, found.path]
+    control.rho = found.rho if control.rho is None else control.rho
+    control.length = found.length if control.length is None else control.length
+    if not control.points:
+        control.points.append(np.zeros(3))
 
 
 def beside(stem: Path, suffix: str) -> Path | None:
@@ -248,14 +268,27 @@ def _frc(stem: Path, control: Control) -> None:
             control.files.append(path)
 
 
-def _hams_file(stem: Path) -> Path | None:
-    """`ControlFile.in` of HAMS in the folder of the tables, above it, or in `Input` beside it."""
+def hams_file(stem: Path, name: str) -> Path | None:
+    """An input of HAMS in the folder of the tables, above it, or in `Input` beside it."""
     for folder in (stem.parent, stem.parent.parent, stem.parent.parent.parent):
         for place in (folder, named(folder, "Input")):
-            path = named(place, "ControlFile.in")
+            path = named(place, name)
             if path is not None and path.is_file():
                 return path
     return None
+
+
+def mesh_of(stem: Path, name: str, alone: bool) -> tuple[Path, bool] | None:
+    """Mesh of a body of WAMIT (`.gdf`, in body axes: True) or HAMS (`HullMesh.pnl`), or None.
+
+    One that is `alone` may have its mesh under the name of the run.
+    """
+    for file in dict.fromkeys((name, stem.name) if alone else (name,)):
+        path = beside(stem.with_name(file), ".gdf")
+        if path is not None:
+            return path, True
+    path = hams_file(stem, "HullMesh.pnl") if alone else None
+    return None if path is None else (path, False)
 
 
 def _hams(path: Path, control: Control) -> None:

@@ -122,7 +122,9 @@ def read_listing(path: Path) -> Listing:
                 row += [modulus * np.cos(turn), modulus * np.sin(turn)]
                 forces[table].add(count, row)
     if not radiation.values:
-        raise DatabaseError(f"{path}: no tables of added mass in it")
+        raise DatabaseError(
+            f"{path}: no tables of added mass in it: run WAMIT again with IOPTN(1) = 1 in its .frc"
+        )
     if len(solved) > len(told):
         raise DatabaseError(
             f"{path}: {len(solved)} periods were solved, results of {len(told)} follow: the file "

@@ -28,9 +28,17 @@ LIFTS, ROWS = 0.1, 3
 
 
 def settled(
-    stem: Path, control: Control, water: Water, findings: list[Finding]
+    stem: Path,
+    control: Control,
+    water: Water,
+    findings: list[Finding],
+    *,
+    waves: Callable[[], bool],
 ) -> tuple[float, float, float, float]:
-    """Density, depth, gravity and length scale; what no file says is asked for or assumed."""
+    """Density, depth, gravity and length scale; what no file says is asked for or assumed.
+
+    The depth is asked for where there are forces of `waves`: A and B do not need it.
+    """
     for what, stated, given, unit in (
         ("density", control.rho, water.density, "kg/m3"),
         ("depth", control.depth, water.depth, "m"),
@@ -40,13 +48,16 @@ def settled(
         if not same and not np.isclose(given, stated, rtol=1e-3):  # type: ignore[arg-type]
             raise DatabaseError(f"{stem}: its files say {what} {stated:g} {unit}, not {given:g}")
     depth = control.depth if water.depth is None else water.depth
+    assumed = []
+    if depth is None and not waves():
+        depth = np.inf
+        assumed.append("infinitely deep water: there are no forces of waves to need it (--depth)")
     if depth is None:
         raise DatabaseError(
-            f"{stem}: the water depth is in {stem.name}.pot or .out, or in ControlFile.in of HAMS: "
-            f"there is none; state it (depth=, --depth 70, or --depth inf)"
+            f"{stem}: the water depth is in {stem.name}.pot or .out, in ControlFile.in of HAMS or "
+            f"in HydroDyn's input: there is none; state it (depth=, --depth 70, or --depth inf)"
             f"{_also(stem, control, water)}"
         )
-    assumed = []
     rho = control.rho if water.density is None else water.density
     if rho is None:
         rho = SEA_WATER
