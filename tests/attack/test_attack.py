@@ -52,7 +52,7 @@ def test_the_suite_has_every_kind_and_a_hundred_scenes() -> None:
         "loads after rest", "drives", "small and large", "unconnected mechanisms", "impacts",
         "long runs", "turns", "start velocities", "bad memories", "misaligned hinges",
         "buoyancy", "contacts and friction", "controllers", "moorings", "power take-offs",
-        "errors that grow", "special poses",
+        "errors that grow", "special poses", "little inertia",
     }  # fmt: skip
     assert len(SCENES) >= 100
     assert {suite.kind_of(name) for name in SAMPLE} == kinds
