@@ -15,10 +15,10 @@ namespace py = pybind11;
 namespace hydrodae::bindings {
 namespace {
 
-py::list moorings(const LinearModel& m) {
+py::list moorings(const statics::LinearModel& m) {
   using namespace py::literals;
   py::list out;
-  for (const Mooring& at : m.moorings)
+  for (const statics::Mooring& at : m.moorings)
     out.append(py::dict("name"_a = at.name, "type"_a = at.type, "bodies"_a = at.bodies,
                         "places"_a = at.places, "load"_a = at.load, "stiffness"_a = at.stiffness,
                         "damping"_a = at.damping, "channels"_a = at.channels, "units"_a = at.units,
@@ -28,10 +28,10 @@ py::list moorings(const LinearModel& m) {
 
 py::dict linear_model(const model::Scene& scene) {
   using namespace py::literals;
-  LinearModel m;
+  statics::LinearModel m;
   try {
     const py::gil_scoped_release release;
-    m = linearize(scene);
+    m = statics::linearize(scene);
   } catch (const ModelError& error) {
     throw CaseError(model::located(scene, error));
   }

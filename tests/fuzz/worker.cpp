@@ -97,9 +97,9 @@ Answer perform(const std::string& tasks, const std::string& folder) {
   Answer answer{0, "read"};
   try {
     if (tasks.find('e') != std::string::npos)
-      answer.message = hydrodae::examine(scene);
+      answer.message = hydrodae::check::examine(scene);
     if (tasks.find('l') != std::string::npos)
-      hydrodae::linearize(scene);
+      hydrodae::statics::linearize(scene);
     if (writes || tasks.find('r') != std::string::npos)
       answer = run(scene, writes ? results : "");
   } catch (const hydrodae::ModelError& error) {
