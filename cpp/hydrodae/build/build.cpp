@@ -73,6 +73,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   add_constraints(scene, s);
   add_elements(scene, s);
   add_morison(scene, s);
+  add_hulls(scene, with_excitation, s);
   for (const model::Marker& m : scene.markers)
     s.markers.push_back({m.name, body_index(scene, m.body),
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,

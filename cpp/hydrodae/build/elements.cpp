@@ -253,7 +253,7 @@ void set_hydrostatics(const model::Scene& scene, system::System& s) {
   for (const system::HydroBody& hb : s.hydro.bodies) {
     const auto body = static_cast<std::size_t>(hb.body);
     const hydro::DatabaseBody* entry = hydro::find_body(*scene.database, *scene.bodies[body].hydro);
-    if (!entry->hydrostatics)
+    if (!entry->hydrostatics || scene.bodies[body].hull)
       continue;
     system::PortData port;
     port.component = water::Hydrostatics::type;
@@ -265,7 +265,7 @@ void set_hydrostatics(const model::Scene& scene, system::System& s) {
     ports.push_back(port);
   }
   const auto has = [](const system::ElementList& list) {
-    return list.laws->type == water::Hydrostatics::type;
+    return list.laws->type == water::Hydrostatics::type && !list.laws->shape.in_water();
   };
   auto list = std::find_if(s.elements.begin(), s.elements.end(), has);
   if (forces.empty())

@@ -82,6 +82,10 @@ void add_sea(const model::Scene& scene, system::System& system);
 /// Gauges of the elevation, and the waves that they see (build_gauges.cpp); behind the markers.
 void add_gauges(const model::Scene& scene, system::System& system);
 
+/// Bodies whose wetted surface is that of a mesh (hulls.cpp).
+/// @param with_waves else in still water
+void add_hulls(const model::Scene& scene, bool with_waves, system::System& system);
+
 /// Morison elements and the water that they feel (build_morison.cpp). Throws ModelError.
 void add_morison(const model::Scene& scene, system::System& system);
 

@@ -115,15 +115,19 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
                                  {},     {}, {}};
     BodyLoad load;
     load.total = yaw_coefficients(excitation, 6 * i, meetings[i], samples, all);
+    if (froude_krylov)
+      load.froude_krylov = yaw_coefficients(*froude_krylov, 6 * i, meetings[i], samples, all);
+    if (scene.bodies[static_cast<std::size_t>(hb.body)].froude_krylov == "mesh") {
+      load.total -= load.froude_krylov; // the mesh feels it: the diffraction is left
+      load.froude_krylov.setZero();
+    }
     for (const water::Excitation::Term& term :
          terms_that_matter(load.total, samples.functions, b.length_scale))
       (hb.moving[static_cast<std::size_t>(term.coordinate)] >= 0 ? body.moving : body.still)
           .list.push_back(term);
-    if (froude_krylov) {
-      load.froude_krylov = yaw_coefficients(*froude_krylov, 6 * i, meetings[i], samples, all);
+    if (froude_krylov)
       body.froude_krylov.list =
           terms_that_matter(load.froude_krylov, samples.functions, b.length_scale);
-    }
     out.push_back(std::move(body));
     loads.push_back(std::move(load));
   }

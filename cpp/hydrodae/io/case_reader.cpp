@@ -10,6 +10,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/io/case_overrides.h"
 #include "hydrodae/io/hydro_file.h"
+#include "hydrodae/io/mesh_file.h"
 #include "hydrodae/io/record_file.h"
 #include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
@@ -165,6 +166,24 @@ void read_records(model::Scene& scene, const std::string& directory) {
   }
 }
 
+/// Surfaces of bodies, about their centres of gravity.
+void read_meshes(model::Scene& scene, const std::string& directory) {
+  for (model::Body& body : scene.bodies) {
+    if (!body.mesh)
+      continue;
+    const std::filesystem::path path = std::filesystem::path(directory) / *body.mesh;
+    try {
+      Surface surface = read_surface(path.lexically_normal().string());
+      surface.vertices.rowwise() -= body.center_of_gravity.transpose();
+      body.hull =
+          std::make_shared<hull::Mesh>(hull::make_mesh(surface.vertices, surface.triangles));
+    } catch (const Error& error) {
+      throw CaseError(scene.positions.at("body." + body.name + ".mesh") +
+                      ": key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());
+    }
+  }
+}
+
 /// Where FMUs of controllers are, and which.
 void find_fmus(model::Scene& scene, const std::string& directory) {
   for (model::Controller& c : scene.controllers) {
@@ -198,6 +217,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
   if (scene.hydro)
     scene.database = read_database(scene, directory);
   read_records(scene, directory);
+  read_meshes(scene, directory);
   find_fmus(scene, directory);
   try {
     model::check(scene);

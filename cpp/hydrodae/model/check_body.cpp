@@ -82,6 +82,35 @@ void check_volume(const Scene& scene, const Body& body) {
            "a volume under water has its centre below z = 0, this one at " + number_text(z) + " m");
 }
 
+/// What a mesh needs, and what would count its loads twice.
+void check_mesh(const Scene& scene, const Body& body) {
+  const bool statics = body.hydrostatics == "mesh", waves = body.froude_krylov == "mesh";
+  if (body.mesh && !statics)
+    refuse(body, "mesh", "a mesh does nothing without hydrostatics = \"mesh\"");
+  if (statics && !body.mesh)
+    refuse(body, "hydrostatics", "hydrostatics = \"mesh\" needs 'mesh', the file of the surface");
+  if (waves && !statics)
+    refuse(body, "froude_krylov",
+           "froude_krylov = \"mesh\" takes the whole pressure on the wetted surface, so it needs "
+           "hydrostatics = \"mesh\" too");
+  if (!statics)
+    return;
+  if (body.volume > 0.0)
+    refuse(body, "volume", "the buoyancy of this body comes from its mesh; leave out 'volume'");
+  if (water(scene).density <= 0.0)
+    refuse(body, "hydrostatics",
+           "a mesh needs the density of the water: a database, or environment.water_density");
+  if (scene.hydro && body.hydro && scene.hydro->axes == "body")
+    refuse(body, "hydrostatics",
+           "axes = \"body\" is for linear loads that turn with the body; with a mesh use axes = "
+           "\"mean\" or \"yaw\"");
+  if (waves && body.hydro && scene.database && !scene.waves.empty() &&
+      scene.database->froude_krylov.empty())
+    refuse(body, "froude_krylov",
+           "the database holds the sum of Froude-Krylov and diffraction loads alone, so the first "
+           "would count twice; make it again with both (hydrodae hdb compute does)");
+}
+
 } // namespace
 
 void check_body(const Scene& scene, const Body& body) {
@@ -93,6 +122,7 @@ void check_body(const Scene& scene, const Body& body) {
   check_inertia(body, free);
   check_initial(body, free);
   check_volume(scene, body);
+  check_mesh(scene, body);
   if (body.hydro && !scene.hydro)
     refuse(body, "hydro", "key 'hydro' needs a table [hydro] with a database");
 }

@@ -27,6 +27,7 @@
 #include "hydrodae/element/pto_rotary.h"
 #include "hydrodae/element/python_law.h"
 #include "hydrodae/element/spring_damper.h"
+#include "hydrodae/hull/mesh.h"
 #include "hydrodae/hydro/database.h"
 #include "hydrodae/line/catenary_line.h"
 #include "hydrodae/line/line.h"
@@ -136,6 +137,9 @@ struct Body {
   std::optional<std::string> hydro;
   double volume = 0.0; ///< 0: not given
   std::optional<Vector3> center_of_buoyancy;
+  std::optional<std::string> mesh;
+  std::string hydrostatics = "linear", froude_krylov = "linear";
+  std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
 
   template <class B = Body> static Fields<B> fields() {
@@ -168,6 +172,27 @@ struct Body {
         {"center_of_buoyancy", &B::center_of_buoyancy, "m",
          "Centre of that volume in the reference pose, world axes; default: the centre of "
          "gravity."},
+        {"mesh", &B::mesh, "-",
+         "File of the closed surface of the body in the reference pose, world axes, normals "
+         "outwards, up to above the highest water: .stl or .obj, in metres; relative to the case "
+         "file."},
+        {"hydrostatics",
+         &B::hydrostatics,
+         "-",
+         "Hydrostatics: the stiffness of the database about the reference pose (linear), or the "
+         "pressure on the wetted part of `mesh` at each instant (mesh).",
+         false,
+         any_value,
+         {"linear", "mesh"}},
+        {"froude_krylov",
+         &B::froude_krylov,
+         "-",
+         "Load of the undisturbed waves: that of the database about the mean pose (linear), or "
+         "their pressure on the part of `mesh` beneath their surface (mesh). Diffraction and "
+         "radiation stay those of the database.",
+         false,
+         any_value,
+         {"linear", "mesh"}},
     };
   }
 };

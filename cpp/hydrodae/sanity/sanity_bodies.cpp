@@ -109,6 +109,28 @@ element::AtRest rest_at_points(const element::Elements& laws, std::size_t law,
   return element::at_rest(laws, law, x);
 }
 
+/// A law on a mesh in still water, its body in the reference pose.
+element::AtRest in_reference_pose(const element::Elements& laws, std::size_t law,
+                                  const system::BodyData& body) {
+  const std::shared_ptr<const element::Elements> calm = laws.calm();
+  element::BodyState<double> state{};
+  state.r = body.reference;
+  state.R.setIdentity();
+  state.v = state.w = state.v_dot = state.w_dot = Vector3::Zero();
+  const auto n = static_cast<Index>(calm->size()), at = static_cast<Index>(law);
+  VectorX in(n * element::body_numbers), out(6 * n), slope(n * 6 * 18);
+  for (Index k = 0; k < n; ++k)
+    element::write(state, in.data() + k * element::body_numbers);
+  calm->evaluate(0.0, in.data(), nullptr, out.data());
+  calm->jacobian(0.0, in.data(), nullptr, slope.data());
+  element::AtRest rest;
+  rest.load = out.segment<6>(6 * at);
+  rest.stiffness =
+      -Eigen::Map<const Eigen::Matrix<double, 6, 18>>(slope.data() + at * 6 * 18).leftCols<6>();
+  rest.damping = Matrix6::Zero();
+  return rest;
+}
+
 std::string names(const system::System& s, const FloatingGroup& group) {
   std::vector<std::string> out;
   for (int body : group.bodies)
@@ -242,27 +264,31 @@ std::vector<FloatingGroup> floating_groups(const system::System& s) {
     return groups[static_cast<std::size_t>(
         index[static_cast<std::size_t>(of[static_cast<std::size_t>(body)])])];
   };
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
-        if (!port.points.empty()) {
-          const element::AtRest rest = rest_at_points(*list.laws, law, port, ws);
-          for (std::size_t i = 0; i < port.points.size(); ++i)
-            if (const int body = port.points[i].body; body >= 0) {
-              const auto z = static_cast<Index>(3 * i + 2);
-              FloatingGroup& group = group_of(body);
-              (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
-              group.mooring += rest.stiffness(z, z);
-            }
+  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
+                              const system::PortData& port) {
+    if (!port.points.empty()) {
+      const element::AtRest rest = rest_at_points(*list.laws, law, port, ws);
+      for (std::size_t i = 0; i < port.points.size(); ++i)
+        if (const int body = port.points[i].body; body >= 0) {
+          const auto z = static_cast<Index>(3 * i + 2);
+          FloatingGroup& group = group_of(body);
+          (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
+          group.mooring += rest.stiffness(z, z);
         }
-        if (port.body < 0)
-          return;
-        FloatingGroup& group = group_of(port.body);
-        const element::AtRest rest = element::at_rest(*list.laws, law);
-        const bool water = list.laws->type == "hydrostatic";
-        group.wet = group.wet || water;
-        (water ? group.buoyancy : group.load) += rest.load[2];
-        (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
-      });
+    }
+    if (port.body < 0)
+      return;
+    FloatingGroup& group = group_of(port.body);
+    const bool meshed = list.laws->shape.in_water() &&
+                        (list.laws->type == "hydrostatic" || list.laws->type == "pressure");
+    const element::AtRest rest =
+        meshed ? in_reference_pose(*list.laws, law, s.bodies[static_cast<std::size_t>(port.body)])
+               : element::at_rest(*list.laws, law);
+    const bool water = meshed || list.laws->type == "hydrostatic";
+    group.wet = group.wet || water;
+    (water ? group.buoyancy : group.load) += rest.load[2];
+    (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
+  });
   for (const Link& link : links) { // does the row let the whole group heave?
     const double rate = (link.a >= 0 ? link.by_a : 0.0) + (link.b >= 0 ? link.by_b : 0.0);
     if (std::abs(rate) > 1e-6)

@@ -15,6 +15,8 @@ struct Sea {
   double ramp = 0.0;
   Vector3 current = Vector3::Zero();
   std::string phase = "fixed";
+  std::string stretching = "vertical";
+  bool bernoulli = false;
 
   template <class S = Sea> static Fields<S> fields() {
     return {
@@ -34,6 +36,17 @@ struct Sea {
          false,
          any_value,
          {"fixed", "moving"}},
+        {"stretching",
+         &S::stretching,
+         "-",
+         "Pressure of the waves above z = 0 on bodies with `froude_krylov = \"mesh\"`: hydrostatic "
+         "down from the crest (vertical: consistent to second order), the profile of linear theory "
+         "moved up to the crest (wheeler), or e^(kz) as it is (extrapolated).",
+         false,
+         any_value,
+         {"vertical", "wheeler", "extrapolated"}},
+        {"bernoulli", &S::bernoulli, "-",
+         "Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity."},
     };
   }
 };
