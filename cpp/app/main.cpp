@@ -174,7 +174,7 @@ ExitCode perform(const Arguments& arguments) {
   try {
     if (arguments.task == Arguments::Task::run)
       return run(scene, arguments);
-    std::cout << hydrodae::check::examine(scene);
+    std::cout << hydrodae::examine(scene);
     return ExitCode::done;
   } catch (const hydrodae::ModelError& error) {
     throw hydrodae::CaseError(hydrodae::model::located(scene, error));

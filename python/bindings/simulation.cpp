@@ -96,7 +96,7 @@ std::string examine_scene(const model::Scene& scene, const Functions& drives,
                           const Functions& forces) {
   PythonFunctions functions;
   try {
-    const std::string text = check::examine(functions.join(scene, drives, forces));
+    const std::string text = examine(functions.join(scene, drives, forces));
     functions.raise_failure();
     return text;
   } catch (const ModelError& error) {

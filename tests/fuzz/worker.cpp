@@ -97,7 +97,7 @@ Answer perform(const std::string& tasks, const std::string& folder) {
   Answer answer{0, "read"};
   try {
     if (tasks.find('e') != std::string::npos)
-      answer.message = hydrodae::check::examine(scene);
+      answer.message = hydrodae::examine(scene);
     if (tasks.find('l') != std::string::npos)
       hydrodae::statics::linearize(scene);
     if (writes || tasks.find('r') != std::string::npos)

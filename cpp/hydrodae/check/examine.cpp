@@ -270,9 +270,8 @@ void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Chan
     out << "  inputs for controllers and programs: " << joined(names) << "\n";
 }
 
-} // namespace
-
-std::string examine(const model::Scene& scene) {
+/// What `hydrodae check` prints.
+std::string report(const model::Scene& scene) {
   const System built = build::build(scene);
   system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
@@ -298,4 +297,12 @@ std::string examine(const model::Scene& scene) {
   return out.str();
 }
 
+} // namespace
+
 } // namespace hydrodae::check
+
+namespace hydrodae {
+
+std::string examine(const model::Scene& scene) { return check::report(scene); }
+
+} // namespace hydrodae

@@ -108,7 +108,7 @@ TEST_CASE("open stops, slack ropes and dry friction are no redundant rows") {
   for (const std::string& note : built.notes)
     told = told || note.starts_with("5 redundant constraint rows");
   CHECK(told);
-  CHECK(contains(check::examine(scene), "5 redundant constraint rows"));
+  CHECK(contains(examine(scene), "5 redundant constraint rows"));
 }
 
 TEST_CASE("a closed loop with redundant rows comes to rest on its stop") {

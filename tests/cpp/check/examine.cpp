@@ -33,7 +33,7 @@ std::string pendulums(const std::string& extra = "") {
          solver;
 }
 
-std::string report(const std::string& text) { return check::examine(io::parse_case(text, ".")); }
+std::string report(const std::string& text) { return examine(io::parse_case(text, ".")); }
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
