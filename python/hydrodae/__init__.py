@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from hydrodae.pictures import plot as plot
     from hydrodae.results import Results, ResultsError
     from hydrodae.simulation import Simulation, run
-    from hydrodae.study.band import working_band
     from hydrodae.study import calibrate as calibration  # noqa: F401
+    from hydrodae.study.band import working_band
     from hydrodae.study.calibrate import calibrate
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check

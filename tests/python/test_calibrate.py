@@ -1,4 +1,4 @@
-"""Calibration against closed forms, synthetic records whose truth is known, and records of tanks."""
+"""Calibration against closed forms, records whose truth is known, and records of a tank."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import toeplitz
 from tests.python.doc_blocks import blocks, command_lines
+from tests.verification import test_lines as lines
 from tests.verification.carts import cart
+from tests.verification.test_lines_in_motion import BAR, PERIOD, ROUND
 
 import hydrodae
 from hydrodae.case import Case
@@ -387,9 +389,43 @@ def test_results_are_records_too(case: Case, tmp_path: Path) -> None:
     np.testing.assert_allclose(found.channels[CHANNEL], motion(), atol=1e-4)
 
 
-def test_the_page_runs(
-    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.slow
+def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
+    reference: Path,
 ) -> None:
+    """From drag coefficients of catalogues for chains; measured peaks of 52 N, 20 segments.
+
+    The authors of the experiment have 1.505 across (their diameter turned into that of the steel).
+    """
+    file = reference / "chain_tension" / "tension_3.5s.csv"
+    time, tension = np.loadtxt(file, delimiter=",", skiprows=1).T[:, ::4]
+    keys = (
+        'body_b = "top"\npoint_a = [0.0, 0.0, -3.0]\npoint_b = [32.554, 0.0, 0.3]\n'
+        "length = [33.0]\nsegments = [20]\nmass = [0.0818]\ndiameter = [0.003654]\n"
+        "stiffness = [1e4]\ndamping = [2.0]\ndrag = [2.4]\ndrag_axial = [0.5]\n"
+        f"added_mass = [3.8]\ncontact_diameter = [{3.35 * BAR}]\nseabed_stiffness = 3e6\n"
+        "seabed_damping = 1e4\nseabed_friction = 0.3"
+    )
+    chain = lines.case(ROUND + lines.line(keys), "end_time = 28.0\nrtol = 1e-4", 0.01)
+    late = 2.0 * PERIOD + 2.945
+    halves = [
+        Record(
+            name, time[part], {"forces/line/tension": tension[part]}, offset=late,
+            offset_bounds=(late - 0.3, late + 0.3), fitted=name == "first",
+        )
+        for name, part in (("first", time < 7.5), ("second", time >= 7.5))
+    ]  # fmt: skip
+    free = [
+        Free("force.line.drag[0]", (0.1, 8.0), name="drag"),
+        Free("force.line.drag_axial[0]", (0.0, 3.0), scale=0.2, name="axial drag"),
+    ]
+    found = calibrate(chain, halves, free)
+    second = found.residuals[1]
+    assert second.after < 0.5 * second.before
+    assert found.values["drag"] == pytest.approx(1.505, rel=0.05)
+
+
+def test_the_page_runs(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = repository / "docs" / "calibrate.md"
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {}

@@ -54,7 +54,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="time of the case minus time of the record; with bounds it is fitted",
     )
     parser.add_argument(
-        "--from", dest="start", metavar="S", type=float, help="first time of the records that counts"
+        "--from",
+        dest="start",
+        metavar="S",
+        type=float,
+        help="first time of the records that counts",
     )
     parser.add_argument(
         "--to", dest="end", metavar="S", type=float, help="last time of the records that counts"
@@ -69,7 +73,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="the records are decays: start from periods and decrements of successive peaks",
     )
-    parser.add_argument("--most", metavar="N", type=int, default=50, help="evaluations (default 50)")
+    parser.add_argument(
+        "--most", metavar="N", type=int, default=50, help="evaluations (default 50)"
+    )
     parser.add_argument(
         "--write", metavar="FILE", help="a copy of the case with the fitted values, beside the case"
     )

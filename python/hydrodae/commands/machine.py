@@ -165,8 +165,7 @@ def of_calibration(found: Calibration) -> dict[str, Any]:
         "title": found.before.title,
         "keys": found.keys,
         "parameters": [
-            vars(one) | {"low": one.interval[0], "high": one.interval[1]}
-            for one in found.estimates
+            vars(one) | {"low": one.interval[0], "high": one.interval[1]} for one in found.estimates
         ],
         "correlation": found.correlation,
         "records": [

@@ -10,8 +10,9 @@ from hydrodae.errors import CaseError
 from hydrodae.study.calibrate.decay import Decay, decay
 from hydrodae.study.calibrate.fit import search
 from hydrodae.study.calibrate.parameters import Free
+from hydrodae.study.calibrate.parts import Check, Estimate, Residual
 from hydrodae.study.calibrate.records import Record, read_record
-from hydrodae.study.calibrate.result import Calibration, Check, Estimate, Residual
+from hydrodae.study.calibrate.result import Calibration
 from hydrodae.study.calibrate.tests_file import read_tests
 
 __all__ = [
@@ -37,7 +38,7 @@ def calibrate(
     set: Mapping[str, Any] | None = None,
     decay: Sequence[str] = (),
     most: int = 50,
-    tolerance: float = 1e-6,
+    tolerance: float = 1e-5,
     progress: Callable[[int], None] | None = None,
 ) -> Calibration:
     """Fit parameters of a case to records of tests, by least squares.

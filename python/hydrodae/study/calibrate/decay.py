@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.signal import find_peaks
 
 from hydrodae.errors import CaseError
@@ -33,6 +32,8 @@ Array = NDArray[np.float64]
 FEWEST = 4
 #: Least peak over the largest one that counts.
 LEAST = 0.05
+#: Samples on either side of a peak that give it, over those from peak to peak.
+NEAR = 0.12
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,7 @@ class Decay:
 
     @property
     def features(self) -> Array:
-        """Period [s], and logarithmic decrements over half a period at the largest and at half
-        of the largest mean amplitude: (3,)."""
+        """Period [s], decrements over half a period at the largest peak and at half of it: (3,)."""
         top = float(self.amplitudes.max())
         base = self.linear * self.period / 4.0
         return np.array(
@@ -116,7 +116,6 @@ def decay(time: Array, values: Array, channel: str = "", unit: str = "-") -> Dec
         It has fewer than `FEWEST` peaks, or these do not fall.
     """
     rest = _rest(values)
-    spline = CubicSpline(time, values - rest)
     about = np.abs(values - rest)
     least = LEAST * float(about.max())
     signs = np.sign(values - rest)
@@ -129,7 +128,8 @@ def decay(time: Array, values: Array, channel: str = "", unit: str = "-") -> Dec
             f"{channel}: {len(peaks)} peaks above {100 * LEAST:g} % of the largest; a decay needs "
             f"{FEWEST} at least"
         )
-    times, heights = np.array([_refined(spline, time, k) for k in peaks]).T
+    width = max(1, int(NEAR * np.median(np.diff(peaks))))
+    times, heights = np.array([_refined(time, values - rest, k, width) for k in peaks]).T
     level = _level(heights)
     amplitudes = np.abs(heights - level)
     if np.count_nonzero(np.diff(amplitudes) < 0.0) < 0.6 * (len(amplitudes) - 1):
@@ -141,7 +141,7 @@ def decay(time: Array, values: Array, channel: str = "", unit: str = "-") -> Dec
     )  # fmt: skip
     # the logarithm of a small peak is known less well: var(ln a) ~ 1/a^2
     line = np.polynomial.polynomial.polyfit(mean, fall, 1, w=mean)
-    half = float(np.polyfit(np.arange(len(times)), times, 1)[0])
+    half = float(np.polyfit(np.arange(len(times)), times, 1, w=amplitudes)[0])
     return Decay(
         channel, unit, times, amplitudes, 2.0 * half, float(line[0] / half * 2.0),
         float(0.75 * line[1]),
@@ -170,9 +170,10 @@ def _largest_of_runs(peaks: NDArray[np.int_], signs: Array, about: Array) -> NDA
     return np.array(kept, dtype=int)
 
 
-def _refined(spline: CubicSpline, time: Array, k: int) -> tuple[float, float]:
-    """Time and height of a peak between its samples, by the parabola through three of them."""
-    t = time[k - 1 : k + 2]
-    a, b, c = np.polyfit(t - time[k], spline(t), 2)
-    at = 0.0 if a == 0.0 else float(np.clip(-b / (2.0 * a), t[0] - time[k], t[2] - time[k]))
+def _refined(time: Array, about: Array, k: int, width: int) -> tuple[float, float]:
+    """Time and height of a peak by the parabola through the samples on both sides of it."""
+    near = slice(max(k - width, 0), k + width + 1)
+    t = time[near] - time[k]
+    a, b, c = np.polyfit(t, about[near], 2)
+    at = 0.0 if a == 0.0 else float(np.clip(-b / (2.0 * a), t[0], t[-1]))
     return float(time[k] + at), float(a * at * at + b * at + c)

@@ -13,8 +13,9 @@ from hydrodae.errors import CaseError
 from hydrodae.study.calibrate.decay import Decay, decay
 from hydrodae.study.calibrate.model import Model
 from hydrodae.study.calibrate.parameters import Free, unknowns
+from hydrodae.study.calibrate.parts import Check, Estimate, Residual
 from hydrodae.study.calibrate.records import Record
-from hydrodae.study.calibrate.result import Calibration, Check, Estimate, Residual
+from hydrodae.study.calibrate.result import Calibration
 from hydrodae.study.calibrate.statistics import spread, undetermined
 
 Array = NDArray[np.float64]
@@ -174,9 +175,15 @@ def _residuals(model: Model, first: Array, x: Array) -> list[Residual]:
                 curves = [curve - np.mean(curve - measured) for curve in curves]
             out.append(
                 Residual(
-                    record.name, channel, model.unit(k, channel),
-                    record.fitted, record.time, measured, curves[0], curves[1],
-                )  # fmt: skip
+                    record.name,
+                    channel,
+                    model.unit(k, channel),
+                    record.fitted,
+                    record.time,
+                    measured,
+                    curves[0],
+                    curves[1],
+                )
             )
     return out
 

@@ -210,9 +210,7 @@ def _case_of(case: Case, record: Record) -> Case:
         )
     steps = np.ceil(record.latest / step - 1e-9)
     end = float(max(steps, 4.0) * step)
-    return case.with_values(
-        {**record.set, "solver.accuracy": "none", "solver.end_time": end}
-    )
+    return case.with_values({**record.set, "solver.accuracy": "none", "solver.end_time": end})
 
 
 def _moved(x: Array, n: int, step: float) -> Array:

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import matplotlib
 from matplotlib.figure import Figure
 
+from hydrodae.study.calibrate.parts import Residual
 from hydrodae.support.style import STYLE
 from hydrodae.support.units import displayed
 
-if TYPE_CHECKING:
-    from hydrodae.study.calibrate.result import Calibration
-
 
 @matplotlib.rc_context(STYLE)
-def draw(found: Calibration) -> Figure:
+def draw(residuals: Sequence[Residual]) -> Figure:
     """One panel for each channel of each record."""
-    rows = len(found.residuals)
+    rows = len(residuals)
     figure = Figure(figsize=(8.0, 0.6 + 2.2 * rows), layout="constrained")
     panels = figure.subplots(rows, 1, squeeze=False)[:, 0]
-    for axes, one in zip(panels, found.residuals, strict=True):
+    for axes, one in zip(panels, residuals, strict=True):
         factor, unit = displayed(one.unit)
         axes.plot(one.time, factor * one.measured, color="black", label="measured")
         axes.plot(one.time, factor * one.start, "--", color="C1", label="before")

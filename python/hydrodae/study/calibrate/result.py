@@ -6,90 +6,20 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from hydrodae.case import Case
 from hydrodae.study.calibrate.decay import Decay
+from hydrodae.study.calibrate.parts import Check, Estimate, Residual
+from hydrodae.study.calibrate.picture import draw
+from hydrodae.study.calibrate.writing import write_case
 from hydrodae.support.units import displayed
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A fitted number.
-
-    Attributes
-    ----------
-    name : str
-    start, value : float
-        Before and after, unit of the key in the case file (of an offset s).
-    half : float
-        Half of its 95 % interval; nan at a bound, or where it is not determined.
-    independent : float
-        As many independent samples would tell as much of it as the records do.
-    at_bound : bool
-    is_offset : bool
-        The offset of time of a record.
-    """
-
-    name: str
-    start: float
-    value: float
-    half: float
-    independent: float
-    at_bound: bool = False
-    is_offset: bool = False
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """95 % interval."""
-        return self.value - self.half, self.value + self.half
-
-
-@dataclass(frozen=True)
-class Residual:
-    """A channel of a record beside that of the runs before and after, SI units."""
-
-    record: str
-    channel: str
-    unit: str
-    fitted: bool
-    time: Array  #: of the record, s
-    measured: Array
-    start: Array
-    end: Array
-
-    @property
-    def before(self) -> float:
-        """Root mean square of the difference before."""
-        return float(np.sqrt(np.mean((self.start - self.measured) ** 2)))
-
-    @property
-    def after(self) -> float:
-        """Root mean square of the difference after."""
-        return float(np.sqrt(np.mean((self.end - self.measured) ** 2)))
-
-    @property
-    def span(self) -> float:
-        """Largest minus least measured value."""
-        return float(np.ptp(self.measured))
-
-
-@dataclass(frozen=True)
-class Check:
-    """Period and damping by successive peaks, measured, before and after."""
-
-    record: str
-    measured: Decay
-    before: Decay
-    after: Decay
 
 
 @dataclass(frozen=True)
@@ -145,9 +75,7 @@ class Calibration:
 
     def draw(self) -> Figure:
         """Draw each channel of each record: measured, before and after."""
-        from hydrodae.study.calibrate.picture import draw
-
-        return draw(self)
+        return draw(self.residuals)
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write a copy of the case file in which the fitted values stand.
@@ -157,13 +85,13 @@ class Calibration:
         CaseError
             A value cannot be replaced where it stands, or the copy would not be the same case.
         """
-        from hydrodae.study.calibrate.writing import write_case
-
         return write_case(self.before, self.case, self.keys, path)
 
 
 def _table_of_estimates(estimates: Sequence[Estimate]) -> list[str]:
-    lines = [f"  {'parameter':36} {'before':>11} {'after':>11}   95 % interval (independent samples)"]
+    lines = [
+        f"  {'parameter':36} {'before':>11} {'after':>11}   95 % interval (independent samples)"
+    ]
     for one in estimates:
         told = "no interval"
         if np.isfinite(one.half):

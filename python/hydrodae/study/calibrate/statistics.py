@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 ORDER = 24
 #: Change of the channels over their size for a parameter that counts as without effect.
 NO_EFFECT = 1e-6
-#: Least singular value of the derivatives, columns of length one, of parameters that are told apart.
+#: Least singular value of the derivatives, columns of length one, where all are determined.
 SINGULAR = 2e-3
 #: Part of a parameter in a direction that is not determined.
 PART = 0.1
@@ -145,7 +145,7 @@ def undetermined(jacobian: Array, names: Sequence[str]) -> list[str]:
     Parameters
     ----------
     jacobian : (m, n) array
-        Derivatives of the differences, over the size of the channels, by the parameters over theirs.
+        Of the differences over the size of the channels by the parameters over theirs.
     names : sequence of str
 
     Returns
