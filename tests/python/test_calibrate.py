@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import toeplitz
 from tests.python.doc_blocks import blocks, command_lines
@@ -57,9 +58,9 @@ START = {
     "force.pto.damping": 0.4,
     "force.water.quadratic": [0.5, 0.0, 0.0, 0.0, 0.0, 0.0],
 }
-TIME = np.arange(201) * 0.1
+Array = NDArray[np.float64]
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
+TIME: Array = np.asarray(np.arange(201) * 0.1, dtype=np.float64)
 
 
 def motion(more_mass: float = 0.0) -> Array:
@@ -234,7 +235,7 @@ def test_singular_derivatives_name_those_that_take_part() -> None:
 
 
 def test_a_linear_decay_by_its_peaks_is_the_closed_form() -> None:
-    t = np.linspace(0.0, 40.0, 801)
+    t: Array = np.asarray(np.linspace(0.0, 40.0, 801), dtype=np.float64)
     alpha, omega = 0.05, 1.3
     found = decay(t, 0.7 + 2.0 * np.exp(-alpha * t) * np.cos(omega * t), "x", "m")
     assert found.period == pytest.approx(2.0 * np.pi / omega, rel=1e-3)
