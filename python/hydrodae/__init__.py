@@ -34,7 +34,9 @@ if TYPE_CHECKING:
     from hydrodae.pictures import plot as plot
     from hydrodae.results import Results, ResultsError
     from hydrodae.simulation import Simulation, run
+    from hydrodae.study import calibrate as calibration  # noqa: F401
     from hydrodae.study.band import working_band
+    from hydrodae.study.calibrate import calibrate
     from hydrodae.study.chart import chart, recommend
     from hydrodae.study.check import check
     from hydrodae.study.equilibrium import equilibrium
@@ -61,6 +63,7 @@ __all__ = [
     "Scene",
     "Simulation",
     "SolverError",
+    "calibrate",
     "catenary",
     "chart",
     "check",
@@ -89,6 +92,7 @@ _LATER = {
     "ResultsError": "results",
     "Scene": "case.scene",
     "Simulation": "simulation",
+    "calibrate": "study.calibrate",
     "catenary": "mooring",
     "chart": "study.chart",
     "check": "study.check",
@@ -110,6 +114,7 @@ _LATER = {
 #: Modules that are called by `hydrodae.NAME` after `import hydrodae`, and where they are.
 _MODULES = {
     "arrays": "case.arrays",
+    "calibration": "study.calibrate",
     "case": "case",
     "control": "control",
     "fmu": "fmu",

@@ -185,6 +185,20 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
 
         sweep_command.add_arguments(sweep)
         sweep.set_defaults(call=sweep_command.run)
+
+    calibrate = commands.add_parser(
+        "calibrate",
+        help="fit parameters of a case to what was measured in a tank",
+        description="Fit numbers of a case to measured channels of one or several tests, by least "
+        "squares, with intervals that hold for correlated differences; what the records do not "
+        "determine is refused by name.",
+    )
+    if command in (["calibrate"], ALL):
+        from hydrodae.commands import calibrate as calibrate_command
+
+        calibrate_command.add_arguments(calibrate)
+        calibrate.set_defaults(call=calibrate_command.run)
+
     mooring = commands.add_parser(
         "mooring", help="mooring matrices from lines, and MoorDyn's input files"
     )

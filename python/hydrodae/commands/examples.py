@@ -24,6 +24,11 @@ EXAMPLES = {
         "hydrodae sweep power_matrix.toml --jobs 4 -o power.nc",
         "hydrodae sweep best_damper.toml --optimise",
     ),
+    "calibrate": (
+        "hydrodae calibrate case.toml --record decay.csv --parameter force.brake.damping=0,1e4 "
+        "--channel joints/slide/displacement=heave:mm",
+        "hydrodae calibrate case.toml --tests tests.toml --picture fit.png --write fitted.toml",
+    ),
     "mooring": (
         "hydrodae mooring linearise case.toml",
         "hydrodae mooring import lines.dat",

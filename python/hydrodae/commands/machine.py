@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from hydrodae.linear import Response
     from hydrodae.linear.modes import Mode
     from hydrodae.results import Results
+    from hydrodae.study.calibrate import Calibration
     from hydrodae.study.equilibrium import Equilibrium
     from hydrodae.study.rao.responses import Rao
     from hydrodae.study.spectral import Spectral
@@ -155,6 +156,49 @@ def of_optimum(found: Optimum) -> dict[str, Any]:
         "calls": found.calls,
         "message": found.message,
         "dataset": of_sweep(found.dataset),
+    }
+
+
+def of_calibration(found: Calibration) -> dict[str, Any]:
+    """Fitted values, intervals, correlation, and differences before and after."""
+    return {
+        "title": found.before.title,
+        "keys": found.keys,
+        "parameters": [
+            vars(one) | {"low": one.interval[0], "high": one.interval[1]} for one in found.estimates
+        ],
+        "correlation": found.correlation,
+        "records": [
+            {
+                "record": one.record,
+                "channel": one.channel,
+                "unit": one.unit,
+                "fitted": one.fitted,
+                "rms_before": one.before,
+                "rms_after": one.after,
+                "range": one.span,
+            }
+            for one in found.residuals
+        ],
+        "decays": [
+            {"record": check.record}
+            | {
+                name: {
+                    "period": one.period,
+                    "damping_ratio": one.damping_ratio,
+                    "quadratic": one.quadratic,
+                }
+                for name, one in (
+                    ("measured", check.measured),
+                    ("before", check.before),
+                    ("after", check.after),
+                )
+            }
+            for check in found.checks
+        ],
+        "warnings": found.warnings,
+        "evaluations": found.evaluations,
+        "runs": found.runs,
     }
 
 

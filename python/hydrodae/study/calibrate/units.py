@@ -1,0 +1,73 @@
+"""Units that columns of records may have, and their factors to SI units."""
+
+from __future__ import annotations
+
+import math
+
+from hydrodae.errors import CaseError
+
+_LENGTH = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
+_ANGLE = {"rad": 1.0, "deg": math.pi / 180.0}
+_FORCE = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6}
+_MOMENT = {"N m": 1.0, "Nm": 1.0, "kN m": 1e3, "kNm": 1e3, "MN m": 1e6, "MNm": 1e6}
+_RATES = {
+    f"{unit}/{time}": (factor, f"{base}/{time}")
+    for base, units in (("m", _LENGTH), ("rad", _ANGLE))
+    for unit, factor in units.items()
+    for time in ("s", "s2")
+}
+
+#: Factor to the SI unit, and that unit.
+UNITS: dict[str, tuple[float, str]] = {
+    **{unit: (factor, "m") for unit, factor in _LENGTH.items()},
+    **{unit: (factor, "rad") for unit, factor in _ANGLE.items()},
+    **{unit: (factor, "N") for unit, factor in _FORCE.items()},
+    **{unit: (factor, "N m") for unit, factor in _MOMENT.items()},
+    **_RATES,
+    "g": (9.80665, "m/s2"),
+    "s": (1.0, "s"),
+    "ms": (1e-3, "s"),
+    "min": (60.0, "s"),
+    "W": (1.0, "W"),
+    "kW": (1e3, "W"),
+    "MW": (1e6, "W"),
+    "Pa": (1.0, "Pa"),
+    "kPa": (1e3, "Pa"),
+    "bar": (1e5, "Pa"),
+}
+
+
+def split_unit(text: str, columns: list[str]) -> tuple[str, float, str]:
+    """Split "COLUMN", "COLUMN:UNIT" or "COLUMN:-UNIT", which turns the sign.
+
+    A column that has the whole name is meant first.
+
+    Parameters
+    ----------
+    text : str
+    columns : list of str
+        Those of the file.
+
+    Returns
+    -------
+    column : str
+    factor : float
+        To the SI unit.
+    unit : str
+        That unit; empty if none is given, which is the unit of the channel.
+
+    Raises
+    ------
+    CaseError
+        The unit is unknown.
+    """
+    column, colon, unit = text.rpartition(":")
+    if text in columns or not colon:
+        return text, 1.0, ""
+    unit = unit.strip()
+    sign = -1.0 if unit.startswith("-") else 1.0
+    unit = unit.removeprefix("-")
+    if unit not in UNITS:
+        raise CaseError(f"{text!r}: unknown unit {unit!r}; known are {', '.join(UNITS)}")
+    factor, base = UNITS[unit]
+    return column.strip(), sign * factor, base

@@ -1,0 +1,443 @@
+"""Calibration against closed forms, records whose truth is known, and records of a tank."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.linalg import toeplitz
+from tests.python.doc_blocks import blocks, command_lines
+from tests.verification import test_lines as lines
+from tests.verification.carts import cart
+from tests.verification.test_lines_in_motion import BAR, PERIOD, ROUND
+
+import hydrodae
+from hydrodae.case import Case
+from hydrodae.commands import cli
+from hydrodae.study.calibrate import (
+    Calibration,
+    Free,
+    Record,
+    calibrate,
+    decay,
+    read_record,
+    read_tests,
+)
+from hydrodae.study.calibrate.statistics import autoregressive, spread, undetermined
+
+CHANNEL = "joints/slide/displacement"
+WATER = """
+[[force]]
+type = "viscous_damping"
+name = "water"
+body = "cart"
+quadratic = [0.3, 0.0, 0.0, 0.0, 0.0, 0.0]  # N s2/m2
+"""
+TEXT = cart(
+    "stiffness = 8.0  # N/m\ndamping = 0.2",
+    more=WATER,
+    solver='end_time = 20.0\nmethod = "gauss"\nstep = 0.1',
+    step=0.1,
+)
+TRUTH = {"stiffness": 8.0, "damping": 0.2, "quadratic": 0.3}
+FREE = [
+    Free("force.pto.stiffness", (1.0, 50.0), name="stiffness"),
+    Free("force.pto.damping", (0.0, 5.0), name="damping"),
+    Free("force.water.quadratic[0]", (0.0, 5.0), name="quadratic"),
+]
+START = {
+    "force.pto.stiffness": 9.0,
+    "force.pto.damping": 0.4,
+    "force.water.quadratic": [0.5, 0.0, 0.0, 0.0, 0.0, 0.0],
+}
+Array = NDArray[np.float64]
+
+TIME: Array = np.asarray(np.arange(201) * 0.1, dtype=np.float64)
+
+
+def motion(more_mass: float = 0.0) -> Array:
+    """The decay by another integrator: (2 + m) x'' + 0.2 x' + 0.3 |x'| x' + 8 x = 0."""
+
+    def rate(_: float, y: Array) -> list[float]:
+        return [y[1], -(0.2 * y[1] + 0.3 * abs(y[1]) * y[1] + 8.0 * y[0]) / (2.0 + more_mass)]
+
+    found = solve_ivp(rate, (0.0, 20.0), [0.5, 0.0], t_eval=TIME, rtol=1e-10, atol=1e-12)
+    return np.asarray(found.y[0])
+
+
+def noise(draw: np.random.Generator, kind: str, sigma: float = 0.01) -> Array:
+    """White, or with the correlation 0.9 from sample to sample."""
+    e = draw.normal(size=len(TIME) + 200)
+    if kind == "white":
+        return sigma * e[200:]
+    y = np.zeros(len(e))
+    for k in range(1, len(e)):
+        y[k] = 0.9 * y[k - 1] + e[k]
+    return sigma * math.sqrt(1.0 - 0.81) * y[200:]
+
+
+def record(values: Array, name: str = "decay", **options: Any) -> Record:
+    return Record(name, TIME, {CHANNEL: values}, **options)
+
+
+@pytest.fixture(scope="module")
+def case() -> Case:
+    return Case.from_text(TEXT)
+
+
+@pytest.fixture(scope="module")
+def fitted(case: Case) -> Calibration:
+    values = motion() + noise(np.random.default_rng(7), "red", 0.003)
+    return calibrate(case, [record(values)], FREE, set=START, decay=[CHANNEL])
+
+
+def test_a_record_without_noise_gives_the_truth(case: Case) -> None:
+    found = calibrate(case, [record(motion())], FREE, set=START)
+    for name, truth in TRUTH.items():
+        assert found.values[name] == pytest.approx(truth, rel=2e-4), name
+    assert found.residuals[0].after < 1e-4 * found.residuals[0].before
+    assert found.keys["force.water.quadratic"][1:] == [0.0] * 5
+
+
+def test_the_offset_of_time_and_the_zero_of_a_gauge_are_fitted(case: Case) -> None:
+    """Times of the record are 3.217 s late, its values 0.1 m too high."""
+    late = Record(
+        "late", TIME[:150] + 3.217, {CHANNEL: motion()[:150] + 0.1}, offset=-3.1,
+        offset_bounds=(-3.217, -2.9), level=True,
+    )  # fmt: skip
+    near = Record(
+        "late", late.time[5:], {CHANNEL: late.channels[CHANNEL][5:]}, offset=-3.1,
+        offset_bounds=(-3.5, -2.9), level=True,
+    )  # fmt: skip
+    found = calibrate(case, [near], FREE[:2], set={"force.pto.stiffness": 8.5})
+    assert found.values["offset of late"] == pytest.approx(-3.217, abs=2e-4)
+    assert found.values["stiffness"] == pytest.approx(8.0, rel=1e-3)
+
+
+def test_records_share_parameters_each_with_its_own_values(case: Case) -> None:
+    """From a second test with another mass both are known, mass and stiffness."""
+    records = [record(motion()), record(motion(1.0), "heavier", set={"body.cart.mass": 3.0})]
+    found = calibrate(case, records, FREE, set=START)
+    for name, truth in TRUTH.items():
+        assert found.values[name] == pytest.approx(truth, rel=2e-4), name
+    wrong = calibrate(case, [records[0], record(motion(1.0), "heavier")], FREE, set=START)
+    assert wrong.residuals[1].after > 100.0 * found.residuals[1].after
+
+
+def test_a_test_that_was_not_fitted_is_predicted(case: Case) -> None:
+    other = record(motion(1.0), "other", set={"body.cart.mass": 3.0}, fitted=False)
+    found = calibrate(case, [record(motion()), other], FREE, set=START)
+    assert not found.residuals[1].fitted
+    assert found.residuals[1].after < 1e-3 * found.residuals[1].before
+    assert "predicted, not fitted" in str(found)
+
+
+def test_what_the_records_do_not_determine_is_refused_by_name(case: Case) -> None:
+    """A free decay has k/m, c/m, q/m only; gravity is none along the guide."""
+    with pytest.raises(hydrodae.CaseError, match="only a combination") as refused:
+        calibrate(case, [record(motion())], [*FREE, "body.cart.mass"], set=START)
+    for name in ("stiffness", "damping", "quadratic", "body.cart.mass"):
+        assert name in str(refused.value)
+    with pytest.raises(hydrodae.CaseError, match=r"linear\[2\]: has no effect on the channels"):
+        calibrate(
+            case, [record(motion())], [FREE[0], Free("force.water.linear[2]", (0.0, 1.0))],
+            set={"force.water.linear": [0.0] * 6},
+        )  # fmt: skip
+
+
+def test_a_parameter_at_its_bound_has_no_interval(case: Case) -> None:
+    free = [Free("force.pto.stiffness", (1.0, 7.9)), FREE[1]]
+    found = calibrate(case, [record(motion())], free, set={"force.pto.stiffness": 7.0})
+    assert found.estimates[0].at_bound
+    assert math.isnan(found.estimates[0].half)
+    assert any("ends at a bound" in line for line in found.warnings)
+
+
+def coverage(case: Case, kind: str, number: int) -> tuple[Array, Array]:
+    """Records of `number` whose intervals hold the truth; the same, samples as independent."""
+    draw, clean = np.random.default_rng(1), motion()
+    inside, plain = np.zeros(3), np.zeros(3)
+    for _ in range(number):
+        found = calibrate(case, [record(clean + noise(draw, kind))], FREE, set=START)
+        for k, one in enumerate(found.estimates):
+            error = abs(one.value - TRUTH[one.name])
+            inside[k] += error <= one.half
+            plain[k] += error <= one.half * math.sqrt(one.independent / len(TIME))
+    return inside, plain
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["white", "red"])
+def test_intervals_hold_the_truth_in_95_of_100_records(case: Case, kind: str) -> None:
+    """Within what 100 records scatter by: 95 +- 2 sqrt(100 0.95 0.05), rounded down."""
+    inside, plain = coverage(case, kind, 100)
+    assert inside.min() >= 90
+    assert inside.mean() >= 92
+    if kind == "red":  # intervals of independent samples are far too narrow
+        assert plain.max() < 80
+
+
+def test_intervals_of_a_few_records(case: Case) -> None:
+    inside, _ = coverage(case, "red", 5)
+    assert inside.min() >= 4
+
+
+@pytest.mark.parametrize("rho", [0.0, 0.8])
+def test_the_spread_is_that_of_generalised_errors(rho: float) -> None:
+    """Of a straight line with noise of known covariance: (J^T J)^-1 J^T S J (J^T J)^-1."""
+    m, draw = 20000, np.random.default_rng(3)
+    e = draw.normal(size=m)
+    for k in range(1, m):
+        e[k] += rho * e[k - 1]
+    few = 2000
+    basis = np.stack([np.ones(few), np.linspace(-1.0, 1.0, few)], axis=1)
+    inverse = np.linalg.inv(basis.T @ basis)
+    covariance = toeplitz(rho ** np.arange(few)) / (1.0 - rho**2)
+    exact = inverse @ basis.T @ covariance @ basis @ inverse
+    found = np.mean(
+        [
+            spread(basis, part, [slice(0, few)]).covariance
+            for part in np.split(e, m // few)
+        ],
+        axis=0,
+    )  # fmt: skip
+    np.testing.assert_allclose(np.diag(found), np.diag(exact), rtol=0.1)
+
+
+def test_the_autoregressive_model_finds_order_and_coefficients() -> None:
+    draw, x = np.random.default_rng(5), np.zeros(5000)
+    for k in range(2, len(x)):
+        x[k] = 1.5 * x[k - 1] - 0.8 * x[k - 2] + draw.normal()
+    variance, coefficients = autoregressive(x)
+    assert len(coefficients) in (2, 3)
+    np.testing.assert_allclose(coefficients[:2], [-1.5, 0.8], atol=0.05)
+    assert variance == pytest.approx(1.0, rel=0.05)
+    assert len(autoregressive(draw.normal(size=5000))[1]) == 0
+
+
+def test_singular_derivatives_name_those_that_take_part() -> None:
+    draw = np.random.default_rng(2)
+    a, b = draw.normal(size=(2, 100))
+    told = undetermined(np.stack([a, b, 2.0 * a], axis=1), ["p", "q", "r"])
+    assert told == [
+        "p, r: only a combination of them is determined: changes of one are made up for by the "
+        "others"
+    ]
+    assert undetermined(np.stack([a, b], axis=1), ["p", "q"]) == []
+
+
+def test_a_linear_decay_by_its_peaks_is_the_closed_form() -> None:
+    t: Array = np.asarray(np.linspace(0.0, 40.0, 801), dtype=np.float64)
+    alpha, omega = 0.05, 1.3
+    found = decay(t, 0.7 + 2.0 * np.exp(-alpha * t) * np.cos(omega * t), "x", "m")
+    assert found.period == pytest.approx(2.0 * np.pi / omega, rel=1e-3)
+    assert found.linear == pytest.approx(2.0 * alpha, rel=0.01)
+    assert abs(found.quadratic) < 5e-4
+    named = found.coefficients(inertia=3.0)
+    assert named["stiffness"] == pytest.approx(3.0 * (omega**2 + alpha**2), rel=2e-3)
+    back = found.coefficients(stiffness=named["stiffness"])
+    assert back["inertia"] == pytest.approx(3.0)
+    assert back["linear damping"] == pytest.approx(3.0 * 2.0 * alpha, rel=0.01)
+
+
+def test_linear_and_quadratic_damping_by_peaks() -> None:
+    found = decay(TIME, motion())
+    assert found.linear == pytest.approx(0.1, rel=0.05)
+    assert found.quadratic == pytest.approx(0.15, rel=0.06)
+    assert found.period == pytest.approx(2.0 * np.pi / 2.0, rel=2e-3)
+
+
+def test_peaks_refuse_what_is_no_decay() -> None:
+    with pytest.raises(hydrodae.CaseError, match="no decay"):
+        decay(TIME, 0.1 * np.exp(0.05 * TIME) * np.cos(2.0 * TIME))
+    with pytest.raises(hydrodae.CaseError, match="peaks above"):
+        decay(TIME, np.exp(-TIME))
+
+
+def test_peaks_bring_a_search_home_that_would_end_beside_it(case: Case) -> None:
+    """From twice the stiffness the phase is off by several cycles."""
+    far = {**START, "force.pto.stiffness": 18.0}
+    found = calibrate(case, [record(motion())], FREE, set=far, decay=[CHANNEL])
+    assert found.values["stiffness"] == pytest.approx(8.0, rel=2e-4)
+    check = found.checks[0]
+    assert check.before.period == pytest.approx(check.measured.period / 1.5, rel=0.01)
+    assert check.after.period == pytest.approx(check.measured.period, rel=1e-3)
+
+
+def test_report_and_picture(fitted: Calibration, tmp_path: Path) -> None:
+    told = str(fitted)
+    for part in ("95 % interval", "correlation", "root mean square", "successive peaks"):
+        assert part in told
+    assert any("damping and quadratic: correlation" in line for line in fitted.warnings)
+    fitted.draw().savefig(tmp_path / "fit.png")
+    assert (tmp_path / "fit.png").stat().st_size > 10000
+    assert len(fitted.draw().axes[0].get_lines()) == 3
+
+
+def write_files(folder: Path) -> None:
+    """A case, and its record in mm after 1 s."""
+    (folder / "case.toml").write_text(TEXT.replace("stiffness = 8.0", "stiffness = 9.0"))
+    with (folder / "decay.csv").open("w", newline="") as file:
+        rows = csv.writer(file)
+        file.write("# a tank\n")
+        rows.writerow(["Time_[ms]", "Slide_[mm]"])
+        for t, x in zip(TIME, motion(), strict=True):
+            rows.writerow([f"{1e3 * t + 1e3:.1f}", f"{-1e3 * x:.6f}"])
+
+
+ARGUMENTS = [
+    "calibrate", "case.toml", "--record", "decay.csv", "--time", "Time_[ms]:ms",
+    "--channel", f"{CHANNEL}=Slide_[mm]:-mm", "--offset", "-1.0",
+    "--parameter", "force.pto.stiffness=1,50", "--parameter", "force.pto.damping=0,5",
+]  # fmt: skip
+
+
+def test_command_writes_the_case_with_its_comments(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_files(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    code = cli.main([*ARGUMENTS, "--write", "fitted.toml", "--picture", "fit.png", "-q", "--json"])
+    assert code == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["parameters"][0]["value"] == pytest.approx(8.0, rel=2e-4)
+    assert told["parameters"][0]["low"] < told["parameters"][0]["value"]
+    text = (tmp_path / "fitted.toml").read_text()
+    assert "# N/m" in text
+    assert "# N s2/m2" in text
+    values = [line for line in text.splitlines() if line.startswith("stiffness")]
+    assert float(values[0].split("=")[1].split("#")[0]) == pytest.approx(8.0, rel=2e-4)
+    assert (tmp_path / "fit.png").is_file()
+    run = hydrodae.run("fitted.toml")
+    np.testing.assert_allclose(run[CHANNEL], motion(), atol=2e-4)
+
+
+def test_file_of_tests(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_files(tmp_path)
+    (tmp_path / "tests.toml").write_text(
+        f"""
+[parameter.k]
+keys = "force.pto.stiffness"
+bounds = [1.0, 50.0]
+[[record]]
+file = "decay.csv"
+time = "Time_[ms]:ms"
+channels = {{ "{CHANNEL}" = "Slide_[mm]:-mm" }}
+from = 2.0
+to = 15.0
+offset = -1.0
+offset_bounds = [-1.2, -0.9]
+set = {{ "output.step" = 0.05 }}
+"""
+    )
+    records, free = read_tests(tmp_path / "tests.toml")
+    assert records[0].time[[0, -1]] == pytest.approx([2.0, 15.0])
+    assert records[0].channels[CHANNEL][0] == pytest.approx(motion()[10])
+    assert free[0].name == "k"
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["calibrate", "case.toml", "--tests", "tests.toml", "-q"]) == 0
+    assert "offset of decay" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"Slide_[mm]:-mm": "Slide:-mm"}, "did you mean"),
+        ({"Slide_[mm]:-mm": "Slide_[mm]:furlong"}, "unknown unit 'furlong'"),
+        ({"Slide_[mm]:-mm": "Slide_[mm]:kN"}, "has the unit m, the column N"),
+        ({"-1.0": "-3.0"}, "cut"),
+        ({"decay.csv": "missing.csv"}, "no such record"),
+        ({"force.pto.stiffness=1,50": "force.pto.stiffnes=1,50"}, "stiffness"),
+        ({"force.pto.stiffness=1,50": "force.pto.stiffness=1,2"}, "outside the bounds"),
+        ({f"{CHANNEL}=Slide_[mm]:-mm": "joints/slid/displacement=Slide_[mm]"}, "no channel"),
+    ],
+)
+def test_wrong_arguments_are_named(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    changed: dict[str, str],
+    message: str,
+) -> None:
+    write_files(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    given = [changed.get(a, a) for a in ARGUMENTS]
+    for old, new in changed.items():
+        given = [a.replace(old, new) if old.startswith("Slide") else a for a in given]
+    code = cli.main([*given, "-q"])
+    told = capsys.readouterr().err
+    if message == "cut":  # samples before the start of the case do not count
+        assert code == 0
+        return
+    assert code == 2
+    assert message in told
+
+
+def test_results_are_records_too(case: Case, tmp_path: Path) -> None:
+    hydrodae.run(case, tmp_path / "run.h5")
+    found = read_record(tmp_path / "run.h5", {CHANNEL: CHANNEL})
+    assert found.units == {CHANNEL: "m"}
+    np.testing.assert_allclose(found.channels[CHANNEL], motion(), atol=1e-4)
+
+
+@pytest.mark.slow
+def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
+    reference: Path,
+) -> None:
+    """From a start that is too high; both halves are the same motion.
+
+    Across the chain the authors of the experiment have 1.505; found is 1.41, whose interval leaves
+    that out. Along it the record has two minima (docs/calibrate.md): nothing is asked of that.
+    """
+    file = reference / "chain_tension" / "tension_3.5s.csv"
+    time, tension = np.loadtxt(file, delimiter=",", skiprows=1).T[:, ::4]
+    keys = (
+        'body_b = "top"\npoint_a = [0.0, 0.0, -3.0]\npoint_b = [32.554, 0.0, 0.3]\n'
+        "length = [33.0]\nsegments = [20]\nmass = [0.0818]\ndiameter = [0.003654]\n"
+        "stiffness = [1e4]\ndamping = [2.0]\ndrag = [2.4]\ndrag_axial = [0.5]\n"
+        f"added_mass = [3.8]\ncontact_diameter = [{3.35 * BAR}]\nseabed_stiffness = 3e6\n"
+        "seabed_damping = 1e4\nseabed_friction = 0.3"
+    )
+    chain = lines.case(ROUND + lines.line(keys), "end_time = 28.0\nrtol = 1e-4", 0.01)
+    late = 2.0 * PERIOD + 2.945
+    halves = [
+        Record(
+            name, time[part], {"forces/line/tension": tension[part]}, offset=late,
+            offset_bounds=(late - 0.3, late + 0.3), fitted=name == "first",
+        )
+        for name, part in (("first", time < 7.5), ("second", time >= 7.5))
+    ]  # fmt: skip
+    free = [
+        Free("force.line.drag[0]", (0.1, 8.0), name="drag"),
+        Free("force.line.drag_axial[0]", (0.0, 3.0), scale=0.2, name="axial drag"),
+    ]
+    found = calibrate(chain, halves, free)
+    second = found.residuals[1]
+    assert second.after < 0.5 * second.before
+    assert found.values["drag"] == pytest.approx(1.505, rel=0.1)
+
+
+def test_the_page_runs(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = repository / "docs" / "calibrate.md"
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    first, *others = blocks(page, "python")
+    exec(first, names)
+    lines = command_lines(page)
+    (tmp_path / "buoy" / "tests.toml").write_text(blocks(page, "toml")[0])
+    for line in lines:
+        assert cli.main(shlex.split(line, comments=True)[1:]) == 0, line
+    for block in others:
+        exec(block, names)
+    assert names["found"].values["force.water.quadratic[2]"] == pytest.approx(2e5, rel=0.1)
+    assert (tmp_path / "buoy" / "fitted.toml").is_file()
