@@ -36,20 +36,15 @@ PENDING = {
     "cases/4n3la/README.md",
     "cases/9n9la/README.md",
     "cases/benchmarks/README.md",
-    "cases/control/README.md",
     "cases/f3of/README.md",
     "cases/rm3/README.md",
-    "cases/sphere/README.md",
     "cases/tank_section/README.md",
     "cases/wecccomp/README.md",
     "docs/axes.md",
-    "docs/coordinates.md",
     "docs/databases.md",
     "docs/extending.md",
     "docs/forces.md",
     "docs/performance.md",
-    "docs/spectral.md",
-    "docs/sweeps.md",
 }
 
 
