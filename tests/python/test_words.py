@@ -43,7 +43,6 @@ PENDING = {
     "docs/axes.md",
     "docs/databases.md",
     "docs/extending.md",
-    "docs/forces.md",
     "docs/performance.md",
 }
 
