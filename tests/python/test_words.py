@@ -39,7 +39,6 @@ PENDING = {
     "cases/wecccomp/README.md",
     "docs/databases.md",
     "docs/extending.md",
-    "docs/performance.md",
 }
 
 
