@@ -14,7 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from hydrodae.support.extras import install_command
@@ -47,9 +47,9 @@ def gather() -> None:
         shutil.copyfile(file, copy)
 
 
-def main() -> int:
+def main(arguments: Sequence[str] = ()) -> int:
     """Build the site; returns the exit code of mkdocs, which counts warnings as errors."""
-    argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0]).parse_args()
+    argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0]).parse_args(arguments)
     if importlib.util.find_spec("mkdocs") is None:
         print(f"the site needs mkdocs: {install_command('docs')}", file=sys.stderr)
         return 2
@@ -59,4 +59,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -28,7 +28,15 @@ RUN = ("docs/results.md", "docs/forces.md", "docs/sweeps.md", "docs/view.md", "d
 #: Names that a page takes as given.
 GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}
 #: Pages whose calls of hydrodae run one after the other; `cd` changes the folder.
-RUN_COMMANDS = ("docs/commands.md", "docs/first_steps.md", "docs/control.md", "docs/view.md")
+RUN_COMMANDS = (
+    "docs/commands.md",
+    "docs/first_steps.md",
+    "docs/control.md",
+    "docs/view.md",
+    "docs/limits.md",
+    "docs/faq.md",
+    "docs/glossary.md",
+)
 #: Blocks that a test of their own runs, by page and language: how many there are.
 RUN_APART = {
     ("README.md", "toml"): 1,  # test_readme.py

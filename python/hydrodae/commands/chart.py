@@ -85,8 +85,8 @@ def add_arguments(commands: Any) -> None:
     advise = commands.add_parser(
         "recommend",
         help="find the cheapest method and tolerance that meet an error",
-        description="Run a case by four methods at four tolerances or steps, and print the "
-        "cheapest setting whose error is at most E as lines to paste into the case.",
+        description="Run a case by four methods at four tolerances or steps. Print the cheapest "
+        "setting whose error is at most E, as lines to paste into the case.",
     )
     advise.add_argument(
         "--error",

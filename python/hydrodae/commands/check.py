@@ -11,7 +11,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     """Add the command to those of `hydrodae`."""
     parser = commands.add_parser(
         "check",
-        help="read a case, close its joints and tell what it costs",
+        help="read a case, close its joints and show what it costs",
         description="Print the scene as a tree, its unknowns, multipliers and mobility, redundant "
         "constraint rows, and how far the bodies were moved to close the joints.",
     )

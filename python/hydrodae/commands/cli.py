@@ -122,7 +122,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="hydrodae",
         description="Simulate wave energy converters with awkward mechanisms.",
-        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted.",
+        epilog="Exit codes: 0 done, 2 bad case or argument, 3 solver failure, 4 interrupted, 5 not "
+        "reproducible (run --strict).",
     )
     parser.add_argument(
         "--version", action=_PrintVersion, nargs=0, help="print the versions and exit"
@@ -138,8 +139,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "rao",
         help="response to waves in the frequency domain",
         description="Natural modes and response amplitude operators of a case, linearised about "
-        "its static equilibrium, from the frequency tables of its database; beside them, if asked "
-        "for, runs in regular waves.",
+        "its static equilibrium, from the frequency tables of its database. With --time-domain, "
+        "also run regular waves and compare.",
     )
     if command in (["rao"], ALL):
         from hydrodae.commands import rao as rao_command
@@ -150,10 +151,9 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     spectral = commands.add_parser(
         "spectral",
         help="motion in the sea of a case, with drag and friction linearised in it",
-        description="Standard deviations, mean powers and equivalent damping of a case in its sea: "
-        "its linear model, with drag, friction and nonlinear power take-offs replaced by the "
-        "linear loads that are nearest to them for the motion that follows; beside them, if asked "
-        "for, runs with several seeds.",
+        description="Standard deviations, mean powers and equivalent damping of a case in its sea. "
+        "The model is linear: drag, friction and nonlinear power take-offs become the nearest "
+        "linear loads for the motion that follows. With --seeds, also run the case and compare.",
     )
     if command in (["spectral"], ALL):
         from hydrodae.commands import spectral as spectral_command
@@ -164,7 +164,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     ladder = commands.add_parser(
         "ladder",
         help="what each model of radiation costs on a case, and what it gets wrong",
-        description="Run a case with radiation none, constant, exponential and convolution; print "
+        description="Run a case with radiation none, constant, exponential and convolution. Print "
         "memory, solver time, error of the kernel, and error of the motion against the next "
         "higher model.",
     )
@@ -177,8 +177,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
     sweep = commands.add_parser(
         "sweep",
         help="run a case with many values of its keys, on all cores: power matrix, annual energy",
-        description="Run every point of a study. What is finished is kept at once: an interrupted "
-        "or killed sweep goes on where it stopped, and a run that fails is a row with its reason.",
+        description="Run every point of a study. Finished runs are kept at once: an interrupted or "
+        "killed sweep continues where it stopped. A run that fails is a row with its reason.",
     )
     if command in (["sweep"], ALL):
         from hydrodae.commands import sweep as sweep_command
@@ -215,8 +215,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "view",
         help="see results in three dimensions: a page, a picture, a video, files for ParaView",
         description="Write one HTML file that shows bodies, joints, lines and the sea of a run in "
-        "three dimensions and needs neither network nor server; or a picture, a video, files for "
-        "ParaView. A case file is shown at its start, without a run.",
+        "three dimensions. It needs neither network nor server. Options write a picture, a video "
+        "or files for ParaView. A case file is shown at its start, without a run.",
         epilog="example: hydrodae view waves.h5 --picture waves.png --time 40 --camera side",
     )
     if command in (["view"], ALL):

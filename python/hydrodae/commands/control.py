@@ -12,8 +12,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     design = tasks.add_parser(
         "design",
         help="gains of a PI controller by impedance matching",
-        description="Match a PI controller of the rate of a joint to the impedance of the device, "
-        "from its own frequency tables: most power at one period.",
+        description="Match a PI controller of the rate of a joint to the impedance of the device. "
+        "It takes most power at one period. The impedance comes from the frequency tables.",
         epilog="example: hydrodae control design case.toml --joint slide --period 8",
     )
     design.add_argument("case", metavar="CASE", help="case file (TOML)")

@@ -12,10 +12,10 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = commands.add_parser(
         "equilibrium",
         help="find the static pose of a case in still water",
-        description="Solve for the static pose of the whole constrained scene in still water; "
-        "print the offsets of the bodies, the reactions of the joints, what holds bodies along "
-        "coordinates that they do not have, and of moored scenes the tensions, the stiffness of "
-        "the moorings and the natural periods.",
+        description="Solve for the static pose of the whole constrained scene in still water. "
+        "Print the offsets of the bodies, the reactions of the joints, and the loads on "
+        "coordinates that bodies do not have. For moored scenes print tensions, stiffness of the "
+        "moorings and natural periods.",
     )
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")

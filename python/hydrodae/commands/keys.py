@@ -17,8 +17,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = commands.add_parser(
         "keys",
         help="the keys of a case file: unit, default, range, meaning",
-        description="List the tables of a case file, the keys of one of them, or those that an "
-        "entry has by its type, such as 'hydrodae keys force pto_linear'.",
+        description="List the tables of a case file, or the keys of one table or of one type of "
+        "entry, such as 'hydrodae keys force pto_linear'.",
     )
     parser.add_argument("table", metavar="TABLE", nargs="?", help="solver, body, joint, ...")
     parser.add_argument("type", metavar="TYPE", nargs="?", help="revolute, pto_linear, ...")

@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "damped mode)",
     )
     parser.add_argument(
-        "--channel", metavar="NAME", help="whose error is told (default: what moves most)"
+        "--channel", metavar="NAME", help="whose error is printed (default: what moves most)"
     )
     parser.add_argument("--repeat", metavar="N", type=int, default=3, help="time: best of N (3)")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="as in run")

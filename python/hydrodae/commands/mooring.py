@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     importing = commands.add_parser(
         "import",
         help="make tables of a case from a MoorDyn input file",
-        description="Read a MoorDyn input file, version 1 or 2; print the tables that stand for "
-        "it, lines in series as one force each, below notes of all that they do not hold.",
+        description="Read a MoorDyn input file, version 1 or 2. Print its tables for a case, lines "
+        "in series as one force each, below notes of all that they do not hold.",
     )
     importing.add_argument("file", metavar="FILE", help="input file of MoorDyn")
     importing.add_argument(
@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="origin of the coupled points, or of body N of the file, in the reference pose of the "
-        "case [m, deg]; default 0,0,0, and where the file has the body; repeatable",
+        "case [m, deg]. Default: 0,0,0, and the place that the file gives. Repeatable",
     )
     _add_output(importing)
     importing.set_defaults(work=_import)

@@ -20,9 +20,9 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = commands.add_parser(
         "new",
         help="write a commented case that runs at once, or one from a run of WEC-Sim",
-        description="Write a folder with a commented case file, its hydrodynamic database and what "
-        "made it, and a study of its power; without KIND, list the kinds. With --from wecsim PATH "
-        "the case is that of a run of WEC-Sim, and what it does not hold is printed.",
+        description="Write a folder with a commented case file, its hydrodynamic database, the "
+        "commands that made it, and a study of its power. Without KIND, list the kinds. With "
+        "--from wecsim PATH, convert a run of WEC-Sim and print what the case does not hold.",
     )
     parser.add_argument(
         "kind", metavar="KIND", nargs="?", help="such as point_absorber or flap; none with --from"

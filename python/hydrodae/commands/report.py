@@ -10,9 +10,9 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = commands.add_parser(
         "report",
         help="write a run, a sweep or an optimisation as one HTML page",
-        description="Write one HTML page that needs no other file: scene, models used, notes, "
-        "checks, figures, statistics, versions and hashes of a run; matrices and failures of a "
-        "sweep; best values and the search of an optimisation.",
+        description="Write one HTML page that needs no other file. Of a run it has scene, models "
+        "used, notes, checks, figures, statistics, versions and hashes. Of a sweep it has "
+        "matrices and failures, of an optimisation the best values and the search.",
     )
     parser.add_argument("results", metavar="RESULTS", help="of a run (.h5), of a sweep (.nc)")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: RESULTS_report.html")

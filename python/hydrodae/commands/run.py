@@ -53,8 +53,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--checkpoint",
         metavar="SECONDS",
         type=_seconds,
-        help="keep a checkpoint beside the results file, anew after so many seconds of wall time, "
-        "until the run is completed",
+        help="save a checkpoint beside the results file each SECONDS of wall time, until the run "
+        "is completed",
     )
     parser.add_argument(
         "--resume",

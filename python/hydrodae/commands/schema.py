@@ -11,7 +11,7 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "schema",
         help="print the JSON schema of case files, for editors",
         description="Print the JSON schema of case files. Editors that know it complete keys and "
-        "mark wrong ones: write it to a file and name that in the first line of a case, "
+        "mark wrong ones. Write it to a file and name the file in the first line of a case: "
         "'#:schema ./case.schema.json'.",
     )
     parser.set_defaults(call=run)

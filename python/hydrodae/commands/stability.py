@@ -13,7 +13,7 @@ from hydrodae.errors import CaseError
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     parser.add_argument(
-        "--scenes", metavar="NAME", nargs="+", help="rows (default: all; --list tells them)"
+        "--scenes", metavar="NAME", nargs="+", help="rows (default: all; see --list)"
     )
     parser.add_argument("--methods", metavar="NAME", nargs="+", help="columns (default: all)")
     parser.add_argument("--list", action="store_true", help="list scenes and methods, run nothing")

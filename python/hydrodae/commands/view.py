@@ -28,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="cylinder:radius=R:length=L, sphere:radius=R, box:length=L:width=W:height=H, each "
-        "may be followed by :x=..:y=..:z=.. from the centre of gravity; rods:diameter=D to what "
-        "is attached; or a mesh file (STL, GDF, PNL, Nemoh, GMSH); may be repeated",
+        "may be followed by :x=..:y=..:z=.. from the centre of gravity. Also rods:diameter=D to "
+        "the attached joints, or a mesh file (STL, GDF, PNL, Nemoh, GMSH). May be repeated",
     )
     what.add_argument(
         "--freeboard",

@@ -22,9 +22,9 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     array = actions.add_parser(
         "array",
         help="compute a database of equal floating cylinders, without a boundary-element run",
-        description="Compute a database of equal vertical cylinders by eigenfunction matching and "
-        "the interaction theory of Kagemoto and Yue, exact up to the truncation that is printed, "
-        "and write hydro.h5.",
+        description="Compute a database of equal vertical cylinders and write hydro.h5. The method "
+        "is eigenfunction matching with the interaction theory of Kagemoto and Yue. It is exact up "
+        "to the truncation that is printed.",
         epilog="example: hydrodae hdb array --radius 0.3 --draft 0.6 --at a=0,0 --at b=1.4,0 "
         "--depth 10 --omega 0.2,12,60 -o hydro.h5",
     )

@@ -16,8 +16,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "compare",
         help="compare two databases, or one with coarser versions of itself",
         description="With two databases: the largest differences of their tables. With one: how "
-        "K(t) and the added mass at infinity change with the frequency step, the highest and "
-        "lowest frequency, and the length of the memory.",
+        "K(t) and the added mass at infinity depend on the frequency step, the highest and "
+        "lowest frequency, and the memory.",
     )
     parser.add_argument("database", metavar="A", help="hydro.h5, or any source for import")
     parser.add_argument("other", metavar="B", nargs="?", help="what A is compared with")

@@ -44,10 +44,9 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         required=True,
         help="sphere:radius=R[:x=..:y=..:z=..], cylinder:radius=R:draft=D[:top=..:x=..:y=..], "
         "box:length=L:width=W:draft=D[..], cone:radius=R:draft=D[:bottom=RADIUS..], "
-        "ring:radius=R:inner=R:draft=D[..] in metres; revolution:profile=FILE[:x=..:y=..:z=..] "
-        "with points r z a line; or a mesh file (STL, GDF, PNL, Nemoh, GMSH), which may be "
-        "followed by :x=..:y=..:z=.. to move it, :mirror=y (x, xy) if it is a half and "
-        ":scale=0.001 if it is in millimetres; may be repeated",
+        "ring:radius=R:inner=R:draft=D[..] in metres. Or revolution:profile=FILE[:x=..:y=..:z=..] "
+        "with points r z a line. Or a mesh file (STL, GDF, PNL, Nemoh, GMSH). :x=..:y=..:z=.. moves it, "
+        ":mirror=y (x, xy) completes a half, :scale=0.001 is for millimetres. May be repeated",
     )
     compute.add_argument(
         "--cog",
@@ -69,8 +68,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--panel",
         metavar="SIZE",
         type=float,
-        help="side of the panels of simple shapes [m] (default: an eighth of the shortest wave or "
-        "of the cube root of the volume, whichever is smaller)",
+        help="side of the panels of simple shapes [m]; default: an eighth of the smaller of the "
+        "shortest wave and the cube root of the volume",
     )
     compute.add_argument(
         "--no-lid", action="store_true", help="leave irregular frequencies in (faster)"

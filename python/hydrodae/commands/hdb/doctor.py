@@ -41,8 +41,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--repair",
         metavar="A,B,...",
         help="symmetrise (mean of both halves of A and B), irregular (interpolate where tables "
-        "break causality or energy), tail (append frequencies along the power law of B); "
-        "applied in the order given; needs -o",
+        "break causality or energy), tail (append a power law of B). "
+        "Applied in the order given; needs -o",
     )
     doctor.add_argument(
         "--share",

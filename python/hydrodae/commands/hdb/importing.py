@@ -31,14 +31,16 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "import",
         help="read files of Nemoh, Capytaine, WAMIT, AQWA ..., check them, write hydro.h5",
         description="Read the files of a boundary-element code (Nemoh, Capytaine, WAMIT, HAMS, "
-        "AQWA, OrcaWave, BEMIO ...), print what was assumed and what the checks found, and write "
-        "hydro.h5. One body needs no NAME. Nothing is written if a check finds an error in the "
-        "band that the device feels: that of --band, or of --case, or what the excitation tells.",
+        "AQWA, OrcaWave, BEMIO ...) and write hydro.h5. Print assumptions and findings of the "
+        "checks. One body needs no NAME. Nothing is written if a check finds an error in the band "
+        "that the device feels. "
+        "That is the band of --band, of --case, or else of the excitation.",
     )
     add.add_argument(
         "source",
         metavar="SOURCE",
-        help=f"folder of a run, or Nemoh.cal, .nc of Capytaine, .h5 of BEMIO, {expected_files()}",
+        help="folder of a run. Or a file: Nemoh.cal, .nc of Capytaine, .h5 of BEMIO, "
+        f"{expected_files()}",
     )
     add.add_argument("-o", "--output", metavar="FILE", default="hydro.h5", help="default: hydro.h5")
     add.add_argument("--bodies", metavar="A,B,...", help="new names of the bodies, in file order")
@@ -97,7 +99,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="[NAME=]FILE",
         action="append",
         default=[],
-        help="hydrostatics of a body from the mesh of its wetted hull, where the source has none; "
+        help="hydrostatics of a body from the mesh of its wetted hull, if the source lacks them; "
         "may be repeated",
     )
     add.add_argument(
@@ -105,8 +107,8 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="CHECK",
         action="append",
         default=[],
-        help="write the file although this check found an error, or keep a fit that misses its "
-        "target or is not passive (target, passive); may be repeated",
+        help="write the file although this check found an error. `target` and `passive` keep a fit "
+        "that misses its target or is not passive. May be repeated",
     )
 
 

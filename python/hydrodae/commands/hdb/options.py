@@ -82,8 +82,8 @@ def add_fit_options(parser: argparse.ArgumentParser) -> None:
         "--uniform",
         metavar="E",
         type=float,
-        help="target in place of that: largest error of H in the band over its largest value; "
-        "the band is then what the device feels, unless it is given",
+        help="target in place of that: largest error of H in the band over its largest value. "
+        "The default band is then the one that the device feels",
     )
     parser.add_argument(
         "--method",

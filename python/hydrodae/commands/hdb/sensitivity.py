@@ -20,9 +20,9 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = actions.add_parser(
         "sensitivity",
         help="what a result of a case owes to its database",
-        description="A result of a case (natural periods, responses, mean power; all linear) with "
-        "a coarser or shorter table, a shorter or fitted memory, and bodies that radiate each for "
-        "itself, against the tables as they stand.",
+        description="Compare linear results of a case (natural periods, responses, mean power) for "
+        "variants of its database. They have a coarser or shorter table, a shorter or fitted "
+        "memory, or bodies without coupling.",
     )
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     parser.add_argument("--result", choices=("period", "rao", "power"), required=True)
