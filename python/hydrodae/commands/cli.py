@@ -190,8 +190,8 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         "calibrate",
         help="fit parameters of a case to what was measured in a tank",
         description="Fit numbers of a case to measured channels of one or several tests, by least "
-        "squares, with intervals that hold for correlated differences; what the records do not "
-        "determine is refused by name.",
+        "squares. The intervals allow for correlated differences. Parameters that the records do "
+        "not determine are refused by name.",
     )
     if command in (["calibrate"], ALL):
         from hydrodae.commands import calibrate as calibrate_command
