@@ -87,7 +87,7 @@ void bind_analysis(py::module_& module) {
   module.def("linearize", &linear_model, py::arg("scene"),
              "The static equilibrium of the scene in still water and its linear model there; see "
              "cpp/hydrodae/analysis.h.\nRaises CaseError.");
-  module.def("wave_components", &wave_components, py::arg("scene"),
+  module.def("wave_components", &statics::wave_components, py::arg("scene"),
              "Components of all wave systems, (n, 4): frequency, heading, amplitude, phase.");
   module.def(
       "mean_interval",

@@ -74,8 +74,8 @@ def test_a_box_rolls_by_the_lever_of_a_wall_sided_hull(tmp_path: Path) -> None:
     beam = 4.0**2 / 12.0 / 1.0  # BM = I / V
     lever = np.sin(turned) * (beam - above + 0.5 * beam * np.tan(turned) ** 2)
     # the draught at the centre line does not change at equal volume; the point 0.2 m below does
-    moment = results["bodies/float/loads/hydrostatic/moment"].values[0, 1]
-    force = results["bodies/float/loads/hydrostatic/force"].values[0, 2]
+    moment = results["forces/hydrostatic/float/moment"].values[0, 1]
+    force = results["forces/hydrostatic/float/force"].values[0, 2]
     assert moment == pytest.approx(-lever * mass * GRAVITY, rel=0.05)
     assert force == pytest.approx(mass * GRAVITY, rel=0.05)
 
@@ -89,10 +89,10 @@ def test_undamped_bobbing_keeps_its_energy(tmp_path: Path, shape: str, method: s
         mesh = hulls.revolved(np.array([0.0, 2.0, 0.0]), np.array([-1.0, 1.0, 1.0]), 48)
         mass = RHO * np.pi / 3.0
     hulls.write_obj(tmp_path / "hull.obj", mesh)
-    path = _float(tmp_path, "hull.obj", float(mass), release=0.8, end=60.0)
+    path = _float(tmp_path, "hull.obj", float(mass), release=0.8, end=190.0, rtol=1e-9)
     results = hydrodae.run(path, set={"solver.method": method})
     total = results["energy/total"].values
-    assert np.ptp(results["bodies/float/position"].values[:, 2]) > 1.5
+    assert np.ptp(results["bodies/float/position"].values[:, 2]) > 1.3
     assert np.abs(total - total[0]).max() < 1e-6 * results["energy/kinetic"].values.max()
 
 
@@ -137,12 +137,10 @@ def test_small_waves_move_it_as_linear_theory_says(tmp_path: Path) -> None:
     a, b = (r["bodies/sphere/position"].values[late, 2] for r in (linear, meshed))
     a, b = a - a.mean(), b - b.mean()  # facets and digits of the mass move the mean
     assert np.abs(a - b).max() < 0.005 * np.abs(a).max()
-    for part in ("froude_krylov",):
-        loads = [
-            r[f"bodies/sphere/loads/{name}/{part}_force"].values[late, 2]
-            for r, name in ((linear, "excitation"), (meshed, "pressure"))
-        ]
-        assert np.ptp(loads[1]) == pytest.approx(np.ptp(loads[0]), rel=0.01)
+    # in heave the hydrostatic part changes too, so the load of the waves is compared in surge
+    parts = (linear, "froude_krylov"), (meshed, "wave_pressure")
+    loads = [r[f"forces/{part}/sphere/force"].values[late, 0] for r, part in parts]
+    assert np.ptp(loads[1]) == pytest.approx(np.ptp(loads[0]), rel=0.01)
 
 
 def test_a_sphere_released_from_its_radius_follows_the_exact_cap(tmp_path: Path) -> None:
@@ -150,7 +148,7 @@ def test_a_sphere_released_from_its_radius_follows_the_exact_cap(tmp_path: Path)
     more = MESH + "\ninitial = { displacement = [0.0, 0.0, 5.0] }"
     text = _sphere_in_waves(tmp_path, 1.0, more, end=16.0).read_text()
     path = tmp_path / "drop.toml"
-    before, after = text.split("[[wave]]")
+    before, after = text.split("[sea]")
     path.write_text(before + "[[body]]" + after.split("[[body]]")[1])
     results = hydrodae.run(path, set={"output.step": 0.01})
     heave = results["bodies/sphere/position"].values[:, 2] + 2.0

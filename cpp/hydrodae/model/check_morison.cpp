@@ -61,7 +61,7 @@ void check_morison(const Scene& scene) {
   const bool felt = !scene.morison.empty() ||
                     !std::get<std::vector<line::Line>>(scene.forces).empty() ||
                     std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                [](const Body& body) { return body.volume > 0.0; });
+                                [](const Body& body) { return body.volume > 0.0 || body.mesh; });
   if (!scene.hydro && !felt && (e.water_density || e.water_depth))
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
                      "nothing in the scene feels the water");

@@ -97,10 +97,15 @@ void check_sea(const Scene& scene) {
     check_wave(scene, wave);
   const bool slender =
       !scene.morison.empty() || !std::get<std::vector<line::Line>>(scene.forces).empty();
-  if (!scene.waves.empty() && !scene.hydro && !slender)
+  const bool meshed = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                  [](const Body& body) { return body.froude_krylov == "mesh"; });
+  if (!scene.waves.empty() && !scene.hydro && !slender && !meshed)
     throw ModelError("wave." + scene.waves.front().name,
-                     "waves need a hydrodynamic database, Morison elements or lines to act on: the "
-                     "table [hydro] is missing");
+                     "waves need a hydrodynamic database, Morison elements, lines or a body with "
+                     "froude_krylov = \"mesh\" to act on: the table [hydro] is missing");
+  if (!meshed && (scene.sea.bernoulli || scene.sea.stretching != "vertical"))
+    throw ModelError(scene.sea.bernoulli ? "sea.bernoulli" : "sea.stretching",
+                     "this acts on bodies with froude_krylov = \"mesh\", and there are none");
   if (scene.sea.phase == "moving" && (scene.waves.empty() || !scene.hydro))
     throw ModelError("sea.phase", "phase = \"moving\" is about waves on bodies of the hydrodynamic "
                                   "database, and there are none");

@@ -66,7 +66,7 @@ HullList::HullList(const hull::Water& water, std::vector<hull::Wave> waves, doub
   shape.feels_rates = false;
   work = element::Work::lent;
   if (!waves_.empty())
-    parts = {"hydrostatic", "froude_krylov"};
+    parts = {"static_pressure", "wave_pressure"};
 }
 
 void HullList::add(const std::string& name, std::shared_ptr<const hull::Mesh> mesh,

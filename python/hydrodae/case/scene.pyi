@@ -24,6 +24,11 @@ _SeaPhase = Literal[
     "fixed",
     "moving",
 ]
+_SeaStretching = Literal[
+    "vertical",
+    "wheeler",
+    "extrapolated",
+]
 _JonswapSpacing = Literal[
     "energy",
     "frequency",
@@ -39,6 +44,14 @@ _BodyMotion = Literal[
     "roll",
     "pitch",
     "yaw",
+]
+_BodyHydrostatics = Literal[
+    "linear",
+    "mesh",
+]
+_BodyFroudeKrylov = Literal[
+    "linear",
+    "mesh",
 ]
 _CoordinateLevel = Literal[
     "position",
@@ -2999,6 +3012,8 @@ class Scene(SceneBase):
         ramp: float = ...,
         current: _Numbers = ...,
         phase: _SeaPhase = ...,
+        stretching: _SeaStretching = ...,
+        bernoulli: bool = ...,
     ) -> None:
         """Add `[sea]`.
 
@@ -3016,6 +3031,13 @@ class Scene(SceneBase):
             Where a body feels the phase of the waves: at its reference position (fixed), or
             where it is (moving: for bodies that drift; then every evaluation sums all
             components). Allowed: fixed, moving.
+        stretching : text, default "vertical"
+            Pressure of the waves above z = 0 on bodies with `froude_krylov = "mesh"`:
+            hydrostatic down from the crest (vertical: consistent to second order), the profile
+            of linear theory moved up to the crest (wheeler), or e^(kz) as it is (extrapolated).
+            Allowed: vertical, wheeler, extrapolated.
+        bernoulli : true or false, default false
+            Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity.
 
         Raises
         ------
@@ -3038,6 +3060,9 @@ class Scene(SceneBase):
         hydro: str = ...,
         volume: float = ...,
         center_of_buoyancy: _Numbers = ...,
+        mesh: str = ...,
+        hydrostatics: _BodyHydrostatics = ...,
+        froude_krylov: _BodyFroudeKrylov = ...,
         initial: BodyInitial = ...,
     ) -> str:
         """Add `[[body]]`.
@@ -3071,6 +3096,18 @@ class Scene(SceneBase):
         center_of_buoyancy : 3 numbers, m, optional
             Centre of that volume in the reference pose, world axes; default: the centre of
             gravity.
+        mesh : text, optional
+            File of the closed surface of the body in the reference pose, world axes, normals
+            outwards, up to above the highest water: .stl or .obj, in metres; relative to the
+            case file.
+        hydrostatics : text, default "linear"
+            Hydrostatics: the stiffness of the database about the reference pose (linear), or
+            the pressure on the wetted part of `mesh` at each instant (mesh). Allowed: linear,
+            mesh.
+        froude_krylov : text, default "linear"
+            Load of the undisturbed waves: that of the database about the mean pose (linear), or
+            their pressure on the part of `mesh` beneath their surface (mesh). Diffraction and
+            radiation stay those of the database. Allowed: linear, mesh.
         initial : dict, optional
             Start of the body, relative to its reference pose. Keys: displacement [m],
             rotation_deg [deg], velocity [m/s], angular_velocity [rad/s].
