@@ -1,7 +1,9 @@
 /// Meshes in the water: hydrostatics and Froude-Krylov loads of the wetted surface.
 
 #include <cmath>
+#include <complex>
 
+#include "hydrodae/build/excitation_terms.h"
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/hull/floating.h"
@@ -13,6 +15,9 @@ namespace hydrodae::build {
 
 namespace {
 
+using Vector6c = Eigen::Matrix<std::complex<double>, 6, 1>;
+
+constexpr double small_wave = 1e-4;  ///< height of waves that count as small, of body and length
 constexpr double same_volume = 0.01; ///< of the database: more is noted
 
 hull::Water water_of_hulls(const model::Scene& scene) {
@@ -20,6 +25,7 @@ hull::Water water_of_hulls(const model::Scene& scene) {
   const std::string& name = scene.sea.stretching;
   const hull::Stretching stretching = name == "wheeler"        ? hull::Stretching::wheeler
                                       : name == "extrapolated" ? hull::Stretching::extrapolated
+                                      : name == "none"         ? hull::Stretching::none
                                                                : hull::Stretching::vertical;
   return {water.density, water.gravity, water.depth, stretching, scene.sea.bernoulli};
 }
@@ -52,7 +58,45 @@ void note_volume(const model::Scene& scene, const model::Body& body, const hull:
   s.notes.push_back(text);
 }
 
+/// Complex amplitudes (6,) of the load on a mesh in waves of 1 m, phase zero at the centre of
+/// gravity: differences of the nonlinear load at +-a, whose error is of order a^2.
+Vector6c linear_load(const hull::Mesh& mesh, const hull::Water& water, const hull::Pose& pose,
+                     const sea::Component& c, double heading) {
+  const double a = small_wave * std::min(mesh.radius, 1.0 / c.wavenumber);
+  const auto load = [&](double amplitude, double phase) -> Vector6 {
+    const hull::WaveField field(water, {{c.omega, c.wavenumber, heading, amplitude, phase}},
+                                mesh.radius);
+    hull::Workspace work(mesh, field);
+    const hull::Loads l = hull::loads(mesh, field, pose, {}, work);
+    return l.hydrostatic + l.dynamic;
+  };
+  const Vector6 real = (load(a, 0.0) - load(-a, 0.0)) / (2.0 * a);
+  const Vector6 imaginary = -(load(a, 0.5 * pi) - load(-a, 0.5 * pi)) / (2.0 * a);
+  return real.cast<std::complex<double>>() + std::complex<double>(0.0, 1.0) * imaginary;
+}
+
 } // namespace
+
+Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const model::Body& body,
+                                   const Meeting& meeting, const YawSamples& samples,
+                                   const std::vector<sea::Component>& components) {
+  const hull::Water water = water_of_hulls(scene);
+  // Phases are those of the point where the body meets the waves: the pose stands above the origin.
+  const hull::Pose pose{{0.0, 0.0, body.center_of_gravity[2]}, Matrix3::Identity()};
+  Eigen::MatrixXcd out(6 * samples.transform.rows(), std::ssize(components));
+  for (Index i = 0; i < out.cols(); ++i) {
+    const sea::Component& c = components[static_cast<std::size_t>(i)];
+    Eigen::MatrixXcd force(samples.yaws.size(), 6);
+    for (Index k = 0; k < force.rows(); ++k)
+      force.row(k) =
+          linear_load(*body.hull, water, pose, c, c.heading - samples.yaws[k]).transpose();
+    const double lag = c.wavenumber * (meeting.point[0] * std::cos(c.heading) +
+                                       meeting.point[1] * std::sin(c.heading));
+    force *= std::polar(c.amplitude, c.phase - lag);
+    out.col(i) = (samples.transform * force).reshaped();
+  }
+  return out;
+}
 
 void add_hulls(const model::Scene& scene, bool with_waves, system::System& s) {
   const hull::Water water = water_of_hulls(scene);

@@ -117,8 +117,9 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
     load.total = yaw_coefficients(excitation, 6 * i, meetings[i], samples, all);
     if (froude_krylov)
       load.froude_krylov = yaw_coefficients(*froude_krylov, 6 * i, meetings[i], samples, all);
-    if (scene.bodies[static_cast<std::size_t>(hb.body)].froude_krylov == "mesh") {
-      load.total -= load.froude_krylov; // the mesh feels it: the diffraction is left
+    const model::Body& entry = scene.bodies[static_cast<std::size_t>(hb.body)];
+    if (entry.froude_krylov == "mesh") { // that load is the mesh's: the diffraction is left
+      load.total -= mesh_coefficients(scene, entry, meetings[i], samples, all);
       load.froude_krylov.setZero();
     }
     for (const water::Excitation::Term& term :

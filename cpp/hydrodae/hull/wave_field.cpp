@@ -38,6 +38,7 @@ struct Height {
 Height height(const Water& water, const Surface& surface, const Block& z) {
   switch (water.stretching) {
   case Stretching::vertical:
+  case Stretching::none:
     return {z.min(0.0), Block::Zero(), Block::Zero(), (z < 0.0).cast<double>()};
   case Stretching::extrapolated:
     return {z, Block::Zero(), Block::Zero(), Block::Ones()};
@@ -127,7 +128,9 @@ WaveView WaveField::make_view() const {
 }
 
 void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& view) const {
-  view.height = water_.stretching == Stretching::vertical ? std::min(origin[2], 0.0) : origin[2];
+  const bool below =
+      water_.stretching == Stretching::vertical || water_.stretching == Stretching::none;
+  view.height = below ? std::min(origin[2], 0.0) : origin[2];
   view.here = view.most = view.steep = 0.0;
   const auto n = static_cast<Eigen::Index>(waves_.waves.size());
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -172,11 +175,19 @@ void WaveField::look(const Instant& instant, const Vector3& origin, WaveView& vi
 }
 
 double WaveField::highest(const WaveView& view, double radius) const {
+  if (water_.stretching == Stretching::none)
+    return 0.0;
   return std::min(view.most, std::abs(view.here) + view.steep * radius);
 }
 
 void WaveField::elevation(const WaveView& view, const PointLists& points,
                           const FieldLists& out) const {
+  if (water_.stretching == Stretching::none) {
+    for (double* list : {out.value, out.by_x, out.by_y})
+      if (list)
+        std::fill_n(list, points.size, 0.0);
+    return;
+  }
   for (int first = 0; first < points.size; first += block_size) {
     const Block x = read(points.x, first, points.size), y = read(points.y, first, points.size);
     Surface surface;

@@ -11,6 +11,7 @@
 ///   vertical      s = min(z, 0)               p = rho g (eta - z) in all above z = 0
 ///   wheeler       s = (z - eta) d / (d + eta) z - eta in deep water (Wheeler, OTC 1006 (1969))
 ///   extrapolated  s = z                       the whole pressure does not vanish at z = eta
+///   none          s = z                       wet is what lies beneath z = 0: eta = 0 for the clip
 
 #include <cmath>
 #include <vector>
@@ -20,7 +21,7 @@
 
 namespace hydrodae::hull {
 
-enum class Stretching { vertical, wheeler, extrapolated };
+enum class Stretching { vertical, wheeler, extrapolated, none };
 
 struct Water {
   double density = 1025.0; ///< [kg/m3]

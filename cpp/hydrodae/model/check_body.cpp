@@ -104,11 +104,6 @@ void check_mesh(const Scene& scene, const Body& body) {
     refuse(body, "hydrostatics",
            "axes = \"body\" is for linear loads that turn with the body; with a mesh use axes = "
            "\"mean\" or \"yaw\"");
-  if (waves && body.hydro && scene.database && !scene.waves.empty() &&
-      scene.database->froude_krylov.empty())
-    refuse(body, "froude_krylov",
-           "the database holds the sum of Froude-Krylov and diffraction loads alone, so the first "
-           "would count twice; make it again with both (hydrodae hdb compute does)");
 }
 
 } // namespace

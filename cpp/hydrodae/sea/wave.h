@@ -41,10 +41,11 @@ struct Sea {
          "-",
          "Pressure of the waves above z = 0 on bodies with `froude_krylov = \"mesh\"`: hydrostatic "
          "down from the crest (vertical: consistent to second order), the profile of linear theory "
-         "moved up to the crest (wheeler), or e^(kz) as it is (extrapolated).",
+         "moved up to the crest (wheeler), e^(kz) as it is (extrapolated), or nothing: the wetted "
+         "part ends at z = 0 (none).",
          false,
          any_value,
-         {"vertical", "wheeler", "extrapolated"}},
+         {"vertical", "wheeler", "extrapolated", "none"}},
         {"bernoulli", &S::bernoulli, "-",
          "Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity."},
     };

@@ -1,7 +1,6 @@
 /// Sparse rank and smallest solutions against dense ones, on all benchmark mechanisms.
 
 #include "hydrodae/build/rank.h"
-#include "hydrodae/build/build.h"
 
 #include <doctest/doctest.h>
 
@@ -9,14 +8,19 @@
 #include <random>
 
 #include "hydrodae/build/assemble.h"
+#include "hydrodae/build/build.h"
 #include "hydrodae/io/case_reader.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/system/kinematics.h"
+#include "hydrodae/system/regime.h"
+#include "hydrodae/system/retract.h"
 
 namespace {
 
 using namespace hydrodae;
 using namespace hydrodae::system;
+using build::Component, build::SparseMatrix, build::components, build::independent_rows,
+    build::smallest_solution;
 
 constexpr Index dense = 1 << 20, sparse = 0; // limits that leave only one of the methods
 
@@ -55,7 +59,7 @@ std::vector<std::pair<std::string, SparseMatrix>> gradients() {
   for (const auto& file : std::filesystem::directory_iterator(root)) {
     if (file.path().extension() != ".toml")
       continue;
-    const System built = build(io::read_case(file.path().string()));
+    const System built = build::build(io::read_case(file.path().string()));
     const Regime s(built);
     if (s.n_lambda == 0 || s.n_u > 1000) // dense: cubic
       continue;
@@ -65,7 +69,7 @@ std::vector<std::pair<std::string, SparseMatrix>> gradients() {
       VectorX step(s.n_u);
       for (double& x : step)
         x = 0.5 * (random() / 4294967296.0);
-      retract(s, step, y);
+      system::retract(s, step, y);
     }
   }
   return out;

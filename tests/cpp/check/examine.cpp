@@ -46,7 +46,7 @@ TEST_CASE("costs add up to the whole system") {
   const system::Regime s(built);
   const system::Pattern pattern = system::find_pattern(s);
   Index unknowns = 0, multipliers = 0, nonzeros = 0;
-  for (const ElementCost& c : element_costs(s, pattern)) {
+  for (const check::ElementCost& c : check::element_costs(s, pattern)) {
     unknowns += c.unknowns;
     multipliers += c.multipliers;
     nonzeros += c.nonzeros;

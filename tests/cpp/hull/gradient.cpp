@@ -75,7 +75,7 @@ TEST_CASE("the gradient is the slope of the load from pose to pose") {
   const double depth = 9.0;
   const hull::Mesh mesh = tests::cylinder(2.0, -2.0, 3.0, 12, 4, 2).mesh();
   for (Stretching stretching :
-       {Stretching::vertical, Stretching::wheeler, Stretching::extrapolated}) {
+       {Stretching::vertical, Stretching::wheeler, Stretching::extrapolated, Stretching::none}) {
     CAPTURE(int(stretching));
     const hull::WaveField field({1025.0, 9.81, depth, stretching, true}, sea(depth), mesh.radius);
     hull::Workspace work(mesh, field);

@@ -17,13 +17,14 @@ std::vector<double> sampled(double end, int cells, double (*f)(double)) {
 
 double pulse(double t) { return std::exp(-(t - 45.0) * (t - 45.0)); }
 double sine(double t) { return std::sin(t); }
-double line(double t) { return 3.0 * t; }
+double straight(double t) { return 3.0 * t; }
 
 } // namespace
 
 TEST_CASE("a straight line may be passed in one step") {
   std::size_t hint = 0;
-  CHECK(smooth_windows(sampled(64.0, 1024, &line), 64.0).reach(0.0, hint) == doctest::Approx(64.0));
+  CHECK(smooth_windows(sampled(64.0, 1024, &straight), 64.0).reach(0.0, hint) ==
+        doctest::Approx(64.0));
 }
 
 TEST_CASE("steps end before a late pulse and are short within it") {
