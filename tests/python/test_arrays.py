@@ -138,7 +138,7 @@ def test_error_of_a_limited_interaction_is_what_is_left_out(
 def test_every_name_and_place_of_the_tables_is_known() -> None:
     """A key that is added to the tables has to be known here, or copies would share it."""
     words = {
-        "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file",
+        "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file", "mesh",
         "protocol", "role", "host", "law", "fmu_inputs", "fmu_outputs", "parameters",
         "text_parameters", "text_values",
     }  # fmt: skip

@@ -104,7 +104,8 @@ def test_a_database_from_python_is_read(case):
             "masss = 1000.0",
             "case.toml:9:1: unknown key 'masss' in [[body]] 'buoy'; did you mean 'mass'? (valid: "
             "name, motion, mass, center_of_gravity, inertia, products_of_inertia, "
-            "principal_axes_deg, hydro, volume, center_of_buoyancy, initial)",
+            "principal_axes_deg, hydro, volume, center_of_buoyancy, mesh, hydrostatics, "
+            "froude_krylov, initial)",
         ),
         (
             "mass = 1000.0",

@@ -98,10 +98,16 @@ def place(
     ------
     CaseError
         A name that cannot stand before those of bodies, a shift that is not two finite numbers,
-        two units at one place, or no units.
+        two units at one place, no units, or a body with a mesh.
     """
     offsets = _placed_units(units)
     tables = tomllib.loads(device.to_toml())
+    for body in tables.get("body", []):
+        if "mesh" in body:
+            raise CaseError(
+                f"body {body['name']!r}: the file of its 'mesh' holds one place in the world, so "
+                "units of an array cannot share it; write a mesh for each and the case by hand"
+            )
     tables.pop("title", None)
     array = Scene(title or f"{len(units)} x {device.title}", directory=directory)
     own = {str(e["name"]) for table in OF_UNITS for e in tables.get(table, []) if "name" in e}

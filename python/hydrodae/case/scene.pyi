@@ -28,6 +28,7 @@ _SeaStretching = Literal[
     "vertical",
     "wheeler",
     "extrapolated",
+    "none",
 ]
 _JonswapSpacing = Literal[
     "energy",
@@ -3034,8 +3035,9 @@ class Scene(SceneBase):
         stretching : text, default "vertical"
             Pressure of the waves above z = 0 on bodies with `froude_krylov = "mesh"`:
             hydrostatic down from the crest (vertical: consistent to second order), the profile
-            of linear theory moved up to the crest (wheeler), or e^(kz) as it is (extrapolated).
-            Allowed: vertical, wheeler, extrapolated.
+            of linear theory moved up to the crest (wheeler), e^(kz) as it is (extrapolated), or
+            nothing: the wetted part ends at z = 0 (none). Allowed: vertical, wheeler,
+            extrapolated, none.
         bernoulli : true or false, default false
             Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity.
 
