@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import hydrodae
+from hydrodae.starters import create
 
 SPHERE = {
     "body.sphere.inertia": [2.5e6, 2.5e6, 2.5e6],
@@ -55,3 +56,9 @@ def test_an_end_without_a_sample_is_told(repository: Path, step: float, last: fl
     told = hydrodae.check(case, set={"solver.end_time": 10.0, "output.step": step})
     assert ("the end at 10 s" in told) == (last is not None)
     assert last is None or f"the last sample is at {last:g} s" in told
+
+
+def test_waves_of_no_height_are_still_water(tmp_path: Path) -> None:
+    case = create("point_absorber", tmp_path / "buoy")
+    values = {"wave.sea.significant_height": 0.0, "solver.end_time": 2.0}
+    assert "floats freely" in hydrodae.Case.read(case).with_values(values).examine()

@@ -288,7 +288,7 @@ std::shared_ptr<const element::Elements>
 Excitation::stirred(const std::function<double()>& draw) const {
   auto out = std::make_shared<Excitation>(*this);
   const auto stir = [&](const auto& given, auto& stirred) {
-    if (given.empty())
+    if (given.empty() || given.components() == 0) // waves of no height
       return;
     VectorX theta(given.components());
     for (double& angle : theta)
