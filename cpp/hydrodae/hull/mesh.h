@@ -35,6 +35,9 @@ struct Mesh {
 /// - an edge does not belong to two triangles (the surface has a hole, or vertices are doubled),
 /// - two triangles pass their common edge in the same direction (the normals disagree),
 /// - a shell encloses a negative volume (its normals point inwards) or none.
-Mesh make_mesh(const Vertices& vertices, const Triangles& triangles);
+///
+/// @param origin of the body, in the axes of `vertices`; messages name places in these
+Mesh make_mesh(const Vertices& vertices, const Triangles& triangles,
+               const Vector3& origin = Vector3::Zero());
 
 } // namespace hydrodae::hull

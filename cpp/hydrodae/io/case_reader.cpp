@@ -173,10 +173,9 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
       continue;
     const std::filesystem::path path = std::filesystem::path(directory) / *body.mesh;
     try {
-      Surface surface = read_surface(path.lexically_normal().string());
-      surface.vertices.rowwise() -= body.center_of_gravity.transpose();
-      body.hull =
-          std::make_shared<hull::Mesh>(hull::make_mesh(surface.vertices, surface.triangles));
+      const Surface surface = read_surface(path.lexically_normal().string());
+      body.hull = std::make_shared<hull::Mesh>(
+          hull::make_mesh(surface.vertices, surface.triangles, body.center_of_gravity));
     } catch (const Error& error) {
       throw CaseError(scene.positions.at("body." + body.name + ".mesh") +
                       ": key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());

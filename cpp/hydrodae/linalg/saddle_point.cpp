@@ -240,38 +240,51 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   return balanced && x_.allFinite();
 }
 
-VectorX SaddlePoint::undetermined() const {
-  // Of each body the directions z in which its block of M is singular, levers of 1 m.
-  std::vector<VectorX> massless;
-  MatrixX dense = MatrixX::Zero(n_, s_.n_u);
-  for (Index c = 0; c < s_.n_u; ++c)
-    for (Index k = start_[c]; k < start_[c + 1]; ++k)
-      dense(row_[k], c) = plain_[k];
+/// Of each body the directions (n_u,) along which its block of M is singular.
+std::vector<VectorX> SaddlePoint::massless_directions() const {
+  std::vector<VectorX> out;
   for (const system::BodyData& b : s_.bodies) {
-    const Index first = b.u0 - s_.u0, t = b.n_translations;
-    for (const auto& [at, n] : {std::pair{first, t}, std::pair{first + t, b.n_active - t}}) {
-      if (n == 0)
-        continue;
-      const Eigen::SelfAdjointEigenSolver<MatrixX> own(dense.block(at, at, n, n));
-      for (Index k = 0; k < n; ++k)
-        if (own.eigenvalues()[k] <= singular_mass * own.eigenvalues()[n - 1]) {
-          massless.push_back(VectorX::Zero(s_.n_u));
-          massless.back().segment(at, n) = own.eigenvectors().col(k);
+    const Index t = b.n_translations;
+    for (const auto& [from, n] : {std::pair{Index(0), t}, std::pair{t, b.n_active - t}}) {
+      const Index first = b.u0 - s_.u0 + from;
+      Matrix3 own = Matrix3::Identity(); // coordinates that do not move count as heavy
+      for (Index c = 0; c < n; ++c)
+        for (Index k = start_[first + c]; k < start_[first + c + 1]; ++k)
+          if (row_[k] >= first && row_[k] < first + n)
+            own(row_[k] - first, c) = plain_[k];
+      const double most = own.topLeftCorner(n, n).norm();
+      for (Index c = n; c < 3; ++c)
+        own(c, c) = most > 0.0 ? most : 1.0;
+      const Eigen::SelfAdjointEigenSolver<Matrix3> modes(own);
+      for (Index k = 0; k < 3; ++k)
+        if (modes.eigenvalues()[k] <= singular_mass * most) {
+          out.push_back(VectorX::Zero(s_.n_u));
+          out.back().segment(first, n) = modes.eigenvectors().col(k).head(n);
         }
     }
   }
+  return out;
+}
+
+VectorX SaddlePoint::undetermined() const {
+  const std::vector<VectorX> massless = massless_directions();
   if (massless.empty())
     return {};
-  // The rows along them, each of the length that it has along all of u: a part of no length is
-  // free.
-  MatrixX Z(s_.n_u, static_cast<Index>(massless.size()));
+  MatrixX Z(s_.n_u, std::ssize(massless));
   for (Index k = 0; k < Z.cols(); ++k)
     Z.col(k) = massless[static_cast<std::size_t>(k)];
-  MatrixX G = dense.bottomRows(s_.n_lambda);
-  for (Index i = 0; i < G.rows(); ++i)
-    if (const double length = G.row(i).norm(); length > 0.0)
-      G.row(i) /= length;
-  const MatrixX along = G * Z;
+  // The rows along them, relative to what each row has along all of u.
+  MatrixX along = MatrixX::Zero(s_.n_lambda, Z.cols());
+  for (Index i = s_.n_u; i < n_; ++i) {
+    double square = 0.0;
+    for (Index k = start_[i]; k < start_[i + 1]; ++k)
+      if (row_[k] < s_.n_u) {
+        square += plain_[k] * plain_[k];
+        along.row(i - s_.n_u) += plain_[k] * Z.row(row_[k]);
+      }
+    if (square > 0.0)
+      along.row(i - s_.n_u) /= std::sqrt(square);
+  }
   const Eigen::SelfAdjointEigenSolver<MatrixX> held(along.transpose() * along);
   if (held.eigenvalues()[0] > singular_mass)
     return {};

@@ -42,8 +42,8 @@ public:
   /// What the last `accelerations` left of the equations, relative to the loads [-].
   double mismatch();
 
-  /// A direction of u (n_u,) that has no inertia and that no row of the last matrix holds; empty:
-  /// there is none within one body. Dense.
+  /// A direction of u (n_u,) that has no inertia and that no row of the last matrix holds. Empty:
+  /// no body has one.
   VectorX undetermined() const;
 
   /// Smallest eigenvalue of G M^-1 G^T against its diagonal [-], with the matrix of the last
@@ -88,6 +88,7 @@ private:
     double shift = 0.0, turn = 0.0, yields = 0.0;
     std::size_t mechanism = 0;
   };
+  std::vector<VectorX> massless_directions() const;
   void find_heaviest();
   RowSums sums_of(Index i) const;
   bool press(double t, const VectorX& y, VectorX& yp);
