@@ -30,11 +30,11 @@ def cap_decay(database: Path, radius: float, mass: float, release: float, times:
         x = y[2 : 2 + len(p)] + 1j * y[2 + len(p) :]
         force = rho * GRAVITY * volume - mass * GRAVITY - (c * x).sum().real
         change = p * x + b * y[1]
-        return np.r_[y[1], force / inertia, change.real, change.imag]
+        return np.asarray(np.r_[y[1], force / inertia, change.real, change.imag])
 
     start = np.r_[release, np.zeros(1 + 2 * len(p))]
     found = solve_ivp(rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-10, atol=1e-10)
-    return np.asarray(found.y[0])
+    return np.asarray(found.y[0], dtype=float)
 
 
 def panel_heave(
