@@ -20,6 +20,13 @@ void raise_solver_error(const SolverError& error) {
   const py::object type = error_type("SolverError");
   const py::object exception = type(error.what());
   exception.attr("time") = error.time;
+  exception.attr("reason") = std::string(name_of(error.halt.reason));
+  exception.attr("subject") = error.halt.subject;
+  exception.attr("advice") = error.halt.advice;
+  py::dict numbers;
+  for (const auto& [name, value] : error.halt.numbers)
+    numbers[py::str(name)] = value;
+  exception.attr("numbers") = numbers;
   py::set_error(type, exception);
 }
 

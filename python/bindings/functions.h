@@ -69,8 +69,12 @@ private:
       work();
     } catch (...) {
       failure_ = std::current_exception();
-      throw SolverError(t, "stopped at t = " + number_text(t) + " s: the Python controller " +
-                               in_quotes(name_) + " has failed");
+      throw SolverError(t, {Reason::controller,
+                            "the Python controller " + in_quotes(name_) + " has failed",
+                            "controllers/" + name_,
+                            {},
+                            "",
+                            ""});
     }
   }
 
@@ -134,7 +138,7 @@ public:
                     const Functions& controllers = {}, const Functions& again = {}) {
     model::Scene out = scene;
     const auto maker = [this](const std::string& name, const Functions& of) {
-      decltype(model::Controller::make) make;
+      control::Outside::Make make;
       if (const auto found = of.find(name); found != of.end())
         make = [this, name, call = &found->second](const control::Terminals& terminals) {
           return std::make_unique<PythonLaw>(name, *call, failure_, terminals);
@@ -142,12 +146,14 @@ public:
       return make;
     };
     for (model::Controller& c : out.controllers)
-      if (c.make = maker(c.name, controllers); c.make)
-        c.make_again = maker(c.name, again);
+      if (auto* law = c.as<control::Python>())
+        if (law->make = maker(law->name, controllers); law->make)
+          law->make_again = maker(law->name, again);
     std::apply([&](auto&... list) { (join_laws(list, forces), ...); }, out.forces);
     for (model::Constraint& c : out.constraints)
-      if (const auto found = drives.find(c.name); found != drives.end())
-        c.drive.function = [this, call = &found->second](double t) {
+      if (const auto found = drives.find(c->name);
+          c.as<model::DrivenCoordinate>() && found != drives.end())
+        c.as<model::DrivenCoordinate>()->drive.function = [this, call = &found->second](double t) {
           return value(*call, t); // the map outlives the run; copies need no GIL
         };
     return out;

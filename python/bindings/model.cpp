@@ -12,7 +12,7 @@ namespace {
 template <class T> std::vector<std::string> names(const std::vector<T>& items) {
   std::vector<std::string> out;
   for (const T& item : items)
-    out.push_back(item.name);
+    out.push_back(name_of_entry(item));
   return out;
 }
 
@@ -36,8 +36,9 @@ void bind_model(py::module_& module) {
           [](const Scene& s) {
             std::vector<std::string> out;
             for (const model::Constraint& c : s.constraints)
-              if (c.drive.python)
-                out.push_back(c.name);
+              if (const auto* driven = c.as<model::DrivenCoordinate>();
+                  driven && driven->drive.python)
+                out.push_back(driven->name);
             return out;
           },
           "Constraints whose drive is a Python function.")
@@ -59,8 +60,8 @@ void bind_model(py::module_& module) {
           [](const Scene& s) {
             std::vector<std::string> out;
             for (const model::Controller& c : s.controllers)
-              if (c.type == "python")
-                out.push_back(c.name);
+              if (c.as<control::Python>())
+                out.push_back(c->name);
             return out;
           },
           "Controllers that are Python functions.")

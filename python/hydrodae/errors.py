@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 
@@ -27,11 +29,24 @@ class SolverError(HydrodaeError, RuntimeError):
     ----------
     time : float
         Time reached, s (NaN if unknown).
+    reason : str
+        Why: start, step, jacobian, not_finite, progress, drift, branch, energy, growth, impact,
+        friction, range, labour, controller, output, state or solver.
+    subject : str
+        What it is about, as in the results, such as "bodies/float"; "" for the whole scene.
+    numbers : dict of str to float
+        What was measured, in SI units.
+    advice : str
+        What may help; "" where nothing is known to.
     results : hydrodae.Results or None
         What was computed until then.
     """
 
     time: float = float("nan")
+    reason: str = ""
+    subject: str = ""
+    numbers: Mapping[str, float] = MappingProxyType({})
+    advice: str = ""
     results: Any = None
 
 

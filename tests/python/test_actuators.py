@@ -167,12 +167,12 @@ def test_declutching_goes_on_bit_for_bit() -> None:
 @pytest.mark.parametrize(
     ("type", "keys", "inputs", "message"),
     [
-        ("bang_bang", "upper = 1.0", RATE, "needs the key 'lower'"),
+        ("bang_bang", "upper = 1.0", RATE, "missing key 'lower'"),
         ("bang_bang", "lower = 1.0\nupper = 0.0", RATE, "'lower' is above 'upper'"),
         ("bang_bang", "lower = 0.0\nupper = 1.0\nband = -1.0", RATE, "band"),
-        ("declutching", "engaged = 1.0", RATE, "needs the key 'free_time'"),
+        ("declutching", "engaged = 1.0", RATE, "missing key 'free_time'"),
         ("declutching", "engaged = 1.0\nfree_time = 0.0", RATE, "free_time"),
-        ("declutching", "engaged = 1.0\nfree_time = 1.0\ndelay = 1.0", RATE, "has no key 'delay'"),
+        ("declutching", "engaged = 1.0\nfree_time = 1.0\ndelay = 1.0", RATE, "unknown key 'delay'"),
         ("pid", "lag = -1.0", RATE, "lag"),
     ],
 )

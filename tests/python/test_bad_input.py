@@ -261,7 +261,8 @@ end_time = 10.0
             'type = "coordinate"\njoint = "hinge"\ndrive = { time = [0, 5, 10], '
             "values = [0.0, 0.1, 0.0] }",
             'type = "coupler"\njoint = "hinge"',
-            "case.toml:31:1: constraint 'crank': a coupler needs the key 'joint_b'",
+            "case.toml:31:1: missing key 'joint_b' in [[constraint]] 'crank' (Second joint of a "
+            "coupler)",
         ),
         (
             "time = [0, 5, 10]",

@@ -299,7 +299,7 @@ def test_an_answer_that_is_no_number() -> None:
     ("type", "keys", "inputs", "message"),
     [
         ("pid", "gain = 1.0", RATE, "unknown key 'gain'"),
-        ("pid", "damping = 1.0", RATE, "a pid controller has no key 'damping'"),
+        ("pid", "damping = 1.0", RATE, "unknown key 'damping'"),
         ("pid", "", f"{RATE}, {RATE}, {RATE}", "what it holds at its target"),
         ("pid", "gain_i = 1.0\nupper = 1.0", RATE, "needs the key 'tracking_time'"),
         ("reactive", "", RATE, "a coordinate and its rate; it has 1"),

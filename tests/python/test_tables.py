@@ -190,7 +190,7 @@ def test_ranges_are_told_in_few_signs() -> None:
 
 def test_an_unknown_key_is_told_with_those_of_its_own_type() -> None:
     entry = '[[force]]\nname = "p"\ntype = "pto_linear"\njoint = "h"\ndampng = 1\n'
-    with pytest.raises(CaseError, match=r"did you mean 'damping'\? \(valid: type, name, joint, "):
+    with pytest.raises(CaseError, match=r"did you mean 'damping'\? \(valid: name, type, joint, "):
         _core.check_tables(entry)
     wave = '[[wave]]\nname = "w"\ntype = "regular"\nheigt = 1\n'
     with pytest.raises(CaseError, match="did you mean 'height'") as told:

@@ -68,11 +68,17 @@ std::string EnergyGuard::members(std::size_t mechanism) const {
 }
 
 void EnergyGuard::fail(double t, double error, double part, double exchanged, const std::string& of,
-                       const std::string& where) const {
-  throw SolverError(t, "stopped at t = " + number_text(t) + " s: the energy balance" + of +
-                           " is off by " + number_text(error) + " J, more than " +
-                           number_text(part) + " of the " + number_text(exchanged) +
-                           " J exchanged" + where);
+                       const std::string& where, const std::string& advice,
+                       const std::string& details) const {
+  throw SolverError(t, {Reason::energy,
+                        "the energy balance" + of + " is off by " + number_text(error) +
+                            " J, more than " + number_text(part) + " of the " +
+                            number_text(exchanged) + " J exchanged" + where +
+                            " (solver.energy_guard): the motion is not to be trusted",
+                        "",
+                        {{"error", error}, {"allowed_part", part}, {"exchanged", exchanged}},
+                        advice,
+                        details});
 }
 
 void EnergyGuard::check(double t, const measure::Measure& measure,
@@ -92,10 +98,10 @@ void EnergyGuard::check(double t, const measure::Measure& measure,
       return;
     fail(t, error, singular ? at_singular_ : part, exchanged,
          mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)),
-         std::string(singular ? ", at a singular pose" : "") +
-             " (solver.energy_guard): the motion is not to be trusted; a smaller tolerance or "
-             "step, or another method may help" +
-             (singular ? " (radau and explicit_rk pass singular poses)" : "") + reactions());
+         singular ? ", at a singular pose" : "",
+         std::string("a smaller tolerance or step, or another method may help") +
+             (singular ? " (radau and explicit_rk pass singular poses)" : ""),
+         reactions());
   };
   look(-1, measure.whole().error, believed(measure.whole_before(), measure.whole()));
   for (std::size_t m = 0; m < mechanisms.size(); ++m)
@@ -111,9 +117,8 @@ void EnergyGuard::finish(double t, const measure::Measure& measure) const {
     const double part = std::max(allowed(mechanism), usual);
     if (std::abs(error) - little * least(mechanism) > part * exchanged)
       fail(t, error, part, exchanged,
-           mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)),
-           " in the whole run (solver.energy_guard): the motion is not to be trusted; a smaller "
-           "tolerance or max_step may help");
+           mechanism < 0 ? "" : members(static_cast<std::size_t>(mechanism)), " in the whole run",
+           "a smaller tolerance or max_step may help", "");
   };
   look(-1, measure.whole().error, measure.whole().exchanged);
   for (std::size_t m = 0; m < measure.mechanisms().size(); ++m)

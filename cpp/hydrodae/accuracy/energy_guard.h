@@ -32,7 +32,8 @@ public:
 
 private:
   [[noreturn]] void fail(double t, double error, double part, double exchanged,
-                         const std::string& of, const std::string& where) const;
+                         const std::string& of, const std::string& where, const std::string& advice,
+                         const std::string& details) const;
   double least(int mechanism) const;
   double allowed(int mechanism) const;
   std::string members(std::size_t mechanism) const;

@@ -97,11 +97,14 @@ void DriftGuard::fail_at_singular_pose(double t) const {
 }
 
 void DriftGuard::fail(double t, Index row, const std::string& where) const {
-  throw SolverError(t, "stopped at t = " + number_text(t) +
-                           " s: the constraints have drifted: " + stabilised_.row_names[row] +
-                           " is " + number_text(residual_[row]) + " of its scale" + where +
-                           "; the stabilised formulation, a Baumgarte time or a smaller tolerance "
-                           "keeps them");
+  throw SolverError(
+      t, {Reason::drift,
+          "the constraints have drifted: " + stabilised_.row_names[row] + " is " +
+              number_text(residual_[row]) + " of its scale" + where,
+          stabilised_.row_names[row],
+          {{"gap", residual_[row]}},
+          "the stabilised formulation, a Baumgarte time or a smaller tolerance keeps them",
+          ""});
 }
 
 PoseGuard::PoseGuard(const system::Regime& system, const VectorX& y)
@@ -164,14 +167,17 @@ void BranchGuard::check(double t, const VectorX& y) {
           y.segment(s_.lambda0, s_.n_lambda)
               .cwiseQuotient(s_.scale.segment(s_.lambda0, s_.n_lambda));
       throw SolverError(
-          t,
-          "stopped at t = " + number_text(t) + " s: the velocities jumped within " +
-              number_text(t - past_.front().first) + " s (" + rounded_text(jump) +
-              " of the largest kinetic energy), though nothing struck: at a singular pose the "
-              "motion left its branch; a smaller tolerance, or radau or explicit_rk, may pass "
-              "(solver.branch_guard = false lets it go on)\n  largest reactions, relative to the "
-              "weights: " +
-              linalg::worst(reactions, s_.names));
+          t, {Reason::branch,
+              "the velocities jumped within " + number_text(t - past_.front().first) + " s (" +
+                  rounded_text(jump) +
+                  " of the largest kinetic energy), though nothing struck: at a singular pose the "
+                  "motion left its branch",
+              "",
+              {{"jump", jump}},
+              "a smaller tolerance, or radau or explicit_rk, may pass (solver.branch_guard = false "
+              "lets it go on)",
+              "\n  largest reactions, relative to the weights: " +
+                  linalg::worst(reactions, s_.names)});
     }
   }
   past_.emplace_back(t, u);

@@ -79,7 +79,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
                          m.point - scene.bodies[body_index(scene, m.body)].center_of_gravity,
                          m.axes == "body"});
   add_gauges(scene, s);
-  set_coupler_offsets(scene, s);
+  set_coupler_offsets(s);
   system::find_mechanisms(s);
   set_scale_masses(s);
   system::number(s);

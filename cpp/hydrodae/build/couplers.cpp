@@ -10,16 +10,6 @@ namespace hydrodae::build {
 
 namespace {
 
-void add_stop(const model::Constraint& c, system::System& s) {
-  system::SwitchData stop;
-  stop.motion = joint_motion(s, *c.joint, c.coordinate);
-  stop.lower = c.lower ? *c.lower : c.lower_angle.value_or(-INFINITY);
-  stop.upper = c.upper ? *c.upper : c.upper_angle.value_or(INFINITY);
-  stop.restitution = c.restitution.value_or(0.0);
-  stop.contact_time = c.contact_time;
-  add_switch(c.name, stop, s);
-}
-
 /// One-sided distances, after the constraints of the case.
 void add_ropes(const model::Scene& scene, system::System& s) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
@@ -51,40 +41,47 @@ void add_switch(const std::string& name, system::SwitchData element, system::Sys
 
 void add_constraints(const model::Scene& scene, system::System& s) {
   for (const model::Constraint& c : scene.constraints) {
-    if (c.drive.python && !c.drive.function)
-      throw ModelError("constraint." + c.name + ".drive.python",
-                       "constraint '" + c.name +
+    const model::Condition asked = c.visit([](const auto& one) { return one.condition(); });
+    if (asked.drive.python && !asked.drive.function)
+      throw ModelError("constraint." + c->name + ".drive.python",
+                       "constraint '" + c->name +
                            "': its drive is a Python function, which nobody gave; run the case as "
                            "hydrodae.run(case, drives={\"" +
-                           c.name + "\": function})");
-    if (c.type == "stop") {
-      add_stop(c, s);
+                           c->name + "\": function})");
+    std::vector<system::CouplerData::Term> terms;
+    for (const model::Condition::Term& term : asked.terms)
+      terms.push_back({term.joint ? joint_motion(s, *term.joint, term.coordinate)
+                                  : body_motion(scene, *term.body, *term.coordinate, s),
+                       term.factor});
+    if (asked.bounds) {
+      system::SwitchData stop;
+      stop.motion = terms.front().motion;
+      stop.lower = asked.bounds->lower;
+      stop.upper = asked.bounds->upper;
+      stop.restitution = asked.bounds->restitution;
+      stop.contact_time = asked.bounds->contact_time;
+      add_switch(c->name, stop, s);
       continue;
     }
     system::CouplerData coupler;
-    coupler.name = c.name;
-    coupler.drive = c.drive;
-    coupler.velocity_level = c.level == "velocity";
-    const int first = c.joint ? joint_motion(s, *c.joint, c.coordinate)
-                              : body_motion(scene, *c.body, *c.coordinate, s);
-    if (c.type == "coupler") { // s_b - ratio s = what it is at the start
-      coupler.terms = {{joint_motion(s, *c.joint_b, c.coordinate_b), 1.0}, {first, -c.ratio}};
-    } else {
-      coupler.terms = {{first, 1.0}};
-    }
+    coupler.name = c->name;
+    coupler.drive = asked.drive;
+    coupler.velocity_level = asked.velocity_level;
+    coupler.keeps_start = asked.keeps_start;
+    coupler.terms = std::move(terms);
     s.couplers.push_back(coupler);
   }
   add_ropes(scene, s);
 }
 
-void set_coupler_offsets(const model::Scene& scene, system::System& s) {
+void set_coupler_offsets(system::System& s) {
   const system::Workspace<double> start(s);
-  for (std::size_t k = 0; k < s.couplers.size(); ++k) {
-    if (k >= scene.constraints.size() || scene.constraints[k].type != "coupler")
+  for (system::CouplerData& coupler : s.couplers) {
+    if (!coupler.keeps_start)
       continue;
-    s.couplers[k].offset = 0.0;
-    for (const system::CouplerData::Term& term : s.couplers[k].terms)
-      s.couplers[k].offset += term.factor * system::motion_row<double>(s, start, term.motion).value;
+    coupler.offset = 0.0;
+    for (const system::CouplerData::Term& term : coupler.terms)
+      coupler.offset += term.factor * system::motion_row<double>(s, start, term.motion).value;
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/scene.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/sea/component.h"
 #include "hydrodae/system/system.h"
 #include "hydrodae/water/excitation.h"
 

@@ -59,7 +59,7 @@ void add_constraints(const model::Scene& scene, system::System& system);
 void add_switch(const std::string& name, system::SwitchData element, system::System& system);
 
 /// Couplers hold what they find at the start (build_constraints.cpp).
-void set_coupler_offsets(const model::Scene& scene, system::System& system);
+void set_coupler_offsets(system::System& system);
 
 /// The forces of the case with their ports (build_elements.cpp).
 void add_elements(const model::Scene& scene, system::System& system);

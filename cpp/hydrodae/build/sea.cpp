@@ -31,21 +31,23 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
                     const std::vector<sea::Component>& components,
                     const std::vector<Meeting>& bodies) {
   const hydro::Headings headings(db.heading);
-  const std::string head = "wave " + in_quotes(wave.name) + ": ", key = "wave." + wave.name;
+  const std::string head = "wave " + in_quotes(wave->name) + ": ", key = "wave." + wave->name;
+  const bool regular = wave.as<sea::Regular>();
+  const auto* irregular = wave.as<sea::Irregular>();
   for (const sea::Component& c : components) {
     if (!hydro::covers_frequency(db, c.omega))
-      throw ModelError(key + (wave.type == "regular" ? ".period" : ".frequency_range"),
+      throw ModelError(key + (regular ? ".period" : ".frequency_range"),
                        head + "a component at " + number_text(c.omega) +
                            " rad/s is outside the database, " + number_text(db.omega[0]) + " to " +
                            number_text(db.omega[db.omega.size() - 1]) + " rad/s" +
-                           (wave.type == "regular" ? "" : "; set 'frequency_range'"));
+                           (regular ? "" : "; set 'frequency_range'"));
     const auto covered = [&](const Meeting& m) {
       return headings.covered(c.heading - m.yaw).has_value();
     };
     if (std::all_of(bodies.begin(), bodies.end(), covered))
       continue;
     const double last = db.heading[db.heading.size() - 1];
-    throw ModelError(key + (wave.spreading ? ".spreading" : ".heading_deg"),
+    throw ModelError(key + (irregular && irregular->spreading ? ".spreading" : ".heading_deg"),
                      head + "a component travels towards " + degrees(c.heading) +
                          (std::any_of(bodies.begin(), bodies.end(),
                                       [](const Meeting& m) { return m.yaw != 0.0; })

@@ -105,8 +105,12 @@ void advise_bodies(std::ostream& out, const System& s, const std::vector<bool>& 
 
 /// Does a force or a constraint act on a coordinate of this joint?
 bool joint_is_used(const model::Scene& scene, const std::string& name) {
-  bool used = std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                          [&](const auto& c) { return c.joint == name || c.joint_b == name; });
+  bool used = std::any_of(
+      scene.constraints.begin(), scene.constraints.end(), [&](const model::Constraint& c) {
+        const auto terms = c.visit([](const auto& one) { return one.condition().terms; });
+        return std::any_of(terms.begin(), terms.end(),
+                           [&](const auto& term) { return term.joint == name; });
+      });
   const auto look = [&](const auto& force) {
     if constexpr (requires { force.joint; })
       used = used || force.joint == name;
@@ -249,16 +253,16 @@ void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Chan
   };
   for (const model::Controller& c : scene.controllers) {
     const control::Terminals found = run::find_terminals(c, channels, inputs);
-    std::vector<std::string> units = run::unit_notes(c.name, found);
-    if (c.type == "fmu")
-      for (const std::string& note : cosim::check_fmu(c, found)) // or refuses
+    std::vector<std::string> units = run::unit_notes(c->name, found);
+    if (const auto* fmu = c.as<control::Fmu>())
+      for (const std::string& note : cosim::check_fmu(*fmu, found)) // or refuses
         units.push_back(note);
-    out << "  controller " << c.name << " (" << c.type << "): every " << c.period << " s "
+    out << "  controller " << c->name << " (" << c.type() << "): every " << c->period << " s "
         << listed(found.inputs) << " -> " << listed(found.outputs);
-    if (c.delay > 0.0)
-      out << ", " << c.delay << " s later";
-    if (c.lag > 0.0)
-      out << ", with a lag of " << c.lag << " s";
+    if (c->delay > 0.0)
+      out << ", " << c->delay << " s later";
+    if (c->lag > 0.0)
+      out << ", with a lag of " << c->lag << " s";
     out << "\n";
     for (const std::string& note : units)
       out << "  note: " << note << "\n";

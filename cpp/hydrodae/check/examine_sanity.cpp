@@ -38,7 +38,7 @@ std::vector<Finding> look_at_rest(const model::Scene& scene, const System& given
   };
   const bool driven =
       std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                  [](const model::Constraint& c) { return c.type == "coordinate"; });
+                  [](const model::Constraint& c) { return c.as<model::DrivenCoordinate>(); });
   if (driven && std::any_of(given.couplers.begin(), given.couplers.end(), moves))
     return out; // it never rests
   if (!wet || given.n_u + system::Regime(given).n_lambda > most_coordinates)

@@ -1,5 +1,5 @@
 #pragma once
-#include "hydrodae/control/law.h"
+#include "hydrodae/control/sampled.h"
 
 namespace hydrodae::control {
 
@@ -9,9 +9,9 @@ namespace hydrodae::control {
 ///       lower   where e < -band
 ///
 /// and within the band what it was before; at the start upper for e >= 0.
-class BangBang final : public Law {
+class BangBangLaw final : public Law {
 public:
-  BangBang(double target, double band, double lower, double upper)
+  BangBangLaw(double target, double band, double lower, double upper)
       : target_(target), band_(band), lower_(lower), upper_(upper) {}
 
   /// @param in  what is controlled, and where there are two its target
@@ -30,6 +30,36 @@ public:
 private:
   double target_, band_, lower_, upper_;
   bool began_ = false, high_ = false;
+};
+
+struct BangBang : Sampled {
+  static constexpr std::string_view type = "bang_bang";
+  static constexpr std::string_view doc =
+      "u = upper or lower by the sign of e = target - input, with hysteresis.";
+  static constexpr Arity arity = of_target;
+  double target = 0.0, band = 0.0, lower = 0.0, upper = 0.0;
+
+  std::unique_ptr<Law> law(const Place&) const {
+    return std::make_unique<BangBangLaw>(target, band, lower, upper);
+  }
+  std::optional<Fault> fault() const {
+    if (lower > upper)
+      return Fault{"lower", "'lower' is above 'upper'"};
+    return {};
+  }
+  static std::optional<Fault> fault(const Terminals& t) { return target_fault(t); }
+
+  template <class C = BangBang> static Fields<C> fields() {
+    return usual_fields<C>() +
+           Fields<C>{
+               {"target", &C::target, "unit of the input",
+                "What the input is to be, where no second input gives it."},
+               {"band", &C::band, "unit of the input",
+                "Half width of the hysteresis: within it the output stays.", false, at_least(0)},
+               {"lower", &C::lower, "unit of the output", "Least output.", true},
+               {"upper", &C::upper, "unit of the output", "Largest output.", true},
+           };
+  }
 };
 
 } // namespace hydrodae::control

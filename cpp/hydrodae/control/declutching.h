@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "hydrodae/control/law.h"
+#include "hydrodae/control/sampled.h"
 
 namespace hydrodae::control {
 
@@ -13,11 +13,11 @@ namespace hydrodae::control {
 ///
 /// The standstill, where s' changes its sign, is an event that the kernel locates. A standstill
 /// within `rest` of the one before is not heard.
-class Declutching final : public Law {
+class DeclutchingLaw final : public Law {
 public:
   /// @param time  for which it is free [s]
   /// @param rest  from a standstill until the next one that is heard [s]
-  Declutching(double engaged, double free, double time, double rest)
+  DeclutchingLaw(double engaged, double free, double time, double rest)
       : engaged_(engaged), free_(free), time_(time), rest_(rest) {}
 
   void crossed(double t) override {
@@ -46,6 +46,29 @@ private:
   bool began_ = false;
   double heard_ = -INFINITY, until_ = -INFINITY; ///< last standstill, end of the free time [s]
   double next_ = INFINITY;
+};
+
+struct Declutching : Sampled {
+  static constexpr std::string_view type = "declutching";
+  static constexpr std::string_view doc =
+      "Frees a machine from each standstill of a joint on, for some time; else it works.";
+  static constexpr Arity arity = {1, 1, 1, "the rate of a joint"};
+  double engaged = 0.0, free = 0.0, free_time = 0.0;
+
+  std::unique_ptr<Law> law(const Place&) const {
+    return std::make_unique<DeclutchingLaw>(engaged, free, free_time, period);
+  }
+
+  template <class C = Declutching> static Fields<C> fields() {
+    return sampled_fields<C>() + lag_field<C>() +
+           Fields<C>{
+               {"engaged", &C::engaged, "unit of the output", "Output while the machine works.",
+                true},
+               {"free", &C::free, "unit of the output", "Output while the machine is free."},
+               {"free_time", &C::free_time, "s", "How long it is free from a standstill on.", true,
+                more_than(0)},
+           };
+  }
 };
 
 } // namespace hydrodae::control

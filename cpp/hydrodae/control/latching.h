@@ -3,7 +3,7 @@
 #include <functional>
 #include <utility>
 
-#include "hydrodae/control/law.h"
+#include "hydrodae/control/sampled.h"
 
 namespace hydrodae::control {
 
@@ -17,12 +17,12 @@ namespace hydrodae::control {
 ///
 /// Whether it sticks is asked of the kernel, not judged by the rate: a joint that creeps may be
 /// caught by the very act of getting ready, without an event of its own.
-class Latching final : public Law {
+class LatchingLaw final : public Law {
 public:
   /// @param time    for which it holds [s]
   /// @param rest    from the release until it may hold again [s]
   /// @param sticks  does the joint stick now?
-  Latching(double load, double time, double rest, std::function<bool()> sticks)
+  LatchingLaw(double load, double time, double rest, std::function<bool()> sticks)
       : load_(load), time_(time), rest_(rest), sticks_(std::move(sticks)) {}
 
   void sample(double t, std::span<const double>, std::span<double> out) override {
@@ -51,6 +51,44 @@ private:
   std::function<bool()> sticks_;
   Phase phase_ = Phase::ready;
   double until_ = INFINITY; ///< of this phase [s]
+};
+
+struct Latching : Sampled {
+  static constexpr std::string_view type = "latching";
+  static constexpr std::string_view doc =
+      "Holds a joint by its dry friction from a standstill on, for some time.";
+  static constexpr Arity arity = {1, 1, 1, "the rate of a joint"};
+  double hold_time = 0.0, hold_load = 0.0;
+
+  /// The friction whose largest load it writes must be on the joint whose rate it reads.
+  std::unique_ptr<Law> law(const Place& place) const {
+    if (!place.friction)
+      refuse("outputs", outputs.front(),
+             "the 'static' of a dry_friction, by which a latch holds: \"forces/NAME/static\"");
+    if (signal_of(inputs.front()).name != place.friction->rate)
+      refuse("inputs", inputs.front(),
+             "the rate of the joint that it holds, " + in_quotes(place.friction->rate));
+    return std::make_unique<LatchingLaw>(hold_load, hold_time, period, place.friction->sticks);
+  }
+  static std::optional<Fault> fault(const Terminals& t) { return si_fault(t, std::string(type)); }
+
+  template <class C = Latching> static Fields<C> fields() {
+    return sampled_fields<C>() +
+           Fields<C>{
+               {"hold_time", &C::hold_time, "s", "How long it holds from the standstill on.", true,
+                more_than(0)},
+               {"hold_load", &C::hold_load, "N or N m", "Largest load that it holds.", true,
+                more_than(0)},
+           };
+  }
+
+private:
+  [[noreturn]] void refuse(const char* key, const std::string& wrong,
+                           const std::string& expected) const {
+    throw ModelError("controller." + name + "." + key, "controller " + in_quotes(name) + ": " +
+                                                           in_quotes(wrong) + " is not " +
+                                                           expected);
+  }
 };
 
 } // namespace hydrodae::control

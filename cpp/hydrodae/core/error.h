@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hydrodae {
 
@@ -25,10 +28,46 @@ struct ModelError : Error {
   std::string key;
 };
 
+/// Why an integration stopped. Python has their names (`name_of`) as `SolverError.reason`.
+enum class Reason {
+  start,      ///< no motion agrees with the equations at the start
+  step,       ///< the step has become too short: Newton's iteration or the error test fail
+  jacobian,   ///< the equations are singular
+  not_finite, ///< accelerations, velocities or loads are not finite
+  progress,   ///< the steps or events have become too dense to go on
+  drift,      ///< the constraints are not kept
+  branch,     ///< the motion has left its branch at a singular pose
+  energy,     ///< the balance of energy is broken
+  growth,     ///< the motion grows beyond all bounds
+  impact,     ///< no impulses fit an impact, or no motion goes on from it
+  friction,   ///< no friction fits (a jam, a rope that neither sticks nor slips)
+  range,      ///< a body has left the range of its data or coordinates
+  labour,     ///< a method labours: another one is better
+  controller, ///< a controller, or the program behind it, failed
+  output,     ///< results cannot be written
+  state,      ///< the run has stopped before
+  solver,     ///< a library failed
+};
+std::string_view name_of(Reason reason);
+
+/// What a SolverError says, apart. Its message is made of these by `message_of`.
+struct Halt {
+  Reason reason = Reason::solver;
+  std::string what;    ///< what happened: "the Jacobian is singular"
+  std::string subject; ///< what it is about, as in the results: "bodies/float"; "" for the scene
+  std::vector<std::pair<std::string, double>> numbers; ///< measured, by name (SI units)
+  std::string advice;                                  ///< what may help
+  std::string details;                                 ///< further lines, each with "\n" in front
+};
+
+/// "stopped at t = 1.2 s: what; advice", then the details.
+std::string message_of(double time, const Halt& halt);
+
 /// The integration stopped before its end. Results up to `time` are kept. Exit code 3.
 struct SolverError : Error {
-  SolverError(double at_time, const std::string& message) : Error(message), time(at_time) {}
+  SolverError(double at_time, Halt why);
   double time; ///< [s]
+  Halt halt;
 };
 
 enum class ExitCode {

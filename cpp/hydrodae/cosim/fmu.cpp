@@ -14,7 +14,7 @@ namespace hydrodae::cosim {
 
 namespace {
 
-[[noreturn]] void refuse_key(const model::Controller& c, const char* key, const std::string& why) {
+[[noreturn]] void refuse_key(const control::Fmu& c, const char* key, const std::string& why) {
   throw ModelError("controller." + c.name + "." + key,
                    "controller " + in_quotes(c.name) + ": " + why);
 }
@@ -28,7 +28,7 @@ struct Mapping {
   std::vector<std::string> unit_notes;
 
   /// @param terminals  what its inputs and outputs are joined to; null: not known yet
-  explicit Mapping(const model::Controller& c, const control::Terminals* terminals = nullptr) {
+  explicit Mapping(const control::Fmu& c, const control::Terminals* terminals = nullptr) {
     const char* key = "file";
     const auto find = [&](const char* of, const std::vector<std::string>& names,
                           const char* causality, FmuGroups& out) {
@@ -67,7 +67,7 @@ struct Mapping {
   }
 
   /// That its numbers are turned into others, or that nobody knows what its unit is.
-  void tell(const model::Controller& c, const FmuVariable& v, const control::Terminal& to,
+  void tell(const control::Fmu& c, const FmuVariable& v, const control::Terminal& to,
             const Conversion& by) {
     const std::string head = "controller " + in_quotes(c.name) + ": variable " + in_quotes(v.name) +
                              " of its FMU is in " + in_quotes(v.unit_name) + ", ";
@@ -99,7 +99,7 @@ std::string no_states(const std::string& name) {
 /// the FMU answers to these.
 class FmuLaw final : public control::Law {
 public:
-  FmuLaw(const model::Controller& c, const control::Terminals& terminals)
+  FmuLaw(const control::Fmu& c, const control::Terminals& terminals)
       : name_(c.name), values_(c.parameter_values), factors_(c.fmu_factors), texts_(c.text_values),
         end_time_(terminals.end_time), map_(c, &terminals) {
     try {
@@ -136,8 +136,13 @@ public:
       for (std::size_t k = 0; k < factors_.size(); ++k)
         out[k] *= factors_[k];
     } catch (const CaseError& error) {
-      throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
-                               in_quotes(name_) + ": " + map_.fmu.path + ": " + error.what());
+      throw SolverError(
+          t, {Reason::controller,
+              "controller " + in_quotes(name_) + ": " + map_.fmu.path + ": " + error.what(),
+              "controllers/" + name_,
+              {},
+              "",
+              ""});
     }
   }
 
@@ -218,21 +223,20 @@ private:
 
 void join_fmus(model::Scene& scene) {
   for (model::Controller& c : scene.controllers)
-    if (c.type == "fmu")
-      c.make = [c](const control::Terminals& terminals) {
-        return std::make_unique<FmuLaw>(c, terminals);
+    if (auto* fmu = c.as<control::Fmu>())
+      fmu->make = [keys = *fmu](const control::Terminals& terminals) {
+        return std::make_unique<FmuLaw>(keys, terminals);
       };
 }
 
-std::vector<std::string> check_fmu(const model::Controller& c,
-                                   const control::Terminals& terminals) {
+std::vector<std::string> check_fmu(const control::Fmu& c, const control::Terminals& terminals) {
   return Mapping(c, &terminals).unit_notes;
 }
 
 void require_fmu_states(const model::Scene& scene) {
   for (const model::Controller& c : scene.controllers)
-    if (c.type == "fmu" && !Mapping(c).fmu.saves_states)
-      throw CaseError(no_states(c.name));
+    if (const auto* fmu = c.as<control::Fmu>(); fmu && !Mapping(*fmu).fmu.saves_states)
+      throw CaseError(no_states(fmu->name));
 }
 
 } // namespace hydrodae::cosim

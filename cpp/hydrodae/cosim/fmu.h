@@ -14,7 +14,7 @@ void join_fmus(model::Scene& scene);
 /// The same mistakes, without loading any library. Throws ModelError.
 /// @param terminals  what its inputs and outputs are joined to
 /// @returns which of its variables are in other units than these, in words
-std::vector<std::string> check_fmu(const model::Controller& controller,
+std::vector<std::string> check_fmu(const control::Fmu& controller,
                                    const control::Terminals& terminals);
 
 /// Throws CaseError where an FMU cannot save its state, so that a run has no checkpoints.

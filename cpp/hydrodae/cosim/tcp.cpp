@@ -15,7 +15,7 @@ namespace {
 
 class TcpLaw final : public control::Law {
 public:
-  TcpLaw(const model::Controller& c, const std::string& title, control::Terminals terminals)
+  TcpLaw(const control::Tcp& c, const std::string& title, control::Terminals terminals)
       : subject_{title, c.name, c.period, c.delay}, terminals_(std::move(terminals)), host_(c.host),
         port_(c.port), serves_(c.role != "client"), timeout_(c.timeout),
         connect_timeout_(c.connect_timeout),
@@ -53,7 +53,8 @@ public:
     } catch (const Error& error) {
       const std::string told = "controller " + in_quotes(subject_.controller) + ": " + error.what();
       leave(told); // and listens on, as `restore` may go on with another connection
-      throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + told);
+      throw SolverError(
+          t, {Reason::controller, told, "controllers/" + subject_.controller, {}, "", ""});
     }
   }
 
@@ -145,9 +146,9 @@ private:
 
 void join_tcp(model::Scene& scene) {
   for (model::Controller& c : scene.controllers)
-    if (c.type == "tcp")
-      c.make = [c, title = scene.title](const control::Terminals& terminals) {
-        return std::make_unique<TcpLaw>(c, title, terminals);
+    if (auto* tcp = c.as<control::Tcp>())
+      tcp->make = [keys = *tcp, title = scene.title](const control::Terminals& terminals) {
+        return std::make_unique<TcpLaw>(keys, title, terminals);
       };
 }
 

@@ -45,9 +45,13 @@ bool Slips::settle(double t, const VectorX& y) {
     rubs_.resize(static_cast<std::size_t>(list.laws->n_rubs()));
     list.laws->rubs(law, t, in, held, rubs_.data());
     if (*std::min_element(rubs_.begin(), rubs_.end()) < 0.0)
-      throw SolverError(t, "stopped at t = " + number_text(t) + " s: rope " +
-                               in_quotes(laws.names[law]) +
-                               " neither sticks nor slips on the places of its 'friction'");
+      throw SolverError(t, {Reason::friction,
+                            "rope " + in_quotes(laws.names[law]) +
+                                " neither sticks nor slips on the places of its 'friction'",
+                            "forces/" + laws.names[law],
+                            {},
+                            "",
+                            ""});
   });
   return changed;
 }

@@ -53,13 +53,17 @@ Switching::Switching(system::Regime& system, double rtol)
   }
 }
 
-void Switching::fail(double t, const std::string& reason) const {
+void Switching::fail(double t, Reason reason, const std::string& what) const {
   std::vector<std::string> names;
   for (const Data& element : s_.switches)
     if (s_.mode(element) != State::open)
       names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
-  throw SolverError(t, "stopped at t = " + number_text(t) + " s: " + reason +
-                           (names.empty() ? "" : " (now acting: " + joined(names) + ")"));
+  throw SolverError(t, {reason,
+                        what + (names.empty() ? "" : " (now acting: " + joined(names) + ")"),
+                        "",
+                        {},
+                        "",
+                        ""});
 }
 
 /// Infinitely many events in a finite time (a ball that comes to rest ends in a captured contact
@@ -69,8 +73,9 @@ void Switching::count(double t) {
   if (++recent_ < watch)
     return;
   if (t - checked_ < 1e-6 * time_scale_ * static_cast<double>(watch))
-    fail(t, std::to_string(watch) + " events of stops or dry friction brought only " +
-                number_text(t - checked_) + " s");
+    fail(t, Reason::progress,
+         std::to_string(watch) + " events of stops or dry friction brought only " +
+             number_text(t - checked_) + " s");
   recent_ = 0;
   checked_ = t;
 }
@@ -96,7 +101,7 @@ void Switching::look(double t, const VectorX& y, const VectorX& yp) {
   y_ = y;
   yp_ = yp;
   if (holding_ && !present_->saddle.accelerations(t, y_, yp_))
-    fail(t, "no finite accelerations inside the step");
+    fail(t, Reason::not_finite, "no finite accelerations inside the step");
   unpack(t, y_, yp_);
 }
 

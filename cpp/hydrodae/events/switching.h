@@ -132,7 +132,7 @@ private:
                      const VectorX& after);
   bool correct(const VectorX& y, std::vector<int>& changes);
   void set(std::size_t k, State mode) { system::set_mode(s_, s_.switches[k], mode); }
-  [[noreturn]] void fail(double t, const std::string& reason) const;
+  [[noreturn]] void fail(double t, Reason reason, const std::string& what) const;
   void count(double t);
 
   system::Regime& s_;

@@ -30,7 +30,7 @@ linalg::SaddlePoint::Strike Switching::strike(double t, linalg::SaddlePoint& sad
     y.segment(s_.u0, s_.n_u) = u;
     linalg::SaddlePoint::Strike out = saddle.strike(t, y, part * rates);
     if (!out.balanced)
-      fail(t, std::string(linalg::SaddlePoint::no_friction_fits));
+      fail(t, Reason::friction, std::string(linalg::SaddlePoint::no_friction_fits));
     return out;
   };
   const auto gains = [&](const linalg::SaddlePoint::Strike& x, double part) {
@@ -91,14 +91,14 @@ std::optional<double> Switching::impacts(double t, VectorX& y, VectorX& yp) {
   double work = 0.0;
   for (std::size_t pass = 0; any; ++pass) {
     if (pass > 4 * count + 4)
-      fail(t, "no impulses fit the impact");
+      fail(t, Reason::impact, "no impulses fit the impact");
     lay_out(s_);
     Present present(s_);
     system::resize(s_, y);
     system::resize(s_, yp);
     y.segment(s_.u0, s_.n_u) = u;
     if (!present.saddle.accelerations(t, y, yp))
-      fail(t, "no finite accelerations at the impact");
+      fail(t, Reason::not_finite, "no finite accelerations at the impact");
     VectorX rates = VectorX::Zero(s_.n_lambda);
     const auto row = [&](std::size_t k) {
       return s_.lambda(s_.couplers[static_cast<std::size_t>(s_.switches[k].coupler)]) - s_.lambda0;
@@ -216,7 +216,7 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
   std::vector<int> changes(size_.size(), 0);
   for (std::size_t pass = 0;; ++pass) {
     if (pass > 8 * size_.size() + 8)
-      fail(t, "no set of stops and sticking joints agrees with its loads");
+      fail(t, Reason::impact, "no set of stops and sticking joints agrees with its loads");
     lay_out(s_);
     present_ = std::make_unique<Present>(s_);
     system::resize(s_, y);
@@ -225,9 +225,10 @@ std::optional<double> Switching::settle(double t, VectorX& y, VectorX& yp) {
     const bool good =
         saddle.accelerations(t, y, yp) && saddle.project(t, y) && saddle.accelerations(t, y, yp);
     if (!saddle.jam().empty())
-      fail(t, saddle.jam());
+      fail(t, Reason::friction, saddle.jam());
     if (!good)
-      fail(t, struck ? "no motion goes on from the impact" : "the constraints contradict a stop");
+      fail(t, Reason::impact,
+           struck ? "no motion goes on from the impact" : "the constraints contradict a stop");
     unpack(t, y, yp);
     if (!correct(y, changes))
       break;

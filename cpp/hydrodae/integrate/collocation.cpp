@@ -94,7 +94,7 @@ private:
   static void evaluate(const system::Regime& s, const RungeKutta& rk, const VectorX& start,
                        const MatrixX& Z, double x, VectorX& y);
   void evaluate_rates(double x, VectorX& yp) const;
-  [[noreturn]] void fail(const std::string& reason);
+  [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const system::Regime& s_;
   const system::Pattern pattern_; ///< of Newton's matrix
@@ -143,9 +143,13 @@ void Collocation::use(int stages) {
   last_h_ = 0.0; // its error was another method's
 }
 
-void Collocation::fail(const std::string& reason) {
-  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
-                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+void Collocation::fail(Reason reason, const std::string& what) {
+  throw SolverError(t_, {reason,
+                         what + ", last step " + number_text(h_) + " s",
+                         "",
+                         {{"step", h_}},
+                         "",
+                         e_.diagnosis(t_, y_, yp_)});
 }
 
 /// y at x = (t - t0) / h of the last step: through its start and stages; Lobatto's first stage
@@ -372,7 +376,7 @@ void Collocation::accept(double h) {
     evaluate_rates(1.0, yp_);
     if (project_ && (!saddle_->accelerations(t_, y_, yp_) || !saddle_->project(t_, y_) ||
                      !saddle_->accelerations(t_, y_, yp_)))
-      fail("the constraints cannot be met at the end of the step");
+      fail(Reason::drift, "the constraints cannot be met at the end of the step");
   }
   e_.accept(t_, y_, yp_);
   if (nodes_.size() <= 2) {
@@ -413,7 +417,8 @@ double Collocation::step(double end, double bound) {
     auto fitted = [&](double h) { return std::min(left - h < 0.01 * h ? left : h, bounded); };
     double h = fitted(h_);
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
-      fail("Newton's iteration does not converge, or the local error stays too large, however "
+      fail(Reason::step,
+           "Newton's iteration does not converge, or the local error stays too large, however "
            "short the step");
     e_.weights(y_, w_);
     // Shorter steps help simplified Newton. Near a singular pose they would shrink without end:
@@ -434,7 +439,8 @@ double Collocation::step(double end, double bound) {
     if (!solved) {
       ++e_.statistics.convergence_failures;
       if (fixed_)
-        fail("Newton's iteration does not converge at the fixed step, simplified or full");
+        fail(Reason::step,
+             "Newton's iteration does not converge at the fixed step, simplified or full");
       h_ = std::min(h_, 0.7 * h);
       reach_ = t_ + 0.7 * h;
       rejected = true;

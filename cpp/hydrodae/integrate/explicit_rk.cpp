@@ -89,7 +89,8 @@ public:
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
     if (!find_rates())
-      throw SolverError(t_, "no finite accelerations at the start");
+      throw SolverError(
+          t_, {Reason::not_finite, "no finite accelerations at the start", "", {}, "", ""});
   }
 
   double step(double end, double bound) override;
@@ -126,7 +127,7 @@ private:
   void extend();
   void follow_polynomial(double x);
   void normalise(VectorX& y) const;
-  [[noreturn]] void fail(const std::string& reason);
+  [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const Pair& pair_;
   const bool fixed_;
@@ -150,10 +151,14 @@ private:
   double usual_jump_ = 0.0; ///< of the accelerations between the last two stages, see is_smooth
 };
 
-template <class Space> void ExplicitRk<Space>::fail(const std::string& reason) {
+template <class Space> void ExplicitRk<Space>::fail(Reason reason, const std::string& what) {
   const std::string jam = space_.jam().empty() ? "" : ": " + space_.jam();
-  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + jam +
-                            ", last step " + number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+  throw SolverError(t_, {jam.empty() ? reason : Reason::friction,
+                         what + jam + ", last step " + number_text(h_) + " s",
+                         "",
+                         {{"step", h_}},
+                         "",
+                         e_.diagnosis(t_, y_, yp_)});
 }
 
 /// stage_ = start + h sum_j a_j k_j
@@ -264,12 +269,12 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     if (allowed - h < 0.1 * h) // no sliver of a step behind it
       h = allowed;
     if (h < 1e-13 * std::max(std::abs(t_), e_.time_scale()) && h < left)
-      fail(failed ? "the local error stays too large however short the step"
-                  : "the step has become too short");
+      fail(Reason::step, failed ? "the local error stays too large however short the step"
+                                : "the step has become too short");
     if (!try_step(h)) {
       ++e_.statistics.convergence_failures;
       if (fixed_)
-        fail("no finite accelerations within the step");
+        fail(Reason::not_finite, "no finite accelerations within the step");
       h_ = 0.25 * h;
       failed = true;
       continue;
@@ -278,7 +283,7 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     const bool good = err <= 1.0 && std::isfinite(err);
     if (good && !(space_.project(t_ + h, trial_) && find_end(h))) {
       if (fixed_)
-        fail("the constraints cannot be met at the end of the step");
+        fail(Reason::drift, "the constraints cannot be met at the end of the step");
       ++e_.statistics.convergence_failures;
       h_ = 0.25 * h;
       failed = true;
@@ -303,7 +308,7 @@ template <class Space> double ExplicitRk<Space>::step(double end, double bound) 
     done_ = h;
     t_ = h == left ? end : t_ + h;
     if (!space_.leave(t_, x_, xp_, y_, yp_))
-      fail("no finite accelerations");
+      fail(Reason::not_finite, "no finite accelerations");
     space_.accept(t_, x_, xp_);
     if (!fixed_) {
       // Proportional-integral control (Gustafsson 1991).
@@ -348,7 +353,7 @@ template <class Space> void ExplicitRk<Space>::extend() {
     set_stage(x0_, done_, 13 + i,
               std::span(tableaux::rk8_extra_a).subspan(static_cast<std::size_t>(16 * i)));
     if (!space_.rates(t0_ + tableaux::rk8_extra_c[i] * done_, stage_, stage_xp_))
-      fail("no finite accelerations inside the step");
+      fail(Reason::not_finite, "no finite accelerations inside the step");
     k_.col(13 + i) = stage_xp_.head(n_);
   }
   // f_0 = dy, f_1 = h k_0 - dy, f_2 = 2 dy - h (k_end + k_0), f_3.. = h D k; nested in x, 1 - x.
@@ -440,7 +445,7 @@ template <class Space> void ExplicitRk<Space>::interpolate(double t, VectorX& y,
   // The polynomial misses the joints by its error, which `close` takes out of them.
   if (!space_.rates(t, inside_, inside_xp_) || !space_.close(t, inside_, inside_xp_) ||
       !space_.leave(t, inside_, inside_xp_, y, yp))
-    fail("no finite accelerations inside the step");
+    fail(Reason::not_finite, "no finite accelerations inside the step");
   normalise(y);
 }
 

@@ -56,7 +56,7 @@ private:
   void update(double h);
   bool refresh(double t, double h);
   bool newton(double t, double h);
-  [[noreturn]] void fail(const std::string& reason);
+  [[noreturn]] void fail(Reason reason, const std::string& what);
 
   const system::Regime& s_;
   const system::Pattern pattern_;
@@ -90,9 +90,13 @@ void GeneralizedAlpha::each_tangent(const VectorX& rows, Visit&& visit) const {
   }
 }
 
-void GeneralizedAlpha::fail(const std::string& reason) {
-  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", step " +
-                            number_text(h_) + " s" + e_.diagnosis(t_, y_, yp_));
+void GeneralizedAlpha::fail(Reason reason, const std::string& what) {
+  throw SolverError(t_, {reason,
+                         what + ", step " + number_text(h_) + " s",
+                         "",
+                         {{"step", h_}},
+                         "",
+                         e_.diagnosis(t_, y_, yp_)});
 }
 
 /// trial_ and its rates from a_new_, mu and the last G^T mu.
@@ -172,7 +176,7 @@ double GeneralizedAlpha::step(double end, double) {
     trial_.segment(s_.mu0, s_.n_mu).setZero();
     update(h);
     if ((attempt > 0 || factored_ != h) && !refresh(t_ + h, h))
-      fail("the Jacobian is singular");
+      fail(Reason::jacobian, "the Jacobian is singular");
     done = newton(t_ + h, h);
     if (!done)
       ++e_.statistics.convergence_failures;
@@ -182,7 +186,7 @@ double GeneralizedAlpha::step(double end, double) {
     factored_ = 0.0;
   }
   if (!done)
-    fail("Newton's iteration does not converge at the fixed step");
+    fail(Reason::step, "Newton's iteration does not converge at the fixed step");
   y0_ = y_;
   yp0_ = yp_;
   t0_ = t_;

@@ -32,12 +32,15 @@ std::string flag_name(int flag) {
 
 void check(int flag, const char* call) {
   if (flag < 0)
-    throw SolverError(0.0, std::string(call) + " failed with " + flag_name(flag));
+    throw SolverError(
+        0.0,
+        {Reason::solver, std::string(call) + " failed with " + flag_name(flag), "", {}, "", ""});
 }
 
 template <class T> T* made(T* pointer, const char* call) {
   if (!pointer)
-    throw SolverError(0.0, std::string(call) + " failed (out of memory?)");
+    throw SolverError(
+        0.0, {Reason::solver, std::string(call) + " failed (out of memory?)", "", {}, "", ""});
   return pointer;
 }
 
@@ -62,7 +65,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Deleter>;
 SUNContext make_context() {
   SUNContext context = nullptr;
   if (SUNContext_Create(nullptr, &context) < 0)
-    throw SolverError(0.0, "SUNContext_Create failed");
+    throw SolverError(0.0, {Reason::solver, "SUNContext_Create failed", "", {}, "", ""});
   return context;
 }
 
@@ -327,19 +330,21 @@ double Ida::step(double end, double bound) {
   }
   double h = 0.0;
   IDAGetCurrentStep(memory.get(), &h);
-  static const std::pair<int, const char*> reasons[] = {
-      {IDA_ERR_FAIL, "the local error stays too large however short the step"},
-      {IDA_CONV_FAIL, "Newton's iteration does not converge however short the step"},
-      {IDA_LSETUP_FAIL, "the Jacobian is singular"},
-      {IDA_REP_RES_ERR, "the equations give values that are not finite"},
-      {IDA_TOO_MUCH_ACC, "the tolerance is below what double precision can give"},
+  static const std::tuple<int, Reason, const char*> reasons[] = {
+      {IDA_ERR_FAIL, Reason::step, "the local error stays too large however short the step"},
+      {IDA_CONV_FAIL, Reason::step, "Newton's iteration does not converge however short the step"},
+      {IDA_LSETUP_FAIL, Reason::jacobian, "the Jacobian is singular"},
+      {IDA_REP_RES_ERR, Reason::not_finite, "the equations give values that are not finite"},
+      {IDA_TOO_MUCH_ACC, Reason::step, "the tolerance is below what double precision can give"},
   };
-  std::string reason = flag_name(flag);
-  for (const auto& [code, words] : reasons)
-    if (code == flag)
-      reason = std::string(words) + " (" + reason + ")";
-  throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + reason + ", last step " +
-                            number_text(h) + " s" + diagnosis(flag));
+  Halt halt{Reason::solver, flag_name(flag), "", {{"step", h}}, "", diagnosis(flag)};
+  for (const auto& [code, reason, words] : reasons)
+    if (code == flag) {
+      halt.reason = reason;
+      halt.what = std::string(words) + " (" + halt.what + ")";
+    }
+  halt.what += ", last step " + number_text(h) + " s";
+  throw SolverError(t_, std::move(halt));
 }
 
 void Ida::interpolate(double t, VectorX& y_out, VectorX& yp_out) {

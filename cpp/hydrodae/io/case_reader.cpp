@@ -14,6 +14,7 @@
 #include "hydrodae/io/record_file.h"
 #include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
+#include "hydrodae/model/joint_keys.h"
 #include "hydrodae/model/scene_tables.h"
 #include "hydrodae/model/tables.h"
 
@@ -76,23 +77,34 @@ void for_each_entry(const toml::table& root, const std::string& name, Positions&
   }
 }
 
-/// Reads the entry into the list whose element type has its `type`.
-void read_force(const Table& table, Positions& positions, model::Forces& forces) {
+/// Reads an entry of a list of typed structs: calls `read(std::type_identity<T>{})` with the one of
+/// its `type`. `for_each_type` calls with each of them.
+template <class ForEach, class Read>
+void read_typed(const Table& table, Positions& positions, const ForEach& for_each,
+                const Read& read) {
   std::vector<std::string> types;
-  model::for_each_force_type(
-      [&]<class Force>(std::type_identity<Force>) { types.emplace_back(Force::type); });
+  for_each([&]<class T>(std::type_identity<T>) { types.emplace_back(T::type); });
   Key key{"type", "-", any_value, {types.begin(), types.end()}, ""};
   const toml::node* node = find_key(table, key, positions);
   if (!node)
-    missing_key(table, "type", "-", "Kind of force: " + joined(types));
+    missing_key(table, "type", "-", "Kind of " + table.kind + ": " + joined(types));
   std::string type;
   read_value(*node, key, type);
-  const auto read_into = [&](auto& list) {
-    using Force = typename std::remove_cvref_t<decltype(list)>::value_type;
-    if (type == Force::type)
-      list.push_back(read_table<Force>(table, positions));
-  };
-  std::apply([&](auto&... list) { (read_into(list), ...); }, forces);
+  for_each([&]<class T>(std::type_identity<T> of) {
+    if (type == T::type)
+      read(of);
+  });
+}
+
+/// The keys that a joint of this type has; what is wrong with the type itself is told later.
+void check_joint_keys(const Table& entry, Positions& positions) {
+  const joint::JointType* type = joint::find_joint_type(entry.type);
+  if (!type)
+    return;
+  const model::JointKeys keys = model::joint_keys(*type);
+  check_keys(entry, keys.own);
+  if (const toml::node* initial = entry.node.get("initial"))
+    check_keys(nested_table(entry, *initial, "initial", positions), keys.initial);
 }
 
 /// Reads each table into its member of the scene.
@@ -115,9 +127,30 @@ struct TableReader {
       (scene.*member).push_back(read_table<T>(entry, scene.positions));
     });
   }
+  template <class S, class... T>
+  void operator()(const std::string& name,
+                  std::vector<OneOf<S, T...>> model::Scene::* member) const {
+    const auto types = [](const auto& visit) { OneOf<S, T...>::for_each_type(visit); };
+    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
+      read_typed(entry, scene.positions, types, [&]<class Own>(std::type_identity<Own>) {
+        (scene.*member).emplace_back(read_table<Own>(entry, scene.positions));
+      });
+    });
+  }
+  void operator()(const std::string& name, std::vector<model::Joint> model::Scene::* member) const {
+    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
+      check_joint_keys(entry, scene.positions);
+      (scene.*member).push_back(read_table<model::Joint>(entry, scene.positions));
+    });
+  }
   void operator()(const std::string& name, model::Forces model::Scene::* member) const {
-    for_each_entry(root, name, scene.positions,
-                   [&](const Table& entry) { read_force(entry, scene.positions, scene.*member); });
+    const auto types = [](const auto& visit) { model::for_each_force_type(visit); };
+    for_each_entry(root, name, scene.positions, [&](const Table& entry) {
+      read_typed(entry, scene.positions, types, [&]<class Force>(std::type_identity<Force>) {
+        std::get<std::vector<Force>>(scene.*member)
+            .push_back(read_table<Force>(entry, scene.positions));
+      });
+    });
   }
 };
 
@@ -153,15 +186,19 @@ std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
 
 /// Measured elevations that stand in files of their own.
 void read_records(model::Scene& scene, const std::string& directory) {
-  for (sea::Wave& wave : scene.waves) {
-    if (wave.type != "measured" || !wave.file || !wave.time.empty() || !wave.elevation.empty())
-      continue; // what is wrong then is told by the check
-    const std::filesystem::path path = std::filesystem::path(directory) / *wave.file;
+  for (sea::Wave& any : scene.waves) {
+    auto* wave = any.as<sea::Measured>();
+    if (!wave || !wave->file)
+      continue;
+    if (!wave->time.empty() || !wave->elevation.empty())
+      throw CaseError(scene.positions.at("wave." + wave->name + ".file") + ": wave " +
+                      in_quotes(wave->name) + ": give either 'file', or 'time' and 'elevation'");
+    const std::filesystem::path path = std::filesystem::path(directory) / *wave->file;
     try {
-      read_record(path.lexically_normal().string(), wave.time, wave.elevation);
+      read_record(path.lexically_normal().string(), wave->time, wave->elevation);
     } catch (const CaseError& error) {
-      throw CaseError(scene.positions.at("wave." + wave.name + ".file") +
-                      ": key 'file' in [[wave]] " + in_quotes(wave.name) + ": " + error.what());
+      throw CaseError(scene.positions.at("wave." + wave->name + ".file") +
+                      ": key 'file' in [[wave]] " + in_quotes(wave->name) + ": " + error.what());
     }
   }
 }
@@ -185,15 +222,16 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
 
 /// Where FMUs of controllers are, and which.
 void find_fmus(model::Scene& scene, const std::string& directory) {
-  for (model::Controller& c : scene.controllers) {
-    if (c.type != "fmu" || c.file.empty())
+  for (model::Controller& any : scene.controllers) {
+    auto* c = any.as<control::Fmu>();
+    if (!c || c->file.empty())
       continue;
-    c.path = (std::filesystem::path(directory) / c.file).lexically_normal().string();
+    c->path = (std::filesystem::path(directory) / c->file).lexically_normal().string();
     try {
-      c.sha256 = sha256_of_file(c.path);
+      c->sha256 = sha256_of_file(c->path);
     } catch (const CaseError& error) {
-      throw CaseError(scene.positions.at("controller." + c.name + ".file") +
-                      ": key 'file' in [[controller]] " + in_quotes(c.name) + ": " + error.what());
+      throw CaseError(scene.positions.at("controller." + c->name + ".file") +
+                      ": key 'file' in [[controller]] " + in_quotes(c->name) + ": " + error.what());
     }
   }
 }
@@ -224,7 +262,8 @@ model::Scene parse(const std::string& text, const std::string& directory,
     throw CaseError(model::located(scene, error));
   }
   for (model::Constraint& constraint : scene.constraints) // after the check: a spline needs a table
-    constraint.drive.prepare();
+    if (auto* driven = constraint.as<model::DrivenCoordinate>())
+      driven->drive.prepare();
   return scene;
 }
 

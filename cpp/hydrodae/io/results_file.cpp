@@ -189,9 +189,14 @@ void ResultsFile::Impl::require_written() const {
     throw CaseError(what() + ": " + disk.failure());
   throw SolverError(
       last_time,
-      what() + " at t = " + number_text(last_time) + " s: " + disk.failure() + "; it keeps " +
-          (committed == 0 ? "no sample"
-                          : "the samples up to t = " + number_text(committed_time) + " s"));
+      {Reason::output,
+       what() + ": " + disk.failure() + "; it keeps " +
+           (committed == 0 ? "no sample"
+                           : "the samples up to t = " + number_text(committed_time) + " s"),
+       "",
+       {},
+       "",
+       ""});
 }
 
 void ResultsFile::Impl::write_end(const std::string& status, const std::string& message,
@@ -331,7 +336,8 @@ void ResultsFile::close(const std::string& status, const std::string& message,
   if (const std::string why = f.place.finish(); !why.empty())
     failure = lines(failure, why + "; the results are in " + f.place.partial());
   if (!failure.empty())
-    throw SolverError(f.last_time, lines(message, failure));
+    throw SolverError(f.last_time,
+                      {Reason::output, failure, "", {}, "", message.empty() ? "" : "\n" + message});
 }
 
 } // namespace hydrodae::io

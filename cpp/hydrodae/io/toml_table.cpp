@@ -4,7 +4,6 @@
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::io {
 
@@ -12,9 +11,9 @@ void check_keys(const Table& table, const std::vector<std::string>& valid) {
   for (const auto& [key, node] : table.node) {
     if (std::find(valid.begin(), valid.end(), key.str()) != valid.end())
       continue;
-    const std::vector<std::string> own = model::keys_of_type(table.kind, table.type);
     throw CaseError(position(key.source()) + ": unknown key " + in_quotes(key.str()) + " in " +
-                    table.label + suggestion(key.str(), own.empty() ? valid : own));
+                    table.label + (table.type.empty() ? "" : " of type " + table.type) +
+                    suggestion(key.str(), valid));
   }
 }
 

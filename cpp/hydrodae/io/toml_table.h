@@ -26,8 +26,7 @@ struct Table {
 /// Key path -> position, for messages of later checks.
 using Positions = std::map<std::string, std::string>;
 
-/// Throws CaseError on the first key of the table that is not in `valid`; the message lists those
-/// that an entry of its `type` has.
+/// Throws CaseError on the first key of the table that is not in `valid`; the message lists these.
 void check_keys(const Table& table, const std::vector<std::string>& valid);
 
 /// The value of `name` with the description of its key filled in, or null. Notes its position.
@@ -55,10 +54,10 @@ template <class T> T read_table(const Table& table, Positions& positions) {
   T value{};
   const Fields<T> fields = T::fields();
   std::vector<std::string> valid;
-  if constexpr (NamedType<T>)
-    valid.emplace_back("type");
   for (const Field<T>& field : fields)
     valid.emplace_back(field.key);
+  if constexpr (NamedType<T>)
+    valid.insert(valid.begin() + 1, "type"); // behind the name
   for_each_nested<T>([&](const char* name, auto) { valid.emplace_back(name); });
   check_keys(table, valid);
 

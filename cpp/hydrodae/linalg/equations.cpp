@@ -26,9 +26,13 @@ std::string worst(const VectorX& values, const std::vector<std::string>& names) 
 }
 
 void ProgressGuard::fail(double t, double gained, const std::string& diagnosis) {
-  throw SolverError(t, "stopped at t = " + number_text(t) + " s: no progress, " +
-                           std::to_string(watch) + " steps brought only " + number_text(gained) +
-                           " s (a singular pose?)" + diagnosis);
+  throw SolverError(t, {Reason::progress,
+                        "no progress, " + std::to_string(watch) + " steps brought only " +
+                            number_text(gained) + " s (a singular pose?)",
+                        "",
+                        {{"steps", watch}, {"gained", gained}},
+                        "",
+                        diagnosis});
 }
 
 Equations::Equations(const system::Regime& s, const system::Pattern& p, double tolerance)

@@ -187,8 +187,13 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
         klu_l_analyze_given(n, m.start.data(), m.row.data(), P.data(), Q.data(), &m.common);
   }
   if (!m.symbolic)
-    throw SolverError(0.0, "KLU cannot order the unknowns: the equations are structurally singular "
-                           "or too large for the memory");
+    throw SolverError(0.0, {Reason::jacobian,
+                            "KLU cannot order the unknowns: the equations are structurally "
+                            "singular or too large for the memory",
+                            "",
+                            {},
+                            "",
+                            ""});
 }
 
 template <class Scalar> Elimination SparseLu<Scalar>::elimination() const {

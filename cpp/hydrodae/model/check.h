@@ -42,12 +42,39 @@ void check_joint_coordinate(const Scene& scene, const Entry& entry, const std::s
                             const std::string& joint, const std::string& coordinate_key,
                             const std::optional<std::string>& coordinate);
 
+/// Refuses what is wrong with the values of an entry by itself, or of a run of this length.
+template <class Shared, class... T>
+void check_own(const Entry& entry, const OneOf<Shared, T...>& any, double end_time = 0.0) {
+  any.visit([&](const auto& one) {
+    std::optional<Fault> fault;
+    if constexpr (requires { one.fault(); })
+      fault = one.fault();
+    else if constexpr (requires { one.fault(end_time); })
+      fault = one.fault(end_time);
+    if (fault)
+      refuse(entry, fault->key, fault->message);
+  });
+}
+
+/// Refuses bounds in m of an angle, and in deg of a displacement.
+template <class T>
+void check_bounds(const Entry& entry, [[maybe_unused]] const T& item, [[maybe_unused]] bool angle) {
+  if constexpr (requires { item.lower_angle; }) {
+    if (angle && (item.lower || item.upper))
+      refuse(entry, item.lower ? "lower" : "upper",
+             "the coordinate is an angle: write 'lower_deg' and 'upper_deg'");
+    if (!angle && (item.lower_angle || item.upper_angle))
+      refuse(entry, item.lower_angle ? "lower_deg" : "upper_deg",
+             "the coordinate is a displacement: write 'lower' and 'upper'");
+  }
+}
+
 /// Are two points of a scene the same, up to rounding [m]?
 bool coincide(const Vector3& a, const Vector3& b);
 
 template <class T> void append_names(const std::vector<T>& items, std::vector<std::string>& names) {
   for (const T& item : items)
-    names.push_back(item.name);
+    names.push_back(name_of_entry(item));
 }
 
 template <class T> std::vector<std::string> names_of(const std::vector<T>& items) {
@@ -59,7 +86,7 @@ template <class T> std::vector<std::string> names_of(const std::vector<T>& items
 /// The item with this name, or null.
 template <class T> const T* find_named(const std::vector<T>& items, const std::string& name) {
   for (const T& item : items)
-    if (item.name == name)
+    if (name_of_entry(item) == name)
       return &item;
   return nullptr;
 }

@@ -2,7 +2,6 @@
 #include "hydrodae/joint/types.h"
 #include "hydrodae/model/check.h"
 #include "hydrodae/model/motion.h"
-#include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::model {
 
@@ -72,101 +71,39 @@ void check_drive(const Entry& entry, const Drive& drive, double end_time) {
   check_table(entry, drive, end_time);
 }
 
-/// Refuses what only the other type of constraint has.
-void refuse_if(bool given, const Entry& entry, const std::string& key, const std::string& type) {
-  if (given)
-    refuse(entry, key,
-           "a " + type + " constraint has no " + in_quotes(key) +
-               "; it has: " + joined(keys_of_type("constraint", type)));
-}
-
-void refuse_bounds(const Entry& entry, const Constraint& c) {
-  refuse_if(c.lower.has_value(), entry, "lower", c.type);
-  refuse_if(c.upper.has_value(), entry, "upper", c.type);
-  refuse_if(c.lower_angle.has_value(), entry, "lower_deg", c.type);
-  refuse_if(c.upper_angle.has_value(), entry, "upper_deg", c.type);
-  refuse_if(c.restitution.has_value(), entry, "restitution", c.type);
-  refuse_if(c.contact_time.has_value(), entry, "contact_time", c.type);
-}
-
-void check_coordinate(const Scene& scene, const Entry& entry, const Constraint& c) {
-  if (!c.joint && !c.body)
-    refuse(entry, "", "needs the key 'joint' or 'body' that has the coordinate");
-  if (c.joint && c.body)
-    refuse(entry, "body", "has both 'joint' and 'body'; a coordinate belongs to one of them");
-  if (c.joint)
-    check_joint_coordinate(scene, entry, "joint", *c.joint, "coordinate", c.coordinate);
+void check_term(const Scene& scene, const Entry& entry, const Condition::Term& term) {
+  if (term.joint)
+    check_joint_coordinate(scene, entry, term.joint_key, *term.joint, term.coordinate_key,
+                           term.coordinate);
   else
-    check_body_coordinate(scene, entry, *c.body, c.coordinate);
-  refuse_if(c.joint_b.has_value(), entry, "joint_b", c.type);
-  refuse_if(c.coordinate_b.has_value(), entry, "coordinate_b", c.type);
-  refuse_if(c.ratio != 1.0, entry, "ratio", c.type);
-  refuse_bounds(entry, c);
-  check_drive(entry, c.drive, scene.solver.end_time);
+    check_body_coordinate(scene, entry, *term.body, term.coordinate);
 }
 
-bool has_drive(const Drive& d) {
-  return d.constant != 0.0 || d.rate != 0.0 || d.amplitude != 0.0 || d.python || !d.time.empty() ||
-         !d.values.empty();
-}
-
-void check_coupler(const Scene& scene, const Entry& entry, const Constraint& c) {
-  refuse_if(c.body.has_value(), entry, "body", c.type);
-  refuse_if(c.level != "position", entry, "level", c.type);
-  refuse_if(has_drive(c.drive), entry, "drive", c.type);
-  refuse_bounds(entry, c);
-  if (!c.joint || !c.joint_b)
-    refuse(entry, "",
-           std::string("a coupler needs the key ") + (c.joint ? "'joint_b'" : "'joint'"));
-  check_joint_coordinate(scene, entry, "joint", *c.joint, "coordinate", c.coordinate);
-  check_joint_coordinate(scene, entry, "joint_b", *c.joint_b, "coordinate_b", c.coordinate_b);
-  if (*c.joint == *c.joint_b && coordinate_of(scene, *c.joint, c.coordinate) ==
-                                    coordinate_of(scene, *c.joint_b, c.coordinate_b))
-    refuse(entry, "joint_b", "couples a motion of " + in_quotes(*c.joint) + " with itself");
-  if (c.ratio == 0.0)
-    refuse(entry, "ratio", "ratio must not be zero");
-}
-
-void check_stop(const Scene& scene, const Entry& entry, const Constraint& c) {
-  refuse_if(c.body.has_value(), entry, "body", c.type);
-  refuse_if(c.level != "position", entry, "level", c.type);
-  refuse_if(has_drive(c.drive), entry, "drive", c.type);
-  refuse_if(c.joint_b.has_value(), entry, "joint_b", c.type);
-  refuse_if(c.coordinate_b.has_value(), entry, "coordinate_b", c.type);
-  refuse_if(c.ratio != 1.0, entry, "ratio", c.type);
-  if (!c.joint)
-    refuse(entry, "", "a stop needs the key 'joint' that has the coordinate");
-  check_joint_coordinate(scene, entry, "joint", *c.joint, "coordinate", c.coordinate);
-  const bool angle = coordinate_of(scene, *c.joint, c.coordinate).starts_with("angle");
-  if (angle && (c.lower || c.upper))
-    refuse(entry, c.lower ? "lower" : "upper",
-           "the coordinate is an angle: write 'lower_deg' and 'upper_deg'");
-  if (!angle && (c.lower_angle || c.upper_angle))
-    refuse(entry, c.lower_angle ? "lower_deg" : "upper_deg",
-           "the coordinate is a displacement: write 'lower' and 'upper'");
-  const std::optional<double>& lower = angle ? c.lower_angle : c.lower;
-  const std::optional<double>& upper = angle ? c.upper_angle : c.upper;
-  if (!lower && !upper)
-    refuse(entry, "",
-           angle ? "a stop needs the key 'lower_deg' or 'upper_deg'"
-                 : "a stop needs the key 'lower' or 'upper'");
-  if (lower && upper && !(*lower < *upper))
-    refuse(entry, angle ? "upper_deg" : "upper", "the upper bound must be above the lower one");
+/// Two terms on one motion of a joint.
+void check_apart(const Scene& scene, const Entry& entry, const Condition& condition) {
+  if (condition.terms.size() < 2)
+    return;
+  const Condition::Term &a = condition.terms[0], &b = condition.terms[1];
+  if (a.joint && a.joint == b.joint &&
+      coordinate_of(scene, *a.joint, a.coordinate) == coordinate_of(scene, *b.joint, b.coordinate))
+    refuse(entry, a.joint_key, "couples a motion of " + in_quotes(*a.joint) + " with itself");
 }
 
 } // namespace
 
 void check_constraint(const Scene& scene, const Constraint& constraint) {
-  const Entry entry{"constraint", constraint.name};
-  if (constraint.type == "coordinate")
-    check_coordinate(scene, entry, constraint);
-  else if (constraint.type == "coupler")
-    check_coupler(scene, entry, constraint);
-  else if (constraint.type == "stop")
-    check_stop(scene, entry, constraint);
-  else
-    check_reference(entry, "type", constraint.type, {"coordinate", "coupler", "stop"},
-                    "constraint");
+  const Entry entry{"constraint", constraint->name};
+  check_own(entry, constraint);
+  const Condition condition = constraint.visit([](const auto& one) { return one.condition(); });
+  for (auto term = condition.terms.rbegin(); term != condition.terms.rend(); ++term)
+    check_term(scene, entry, *term);
+  check_apart(scene, entry, condition);
+  check_drive(entry, condition.drive, scene.solver.end_time);
+  if (condition.bounds) {
+    const Condition::Term& term = condition.terms.front();
+    const bool angle = coordinate_of(scene, *term.joint, term.coordinate).starts_with("angle");
+    constraint.visit([&](const auto& one) { check_bounds(entry, one, angle); });
+  }
 }
 
 } // namespace hydrodae::model

@@ -35,14 +35,7 @@ template <class Force> void check_force(const Scene& scene, const Force& force) 
     check_reference(entry, "body", force.body, names_of(scene.bodies), "body");
   if constexpr (requires { force.joint; }) {
     const bool angle = check_motion(scene, entry, force.joint, force.coordinate);
-    if constexpr (requires { force.lower_angle; }) {
-      if (angle && (force.lower || force.upper))
-        refuse(entry, force.lower ? "lower" : "upper",
-               "the coordinate is an angle: write 'lower_deg' and 'upper_deg'");
-      if (!angle && (force.lower_angle || force.upper_angle))
-        refuse(entry, force.lower_angle ? "lower_deg" : "upper_deg",
-               "the coordinate is a displacement: write 'lower' and 'upper'");
-    }
+    check_bounds(entry, force, angle);
   }
   if constexpr (requires { force.fault(); })
     if (const std::optional<Fault> fault = force.fault())

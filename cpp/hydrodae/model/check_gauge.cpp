@@ -12,14 +12,15 @@ void check_forecast(const Scene& scene, const Entry& entry, const sea::Gauge& ga
   if (gauge.ahead.empty())
     return;
   const double ahead = *std::max_element(gauge.ahead.begin(), gauge.ahead.end());
-  for (const sea::Wave& wave : scene.waves) {
-    if (wave.type != "measured")
+  for (const sea::Wave& any : scene.waves) {
+    const auto* wave = any.as<sea::Measured>();
+    if (!wave)
       continue;
-    const double length = wave.time.back() - wave.time.front();
-    const double last = wave.start + scene.solver.end_time + ahead;
+    const double length = wave->length();
+    const double last = wave->start + scene.solver.end_time + ahead;
     if (last > length * (1.0 + 1e-12))
       refuse(entry, "ahead",
-             "the record of wave " + in_quotes(wave.name) + " is " + number_text(length) +
+             "the record of wave " + in_quotes(wave->name) + " is " + number_text(length) +
                  " s long; 'ahead' = " + number_text(ahead) + " s needs it until " +
                  number_text(last) + " s at the end of the run (solver.end_time)");
   }

@@ -15,9 +15,6 @@ using Row = joint::BasicRow::Kind;
 void check_axes(const Joint& joint, const joint::JointType& type) {
   if (type.needs_axis && !joint.axis)
     refuse(joint, "", "a " + joint.type + " joint needs the key 'axis'");
-  const bool directed = type.needs_axis || type.has_row(Row::perp);
-  if (!directed && (joint.axis || joint.axis_x))
-    refuse(joint, joint.axis ? "axis" : "axis_x", "a " + joint.type + " joint has no axis");
   if (joint.axis && joint.axis->isZero(0.0))
     refuse(joint, "axis", "the axis has no length");
   if (!joint.axis_x)
@@ -36,26 +33,15 @@ void check_parameters(const Joint& joint, const joint::JointType& type) {
       refuse(joint, "", kind + "needs the key 'point_b', the point on body B");
     if (coincide(joint.point, *joint.point_b))
       refuse(joint, "point_b", "point and point_b coincide: their distance has no direction");
-  } else if (joint.point_b) {
-    refuse(joint, "point_b", kind + "has no 'point_b'; only distance and telescope joints have");
   }
-  if (joint.length && !type.has_row(Row::distance))
-    refuse(joint, "length", kind + "has no 'length'; only a distance joint has");
-  if (joint.one_sided && !type.has_row(Row::distance))
-    refuse(joint, "one_sided", kind + "cannot be one-sided; only a distance joint can");
   if (joint.restitution && !joint.one_sided)
     refuse(joint, "restitution", "key 'restitution' needs one_sided = true");
   if (joint.contact_time && !joint.one_sided)
     refuse(joint, "contact_time", "key 'contact_time' needs one_sided = true");
   if (type.has_row(Row::screw) && joint.pitch == 0.0)
     refuse(joint, "pitch", kind + "needs the key 'pitch' [m per turn], and not zero");
-  if (!type.has_row(Row::screw) && joint.pitch != 0.0)
-    refuse(joint, "pitch", kind + "has no 'pitch'; only a screw joint has");
-  if (!type.has_row(Row::across)) {
-    if (!joint.path.empty())
-      refuse(joint, "path", kind + "has no 'path'; only a path joint has");
+  if (!type.has_row(Row::across))
     return;
-  }
   if (joint.path.empty())
     refuse(joint, "", kind + "needs the key 'path', the points of the curve that body A carries");
   if (const auto flaw = joint::Path::flaw(joint.path))
@@ -82,22 +68,6 @@ void check_points(const Scene& scene, const Joint& joint, const joint::JointType
                joint.type + " joint; make it body_b");
 }
 
-void check_initial(const Joint& joint, const joint::JointType& type) {
-  const JointInitial& start = joint.initial;
-  const auto refuse_key = [&](const char* key, const char* motion) {
-    refuse(joint, std::string("initial.") + key,
-           std::string("initial ") + key + ": a " + joint.type + " joint does not " + motion);
-  };
-  if (start.angle && !type.turns())
-    refuse_key("angle_deg", "turn");
-  if (start.angle_rate && !type.turns())
-    refuse_key("angle_rate", "turn");
-  if (start.displacement && !type.slides())
-    refuse_key("displacement", "slide");
-  if (start.displacement_rate && !type.slides())
-    refuse_key("displacement_rate", "slide");
-}
-
 } // namespace
 
 void check_joint(const Scene& scene, const Joint& joint) {
@@ -112,7 +82,6 @@ void check_joint(const Scene& scene, const Joint& joint) {
   check_points(scene, joint, *type);
   check_axes(joint, *type);
   check_parameters(joint, *type);
-  check_initial(joint, *type);
 }
 
 } // namespace hydrodae::model

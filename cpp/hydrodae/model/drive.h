@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "hydrodae/core/field.h"
@@ -35,6 +36,9 @@ struct Drive {
     if (!time.empty())
       table = CubicSpline(time, values);
   }
+
+  /// "0.1 + 0.2 sin(2 pi t / 5 - 30 deg) + a table of 12 points"
+  std::string text() const;
 
   /// Does f change other than linearly?
   bool moves() const { return amplitude != 0.0 || !table.empty() || static_cast<bool>(function); }

@@ -32,8 +32,8 @@
 #include "hydrodae/line/catenary_line.h"
 #include "hydrodae/line/line.h"
 #include "hydrodae/line/rope.h"
+#include "hydrodae/model/constraint.h"
 #include "hydrodae/model/controller.h"
-#include "hydrodae/model/drive.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
@@ -237,69 +237,6 @@ struct Joint {
   JointInitial initial;
 
   static Fields<Joint> fields(); ///< in scene.cpp: the choices of `type` are the joint table
-};
-
-/// Table [[constraint]]: a condition on the coordinates of joints or bodies.
-///
-///   coordinate:  s = f(t)  (level position),  s' = f(t)  (level velocity)
-///   coupler:     s_b - s_b(0) = ratio (s - s(0)): gears, racks, belts
-///   stop:        lower <= s <= upper, with impacts: s' after = -restitution s' before
-struct Constraint {
-  static constexpr std::string_view doc = "A condition on coordinates of joints or bodies.";
-  std::string name;
-  std::string type;
-  std::optional<std::string> joint;
-  std::optional<std::string> body;
-  std::optional<std::string> coordinate;
-  std::string level = "position";
-  Drive drive;
-  std::optional<std::string> joint_b;
-  std::optional<std::string> coordinate_b;
-  double ratio = 1.0;
-  std::optional<double> lower, upper;
-  std::optional<double> lower_angle, upper_angle;
-  std::optional<double> restitution, contact_time;
-
-  template <class C = Constraint> static Fields<C> fields() {
-    return {
-        {"name", &C::name, "-", "Name of the constraint in the results.", true},
-        {"type",
-         &C::type,
-         "-",
-         "coordinate: one coordinate follows a function of time; coupler: two joint coordinates "
-         "keep a ratio; stop: a joint coordinate stays within bounds.",
-         true,
-         any_value,
-         {"coordinate", "coupler", "stop"}},
-        {"joint", &C::joint, "-", "Joint whose coordinate is meant."},
-        {"body", &C::body, "-", "Body whose coordinate is meant (relative to its reference pose)."},
-        {"coordinate", &C::coordinate, "-",
-         "Which one: surge ... yaw of a body; angle, displacement (angle_2, ...) of a joint. By "
-         "default the first of the joint."},
-        {"level",
-         &C::level,
-         "-",
-         "What follows the function: the coordinate or its rate.",
-         false,
-         any_value,
-         {"position", "velocity"}},
-        {"joint_b", &C::joint_b, "-", "Second joint of a coupler."},
-        {"coordinate_b", &C::coordinate_b, "-", "Its coordinate; by default the first."},
-        {"ratio", &C::ratio, "- or m/rad", "Motion of the second joint per motion of the first."},
-        {"lower", &C::lower, "m", "Least displacement that a stop allows."},
-        {"upper", &C::upper, "m", "Largest displacement that a stop allows."},
-        {"lower_deg", &C::lower_angle, "deg", "Least angle that a stop allows."},
-        {"upper_deg", &C::upper_angle, "deg", "Largest angle that a stop allows."},
-        {"restitution", &C::restitution, "-",
-         "Rate after an impact over the rate before; 0, the default: no rebound.", false,
-         between(0, 1)},
-        {"contact_time", &C::contact_time, "s",
-         "How long an impact is taken to last: half a sine of this length has the impulse J at a "
-         "peak force of pi J / (2 contact_time), which the results then list. The motion does not "
-         "know of it.",
-         false, more_than(0)},
-    };
-  }
 };
 
 /// Table [[marker]]: a point of a body whose motion is reported.

@@ -11,7 +11,7 @@ namespace hydrodae::model {
 
 /// Calls `visit(name, member)` for every table [name] and every list [[name]], in the order in
 /// which they are read. The member is a struct of fields, an optional one, a vector of them (a
-/// list), or `Forces` (a list in which every `type` is a struct of its own).
+/// list), a vector of `OneOf` or `Forces` (lists in which every `type` is a struct of its own).
 template <class Visit> void for_each_table(const Visit& visit) {
   visit("environment", &Scene::environment);
   visit("hydro", &Scene::hydro);

@@ -43,64 +43,13 @@ void write_joint(std::ostream& out, const Joint& joint) {
   out << '\n';
 }
 
-/// "0.1 + 0.2 sin(2 pi t / 5 - 30 deg) + a table of 12 points"
-std::string function_text(const Drive& drive) {
-  std::string text;
-  const auto add = [&](double factor, const std::string& what) {
-    const bool minus = factor < 0.0;
-    text += text.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
-    text += number_text(std::abs(factor)) + (what.empty() ? "" : " " + what);
-  };
-  if (drive.constant != 0.0)
-    add(drive.constant, "");
-  if (drive.rate != 0.0)
-    add(drive.rate, "t");
-  if (drive.amplitude != 0.0) {
-    std::string sine = "sin(2 pi t / " + number_text(drive.period);
-    if (drive.phase != 0.0)
-      sine += (drive.phase < 0.0 ? " - " : " + ") +
-              number_text(std::abs(drive.phase) * 180.0 / pi) + " deg";
-    sine += drive.ramp > 0.0 ? ") grown over " + number_text(drive.ramp) + " s" : ")";
-    add(drive.amplitude, sine);
-  }
-  if (!drive.time.empty())
-    text += std::string(text.empty() ? "" : " + ") + "a table of " +
-            std::to_string(drive.time.size()) + " points";
-  if (drive.python)
-    text += std::string(text.empty() ? "" : " + ") + "a Python function";
-  return text.empty() ? "0" : text;
-}
-
 void write_constraint(std::ostream& out, const Scene& scene, const Constraint& c) {
-  const auto motion = [&](const std::string& joint, const std::optional<std::string>& coordinate) {
-    return coordinate_of(scene, joint, coordinate) + " of " + joint;
+  const MotionText motion = [&](const Condition::Term& t) {
+    return t.joint ? coordinate_of(scene, *t.joint, t.coordinate) + " of " + *t.joint
+                   : t.coordinate.value_or("") + " of " + *t.body;
   };
-  out << "    " << c.name << ": ";
-  if (c.type == "coupler") {
-    out << motion(*c.joint_b, c.coordinate_b) << " moves " << number_text(c.ratio) << " x "
-        << motion(*c.joint, c.coordinate) << '\n';
-    return;
-  }
-  if (c.type == "stop") {
-    out << motion(*c.joint, c.coordinate) << " stays";
-    const auto bound = [&](const char* word, const std::optional<double>& length,
-                           const std::optional<double>& angle) {
-      if (length)
-        out << ' ' << word << ' ' << number_text(*length) << " m";
-      if (angle)
-        out << ' ' << word << ' ' << number_text(*angle * 180.0 / pi) << " deg";
-    };
-    bound("above", c.lower, c.lower_angle);
-    bound("below", c.upper, c.upper_angle);
-    out << ", restitution " << number_text(c.restitution.value_or(0.0)) << '\n';
-    return;
-  }
-  const Drive& drive = c.drive;
-  const bool steady =
-      drive.rate == 0.0 && drive.amplitude == 0.0 && !drive.python && drive.time.empty();
-  out << (c.level == "velocity" ? "rate of " : "")
-      << (c.joint ? motion(*c.joint, c.coordinate) : *c.coordinate + " of " + *c.body)
-      << (steady ? " stays " : " follows ") << function_text(drive) << '\n';
+  out << "    " << c->name << ": " << c.visit([&](const auto& one) { return one.text(motion); })
+      << '\n';
 }
 
 template <class Force> void write_force(std::ostream& out, const Force& force) {

@@ -3,16 +3,13 @@
 #include <algorithm>
 
 #include "hydrodae/core/nested.h"
+#include "hydrodae/joint/types.h"
 #include "hydrodae/model/field_info.h"
+#include "hydrodae/model/joint_keys.h"
 #include "hydrodae/model/scene_tables.h"
-#include "hydrodae/model/type_keys.h"
 
 namespace hydrodae::model {
 namespace {
-
-bool is_among(const std::string& key, const std::vector<std::string>& keys) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
 
 /// The table of a struct, without types.
 template <class T> TableInfo plain_table(const std::string& name) {
@@ -23,44 +20,6 @@ template <class T> TableInfo plain_table(const std::string& name) {
     table.nested.push_back(plain_table<Inner>(inner));
   });
   return table;
-}
-
-/// Leaves what an entry of this type has. `kind` is the path of the table: "joint", then
-/// "joint.initial".
-void narrow(TableInfo& table, const std::string& kind, const std::string& type) {
-  const std::vector<std::string> own = keys_of_type(kind, type);
-  if (own.empty())
-    return;
-  const std::vector<std::string> needed = needed_keys(kind, type);
-  std::erase_if(table.fields, [&](const FieldInfo& field) { return !is_among(field.key, own); });
-  std::erase_if(table.nested, [&](const TableInfo& inner) { return !is_among(inner.name, own); });
-  for (FieldInfo& field : table.fields) {
-    if (field.key == "type")
-      field.choices = {type};
-    if (!is_among(field.key, needed))
-      continue;
-    field.required = true;
-    field.default_value.clear();
-  }
-  for (TableInfo& inner : table.nested)
-    narrow(inner, kind + "." + inner.name, type);
-}
-
-/// Splits a list by the choices of its key `type`, if it has one.
-void split_by_type(TableInfo& table) {
-  const TableInfo whole = table;
-  for (const FieldInfo& field : whole.fields) {
-    if (field.key != "type")
-      continue;
-    for (const std::string& name : field.choices) {
-      TableInfo type = whole;
-      type.name = name;
-      type.doc = doc_of_type(table.name, name);
-      type.required = false;
-      narrow(type, table.name, name);
-      table.types.push_back(std::move(type));
-    }
-  }
 }
 
 /// Of a table with types only what they all have.
@@ -88,15 +47,16 @@ FieldInfo type_field(const std::string& doc, std::vector<std::string> choices) {
   return field;
 }
 
-TableInfo force_table(const std::string& name) {
-  TableInfo table{
-      name, "What loads the bodies beside weight, water and joints.", true, false, {}, {}, {}};
+/// A list whose entries are one of several structs; `for_each_type` calls with each of them.
+template <class ForEach>
+TableInfo typed_table(const std::string& name, const std::string& doc, const ForEach& for_each) {
+  TableInfo table{name, doc, true, false, {}, {}, {}};
   std::vector<std::string> names;
-  for_each_force_type([&]<class Force>(std::type_identity<Force>) {
-    TableInfo type = plain_table<Force>(std::string(Force::type));
+  for_each([&]<class T>(std::type_identity<T>) {
+    TableInfo type = plain_table<T>(std::string(T::type));
     type.list = true;
     const auto place = type.fields.begin() + (type.fields.empty() ? 0 : 1); // after the name
-    type.fields.insert(place, type_field("Kind of force.", {type.name}));
+    type.fields.insert(place, type_field("Kind of " + name + ".", {type.name}));
     names.push_back(type.name);
     table.types.push_back(std::move(type));
   });
@@ -105,6 +65,36 @@ TableInfo force_table(const std::string& name) {
   for (FieldInfo& field : table.fields)
     if (field.key == "type")
       field.choices = names;
+  return table;
+}
+
+/// [[joint]]: the rows of the joint table are its types, each with the keys that it needs.
+TableInfo joint_table(const std::string& name) {
+  TableInfo table = plain_table<Joint>(name);
+  table.list = true;
+  for (const joint::JointType& row : joint::joint_types()) {
+    TableInfo type = table;
+    type.name = row.name;
+    type.doc = row.doc;
+    const JointKeys keys = joint_keys(row);
+    const auto strange = [](const std::vector<std::string>& own, const std::string& key) {
+      return std::find(own.begin(), own.end(), key) == own.end();
+    };
+    std::erase_if(type.fields, [&](const FieldInfo& f) { return strange(keys.own, f.key); });
+    std::erase_if(type.nested, [&](const TableInfo& t) { return strange(keys.own, t.name); });
+    for (FieldInfo& field : type.fields) {
+      if (field.key == "type")
+        field.choices = {type.name};
+      if (!strange(keys.needed, field.key)) {
+        field.required = true;
+        field.default_value.clear();
+      }
+    }
+    for (TableInfo& inner : type.nested)
+      std::erase_if(inner.fields, [&](const FieldInfo& f) { return strange(keys.initial, f.key); });
+    table.types.push_back(std::move(type));
+  }
+  keep_common(table);
   return table;
 }
 
@@ -121,12 +111,20 @@ struct Collector {
   template <class T> void operator()(const std::string& name, std::vector<T> Scene::*) const {
     TableInfo table = plain_table<T>(name);
     table.list = true;
-    split_by_type(table);
-    keep_common(table);
     out.push_back(std::move(table));
   }
+  template <class Shared, class... T>
+  void operator()(const std::string& name, std::vector<OneOf<Shared, T...>> Scene::*) const {
+    out.push_back(typed_table(name, std::string(Shared::list_doc), [](const auto& visit) {
+      OneOf<Shared, T...>::for_each_type(visit);
+    }));
+  }
+  void operator()(const std::string& name, std::vector<Joint> Scene::*) const {
+    out.push_back(joint_table(name));
+  }
   void operator()(const std::string& name, Forces Scene::*) const {
-    out.push_back(force_table(name));
+    out.push_back(typed_table(name, "What loads the bodies beside weight, water and joints.",
+                              [](const auto& visit) { for_each_force_type(visit); }));
   }
 };
 

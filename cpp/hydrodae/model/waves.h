@@ -2,7 +2,6 @@
 /// The waves of a scene as components.
 
 #include "hydrodae/model/scene.h"
-#include "hydrodae/sea/components.h"
 
 namespace hydrodae::model {
 

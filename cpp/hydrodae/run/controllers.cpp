@@ -4,12 +4,6 @@
 #include <chrono>
 #include <limits>
 
-#include "hydrodae/control/bang_bang.h"
-#include "hydrodae/control/declutching.h"
-#include "hydrodae/control/latching.h"
-#include "hydrodae/control/pid.h"
-#include "hydrodae/control/reactive.h"
-#include "hydrodae/control/table.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 
@@ -17,68 +11,17 @@ namespace hydrodae::run {
 
 namespace {
 
-std::unique_ptr<control::Law> make_pid(const model::Controller& c) {
-  control::Pid::Gains g;
-  g.p = c.gain_p;
-  g.i = c.gain_i;
-  g.d = c.gain_d;
-  g.target = c.target;
-  g.period = c.period;
-  g.filter_time = c.filter_time;
-  const double own = c.gain_p != 0.0 && c.gain_i != 0.0 ? std::abs(c.gain_p / c.gain_i) : INFINITY;
-  g.tracking_time = c.tracking_time.value_or(own);
-  g.lower = c.lower.value_or(-INFINITY);
-  g.upper = c.upper.value_or(INFINITY);
-  return std::make_unique<control::Pid>(g);
-}
-
-/// The friction whose largest load it writes must be on the joint whose rate it reads.
-std::unique_ptr<control::Law> make_latching(const model::Controller& c,
-                                            const system::Regime& regime) {
-  const auto refuse = [&](const char* key, const std::string& wrong, const std::string& expected) {
-    throw ModelError("controller." + c.name + "." + key, "controller " + in_quotes(c.name) + ": " +
-                                                             in_quotes(wrong) + " is not " +
-                                                             expected);
-  };
-  const system::SwitchData* friction = find_friction(regime, signal_of(c.outputs.front()).name);
+/// The dry friction whose largest load the first output of the controller is, if it is one.
+std::optional<control::Friction> friction_of(const model::Controller& c,
+                                             const system::Regime& regime) {
+  const system::SwitchData* friction = find_friction(regime, signal_of(c->outputs.front()).name);
   if (!friction)
-    refuse("outputs", c.outputs.front(),
-           "the 'static' of a dry_friction, by which a latch holds: \"forces/NAME/static\"");
+    return {};
   const system::MotionData& motion = regime.motions[static_cast<std::size_t>(friction->motion)];
-  const std::string rate = "joints/" + regime.joints[static_cast<std::size_t>(motion.joint)].name +
-                           "/" + motion.name + "_rate";
-  if (signal_of(c.inputs.front()).name != rate)
-    refuse("inputs", c.inputs.front(), "the rate of the joint that it holds, " + in_quotes(rate));
-  return std::make_unique<control::Latching>(
-      *c.hold_load, *c.hold_time, c.period,
-      [&regime, friction] { return regime.mode(*friction) == system::SwitchData::State::stick; });
-}
-
-std::unique_ptr<control::Law> make_law(const model::Controller& c,
-                                       const control::Terminals& terminals,
-                                       const system::Regime& regime) {
-  if (c.make)
-    return c.make(terminals);
-  if (model::is_outside(c))
-    throw ModelError("controller." + c.name,
-                     "controller " + in_quotes(c.name) +
-                         " is a Python function, which nobody "
-                         "gave; run the case as hydrodae.run(case, controllers={\"" +
-                         c.name + "\": function})");
-  const double limit = c.limit.value_or(INFINITY);
-  if (c.type == "pid")
-    return make_pid(c);
-  if (c.type == "reactive")
-    return std::make_unique<control::Reactive>(c.stiffness, c.damping, c.neutral, limit);
-  if (c.type == "resistive")
-    return std::make_unique<control::Resistive>(c.damping, limit);
-  if (c.type == "bang_bang")
-    return std::make_unique<control::BangBang>(c.target, c.band, *c.lower, *c.upper);
-  if (c.type == "latching")
-    return make_latching(c, regime);
-  if (c.type == "declutching")
-    return std::make_unique<control::Declutching>(*c.engaged, c.free, *c.free_time, c.period);
-  return std::make_unique<control::Table>(c.at, c.value);
+  const std::string& joint = regime.joints[static_cast<std::size_t>(motion.joint)].name;
+  return control::Friction{"joints/" + joint + "/" + motion.name + "_rate", [&regime, friction] {
+                             return regime.mode(*friction) == system::SwitchData::State::stick;
+                           }};
 }
 
 /// The channel behind a name with a component, "velocity.z"; its own name where it has one number.
@@ -119,55 +62,6 @@ control::Terminal terminal(const SignalName& named, const std::string& own, doub
   return out;
 }
 
-/// Are numbers in one unit the same in the other?
-bool same_unit(const std::string& a, const std::string& b) {
-  const std::optional<Unit> one = unit_of(a), other = unit_of(b);
-  if (!one || !other)
-    return a == b;
-  const std::optional<Conversion> between = conversion(*one, *other);
-  return between && between->is_none();
-}
-
-/// The units in which a law of the kernel's own computes: two inputs of one kind, or a coordinate,
-/// its rate and a load in SI units, as its keys are.
-void require_units_of_law(const model::Controller& c, const control::Terminals& t) {
-  const auto refuse = [&](const char* key, const std::string& why) {
-    throw ModelError("controller." + c.name + "." + key,
-                     "controller " + in_quotes(c.name) + ": " + why);
-  };
-  const auto told = [](const control::Terminal& of) {
-    return in_quotes(of.name) + " is in " + in_quotes(of.unit);
-  };
-  if ((c.type == "pid" || c.type == "bang_bang") && t.inputs.size() == 2 &&
-      !same_unit(t.inputs[0].unit, t.inputs[1].unit))
-    refuse("inputs", told(t.inputs[1]) + ", and cannot be the target of " +
-                         in_quotes(t.inputs[0].name) + ", which is in " +
-                         in_quotes(t.inputs[0].unit));
-  const bool reactive = c.type == "reactive", resistive = c.type == "resistive";
-  if (!reactive && !resistive && c.type != "latching")
-    return;
-  for (const auto* terminals : {&t.inputs, &t.outputs})
-    for (const control::Terminal& one : *terminals)
-      if (!one.to_own.is_none())
-        refuse(terminals == &t.inputs ? "inputs" : "outputs",
-               "the keys of a " + c.type + " controller are in SI units; leave '[" + one.unit +
-                   "]' away");
-  if (c.type == "latching")
-    return;
-  const std::string& rate = t.inputs.back().own_unit;
-  if (rate != "m/s" && rate != "rad/s")
-    refuse("inputs", told(t.inputs.back()) + "; a " + c.type +
-                         " controller takes a rate there, in m/s or rad/s");
-  if (reactive && t.inputs[0].own_unit + "/s" != rate)
-    refuse("inputs", told(t.inputs[0]) +
-                         "; a reactive controller takes the coordinate of the rate " +
-                         in_quotes(t.inputs[1].name) + " there, in " +
-                         in_quotes(rate.substr(0, rate.size() - 2)));
-  if (t.outputs[0].own_unit != "N" && t.outputs[0].own_unit != "N m")
-    refuse("outputs",
-           told(t.outputs[0]) + "; a " + c.type + " controller answers with a load, in N or N m");
-}
-
 /// Is an instant reached at t? Those that differ by the rounding of k T or t + delay are one.
 bool reached(double instant, double t) {
   constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
@@ -194,25 +88,30 @@ control::Terminals find_terminals(const model::Controller& controller,
   control::Terminals out;
   std::string key = "inputs";
   try {
-    for (const std::string& text : controller.inputs) {
+    for (const std::string& text : controller->inputs) {
       const SignalName named = signal_of(text);
       std::size_t column = find_column(channels, named.name); // or refuses
       out.inputs.push_back(terminal(named, find_channel(channels, named.name, column)->unit, 0.0));
     }
     key = "outputs";
-    for (const std::string& text : controller.outputs) {
+    for (const std::string& text : controller->outputs) {
       const SignalName named = signal_of(text);
       const Input& input = input_named(inputs, named.name);
-      if (controller.lag > 0.0 && !input.lags)
+      if (controller->lag > 0.0 && !input.lags)
         throw CaseError("input " + in_quotes(named.name) +
                         " jumps at events, and cannot follow a 'lag'");
       out.outputs.push_back(terminal(named, input.unit, *input.value));
     }
   } catch (const CaseError& error) {
-    throw ModelError("controller." + controller.name + "." + key,
-                     "controller " + in_quotes(controller.name) + ": " + error.what());
+    throw ModelError("controller." + controller->name + "." + key,
+                     "controller " + in_quotes(controller->name) + ": " + error.what());
   }
-  require_units_of_law(controller, out);
+  controller.visit([&](const auto& one) {
+    if constexpr (requires { one.fault(out); })
+      if (const std::optional<Fault> fault = one.fault(out))
+        throw ModelError("controller." + one.name + "." + fault->key,
+                         "controller " + in_quotes(one.name) + ": " + fault->message);
+  });
   return out;
 }
 
@@ -233,14 +132,14 @@ std::vector<std::string> unit_notes(const std::string& controller, const control
 std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs) {
   std::vector<Channel> out;
   for (const model::Controller& c : scene.controllers)
-    for (std::size_t k = 0; k < c.outputs.size(); ++k) {
+    for (std::size_t k = 0; k < c->outputs.size(); ++k) {
       const auto written = std::find_if(inputs.begin(), inputs.end(), [&](const Input& input) {
-        return input.name == signal_of(c.outputs[k]).name;
+        return input.name == signal_of(c->outputs[k]).name;
       });
-      out.push_back({"controllers/" + c.name + "/output" +
-                         (c.outputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
+      out.push_back({"controllers/" + c->name + "/output" +
+                         (c->outputs.size() > 1 ? "_" + std::to_string(k + 1) : ""),
                      1, written == inputs.end() ? "" : written->unit, "-",
-                     "What the controller holds " + signal_of(c.outputs[k]).name + " at."});
+                     "What the controller holds " + signal_of(c->outputs[k]).name + " at."});
     }
   return out;
 }
@@ -249,10 +148,10 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
                          const std::vector<Channel>& channels, std::vector<Input>& inputs) {
   for (const model::Controller& c : scene.controllers) {
     One one;
-    one.name = one.cost.name = c.name;
-    one.period = c.period;
-    one.delay = c.delay;
-    one.outside = model::is_outside(c);
+    one.name = one.cost.name = c->name;
+    one.period = c->period;
+    one.delay = c->delay;
+    one.outside = c.as<control::Outside>() != nullptr;
     control::Terminals terminals = find_terminals(c, channels, inputs);
     terminals.end_time = scene.solver.end_time;
     for (const control::Terminal& input : terminals.inputs)
@@ -263,12 +162,13 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     }
     one.in.resize(one.columns.size());
     one.swings.resize(one.out.size());
-    one.law = make_law(c, terminals, regime);
+    const control::Place place{terminals, friction_of(c, regime)};
+    one.law = c.visit([&](const auto& own) { return own.law(place); });
     if (one.law->hears_crossings())
       one.crossing = std::make_unique<events::Crossing>(regime, terminals.inputs.front().name);
-    if (c.lag > 0.0)
+    if (c->lag > 0.0)
       for (const Input* input : one.inputs)
-        input->follow(c.lag);
+        input->follow(c->lag);
     one.terminals = std::move(terminals);
     all_.push_back(std::move(one));
   }
@@ -335,8 +235,12 @@ void Controllers::One::sample(double t, std::span<const double> row) {
       answer.push_back(terminals.outputs[k].to_own.of(out[k]));
       check_value(*inputs[k], answer[k]);
     } catch (const CaseError& error) {
-      throw SolverError(t, "stopped at t = " + number_text(t) + " s: controller " +
-                               in_quotes(name) + ": " + error.what());
+      throw SolverError(t, {Reason::controller,
+                            "controller " + in_quotes(name) + ": " + error.what(),
+                            "controllers/" + name,
+                            {},
+                            "",
+                            ""});
     }
   for (std::size_t k = 0; k < answer.size(); ++k)
     swings[k].add(answer[k]);

@@ -94,13 +94,17 @@ public:
     if (worst <= 1.0)
       return;
     const double reached = step.y[i];
-    throw SolverError(step.end, "stopped at t = " + number_text(step.end) +
-                                    " s: the motion grows beyond all bounds: " +
-                                    s_.names[static_cast<std::size_t>(i)] + " = " +
-                                    rounded_text(reached) + " is rounded by " +
-                                    rounded_text(rounding * std::abs(reached)) +
-                                    ", a hundred times what solver.rtol allows" +
-                                    " (is the scene unstable, or fed without a loss?)");
+    const std::string& name = s_.names[static_cast<std::size_t>(i)];
+    throw SolverError(
+        step.end, {Reason::growth,
+                   "the motion grows beyond all bounds: " + name + " = " + rounded_text(reached) +
+                       " is rounded by " + rounded_text(rounding * std::abs(reached)) +
+                       ", a hundred times what solver.rtol allows (is the scene unstable, or "
+                       "fed without a loss?)",
+                   name,
+                   {{"value", reached}},
+                   "",
+                   ""});
   }
 
 private:
@@ -122,8 +126,7 @@ public:
     yp_ = step.yp;
     saddle_->accelerations(step.end, y_, yp_);
     if (!saddle_->jam().empty())
-      throw SolverError(step.end,
-                        "stopped at t = " + number_text(step.end) + " s: " + saddle_->jam());
+      throw SolverError(step.end, {Reason::friction, saddle_->jam(), "", {}, "", ""});
   }
   void restart(const Step&) override { begin(); }
 
@@ -168,17 +171,18 @@ bool PoseWatch::near_singular(const Step& step) {
   return false;
 }
 
-std::string PoseWatch::with_remedy(std::string text, double t, const VectorX& y,
-                                   const VectorX& yp) {
+Halt PoseWatch::with_remedy(Halt halt, double t, const VectorX& y, const VectorX& yp) {
   if (!guard_ || !guard_->near_singular(t, y, yp))
-    return text;
-  const std::string remedy =
+    return halt;
+  if (!halt.advice.empty())
+    halt.advice += "; ";
+  halt.advice +=
       model::method_traits(method_).passes_singular_poses
-          ? "; it is next to a singular pose (a dead point, or bars in line), where the motion may "
+          ? "it is next to a singular pose (a dead point, or bars in line), where the motion may "
             "have no unique way on: a smaller rtol, or a little friction, may help"
-          : "; it is next to a singular pose (a dead point, or bars in line): solver.method = "
+          : "it is next to a singular pose (a dead point, or bars in line): solver.method = "
             "\"radau\" or \"explicit_rk\" passes such poses";
-  return text.insert(std::min(text.find('\n'), text.size()), remedy);
+  return halt;
 }
 
 void PoseWatch::restart(const VectorX& y) {

@@ -54,7 +54,7 @@ public:
 
   /// What to do about a step that cannot be made next to a singular pose, behind the first line of
   /// `text`.
-  std::string with_remedy(std::string text, double t, const VectorX& y, const VectorX& yp);
+  Halt with_remedy(Halt halt, double t, const VectorX& y, const VectorX& yp);
 
   /// The steps are those of this method from now on.
   void use(const std::string& method) { method_ = method; }

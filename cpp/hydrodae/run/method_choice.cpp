@@ -16,17 +16,6 @@ constexpr double long_run = 2000.0; ///< [rad]
 constexpr double short_step = 0.02; ///< [rad]
 constexpr int many = 40;            ///< short steps
 
-/// "stopped at t = 1.2 s: the step ... (solver...): what may help\n  worst ..." without its ends.
-std::string core_of(const std::string& message) {
-  const std::string line = message.substr(0, message.find('\n'));
-  const std::size_t colon =
-      line.starts_with("stopped at t = ") ? line.find(": ") : std::string::npos;
-  std::string core = colon == std::string::npos ? line : line.substr(colon + 2);
-  for (const char* advice : {" (solver.", ": solver.method"})
-    core = core.substr(0, core.find(advice));
-  return core;
-}
-
 /// Is there anything but joints, weights and constant loads in each group of bodies?
 bool may_damp(const system::Regime& s) {
   std::vector<bool> damped(static_cast<std::size_t>(s.n_groups));
@@ -90,20 +79,18 @@ MethodChoice::MethodChoice(std::string method) { order_.methods.push_back(std::m
 MethodChoice::MethodChoice(MethodOrder order) : order_(std::move(order)) {}
 
 void MethodChoice::next(const SolverError& error) {
-  left_.push_back({error.time, core_of(error.what())});
+  left_.push_back({error.time, error.halt.what});
   if (more()) {
     ++at_;
     short_steps_ = 0;
     return;
   }
-  const std::string last = error.what();
-  std::string text =
-      "stopped at t = " + number_text(error.time) + " s: no method of \"auto\" goes on: ";
+  Halt halt = error.halt;
+  halt.what = "no method of \"auto\" goes on: ";
   for (std::size_t k = 0; k < left_.size(); ++k)
-    text += (k > 0 ? "; " : "") + order_.methods[k] + " at t = " + number_text(left_[k].time) +
-            " s: " + left_[k].reason;
-  const std::size_t details = last.find('\n');
-  throw SolverError(error.time, details == std::string::npos ? text : text + last.substr(details));
+    halt.what += (k > 0 ? "; " : "") + order_.methods[k] + " at t = " + number_text(left_[k].time) +
+                 " s: " + left_[k].reason;
+  throw SolverError(error.time, std::move(halt));
 }
 
 void MethodChoice::accept(double h, double rate, bool own) {
@@ -116,8 +103,14 @@ bool MethodChoice::labours() const {
 }
 
 SolverError MethodChoice::labour(double t) const {
-  return {t, number_text(many) + " steps in a row were shorter than " + number_text(short_step) +
-                 " rad of the motion"};
+  return {t,
+          {Reason::labour,
+           number_text(many) + " steps in a row were shorter than " + number_text(short_step) +
+               " rad of the motion",
+           "",
+           {},
+           "",
+           ""}};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {

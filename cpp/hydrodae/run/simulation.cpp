@@ -164,8 +164,12 @@ void Simulation::advance(double limit, const Inside& inside) {
 
 void Simulation::require_going() const {
   if (failed_)
-    throw SolverError(t_, "the run has stopped at t = " + number_text(t_) +
-                              " s; it goes on from a state that is restored only");
+    throw SolverError(t_, {Reason::state,
+                           "the run has stopped; it goes on from a state that is restored only",
+                           "",
+                           {},
+                           "",
+                           ""});
 }
 
 /// One step that no guard proves wrong, and what it adds to the sums. Under "auto" the next
@@ -238,7 +242,7 @@ bool Simulation::make_step(double end) {
       t_ = integrator_->step(std::min(end, known), bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
-      const SolverError told(error.time, poses_->with_remedy(error.what(), t_, y_, yp_));
+      const SolverError told(error.time, poses_->with_remedy(error.halt, t_, y_, yp_));
       if (!methods_.chosen())
         throw told;
       fall_back(told);

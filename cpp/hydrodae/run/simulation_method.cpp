@@ -111,10 +111,13 @@ double Simulation::find_bound() {
   const double step = scene_.solver.step;
   constexpr double too_long = 4.0;
   if (step > too_long * (limit.time - t_))
-    throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: the step of " +
-                              number_text(step) + " s is too long for " + *limit.by +
-                              ", which may be passed over; " + rounded_text(limit.time - t_) +
-                              " s may do");
+    throw SolverError(t_, {Reason::step,
+                           "the step of " + number_text(step) + " s is too long for " + *limit.by +
+                               ", which may be passed over",
+                           "",
+                           {{"step", step}},
+                           rounded_text(limit.time - t_) + " s may do",
+                           ""});
   const double carried = history_ ? t_ + history_->longest_step() : INFINITY;
   return std::min({limit.time, event_near_, carried});
 }

@@ -13,7 +13,8 @@ const std::string& Simulation::fingerprint() {
                        joined(scene_.overrides, "\n") + '\n' +
                        (scene_.database ? scene_.database->sha256 : "");
     for (const model::Controller& c : scene_.controllers)
-      text += c.sha256;
+      if (const auto* fmu = c.as<control::Fmu>())
+        text += fmu->sha256;
     fingerprint_ = io::sha256_of_text(text);
   }
   return fingerprint_;

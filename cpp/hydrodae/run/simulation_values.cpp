@@ -70,9 +70,9 @@ std::span<const double> Simulation::read(const std::string& channel) {
 void Simulation::write(const std::string& input, double value) {
   Input& target = input_named(inputs_, input);
   for (const model::Controller& c : scene_.controllers)
-    for (const std::string& output : c.outputs)
+    for (const std::string& output : c->outputs)
       if (signal_of(output).name == target.name)
-        throw CaseError("input " + in_quotes(input) + " is what controller " + in_quotes(c.name) +
+        throw CaseError("input " + in_quotes(input) + " is what controller " + in_quotes(c->name) +
                         " of the case writes; expected one that no controller holds");
   check_value(target, value);
   if (target.set(t_, value))
@@ -90,7 +90,7 @@ void Simulation::take_control() {
   constexpr double far = 100.0; // levers or rad: no device is meant to go there
   if (const VectorX& reached = scale_->reached(); reached.size() > 0 && reached.maxCoeff() > far)
     if (const std::string why = controllers_->runaway(); !why.empty())
-      throw SolverError(t_, "stopped at t = " + number_text(t_) + " s: " + why);
+      throw SolverError(t_, {Reason::growth, why, "", {}, "", ""});
   event_here_ = false;
   failed_ = false;
 }

@@ -77,12 +77,17 @@ private:
     const std::string who =
         names.size() == 1 ? names[0] + " has turned" : names[1] + " has turned against " + names[0];
     throw SolverError(
-        t, "stopped at t = " + number_text(t) + " s: " + who +
-               " by more than 180 deg about an axis that does not stay. Beyond that the rotation "
-               "vector that " +
-               std::string(list.laws->type) + " " + in_quotes(list.laws->names[law]) +
-               " follows has no meaning; it counts turns about an axis of its own only (a hinge, "
-               "or one free rotation)");
+        t, {Reason::range,
+            who +
+                " by more than 180 deg about an axis that does not stay. Beyond that the "
+                "rotation vector that " +
+                std::string(list.laws->type) + " " + in_quotes(list.laws->names[law]) +
+                " follows has no meaning; it counts turns about an axis of its own only (a hinge, "
+                "or one free rotation)",
+            "forces/" + list.laws->names[law],
+            {},
+            "",
+            ""});
   }
 
   const system::Regime& s_;

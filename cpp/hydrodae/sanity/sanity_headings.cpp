@@ -108,7 +108,7 @@ std::vector<Finding> look_at_headings(const model::Scene& scene, const system::S
     if (!std::any_of(components.begin(), components.end(), between))
       continue;
     const auto [label, share] = most_doubtful(headings, doubt_of(excitation, components), labels);
-    const std::string text = "wave " + in_quotes(wave.name) +
+    const std::string text = "wave " + in_quotes(wave->name) +
                              " travels between the headings of the database, which are up to " +
                              rounded_text(step, 3) + " deg apart";
     if (share > doubt_worth_saying)

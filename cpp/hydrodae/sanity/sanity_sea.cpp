@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/sanity/sanity.h"
 #include "hydrodae/sea/dispersion.h"
-#include "hydrodae/sea/spectrum.h"
 
 namespace hydrodae::sanity {
 
@@ -25,9 +23,9 @@ constexpr double breaking = 0.142;
 constexpr double breaking_over_depth = 0.6; ///< of a significant height
 constexpr double linear = 0.05; ///< height over length above which linear theory is stretched
 
-void judge_regular(const sea::Wave& wave, const model::Water& water, std::vector<Finding>& out) {
-  const double H = *wave.height,
-               k = sea::wavenumber(2.0 * pi / *wave.period, water.depth, water.gravity);
+void judge_regular(const sea::Regular& wave, const model::Water& water, std::vector<Finding>& out) {
+  const double H = wave.height,
+               k = sea::wavenumber(2.0 * pi / wave.period, water.depth, water.gravity);
   const double length = 2.0 * pi / k, limit = breaking * std::tanh(k * water.depth);
   if (!(H > linear * length))
     return;
@@ -41,42 +39,17 @@ void judge_regular(const sea::Wave& wave, const model::Water& water, std::vector
         {false, text + "linear theory is meant for less than " + rounded_text(linear, 3)});
 }
 
-/// Significant height and peak period of a spectrum [m], [s].
-std::pair<double, double> height_and_period(const sea::Wave& wave, double gravity) {
-  if (wave.type != "table")
-    return {*wave.significant_height, 2.0 * pi / sea::peak_frequency(wave, gravity)};
-  double m0 = 0.0;
-  std::size_t peak = 0;
-  for (std::size_t k = 1; k < wave.frequency.size(); ++k) {
-    m0 +=
-        0.5 * (wave.density[k] + wave.density[k - 1]) * (wave.frequency[k] - wave.frequency[k - 1]);
-    if (wave.density[k] > wave.density[peak])
-      peak = k;
-  }
-  return {4.0 * std::sqrt(m0), 2.0 * pi / wave.frequency[peak]};
-}
-
-/// @returns the significant height [m]
-double judge_irregular(const sea::Wave& wave, const model::Water& water,
-                       std::vector<Finding>& out) {
-  const auto [height, period] = height_and_period(wave, water.gravity);
+void judge_irregular(const std::string& name, double height, double period,
+                     const model::Water& water, std::vector<Finding>& out) {
   if (!(height > 0.0))
-    return 0.0;
+    return;
   const double steepness = height / (water.gravity * period * period / (2.0 * pi));
   if (steepness > steepest_sea(period))
-    out.push_back({true, "wave " + in_quotes(wave.name) + ": significant height " +
+    out.push_back({true, "wave " + in_quotes(name) + ": significant height " +
                              rounded_text(height, 3) + " m at a peak period of " +
                              rounded_text(period, 3) + " s is a steepness of " +
                              rounded_text(steepness, 3) + "; seas of that period reach " +
                              rounded_text(steepest_sea(period), 3) + " (DNV-RP-C205)"});
-  return height;
-}
-
-/// Significant height of a record [m].
-double measured_height(const sea::Wave& wave) {
-  const Eigen::Map<const VectorX> eta(wave.elevation.data(),
-                                      static_cast<Index>(wave.elevation.size()));
-  return 4.0 * std::sqrt((eta.array() - eta.mean()).square().mean());
 }
 
 } // namespace
@@ -88,13 +61,16 @@ std::vector<Finding> look_at_sea(const model::Scene& scene) {
     return out;
   double squares = 0.0; // of the significant heights
   for (const sea::Wave& wave : scene.waves) {
-    if (wave.type == "regular") {
-      judge_regular(wave, water, out);
-      continue;
-    }
-    const double height =
-        wave.type == "measured" ? measured_height(wave) : judge_irregular(wave, water, out);
-    squares += height * height;
+    if (const auto* regular = wave.as<sea::Regular>())
+      judge_regular(*regular, water, out);
+    wave.visit([&](const auto& one) {
+      if constexpr (requires { one.significant_height(); }) {
+        const double height = one.significant_height();
+        squares += height * height;
+        if constexpr (requires { one.peak_period(water.gravity); })
+          judge_irregular(one.name, height, one.peak_period(water.gravity), water, out);
+      }
+    });
   }
   if (std::sqrt(squares) > breaking_over_depth * water.depth)
     out.push_back({true, "the significant height of the sea, " +

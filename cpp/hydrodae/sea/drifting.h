@@ -2,7 +2,7 @@
 /// Functions of time made of wave components whose phase follows a point that moves.
 
 #include "hydrodae/math/dual.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/sea/component.h"
 #include "hydrodae/sea/signals.h"
 
 namespace hydrodae::sea {

@@ -15,7 +15,7 @@
 
 #include <cmath>
 
-#include "hydrodae/sea/components.h"
+#include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hydrodae/sea/components.h"
+#include "hydrodae/sea/component.h"
 
 namespace hydrodae::sea {
 namespace {

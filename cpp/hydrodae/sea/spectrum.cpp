@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydrodae/core/types.h"
+
 namespace hydrodae::sea {
 namespace {
 
@@ -10,25 +12,6 @@ namespace {
 std::size_t cell(const std::vector<double>& grid, double x) {
   const auto above = std::upper_bound(grid.begin() + 1, grid.end() - 1, x);
   return static_cast<std::size_t>(above - grid.begin()) - 1;
-}
-
-/// Shape of the spectrum at x = w/wp, up to a factor.
-double shape_at(const Wave& wave, double x) {
-  if (wave.type == "ochi_hubble") {
-    const double l = wave.shape;
-    return std::exp(-(4.0 * l + 1.0) * std::log(x) - (l + 0.25) * std::pow(x, -4.0));
-  }
-  double s = std::exp(-5.0 * std::log(x) - 1.25 * std::pow(x, -4.0));
-  if (wave.type == "jonswap") {
-    const double width = x <= 1.0 ? 0.07 : 0.09, d = (x - 1.0) / width;
-    s *= std::pow(wave.gamma, std::exp(-0.5 * d * d));
-  }
-  return s;
-}
-
-/// Integral of the tail S = C w^-n beyond the last point, relative to w S there.
-double tail(const Wave& wave) {
-  return wave.type == "ochi_hubble" ? 1.0 / (4.0 * wave.shape) : 0.25;
 }
 
 void integrate(Spectrum& s) {
@@ -40,38 +23,43 @@ void integrate(Spectrum& s) {
 
 } // namespace
 
-double peak_frequency(const Wave& wave, double gravity) {
-  if (wave.type == "pierson_moskowitz") // m0 = Hs^2/16 = alpha g^2 / (5 wp^4)
-    return std::pow(16.0 * 0.0081 / 5.0 *
-                        std::pow(gravity / std::max(*wave.significant_height, 1e-12), 2.0),
-                    0.25);
-  return 2.0 * pi / *wave.peak_period;
+Spectrum spectrum_of_points(std::vector<double> omega, std::vector<double> density) {
+  Spectrum s;
+  s.omega = std::move(omega);
+  s.density = std::move(density);
+  s.ends = true;
+  integrate(s);
+  s.m0 = s.cumulative.back();
+  return s;
 }
 
-Spectrum spectrum(const Wave& wave, double gravity) {
+Spectrum spectrum_of_shape(const std::function<double(double)>& shape, double tail,
+                           double significant_height, double peak_period) {
   Spectrum s;
-  if (wave.type == "table") {
-    s.omega = wave.frequency;
-    s.density = wave.density;
-    integrate(s);
-    s.m0 = s.cumulative.back();
-    return s;
-  }
-  const double wp = peak_frequency(wave, gravity);
+  const double wp = 2.0 * pi / peak_period;
   constexpr int points = 20000;
   constexpr double lowest = 0.2, highest = 20.0; // times wp; S(0.2 wp) < exp(-460)
   for (int i = 0; i <= points; ++i) {
     const double x = lowest * std::pow(highest / lowest, static_cast<double>(i) / points);
     s.omega.push_back(x * wp);
-    s.density.push_back(shape_at(wave, x));
+    s.density.push_back(shape(x));
   }
   integrate(s);
-  const double whole = s.cumulative.back() + tail(wave) * s.omega.back() * s.density.back();
-  s.m0 = *wave.significant_height * *wave.significant_height / 16.0;
+  const double whole = s.cumulative.back() + tail * s.omega.back() * s.density.back();
+  s.m0 = significant_height * significant_height / 16.0;
   for (double& value : s.density)
     value *= s.m0 / whole;
   for (double& value : s.cumulative)
     value *= s.m0 / whole;
+  return s;
+}
+
+double jonswap_shape(double x, double gamma) {
+  double s = std::exp(-5.0 * std::log(x) - 1.25 * std::pow(x, -4.0));
+  if (gamma != 1.0) {
+    const double width = x <= 1.0 ? 0.07 : 0.09, d = (x - 1.0) / width;
+    s *= std::pow(gamma, std::exp(-0.5 * d * d));
+  }
   return s;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Wave spectra S(w) [m2 s/rad].
 
-#include "hydrodae/sea/wave.h"
+#include <functional>
+#include <vector>
 
 namespace hydrodae::sea {
 
@@ -11,6 +12,7 @@ struct Spectrum {
   std::vector<double> density;    ///< S [m2 s/rad]
   std::vector<double> cumulative; ///< integral of S from the first frequency [m2]
   double m0 = 0.0;                ///< the whole energy [m2], also what lies beyond the grid
+  bool ends = false;              ///< nothing lies beyond its grid
 
   /// Energy below w [m2], and its inverse [rad/s].
   double energy_below(double w) const;
@@ -18,11 +20,15 @@ struct Spectrum {
   double operator()(double w) const;
 };
 
-/// Spectrum of an irregular wave; m0 = Hs^2/16, or as given by the table. `gravity` [m/s2] is for
-/// Pierson-Moskowitz.
-Spectrum spectrum(const Wave& wave, double gravity);
+/// Given point by point.
+Spectrum spectrum_of_points(std::vector<double> omega, std::vector<double> density);
 
-/// Peak frequency of a spectrum that has one [rad/s].
-double peak_frequency(const Wave& wave, double gravity);
+/// Of a shape S(w / wp), up to a factor, whose tail falls as w^-n.
+/// @param tail  integral beyond a point far above the peak, relative to w S there: 1 / (n - 1)
+Spectrum spectrum_of_shape(const std::function<double(double)>& shape, double tail,
+                           double significant_height, double peak_period);
+
+/// w^-5 exp(-5/4 w^-4) gamma^exp(-(w - 1)^2 / (2 s^2)), s = 0.07 below 1 and 0.09 above.
+double jonswap_shape(double x, double gamma);
 
 } // namespace hydrodae::sea

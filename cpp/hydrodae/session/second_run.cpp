@@ -75,9 +75,11 @@ template <class List> bool calls_functions(const List& forces) {
 bool calls_functions(const model::Scene& scene) {
   return std::apply([](const auto&... list) { return (calls_functions(list) || ...); },
                     scene.forces) ||
-         std::any_of(
-             scene.constraints.begin(), scene.constraints.end(),
-             [](const model::Constraint& c) { return static_cast<bool>(c.drive.function); });
+         std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                     [](const model::Constraint& c) {
+                       const auto* driven = c.as<model::DrivenCoordinate>();
+                       return driven && driven->drive.function;
+                     });
 }
 
 /// Lets the second run have its own laws where they can be made again, else recorded answers.
@@ -85,19 +87,20 @@ bool calls_functions(const model::Scene& scene) {
 std::vector<std::string> part_controllers(model::Scene& first, model::Scene& second) {
   std::vector<std::string> repeated;
   for (std::size_t k = 0; k < first.controllers.size(); ++k) {
-    model::Controller &one = first.controllers[k], &other = second.controllers[k];
-    if (!one.make)
+    auto* one = first.controllers[k].as<control::Outside>();
+    if (!one || !one->make)
       continue;
-    if (one.make_again) {
-      other.make = one.make_again;
+    auto* other = second.controllers[k].as<control::Outside>();
+    if (one->make_again) {
+      other->make = one->make_again;
       continue;
     }
-    repeated.push_back(in_quotes(one.name));
+    repeated.push_back(in_quotes(one->name));
     const auto answers = std::make_shared<Answers>();
-    one.make = [make = one.make, answers](const control::Terminals& terminals) {
+    one->make = [make = one->make, answers](const control::Terminals& terminals) {
       return std::make_unique<RecordingLaw>(make(terminals), answers);
     };
-    other.make = [answers](const control::Terminals&) {
+    other->make = [answers](const control::Terminals&) {
       return std::make_unique<RepeatingLaw>(answers);
     };
   }
@@ -139,9 +142,12 @@ SecondRunPlan plan_second_run(model::Scene& scene, const std::string& method) {
   const std::vector<std::string> repeated = part_controllers(scene, plan.scene);
   if (!repeated.empty())
     plan.how += ", with the recorded answers of controller " + joined(repeated);
-  plan.afterwards = calls_functions(scene) ||
-                    std::any_of(scene.controllers.begin(), scene.controllers.end(),
-                                [](const model::Controller& c) { return c.make != nullptr; });
+  plan.afterwards =
+      calls_functions(scene) || std::any_of(scene.controllers.begin(), scene.controllers.end(),
+                                            [](const model::Controller& c) {
+                                              const auto* outside = c.as<control::Outside>();
+                                              return outside && outside->make;
+                                            });
   return plan;
 }
 
@@ -177,9 +183,12 @@ void SecondRun::march(const std::function<bool()>& ask) {
     if (next <= samples)
       stopped_ = "the runs were stopped";
     simulation.close();
+  } catch (const SolverError& error) {
+    Halt halt = error.halt;
+    halt.details.clear();
+    stopped_ = plan_.how + " " + message_of(error.time, halt);
   } catch (const std::exception& error) {
-    const std::string text = error.what();
-    stopped_ = plan_.how + " " + text.substr(0, text.find('\n'));
+    stopped_ = plan_.how + " " + error.what();
   }
   comparison_.end_second();
 }

@@ -265,7 +265,7 @@ LinearModel linearize(const model::Scene& scene) {
   note_nonlinear(s, out);
   out.moorings = moorings(s, ws, y);
   for (const model::Controller& c : scene.controllers)
-    out.notes.push_back("the linear model is without the controller " + in_quotes(c.name) +
+    out.notes.push_back("the linear model is without the controller " + in_quotes(c->name) +
                         ": what it writes stays as the case has it");
   add_reactions(s, y, out);
   add_supports(s, y, out);

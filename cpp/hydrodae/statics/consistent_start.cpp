@@ -79,7 +79,8 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
   if (strike.before.cwiseQuotient(scale).cwiseAbs().maxCoeff() <= least_jump)
     return std::nullopt;
   if (!strike.balanced)
-    throw SolverError(t, std::string(linalg::SaddlePoint::no_friction_fits));
+    throw SolverError(
+        t, {Reason::friction, std::string(linalg::SaddlePoint::no_friction_fits), "", {}, "", ""});
   y = struck;
   double work = 0.5 * strike.impulses.dot(strike.before) + strike.rubbed;
   for (const system::CouplerData& c : s.couplers)
@@ -110,7 +111,8 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
                          (turns ? "rotation about its axis " : "translation along ") + along +
                          ": give it one, or lock this direction by 'motion' or a joint");
   }
-  throw SolverError(0.0, "a direction without inertia is held by nothing");
+  throw SolverError(
+      0.0, {Reason::start, "a direction without inertia is held by nothing", "", {}, "", ""});
 }
 
 /// The stabilised equations, as long as this object is there.
@@ -137,7 +139,8 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   VectorX r(s.n);
   system::residual<double>(s, ws, 0.0, y.data(), yp.data(), r.data());
   if (const std::string why = system::unknown_load(s, ws); !why.empty())
-    throw SolverError(0.0, "no accelerations at the start: " + why);
+    throw SolverError(0.0,
+                      {Reason::start, "no accelerations at the start: " + why, "", {}, "", ""});
   check_constraints(s, y, r);
   linalg::Equations equations(s, pattern, 1.0);
   linalg::SaddlePoint saddle(equations);
@@ -145,10 +148,15 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   if (const VectorX free = saddle.undetermined(); free.size() > 0)
     refuse_massless(s, free);
   if (!saddle.jam().empty())
-    throw SolverError(0.0, "stopped at t = 0 s: " + saddle.jam());
+    throw SolverError(0.0, {Reason::friction, saddle.jam(), "", {}, "", ""});
   if (!found || saddle.mismatch() > start_balanced)
-    throw SolverError(0.0, "no accelerations satisfy the constraints at the start: they contradict "
-                           "each other, or a body that moves has no mass");
+    throw SolverError(0.0, {Reason::start,
+                            "no accelerations satisfy the constraints at the start: they "
+                            "contradict each other, or a body that moves has no mass",
+                            "",
+                            {},
+                            "",
+                            ""});
 }
 
 struct Consistency::Parts {
@@ -178,8 +186,13 @@ std::optional<double> Consistency::restore(double t, VectorX& y, VectorX& yp) {
     good = !work || saddle.accelerations(t, y, yp);
   }
   if (!good)
-    throw SolverError(t, "no finite accelerations at t = " + number_text(t) + " s" +
-                             (saddle.jam().empty() ? "" : ": " + saddle.jam()));
+    throw SolverError(
+        t, {saddle.jam().empty() ? Reason::not_finite : Reason::friction,
+            "no finite accelerations" + (saddle.jam().empty() ? "" : ": " + saddle.jam()),
+            "",
+            {},
+            "",
+            ""});
   return work;
 }
 

@@ -116,6 +116,7 @@ struct CouplerData : Row {
   double offset = 0.0;
   model::Drive drive;
   bool velocity_level = false; ///< then it has no mu
+  bool keeps_start = false;    ///< the offset is what the terms sum up to at the start
   int of_switch = -1;          ///< in System::switches, -1: it always holds
 };
 

@@ -183,10 +183,14 @@ void JointSpace::read(double t, const VectorX& y, VectorX& x) {
   const tree::TreeLink& link = tree_.links[static_cast<std::size_t>(tree_.link_of[body])];
   const std::string joint =
       link.joint < 0 ? "its coordinates" : "joint " + in_quotes(s_.joints[link.joint].name);
-  throw SolverError(t, "body " + in_quotes(s_.bodies[body].name) + " stands where " + joint +
-                           " does not lead: " + number_text(misfit) +
-                           " m or rad off (a joint assembled upside down?); use "
-                           "solver.coordinates = \"bodies\"");
+  throw SolverError(t, {Reason::range,
+                        "body " + in_quotes(s_.bodies[body].name) + " stands where " + joint +
+                            " does not lead: " + number_text(misfit) +
+                            " m or rad off (a joint assembled upside down?)",
+                        "bodies/" + s_.bodies[body].name,
+                        {{"misfit", misfit}},
+                        "use solver.coordinates = \"bodies\"",
+                        ""});
 }
 
 void JointSpace::follow() {

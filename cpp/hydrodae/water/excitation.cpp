@@ -181,13 +181,17 @@ void Excitation::check_yaw(double t, const Body& body, const double* in) const {
   if (!(reach.outside(psi) > slack))
     return;
   const auto text = [](double angle) { return rounded_text(angle * degrees, 4); };
-  throw SolverError(t,
-                    "body " + in_quotes(body.name) + " has turned to a yaw of " + text(psi) +
-                        " deg at t = " + rounded_text(t, 6) +
-                        " s: with axes = \"yaw\" the headings of the database, less those "
-                        "of the waves, cover " +
-                        text(reach.middle - reach.half) + " to " + text(reach.middle + reach.half) +
-                        " deg alone; compute it with headings all round, or use axes = \"mean\"");
+  throw SolverError(
+      t, {Reason::range,
+          "body " + in_quotes(body.name) + " has turned to a yaw of " + text(psi) +
+              " deg; with axes = \"yaw\" the headings of the database, less those of the waves, "
+              "cover " +
+              text(reach.middle - reach.half) + " to " + text(reach.middle + reach.half) +
+              " deg alone",
+          "bodies/" + body.name,
+          {{"yaw_deg", psi * degrees}},
+          "compute it with headings all round, or use axes = \"mean\"",
+          ""});
 }
 
 void Excitation::report(double t, const double* in, const double*, double* loads) const {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "hydrodae/element/body_state.h"
-#include "hydrodae/sea/components.h"
+#include "hydrodae/sea/component.h"
 
 namespace hydrodae::water {
 

@@ -192,8 +192,8 @@ class WaveTypes(TypedList):
         *,
         height: float,
         period: float,
-        phase_deg: float = ...,
         heading_deg: float = ...,
+        phase_deg: float = ...,
     ) -> str:
         """Add `[[wave]]` with the type "regular".
 
@@ -203,14 +203,14 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         height : number, m
             Height H of a regular wave, crest to trough. Allowed: >= 0.
         period : number, s
             Period of a regular wave. Allowed: > 0.
         phase_deg : number, deg, default 0
             Phase of a regular wave: its crest passes the origin when w t = -phase.
-        heading_deg : number, deg, default 0
-            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
 
         Returns
         -------
@@ -228,14 +228,14 @@ class WaveTypes(TypedList):
         *,
         significant_height: float,
         peak_period: float,
-        gamma: float = ...,
-        lost_variance: float = ...,
         heading_deg: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
-        frequency_range: _Numbers = ...,
         seed: int = ...,
+        lost_variance: float = ...,
+        frequency_range: _Numbers = ...,
+        gamma: float = ...,
     ) -> str:
         """Add `[[wave]]` with the type "jonswap".
 
@@ -245,16 +245,6 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
-        gamma : number, default 3.3
-            Peak enhancement of JONSWAP. Allowed: 1 to 20.
-        lost_variance : number, optional
-            Largest part of the variance that may lie outside the frequencies of the database
-            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
-            frequency_range. Allowed: 0 to 1.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         spreading : number, optional
@@ -266,11 +256,21 @@ class WaveTypes(TypedList):
             Bins of equal energy or of equal width in frequency; each has one component at a
             frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
             energy, frequency.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        seed : integer, default 1
-            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        gamma : number, default 3.3
+            Peak enhancement of JONSWAP. Allowed: 1 to 20.
 
         Returns
         -------
@@ -288,13 +288,13 @@ class WaveTypes(TypedList):
         *,
         significant_height: float,
         peak_period: float,
-        lost_variance: float = ...,
         heading_deg: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
-        frequency_range: _Numbers = ...,
         seed: int = ...,
+        lost_variance: float = ...,
+        frequency_range: _Numbers = ...,
     ) -> str:
         """Add `[[wave]]` with the type "bretschneider".
 
@@ -304,14 +304,6 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
-        lost_variance : number, optional
-            Largest part of the variance that may lie outside the frequencies of the database
-            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
-            frequency_range. Allowed: 0 to 1.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         spreading : number, optional
@@ -323,11 +315,19 @@ class WaveTypes(TypedList):
             Bins of equal energy or of equal width in frequency; each has one component at a
             frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
             energy, frequency.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        seed : integer, default 1
-            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
 
         Returns
         -------
@@ -344,13 +344,13 @@ class WaveTypes(TypedList):
         name: str,
         *,
         significant_height: float,
-        lost_variance: float = ...,
         heading_deg: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
-        frequency_range: _Numbers = ...,
         seed: int = ...,
+        lost_variance: float = ...,
+        frequency_range: _Numbers = ...,
     ) -> str:
         """Add `[[wave]]` with the type "pierson_moskowitz".
 
@@ -360,12 +360,6 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        lost_variance : number, optional
-            Largest part of the variance that may lie outside the frequencies of the database
-            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
-            frequency_range. Allowed: 0 to 1.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         spreading : number, optional
@@ -377,11 +371,17 @@ class WaveTypes(TypedList):
             Bins of equal energy or of equal width in frequency; each has one component at a
             frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
             energy, frequency.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        seed : integer, default 1
-            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
 
         Returns
         -------
@@ -399,14 +399,14 @@ class WaveTypes(TypedList):
         *,
         significant_height: float,
         peak_period: float,
-        shape: float = ...,
-        lost_variance: float = ...,
         heading_deg: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
-        frequency_range: _Numbers = ...,
         seed: int = ...,
+        lost_variance: float = ...,
+        frequency_range: _Numbers = ...,
+        shape: float = ...,
     ) -> str:
         """Add `[[wave]]` with the type "ochi_hubble".
 
@@ -417,16 +417,6 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
-        shape : number, default 1
-            Shape l of Ochi-Hubble. Allowed: 0.5 to 20.
-        lost_variance : number, optional
-            Largest part of the variance that may lie outside the frequencies of the database
-            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
-            frequency_range. Allowed: 0 to 1.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         spreading : number, optional
@@ -438,11 +428,21 @@ class WaveTypes(TypedList):
             Bins of equal energy or of equal width in frequency; each has one component at a
             frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
             energy, frequency.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        seed : integer, default 1
-            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        shape : number, default 1
+            Shape l of Ochi-Hubble. Allowed: 0.5 to 20.
 
         Returns
         -------
@@ -460,13 +460,13 @@ class WaveTypes(TypedList):
         *,
         frequency: _Numbers,
         density: _Numbers,
-        lost_variance: float = ...,
         heading_deg: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
-        frequency_range: _Numbers = ...,
         seed: int = ...,
+        lost_variance: float = ...,
+        frequency_range: _Numbers = ...,
     ) -> str:
         """Add `[[wave]]` with the type "table".
 
@@ -476,14 +476,6 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
-        frequency : list of numbers, rad/s
-            Frequencies of a table, ascending. Allowed: > 0.
-        density : list of numbers, m2 s/rad
-            Spectral density S at these frequencies. Allowed: >= 0.
-        lost_variance : number, optional
-            Largest part of the variance that may lie outside the frequencies of the database
-            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
-            frequency_range. Allowed: 0 to 1.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         spreading : number, optional
@@ -495,11 +487,19 @@ class WaveTypes(TypedList):
             Bins of equal energy or of equal width in frequency; each has one component at a
             frequency drawn at random in its bin, so that the sea does not repeat. Allowed:
             energy, frequency.
+        seed : integer, default 1
+            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        lost_variance : number, optional
+            Largest part of the variance that may lie outside the frequencies of the database
+            and is left out; 0.02 by default for a record, 0.1 for a spectrum without
+            frequency_range. Allowed: 0 to 1.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        seed : integer, default 1
-            Seed of the random phases, frequencies and directions. Allowed: >= 0.
+        frequency : list of numbers, rad/s
+            Frequencies of a table, ascending. Allowed: > 0.
+        density : list of numbers, m2 s/rad
+            Spectral density S at these frequencies. Allowed: >= 0.
 
         Returns
         -------
@@ -515,6 +515,7 @@ class WaveTypes(TypedList):
         self,
         name: str,
         *,
+        heading_deg: float = ...,
         file: str = ...,
         time: _Numbers = ...,
         elevation: _Numbers = ...,
@@ -522,7 +523,6 @@ class WaveTypes(TypedList):
         start: float = ...,
         taper: float = ...,
         lost_variance: float = ...,
-        heading_deg: float = ...,
         frequency_range: _Numbers = ...,
     ) -> str:
         """Add `[[wave]]` with the type "measured".
@@ -533,6 +533,8 @@ class WaveTypes(TypedList):
         ----------
         name : text
             Name of the wave system.
+        heading_deg : number, deg, default 0
+            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         file : text, optional
             Measured elevation: text with commas, named columns time [s] and elevation [m];
             relative to the case file.
@@ -551,8 +553,6 @@ class WaveTypes(TypedList):
             Largest part of the variance that may lie outside the frequencies of the database
             and is left out; 0.02 by default for a record, 0.1 for a spectrum without
             frequency_range. Allowed: 0 to 1.
-        heading_deg : number, deg, default 0
-            Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
@@ -2445,7 +2445,7 @@ class ControllerTypes(TypedList):
         filter_time : number, s, default 0
             Time constant of the filter of first order on the derivative. Allowed: >= 0.
         target : number, unit of the input, default 0
-            What the input is to be, where no second input tells it.
+            What the input is to be, where no second input gives it.
         lower : number, unit of the output, optional
             Least output.
         upper : number, unit of the output, optional
@@ -2605,13 +2605,13 @@ class ControllerTypes(TypedList):
             Time constant of the actuator: its output follows what the controller holds like a
             filter of first order. Allowed: >= 0.
         target : number, unit of the input, default 0
-            What the input is to be, where no second input tells it.
+            What the input is to be, where no second input gives it.
+        band : number, unit of the input, default 0
+            Half width of the hysteresis: within it the output stays. Allowed: >= 0.
         lower : number, unit of the output
             Least output.
         upper : number, unit of the output
             Largest output.
-        band : number, unit of the input, default 0
-            Half width of the hysteresis: within it the output stays. Allowed: >= 0.
 
         Returns
         -------

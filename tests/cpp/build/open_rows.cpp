@@ -38,9 +38,8 @@ model::Joint jointed(const std::string& type, const std::string& name, const std
 }
 
 model::Constraint stop(const std::string& name, const std::string& on, double upper) {
-  model::Constraint c;
+  model::Stop c;
   c.name = name;
-  c.type = "stop";
   c.joint = on;
   c.upper_angle = upper;
   return c;
@@ -115,7 +114,7 @@ TEST_CASE("a closed loop with redundant rows comes to rest on its stop") {
   model::Scene scene = closed_loop();
   scene.joints[0].initial.angle = 0.5; // it would hang at 0
   scene.constraints = {stop("s", "a", 1.0)};
-  scene.constraints[0].lower_angle = 0.2;
+  scene.constraints[0].as<model::Stop>()->lower_angle = 0.2;
   scene.solver.start = "equilibrium";
   system::System built = build::build(scene);
   CHECK(system::Regime(built).n_lambda == 17);

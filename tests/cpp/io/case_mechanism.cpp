@@ -140,7 +140,16 @@ const std::vector<BadInput> bad_inputs = {
     {"length = 1.5", "length = 0",
      "case.toml:31:1: key 'length' in [[joint]] 'rope': must be > 0 m, got 0 m"},
     {"length = 1.5", "length = 1.5\npitch = 1",
-     "case.toml:32:1: joint 'rope': a distance joint has no 'pitch'; only a screw joint has"},
+     "case.toml:32:1: unknown key 'pitch' in [[joint]] 'rope' of type distance; valid: name, type, "
+     "body_a, body_b, point, point_b, length, one_sided, restitution, contact_time"},
+    {"axis = [0.0, 1.0, 0.0]", "axis = [0.0, 1.0, 0.0]\ninitial = { displacement = 1.0 }",
+     "case.toml:24:13: unknown key 'displacement' in initial of [[joint]] 'hinge' of type "
+     "revolute; "
+     "valid: angle_deg, angle_rate"},
+    {"body = \"weight\"\ncoordinate", "body = \"weight\"\nratio = 2\ncoordinate",
+     "case.toml:46:1: unknown key 'ratio' in [[constraint]] 'lift' of type coordinate; valid: "
+     "name, "
+     "type, joint, body, coordinate, level, drive"},
     {"body_b = \"wheel\"", "body_b = \"weight\"",
      "case.toml:20:1: joint 'hinge': body 'weight' is a point: it has no rotation for a revolute "
      "joint to hold; use spherical, distance, sliding or path"},
@@ -169,7 +178,8 @@ TEST_CASE("a case with a mechanism becomes a scene") {
   CHECK_FALSE(scene.joints[0].length.has_value());
 
   REQUIRE(scene.constraints.size() == 2);
-  const model::Constraint &crank = scene.constraints[0], &lift = scene.constraints[1];
+  const auto &crank = *scene.constraints[0].as<model::DrivenCoordinate>(),
+             &lift = *scene.constraints[1].as<model::DrivenCoordinate>();
   CHECK(crank.name == "crank");
   CHECK(*crank.joint == "hinge");
   CHECK_FALSE(crank.coordinate.has_value());
@@ -207,9 +217,11 @@ TEST_CASE("overrides address constraints and their drives") {
                                                {"constraint.lift.level", "position"},
                                                {"constraint.lift.drive.values", "[1, 1, 1]"},
                                                {"constraint.lift.drive.constant", "2"}});
-  CHECK(scene.constraints[0].drive(0.0)[0] == doctest::Approx(0.4));
-  CHECK(scene.constraints[1].level == "position");
-  CHECK(scene.constraints[1].drive(3.0)[0] == doctest::Approx(3.0));
+  const auto &crank = *scene.constraints[0].as<model::DrivenCoordinate>(),
+             &lift = *scene.constraints[1].as<model::DrivenCoordinate>();
+  CHECK(crank.drive(0.0)[0] == doctest::Approx(0.4));
+  CHECK(lift.level == "position");
+  CHECK(lift.drive(3.0)[0] == doctest::Approx(3.0));
   const auto said = [](const char* key, const char* value) {
     return message_of([&] { read(crank_case, {{key, value}}); });
   };

@@ -180,15 +180,7 @@ TEST_CASE("joints") {
   CHECK(
       contains(verdict_of([](Joint& j) { j.axis_x = Vector3(0, -2, 0); }), "other than the axis"));
   CHECK(verdict_of([](Joint& j) { j.axis_x = Vector3(1, 1, 0); }) == "");
-  CHECK(contains(verdict_of([](Joint& j) { j.type = "spherical"; }), "has no axis"));
   CHECK(verdict_of([](Joint& j) { j.type = "fixed"; }) == "");
-  CHECK(contains(verdict_of([](Joint& j) { j.initial.displacement = 1.0; }), "does not slide"));
-  CHECK(verdict_of([](Joint& j) { j.initial.angle = 1.0; }) == "");
-  CHECK(contains(verdict_of([](Joint& j) {
-                   j.type = "prismatic";
-                   j.initial.angle_rate = 1.0;
-                 }),
-                 "does not turn"));
 }
 
 TEST_CASE("the database covers the scene") {

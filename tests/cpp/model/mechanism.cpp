@@ -8,6 +8,8 @@ using namespace hydrodae;
 using namespace hydrodae::tests;
 using model::Body;
 using model::Constraint;
+using model::Coupler;
+using model::DrivenCoordinate;
 using model::Joint;
 using model::Scene;
 
@@ -41,17 +43,17 @@ Joint make_joint(const std::string& name, const std::string& type, const std::st
   return j;
 }
 
-Constraint coordinate(const std::string& owner) {
-  Constraint c;
+DrivenCoordinate coordinate(const std::string& owner) {
+  DrivenCoordinate c;
   c.name = "c";
-  c.type = "coordinate";
   c.joint = owner;
   return c;
 }
 
-Constraint coupler(const std::string& owner, const std::string& other) {
-  Constraint c = coordinate(owner);
-  c.type = "coupler";
+Coupler coupler(const std::string& owner, const std::string& other) {
+  Coupler c;
+  c.name = "c";
+  c.joint = owner;
   c.joint_b = other;
   return c;
 }
@@ -80,9 +82,9 @@ std::string verdict_of(const Constraint& c) {
   return verdict(scene);
 }
 
-template <class Change> std::string verdict_of(Constraint c, const Change& change) {
+template <class C, class Change> std::string verdict_of(C c, const Change& change) {
   change(c);
-  return verdict_of(c);
+  return verdict_of(Constraint(c));
 }
 
 using Names = std::vector<std::string>;
@@ -103,50 +105,34 @@ TEST_CASE("motions of joints are named by kind and order") {
   CHECK(motions("planar") == Names{"angle", "displacement", "displacement_2"});
 }
 
-TEST_CASE("every joint of the table is accepted with its own keys and no others") {
+TEST_CASE("every joint of the table needs its own keys") {
   for (const joint::JointType& type : joint::joint_types()) {
     const std::string name(type.name), head = "a " + name + " joint ";
     CAPTURE(name);
     const Joint good = make_joint("j", name, "a", "b");
     CHECK(verdict_of(good) == "");
-    const bool distance = name == "distance", screw = name == "screw",
-               two_points = distance || name == "telescope";
-
     Joint j = good;
-    j.axis = type.needs_axis ? std::nullopt : std::optional<Vector3>(Vector3(0, 0, 1));
-    if (type.needs_axis)
+    if (type.needs_axis) {
+      j.axis = std::nullopt;
       CHECK(verdict_of(j) == "joint.j: joint 'j': " + head + "needs the key 'axis'");
-    else
-      CHECK((verdict_of(j) == "") == (name == "fixed"));
-
+    }
     j = good;
-    j.point_b = two_points ? std::nullopt : std::optional<Vector3>(Vector3(1, 2, 3));
-    CHECK(verdict_of(j) ==
-          (two_points
-               ? "joint.j: joint 'j': " + head + "needs the key 'point_b', the point on body B"
-               : "joint.j.point_b: joint 'j': " + head +
-                     "has no 'point_b'; only distance and telescope joints have"));
+    if (type.has_two_points()) {
+      j.point_b = std::nullopt;
+      CHECK(verdict_of(j) ==
+            "joint.j: joint 'j': " + head + "needs the key 'point_b', the point on body B");
+    }
     j = good;
-    j.length = 3.0;
-    CHECK(verdict_of(j) == (distance ? ""
-                                     : "joint.j.length: joint 'j': " + head +
-                                           "has no 'length'; only a distance joint has"));
-    j = good;
-    j.pitch = screw ? 0.0 : 1.0;
-    CHECK(verdict_of(j) ==
-          (screw ? "joint.j.pitch: joint 'j': a screw joint needs the key 'pitch' "
-                   "[m per turn], and not zero"
-                 : "joint.j.pitch: joint 'j': " + head + "has no 'pitch'; only a screw joint has"));
-    j = good;
-    if (name == "path")
+    if (name == "screw") {
+      j.pitch = 0.0;
+      CHECK(verdict_of(j) == "joint.j.pitch: joint 'j': a screw joint needs the key 'pitch' "
+                             "[m per turn], and not zero");
+    }
+    if (name == "path") {
       j.path.clear();
-    else
-      j.path = {{0, 0, 0}, {1, 0, 0}};
-    CHECK(verdict_of(j) ==
-          (name == "path"
-               ? "joint.j: joint 'j': a path joint needs the key 'path', the points of "
-                 "the curve that body A carries"
-               : "joint.j.path: joint 'j': " + head + "has no 'path'; only a path joint has"));
+      CHECK(verdict_of(j) == "joint.j: joint 'j': a path joint needs the key 'path', the points of "
+                             "the curve that body A carries");
+    }
   }
   Joint rope = make_joint("rope", "distance", "a", "ground");
   rope.point_b = rope.point;
@@ -202,30 +188,22 @@ TEST_CASE("a coordinate constraint means one coordinate that exists") {
   CHECK(verdict_of(coordinate("ball")) ==
         "constraint.c.joint: constraint 'c': joint 'ball' has no coordinate: a spherical joint has "
         "no motion of its own");
-  CHECK(verdict_of(coordinate("table"), [](Constraint& c) { c.coordinate = "displacement_2"; }) ==
-        "");
-  CHECK(verdict_of(coordinate("table"), [](Constraint& c) { c.coordinate = "displacement_3"; }) ==
+  CHECK(verdict_of(coordinate("table"),
+                   [](DrivenCoordinate& c) { c.coordinate = "displacement_2"; }) == "");
+  CHECK(verdict_of(coordinate("table"),
+                   [](DrivenCoordinate& c) { c.coordinate = "displacement_3"; }) ==
         "constraint.c.coordinate: constraint 'c': coordinate = 'displacement_3' is no motion of "
         "joint 'table'; did you mean 'displacement_2'? (valid: angle, displacement, "
         "displacement_2)");
-  CHECK(verdict_of(coordinate("hinge"), [](Constraint& c) { c.joint.reset(); }) ==
+  CHECK(verdict_of(coordinate("hinge"), [](DrivenCoordinate& c) { c.joint.reset(); }) ==
         "constraint.c: constraint 'c': needs the key 'joint' or 'body' that has the coordinate");
-  CHECK(verdict_of(coordinate("hinge"), [](Constraint& c) { c.body = "sled"; }) ==
+  CHECK(verdict_of(coordinate("hinge"), [](DrivenCoordinate& c) { c.body = "sled"; }) ==
         "constraint.c.body: constraint 'c': has both 'joint' and 'body'; a coordinate belongs to "
         "one of them");
-  CHECK(contains(verdict_of(coordinate("hinge"), [](Constraint& c) { c.joint_b = "tube"; }),
-                 "a coordinate constraint has no 'joint_b'"));
-  CHECK(contains(verdict_of(coordinate("hinge"), [](Constraint& c) { c.coordinate_b = "angle"; }),
-                 "a coordinate constraint has no 'coordinate_b'"));
-  CHECK(contains(verdict_of(coordinate("hinge"), [](Constraint& c) { c.ratio = 2.0; }),
-                 "a coordinate constraint has no 'ratio'"));
-  CHECK(verdict_of(coordinate("hinge"), [](Constraint& c) { c.type = "copler"; }) ==
-        "constraint.c.type: constraint 'c': type = 'copler' is no constraint; did you mean "
-        "'coupler'? (valid: coordinate, coupler, stop)");
 }
 
 TEST_CASE("a coordinate constraint of a body means a free coordinate") {
-  Constraint c = coordinate("");
+  DrivenCoordinate c = coordinate("");
   c.joint.reset();
   c.body = "sled";
   CHECK(verdict_of(c) ==
@@ -245,7 +223,7 @@ TEST_CASE("a coordinate constraint of a body means a free coordinate") {
 
 TEST_CASE("a drive is a function on the whole run") {
   const auto verdict_with = [](std::vector<double> time, std::vector<double> values) {
-    return verdict_of(coordinate("hinge"), [&](Constraint& c) {
+    return verdict_of(coordinate("hinge"), [&](DrivenCoordinate& c) {
       c.drive.time = std::move(time);
       c.drive.values = std::move(values);
     });
@@ -266,46 +244,36 @@ TEST_CASE("a drive is a function on the whole run") {
         head + "the table of drive goes from 0 s to 9.5 s, but the run goes from 0 s to 10 s "
                "(solver.end_time)");
   CHECK(contains(verdict_with({0.5, 10}, {1, 2}), "goes from 0.5 s to 10 s, but the run"));
-  CHECK(verdict_of(coordinate("hinge"), [](Constraint& c) { c.drive.amplitude = 1.0; }) ==
+  CHECK(verdict_of(coordinate("hinge"), [](DrivenCoordinate& c) { c.drive.amplitude = 1.0; }) ==
         "constraint.c.drive.amplitude: constraint 'c': drive has an 'amplitude' but no 'period' of "
         "its sine");
 }
 
 TEST_CASE("a coupler joins two motions of joints") {
   CHECK(verdict_of(coupler("hinge", "tube")) == "");
-  CHECK(verdict_of(coupler("tube", "tube"),
-                   [](Constraint& c) { c.coordinate_b = "displacement"; }) == "");
-  CHECK(verdict_of(coupler("tube", "tube"), [](Constraint& c) { c.coordinate_b = "angle"; }) ==
+  CHECK(verdict_of(coupler("tube", "tube"), [](Coupler& c) { c.coordinate_b = "displacement"; }) ==
+        "");
+  CHECK(verdict_of(coupler("tube", "tube"), [](Coupler& c) { c.coordinate_b = "angle"; }) ==
         "constraint.c.joint_b: constraint 'c': couples a motion of 'tube' with itself");
   CHECK(verdict_of(coupler("hinge", "tub")) ==
         "constraint.c.joint_b: constraint 'c': joint_b = 'tub' is no joint; did you mean 'tube'? "
         "(valid: hinge, tube, table, ball)");
   CHECK(contains(verdict_of(coupler("hinge", "ball")), "joint 'ball' has no coordinate"));
   CHECK(contains(
-      verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.coordinate_b = "displacment"; }),
+      verdict_of(coupler("hinge", "tube"), [](Coupler& c) { c.coordinate_b = "displacment"; }),
       "constraint.c.coordinate_b: constraint 'c': coordinate_b = 'displacment' is no "
       "motion of joint 'tube'; did you mean 'displacement'?"));
-  CHECK(contains(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.joint_b.reset(); }),
-                 "a coupler needs the key 'joint_b'"));
-  CHECK(contains(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.joint.reset(); }),
-                 "a coupler needs the key 'joint'"));
-  CHECK(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.ratio = 0.0; }) ==
+  CHECK(verdict_of(coupler("hinge", "tube"), [](Coupler& c) { c.ratio = 0.0; }) ==
         "constraint.c.ratio: constraint 'c': ratio must not be zero");
-  CHECK(contains(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.body = "a"; }),
-                 "a coupler constraint has no 'body'"));
-  CHECK(contains(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.level = "velocity"; }),
-                 "a coupler constraint has no 'level'"));
-  CHECK(contains(verdict_of(coupler("hinge", "tube"), [](Constraint& c) { c.drive.rate = 1.0; }),
-                 "a coupler constraint has no 'drive'"));
 }
 
 TEST_CASE("names of constraints are unique") {
   Scene scene = machine();
   scene.constraints = {coordinate("hinge"), coordinate("tube")};
   CHECK(verdict(scene) == "constraint.c.name: two constraint entries have the name 'c'");
-  scene.constraints[1].name = "c/d";
+  scene.constraints[1]->name = "c/d";
   CHECK(contains(verdict(scene), "constraint name 'c/d' may hold letters, digits, _ and - only"));
-  scene.constraints[1].name = "hinge"; // the name of a joint is free for a constraint
+  scene.constraints[1]->name = "hinge"; // the name of a joint is free for a constraint
   CHECK(verdict(scene) == "");
 }
 
@@ -357,24 +325,24 @@ TEST_CASE("a summary tells what joints keep and what constraints follow") {
   Scene scene = machine();
   scene.joints.push_back(make_joint("rope", "distance", "a", "p"));
   scene.joints.push_back(make_joint("nut", "screw", "a", "b"));
-  Constraint crank = coordinate("hinge");
+  DrivenCoordinate crank = coordinate("hinge");
   crank.name = "crank";
   crank.drive.amplitude = 0.1;
   crank.drive.period = 5.0;
-  Constraint motor = coordinate("table");
+  DrivenCoordinate motor = coordinate("table");
   motor.name = "motor";
   motor.coordinate = "displacement_2";
   motor.level = "velocity";
   motor.drive = {-0.5, 2.0, -3.0, 4.0, -pi / 6, 8.0, {0, 10}, {1, 1}, {}, false, {}};
-  Constraint lock = coordinate("tube");
+  DrivenCoordinate lock = coordinate("tube");
   lock.name = "lock";
-  Constraint lift = lock;
+  DrivenCoordinate lift = lock;
   lift.name = "lift";
   lift.joint.reset();
   lift.body = "sled";
   lift.coordinate = "heave";
   lift.drive.time = lift.drive.values = {0, 5, 10};
-  Constraint gear = coupler("hinge", "tube");
+  Coupler gear = coupler("hinge", "tube");
   gear.name = "gear";
   gear.ratio = -2.0;
   scene.constraints = {crank, motor, lock, lift, gear};

@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "hydrodae/core/text.h"
-#include "hydrodae/model/type_keys.h"
 
 using namespace hydrodae;
 using model::FieldInfo;
@@ -53,18 +52,10 @@ TEST_CASE("every table, type and key says what it means") {
   });
 }
 
-TEST_CASE("the keys of each type are fields, and those that it needs are its own") {
-  for (const TableInfo& table : model::tables()) {
-    for (const TableInfo& type : table.types) {
+TEST_CASE("each type of a list is chosen by its name") {
+  for (const TableInfo& table : model::tables())
+    for (const TableInfo& type : table.types)
       CHECK(named(type.fields, "type").choices == std::vector<std::string>{type.name});
-      if (table.name == "force")
-        continue; // every force is a struct of its own
-      const std::vector<std::string> own = model::keys_of_type(table.name, type.name);
-      CHECK_MESSAGE(own.size() == type.fields.size() + type.nested.size(), type.name);
-      for (const std::string& key : model::needed_keys(table.name, type.name))
-        CHECK_MESSAGE(named(type.fields, key).required, type.name, ".", key);
-    }
-  }
 }
 
 TEST_CASE("a list with types has what all types have") {

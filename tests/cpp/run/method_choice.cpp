@@ -29,6 +29,11 @@ SceneTraits plain() {
 
 MethodChoice chosen() { return MethodChoice(MethodOrder{explicit_first, "nothing is stiff"}); }
 
+SolverError error(double time, const std::string& what, const std::string& details = "",
+                  const std::string& advice = "") {
+  return {time, {hydrodae::Reason::step, what, "", {}, advice, details}};
+}
+
 } // namespace
 
 TEST_CASE("a scene without stiff parts begins with explicit_rk") {
@@ -67,22 +72,22 @@ TEST_CASE("methods follow one another, each with the reason of the last") {
   MethodChoice choice = chosen();
   CHECK(choice.chosen());
   CHECK(in_words(choice) == "auto: explicit_rk (nothing is stiff)");
-  choice.next(SolverError(1.5, "stopped at t = 1.5 s: the step has become too short\n  worst"));
+  choice.next(error(1.5, "the step has become too short", "\n  worst"));
   CHECK(choice.method() == "radau");
   CHECK(in_words(choice) == "auto: explicit_rk (nothing is stiff), radau from t = 1.5 s because "
                             "explicit_rk gave up: the step has become too short");
-  choice.next(SolverError(2.0, "no finite accelerations"));
+  choice.next(error(2.0, "no finite accelerations"));
   CHECK(choice.method() == "ida");
   CHECK_FALSE(choice.more());
 }
 
 TEST_CASE("where no method is left, the error tells of all") {
   MethodChoice choice = chosen();
-  choice.next(SolverError(1.5, "stopped at t = 1.5 s: first reason (solver.x): advice\n  no use"));
-  choice.next(SolverError(1.6, "stopped at t = 1.6 s: second reason"));
+  choice.next(error(1.5, "first reason", "\n  no use", "advice"));
+  choice.next(error(1.6, "second reason"));
   std::string told;
   try {
-    choice.next(SolverError(1.7, "stopped at t = 1.7 s: third reason\n  worst equations"));
+    choice.next(error(1.7, "third reason", "\n  worst equations"));
   } catch (const SolverError& error) {
     told = error.what();
     CHECK(error.time == 1.7);
@@ -111,7 +116,7 @@ TEST_CASE("many steps in a row that are short against the motion call for anothe
 
 TEST_CASE("a choice is saved and restored") {
   MethodChoice choice = chosen(), other = chosen();
-  choice.next(SolverError(1.5, "stopped at t = 1.5 s: Größe"));
+  choice.next(error(1.5, "Größe"));
   choice.accept(1e-3, 10.0, true);
   std::vector<double> numbers;
   Archive out(numbers);

@@ -5,23 +5,40 @@
 #include <cmath>
 #include <numeric>
 
-#include "hydrodae/sea/components.h"
 #include "hydrodae/sea/dispersion.h"
 #include "hydrodae/sea/random.h"
 #include "hydrodae/sea/signals.h"
-#include "hydrodae/sea/spectrum.h"
+#include "hydrodae/sea/wave.h"
 
 namespace {
 
 using namespace hydrodae;
 
-sea::Wave irregular(const std::string& type) {
-  sea::Wave wave;
+template <class W = sea::Jonswap> W irregular() {
+  W wave;
   wave.name = "wind";
-  wave.type = type;
-  wave.significant_height = 2.0;
-  wave.peak_period = 8.0;
+  wave.height = 2.0;
+  if constexpr (requires { wave.period; })
+    wave.period = 8.0;
   return wave;
+}
+
+std::vector<sea::Component> drawn(const sea::Jonswap& wave) {
+  return wave.components({INFINITY, 9.81, {}}).components;
+}
+
+template <class W> void check_spectrum() {
+  CAPTURE(W::type);
+  const W wave = irregular<W>();
+  const sea::Spectrum s = wave.spectrum(9.81);
+  CHECK(s.m0 == doctest::Approx(0.25));
+  CHECK(s.cumulative.back() == doctest::Approx(s.m0).epsilon(1e-4));
+  const double wp = 2.0 * pi / wave.peak_period(9.81);
+  CHECK(s(wp) > s(1.02 * wp));
+  CHECK(s(wp) > s(0.98 * wp));
+  for (double part : {0.01, 0.3, 0.9})
+    CHECK(s.energy_below(s.frequency_at(part * s.m0)) ==
+          doctest::Approx(part * s.m0).epsilon(1e-9));
 }
 
 double energy(const std::vector<sea::Component>& components) {
@@ -63,62 +80,53 @@ TEST_CASE("dispersion: deep, shallow and in between") {
 }
 
 TEST_CASE("spectra: energy, peak and known values") {
-  for (const char* type : {"jonswap", "bretschneider", "ochi_hubble", "pierson_moskowitz"}) {
-    CAPTURE(type);
-    const sea::Wave wave = irregular(type);
-    const sea::Spectrum s = sea::spectrum(wave, 9.81);
-    CHECK(s.m0 == doctest::Approx(0.25));
-    CHECK(s.cumulative.back() == doctest::Approx(s.m0).epsilon(1e-4));
-    const double wp = sea::peak_frequency(wave, 9.81);
-    CHECK(s(wp) > s(1.02 * wp));
-    CHECK(s(wp) > s(0.98 * wp));
-    for (double part : {0.01, 0.3, 0.9})
-      CHECK(s.energy_below(s.frequency_at(part * s.m0)) ==
-            doctest::Approx(part * s.m0).epsilon(1e-9));
-  }
+  check_spectrum<sea::Jonswap>();
+  check_spectrum<sea::Bretschneider>();
+  check_spectrum<sea::OchiHubble>();
+  check_spectrum<sea::PiersonMoskowitz>();
   // Bretschneider in closed form: S = 5/16 Hs^2 wp^4 w^-5 exp(-5/4 (wp/w)^4).
   const double wp = 2.0 * pi / 8.0, w = 1.1;
   const double exact =
       0.3125 * 4.0 * std::pow(wp, 4) * std::pow(w, -5) * std::exp(-1.25 * std::pow(wp / w, 4));
-  CHECK(sea::spectrum(irregular("bretschneider"), 9.81)(w) == doctest::Approx(exact).epsilon(1e-5));
+  CHECK(irregular<sea::Bretschneider>().spectrum(9.81)(w) == doctest::Approx(exact).epsilon(1e-5));
   // Ochi-Hubble of shape 1 is the same; Pierson-Moskowitz: Tp = 5.0 sqrt(Hs) within 1 %.
-  CHECK(sea::spectrum(irregular("ochi_hubble"), 9.81)(w) == doctest::Approx(exact).epsilon(1e-5));
-  CHECK(2.0 * pi / sea::peak_frequency(irregular("pierson_moskowitz"), 9.81) ==
+  CHECK(irregular<sea::OchiHubble>().spectrum(9.81)(w) == doctest::Approx(exact).epsilon(1e-5));
+  CHECK(irregular<sea::PiersonMoskowitz>().peak_period(9.81) ==
         doctest::Approx(5.0 * std::sqrt(2.0)).epsilon(0.01));
   // JONSWAP with gamma 3.3 is 3.3 times as high at the peak as its own Pierson-Moskowitz part.
-  sea::Wave jonswap = irregular("jonswap");
-  const double sharp = sea::spectrum(jonswap, 9.81)(wp) / sea::spectrum(jonswap, 9.81)(4.0 * wp);
+  sea::Jonswap jonswap = irregular();
+  const double sharp = jonswap.spectrum(9.81)(wp) / jonswap.spectrum(9.81)(4.0 * wp);
   jonswap.gamma = 1.0;
-  const double blunt = sea::spectrum(jonswap, 9.81)(wp) / sea::spectrum(jonswap, 9.81)(4.0 * wp);
+  const double blunt = jonswap.spectrum(9.81)(wp) / jonswap.spectrum(9.81)(4.0 * wp);
   CHECK(sharp / blunt == doctest::Approx(3.3).epsilon(1e-3));
 }
 
 TEST_CASE("components hold the energy of the spectrum and do not repeat") {
   for (const char* spacing : {"energy", "frequency"}) {
     CAPTURE(spacing);
-    sea::Wave wave = irregular("jonswap");
+    sea::Jonswap wave = irregular();
     wave.spacing = spacing;
-    std::string note;
-    const auto components = sea::components(wave, INFINITY, 9.81, &note);
+    const sea::Sum sum = wave.components({INFINITY, 9.81, {}});
+    const std::vector<sea::Component>& components = sum.components;
     CHECK(components.size() == 200);
     CHECK(energy(components) == doctest::Approx(0.994 * 0.25).epsilon(1e-6));
-    CHECK(note.find("99.4 % of the energy") != std::string::npos);
+    CHECK(sum.note.find("99.4 % of the energy") != std::string::npos);
     // Equal steps in frequency would repeat, with correlation 1, after 2 pi / step.
     const double range = components.back().omega - components.front().omega;
     CHECK(std::abs(correlation(components, 2.0 * pi / (range / 199.0))) < 0.3);
-    const auto again = sea::components(wave, INFINITY, 9.81);
+    const auto again = drawn(wave);
     CHECK(again[17].omega == components[17].omega);
     wave.seed = 2;
-    CHECK(sea::components(wave, INFINITY, 9.81)[17].phase != components[17].phase);
+    CHECK(drawn(wave)[17].phase != components[17].phase);
   }
 }
 
 TEST_CASE("spreading: mean direction and its width") {
-  sea::Wave wave = irregular("jonswap");
+  sea::Jonswap wave = irregular();
   wave.heading = 0.3;
   wave.spreading = 10.0;
-  wave.components = 2000;
-  const auto components = sea::components(wave, INFINITY, 9.81);
+  wave.count = 2000;
+  const auto components = drawn(wave);
   double mean = 0.0, first = 0.0;
   for (const sea::Component& c : components) {
     mean += c.heading / 2000.0;
@@ -129,7 +137,7 @@ TEST_CASE("spreading: mean direction and its width") {
 }
 
 TEST_CASE("the table of a sum: stated error, two continuous derivatives, exact outside") {
-  const auto components = sea::components(irregular("jonswap"), INFINITY, 9.81);
+  const auto components = drawn(irregular());
   const auto n = static_cast<Eigen::Index>(components.size());
   VectorX omega(n);
   Eigen::MatrixXcd c(2, n);

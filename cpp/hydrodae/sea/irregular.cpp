@@ -1,4 +1,4 @@
-#include "hydrodae/sea/components.h"
+/// Irregular waves drawn from their spectrum.
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "hydrodae/core/text.h"
 #include "hydrodae/sea/dispersion.h"
 #include "hydrodae/sea/random.h"
-#include "hydrodae/sea/spectrum.h"
+#include "hydrodae/sea/system.h"
 
 namespace hydrodae::sea {
 namespace {
@@ -48,16 +48,16 @@ struct Cut {
   double low = 0.0, high = 0.0;
 };
 
-Cut usual_cut(const Wave& wave, const Spectrum& s) {
+Cut usual_cut(const Irregular& wave, const Spectrum& s) {
   if (!wave.frequency_range.empty())
     return {s.energy_below(wave.frequency_range[0]), s.energy_below(wave.frequency_range[1])};
-  if (wave.type == "table")
+  if (s.ends)
     return {s.energy_below(s.omega.front()), s.cumulative.back()};
   return {cut_below * s.m0, (1.0 - cut_above) * s.m0};
 }
 
 /// A cut, and a range that nobody gave no wider than what is covered.
-Cut cut_to(const Wave& wave, Cut cut, const Spectrum& s, const Band& covered) {
+Cut cut_to(const Irregular& wave, Cut cut, const Spectrum& s, const Band& covered) {
   if (!wave.frequency_range.empty())
     return cut;
   if (covered.low > s.omega.front())
@@ -70,54 +70,55 @@ Cut cut_to(const Wave& wave, Cut cut, const Spectrum& s, const Band& covered) {
 
 } // namespace
 
-std::vector<Component> components(const Wave& wave, double depth, double gravity, std::string* note,
-                                  const Band& covered, double* lost) {
-  if (wave.type == "regular") {
-    const double w = 2.0 * pi / *wave.period;
-    return {{w, wavenumber(w, depth, gravity), wave.heading, 0.5 * *wave.height, wave.phase}};
-  }
-  const Spectrum s = spectrum(wave, gravity);
+Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
+  Sum sum;
+  sum.range = "the database, " + number_text(site.covered.low) + " to " +
+              number_text(site.covered.high) + " rad/s";
   if (!(s.m0 > 0.0))
-    return {};
-  const Cut usual = usual_cut(wave, s), cut = cut_to(wave, usual, s, covered);
+    return sum;
+  const Cut usual = usual_cut(*this, s), cut = cut_to(*this, usual, s, site.covered);
   const double low = cut.low, high = cut.high;
-  if (lost)
-    *lost = (usual.high - usual.low - (high - low)) / s.m0;
+  sum.lost = (usual.high - usual.low - (high - low)) / s.m0;
   const double w_low = s.frequency_at(low), w_high = s.frequency_at(high);
-  Random random(static_cast<std::uint64_t>(wave.seed));
-  std::vector<Component> out;
-  for (int i = 0; i < wave.components; ++i) {
-    const double a = static_cast<double>(i) / wave.components;
-    const double b = static_cast<double>(i + 1) / wave.components;
+  Random random(static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < count; ++i) {
+    const double a = static_cast<double>(i) / count;
+    const double b = static_cast<double>(i + 1) / count;
     const double u = random.uniform(), phase = 2.0 * pi * random.uniform();
-    double energy = (high - low) / wave.components, w = 0.0;
-    if (wave.spacing == "energy") {
+    double energy = (high - low) / count, w = 0.0;
+    if (spacing == "energy") {
       w = s.frequency_at(low + (high - low) * (a + u * (b - a)));
     } else {
       w = w_low + (w_high - w_low) * (a + u * (b - a));
       energy = s.energy_below(w_low + (w_high - w_low) * b) -
                s.energy_below(w_low + (w_high - w_low) * a);
     }
-    if (wave.frequency_range.empty()) // up to rounding it is there already
-      w = std::clamp(w, covered.low, std::max(covered.low, covered.high));
+    if (frequency_range.empty()) // up to rounding it is there already
+      w = std::clamp(w, site.covered.low, std::max(site.covered.low, site.covered.high));
     if (energy > 0.0)
-      out.push_back(
-          {w, wavenumber(w, depth, gravity), wave.heading, std::sqrt(2.0 * energy), phase});
+      sum.components.push_back(
+          {w, wavenumber(w, site.depth, site.gravity), heading, std::sqrt(2.0 * energy), phase});
   }
-  if (wave.spreading) {
-    const Directions directions(*wave.spreading);
+  if (spreading) {
+    const Directions directions(*spreading);
     double u = random.uniform();
-    for (Component& c : out) {
+    for (Component& c : sum.components) {
       c.heading += directions(u);
       u += 0.5 * (std::sqrt(5.0) - 1.0);
       u -= std::floor(u);
     }
   }
-  if (note)
-    *note = "wave " + in_quotes(wave.name) + ": " + std::to_string(out.size()) +
-            " components from " + number_text(w_low) + " to " + number_text(w_high) +
-            " rad/s hold " + number_text(100.0 * (high - low) / s.m0) + " % of the energy";
-  return out;
+  sum.note = "wave " + in_quotes(name) + ": " + std::to_string(sum.components.size()) +
+             " components from " + number_text(w_low) + " to " + number_text(w_high) +
+             " rad/s hold " + number_text(100.0 * (high - low) / s.m0) + " % of the energy";
+  return sum;
+}
+
+std::optional<Fault> period_fault(const char* key, double period) {
+  if (period < shortest_period)
+    return Fault{key, "waves shorter than " + number_text(shortest_period) +
+                          " s are none of gravity, got " + number_text(period) + " s"};
+  return {};
 }
 
 double ramp(double t, double duration) {

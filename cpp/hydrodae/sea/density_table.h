@@ -1,0 +1,42 @@
+#pragma once
+#include <algorithm>
+#include <functional>
+
+#include "hydrodae/core/types.h"
+#include "hydrodae/sea/system.h"
+
+namespace hydrodae::sea {
+
+/// S given point by point, straight lines between, m0 as given.
+struct DensityTable : Irregular {
+  static constexpr std::string_view type = "table";
+  static constexpr std::string_view doc = "Spectrum given point by point, straight lines between.";
+  std::vector<double> frequency, density;
+
+  double significant_height() const { return 4.0 * std::sqrt(spectrum(0.0).m0); }
+  double peak_period(double) const {
+    const auto peak = std::max_element(density.begin(), density.end()) - density.begin();
+    return 2.0 * pi / frequency[static_cast<std::size_t>(peak)];
+  }
+  Spectrum spectrum(double) const { return spectrum_of_points(frequency, density); }
+  Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }
+  std::optional<Fault> fault() const {
+    if (frequency.size() != density.size() || frequency.size() < 2)
+      return Fault{"density", "frequency and density must be two lists of equal length >= 2"};
+    if (!std::is_sorted(frequency.begin(), frequency.end(), std::less_equal<>()))
+      return Fault{"frequency", "the frequencies must ascend"};
+    return range_fault(frequency_range);
+  }
+
+  template <class W = DensityTable> static Fields<W> fields() {
+    return irregular_fields<W>() +
+           Fields<W>{
+               {"frequency", &W::frequency, "rad/s", "Frequencies of a table, ascending.", true,
+                more_than(0)},
+               {"density", &W::density, "m2 s/rad", "Spectral density S at these frequencies.",
+                true, at_least(0)},
+           };
+  }
+};
+
+} // namespace hydrodae::sea
