@@ -49,10 +49,9 @@ def fits(monkeypatch):
 def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
     source = reference / "hdb" / "own" / "sphere.nc"
     out = tmp_path / "hydro.h5"
-    code = call(
-        "import", source, "-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5",
-        "--keep", "buoy.planar", "--kernel", "buoy.heave", "--length", "10", "--single",
-    )  # fmt: skip
+    options = "--bodies buoy --cog buoy=0,0,-1.5 --keep buoy.planar"
+    kernel = "--kernel buoy.heave --length 10 --single"
+    code = call("import", source, "-o", out, *options.split(), *kernel.split())
     assert code == 0
     db = hdb.read(out)
     assert db.coordinates == ("buoy.surge", "buoy.heave", "buoy.pitch")

@@ -280,10 +280,13 @@ def test_f3of_fits_are_compared_with_their_tables(repository):
     db = hdb.read(repository / "cases" / "f3of" / "hydro.h5")
     fits = hdb.check(db).find("memory fit")
     assert [f.severity for f in fits] == ["warning", "warning"]
-    low = dataclasses.replace(db, **{
-        t: getattr(db, t)[db.omega < 1.0]
-        for t in ("omega", "added_mass", "radiation_damping", "froude_krylov", "diffraction")
-    })  # fmt: skip
+    low = dataclasses.replace(
+        db,
+        **{
+            t: getattr(db, t)[db.omega < 1.0]
+            for t in ("omega", "added_mass", "radiation_damping", "froude_krylov", "diffraction")
+        },
+    )
     assert [f.value < 2e-3 for f in hdb.check(low).find("memory fit")] == [True, True]
 
 

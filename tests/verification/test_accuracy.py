@@ -341,8 +341,10 @@ def test_both_commands_verify_and_are_strict(
     assert main(["run", str(case), *loose, "-o", str(tmp_path / "a.h5")]) == 5
     done = subprocess.run(
         [executable, case, *loose, "-o", tmp_path / "b.h5"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 5
     assert "bob: reproducible until t = " in done.stdout
 

@@ -162,9 +162,13 @@ def test_a_second_device_answers(fmi: int, tmp_path: Path) -> None:
     """
     x, load, force = "joints/slide/displacement", "forces/pto/load", "forces/pto/force"
     export(
-        Case.from_text(SECOND), tmp_path / "b.fmu", fmi=fmi, inputs=[load], outputs=[force],
+        Case.from_text(SECOND),
+        tmp_path / "b.fmu",
+        fmi=fmi,
+        inputs=[load],
+        outputs=[force],
         parameters=["body.float.mass"],
-    )  # fmt: skip
+    )
     keys = f"""type = "fmu"
 file = "b.fmu"
 fmu_inputs = ["{load}"]

@@ -69,9 +69,15 @@ step = 0.1
 
 def cart(start: float, speed: float, delay: float = DELAY) -> hydrodae.Case:
     text = CART.format(
-        mass=MASS, start=start, speed=speed, stiffness=STIFFNESS, late=LATE, damping=DAMPING,
-        delay=delay, end=END,
-    )  # fmt: skip
+        mass=MASS,
+        start=start,
+        speed=speed,
+        stiffness=STIFFNESS,
+        late=LATE,
+        damping=DAMPING,
+        delay=delay,
+        end=END,
+    )
     return hydrodae.Case.from_text(text)
 
 

@@ -29,9 +29,13 @@ restitution = {restitution}
 
 
 def cell(
-    folder: Path, period: float, height: float, motion: str, stroke: float = STROKE,
+    folder: Path,
+    period: float,
+    height: float,
+    motion: str,
+    stroke: float = STROKE,
     restitution: float = 0.3,
-) -> hydrodae.Case:  # fmt: skip
+) -> hydrodae.Case:
     """cases/rm3/wave.toml with end stops, in an irregular sea for five minutes."""
     text = (folder / "wave.toml").read_text()
     if motion == "heave":

@@ -77,9 +77,16 @@ def test_a_stroke_that_no_load_can_reach_leaves_the_nearest() -> None:
     """A spring of 200 N/m under at most 3 N comes to 0.015 m, far below the 5 m asked for."""
     plant = Plant(hydrodae.Case.from_text(SPRING), "guide")
     law = ModelPredictive(
-        plant, NO_WAVES, period=0.1, horizon=10, damping=0.0, weight=1e-3, load_limit=3.0,
-        rate_limit=20.0, stroke=(5.0, 6.0),
-    )  # fmt: skip
+        plant,
+        NO_WAVES,
+        period=0.1,
+        horizon=10,
+        damping=0.0,
+        weight=1e-3,
+        load_limit=3.0,
+        rate_limit=20.0,
+        stroke=(5.0, 6.0),
+    )
     text = SPRING.replace("[solver]\n", PYTHON).replace("end_time = 1.0", "end_time = 3.0")
     results = hydrodae.run(hydrodae.Case.from_text(text), controllers={"law": law})
     held = results["controllers/law/output"].to_numpy()
