@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import toeplitz
 from tests.python.doc_blocks import blocks, command_lines
+from tests.scenes import cart
 from tests.verification import test_lines as lines
-from tests.verification.carts import cart
 from tests.verification.test_lines_in_motion import BAR, PERIOD, ROUND
 
 import hydrodae

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.optimize import minimize
-from tests.verification.carts import cart
+from tests.scenes import cart
 
 import hydrodae
 import hydrodae.case.contents
@@ -60,7 +60,7 @@ MASS = cart(
     title="Mass that a take-off brakes",
     body="float",
     motion="heave",
-    initial="velocity = [0.0, 0.0, 1.0]",
+    initial={"velocity": [0.0, 0.0, 1.0]},
     joint="guide",
     solver='method = "gauss"\nstep = 0.02\nend_time = 4.0',
     step=0.02,

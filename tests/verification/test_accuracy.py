@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from tests.attack import suite
 from tests.attack.family import FAMILIES
+from tests.scenes import run_for, slide, table
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -292,36 +293,13 @@ def test_controllers_with_memory_are_repeated_from_their_records() -> None:
         assert results.statistics[name] < 1e-3 if name == "estimated_error" else True
 
 
-CONTROLLED = """
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.velocity = [1.0, 0.0, 0.0]
-[[joint]]
-name = "rail"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "motor"
-type = "pto_linear"
-joint = "rail"
-stiffness = 4.0
-[[controller]]
-name = "brake"
-type = "python"
-inputs = ["joints/rail/displacement_rate"]
-outputs = ["forces/motor/load"]
-period = 0.1
-[solver]
-end_time = 10.0
-[output]
-step = 0.1
-"""
+CONTROLLED = (
+    slide(joint="rail", mass=1.0, gravity=None, velocity=[1.0, 0.0, 0.0])
+    + table("force", name="motor", type="pto_linear", joint="rail", stiffness=4.0)
+    + table("controller", name="brake", type="python", inputs=["joints/rail/displacement_rate"])
+    + 'outputs = ["forces/motor/load"]\nperiod = 0.1\n'
+    + run_for(10.0, 0.1)
+)
 
 
 def test_without_an_estimate_the_reason_is_printed() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.scenes import bouncing_ball, slide, table
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
@@ -21,59 +22,16 @@ METHODS = {
     "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.01\n',
 }
 GRAVITY = 9.81
+OUTPUT = "[output]\nstep = 0.01\n"
 
-BALL = """
-[[body]]
-name = "ball"
-motion = "heave"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 1.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "ball"
-point = [0.0, 0.0, 1.0]
-axis = [0.0, 0.0, 1.0]
-[[constraint]]
-name = "floor"
-type = "stop"
-joint = "guide"
-lower = -1.0
-restitution = 0.8
-[output]
-step = 0.01
-"""
+BALL = bouncing_ball(0.8) + OUTPUT
 
-BLOCK = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "block"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "block"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "spring"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-[[force]]
-name = "dry"
-type = "dry_friction"
-joint = "slide"
-static = 6.0
-[output]
-step = 0.01
-"""
+BLOCK = (
+    slide("block", displacement=[0.5, 0.0, 0.0])
+    + table("force", name="spring", type="pto_linear", joint="slide", stiffness=200.0)
+    + table("force", name="dry", type="dry_friction", joint="slide", static=6.0)
+    + OUTPUT
+)
 
 
 def run(text: str, end_time: float, method: str = "ida", rtol: float = 1e-8) -> hydrodae.Results:

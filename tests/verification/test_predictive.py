@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from tests.scenes import slide, table
 
 import hydrodae
 from hydrodae import CaseError, SolverError
@@ -16,29 +17,11 @@ from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, 
 
 OMEGA, AMPLITUDE, PERIOD = 1.2, 0.01, 0.1  # rad/s, m: of cases/sphere/control.toml; s
 SLIDE = "joints/guide/displacement"
-SPRING = """
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [-1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "guide"
-stiffness = 200.0
-damping = 3.0
-[solver]
-end_time = 1.0
-"""
+SPRING = (
+    slide(joint="guide", axis=[-1.0, 0.0, 0.0])
+    + table("force", name="pto", type="pto_linear", joint="guide", stiffness=200.0, damping=3.0)
+    + "[solver]\nend_time = 1.0\n"
+)
 
 
 PYTHON = """[[controller]]
