@@ -116,7 +116,7 @@ def test_units_of_a_program_that_cannot_be(units: dict[str, Any], message: str) 
 )
 def test_units_that_a_case_cannot_give(type: str, keys: str, inputs: str, message: str) -> None:
     given = case(type, keys, inputs)
-    line = controlled_cart(type, keys, inputs).splitlines().index("[[controller]]") + 1
+    line = controlled_cart(type, keys, inputs).splitlines().index(f"inputs = [{inputs}]") + 1
     for act in (hydrodae.check, hydrodae.Simulation):
         with pytest.raises(CaseError, match=message) as caught:
             act(given)
