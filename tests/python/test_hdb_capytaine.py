@@ -200,8 +200,8 @@ def test_hydrostatics_with_the_weight_taken_out(tmp_path):
 # real files
 
 
-def test_own_sphere(reference):
-    db, report = hdb.import_database(reference / "hdb" / "own" / "sphere.nc")
+def test_own_sphere(sphere_file):
+    db, report = hdb.import_database(sphere_file)
     assert report.ok
     assert not report.of("warning")
     assert db.omega.size == 100

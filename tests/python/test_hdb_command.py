@@ -46,12 +46,11 @@ def fits(monkeypatch):
     return calls
 
 
-def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
-    source = reference / "hdb" / "own" / "sphere.nc"
+def test_import_writes_a_file_about_the_new_points(sphere_file, tmp_path, capsys):
     out = tmp_path / "hydro.h5"
     options = "--bodies buoy --cog buoy=0,0,-1.5 --keep buoy.planar"
     kernel = "--kernel buoy.heave --length 10 --single"
-    code = call("import", source, "-o", out, *options.split(), *kernel.split())
+    code = call("import", sphere_file, "-o", out, *options.split(), *kernel.split())
     assert code == 0
     db = hdb.read(out)
     assert db.coordinates == ("buoy.surge", "buoy.heave", "buoy.pitch")
@@ -146,10 +145,9 @@ def test_fits_at_import_and_later(reference, tmp_path, fits, capsys):
         (["--kernel", "sphere.heave", "--length", "-1"], DatabaseError, "too short"),
     ],
 )
-def test_bad_arguments_say_what_is_expected(reference, tmp_path, fits, words, error, message):
-    source = reference / "hdb" / "own" / "sphere.nc"
+def test_bad_arguments_say_what_is_expected(sphere_file, tmp_path, fits, words, error, message):
     with pytest.raises(error, match=message):
-        call("import", source, "-o", tmp_path / "x.h5", *words)
+        call("import", sphere_file, "-o", tmp_path / "x.h5", *words)
 
 
 def test_show_checks_any_source(reference, capsys):

@@ -27,8 +27,8 @@ def call(*words):
 
 
 @pytest.fixture(scope="module")
-def sphere(reference):
-    return hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def sphere(sphere_tables):
+    return sphere_tables
 
 
 @pytest.fixture(scope="module")
@@ -329,10 +329,10 @@ def test_doctor_draws_a_pdf_of_fits_and_exits_with_2_on_an_error(
         (["-r", "x.docx"], "no such kind of picture"),
     ],
 )
-def test_bad_arguments_of_the_doctor(reference, tmp_path, monkeypatch, words, message):
+def test_bad_arguments_of_the_doctor(sphere_file, tmp_path, monkeypatch, words, message):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(CaseError, match=message):
-        call("doctor", reference / "hdb" / "own" / "sphere.nc", *words)
+        call("doctor", sphere_file, *words)
 
 
 def test_findings_are_wrapped_and_sorted():

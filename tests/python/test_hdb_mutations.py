@@ -178,8 +178,8 @@ def test_water_without_weight_is_refused_and_strange_water_told(copy):
     assert any(f.check == "water" and "density 1e+06 kg/m3" in f.message for f in found)
 
 
-def test_a_single_garbled_force_is_told(reference):
-    sphere = hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def test_a_single_garbled_force_is_told(sphere_tables):
+    sphere = sphere_tables
     band = (0.3, 2.0)
     assert spike_findings(sphere, band) == []
     at, heave = int(np.abs(sphere.omega - 1.0).argmin()), sphere.index("sphere.heave")[0]
@@ -240,8 +240,8 @@ def test_overflows_are_dropped_and_told(copy):
     assert any(f.check == "NaN" for f in report.of("warning"))
 
 
-def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):
-    sphere = hdb.read(reference / "hdb" / "own" / "sphere.nc").select(["sphere.heave"])
+def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(sphere_tables):
+    sphere = sphere_tables.select(["sphere.heave"])
     damping = sphere.radiation_damping.copy()
     damping[np.abs(sphere.omega - 1.0).argmin()] *= -3.0
     wrong = dataclasses.replace(sphere, radiation_damping=damping)
