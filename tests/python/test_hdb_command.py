@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.database.writers import write_capytaine
 from hydrodae.hdb.memory import ExponentialMemory
 
 
@@ -80,6 +83,20 @@ def test_import_with_an_error_writes_nothing_unless_accepted(reference, tmp_path
     named = ("--accept", "b-positive-semidefinite", "--accept", "irregular-frequencies")
     assert call(*whole, *named) == 0
     assert list(hdb.read(out).bodies) == ["float", "spar"]
+
+
+def test_tables_with_an_error_are_written_only_if_it_is_accepted(sphere_tables, tmp_path, capsys):
+    damping = sphere_tables.radiation_damping.copy()
+    damping[20, 2, 2] *= -3.0
+    source, out = tmp_path / "wrong.nc", tmp_path / "hydro.h5"
+    write_capytaine(dataclasses.replace(sphere_tables, radiation_damping=damping), source)
+    assert call("import", source, "-o", out) == 2
+    assert not out.exists()
+    errors = re.findall(r"--accept ([\w-]+)", capsys.readouterr().out)
+    assert "b-positive-semidefinite" in errors
+    accepted = [word for error in errors for word in ("--accept", error)]
+    assert call("import", source, "-o", out, *accepted) == 0
+    assert hdb.read(out).omega.size == 100
 
 
 def test_cut_leaves_out_what_is_above(reference, tmp_path, capsys):

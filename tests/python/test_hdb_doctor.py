@@ -137,6 +137,25 @@ def test_interpolation_makes_the_tables_causal(nemoh, reference):
         assert off.max() < 0.015 * np.abs(other.excitation[:, 0, i]).max()
 
 
+def test_interpolation_gives_back_what_a_false_resonance_spoiled(sphere):
+    """Three rows of a smooth table are spoiled: here the truth is known."""
+    added, damping = sphere.added_mass.copy(), sphere.radiation_damping.copy()
+    force, heave = sphere.diffraction.copy(), sphere.index("sphere.heave")[0]
+    added[43:46, heave, heave] *= [1.3, 1.0, 0.7]
+    damping[43:46, heave, heave] *= [1.5, 3.0, 1.5]
+    force[43:46, 0, heave] *= [1.1, 1.5, 1.1]
+    spoiled = dataclasses.replace(
+        sphere, added_mass=added, radiation_damping=damping, diffraction=force
+    )
+    found = bands(spoiled.omega, suspect_rows(spoiled))
+    assert any(low <= sphere.omega[44] <= high for low, high in found)
+    assert not suspect_rows(sphere).any()
+    clean = repair(spoiled, ["irregular"])
+    for name in ("added_mass", "radiation_damping", "excitation"):
+        off, truth = (getattr(d, name)[..., heave] for d in (clean, sphere))
+        assert np.abs(off - truth).max() < 5e-3 * np.abs(truth).max(), name
+
+
 def test_bad_frequencies_at_the_end_are_left_out(nemoh, monkeypatch):
     last = np.zeros(nemoh.omega.size, dtype=bool)
     last[[100, -2, -1]] = True
