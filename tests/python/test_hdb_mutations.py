@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.nemoh_writer import NemohFolder
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
@@ -20,8 +21,10 @@ from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.readers.reading import read_source
 
+OWN = "own_nemoh"  #: A folder that the tests write themselves, in every clone.
 #: Folders, and the file whose numbers are garbled.
 SOURCES = {
+    OWN: "Results/RadiationCoefficients.tec",
     "cylinder_hams": "Wamit_format/Buoy.1",
     "boxes_aqwa": "ANALYSIS.LIS",
     "cylinder_aqwa": "cylinder.AH1",
@@ -40,10 +43,13 @@ HARMLESS = {
 
 
 @pytest.fixture
-def copy(reference, tmp_path):
-    """Copies a folder of the reference without its pictures."""
+def copy(request, tmp_path):
+    """Copies a folder of the reference without its pictures, or writes the own one."""
 
     def copied(name: str) -> Path:
+        if name == OWN:
+            return Path(NemohFolder().write(tmp_path / name))
+        reference = request.getfixturevalue("reference")
         leave = shutil.ignore_patterns(
             "*.png", "*.pdf", "*.LIS" if name == "cylinder_aqwa" else "-"
         )
