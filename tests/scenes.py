@@ -77,6 +77,48 @@ def slide(
     return head + mover + guide
 
 
+def pendulum(
+    body: str,
+    *,
+    mass: float,
+    at: Sequence[float],
+    inertia: Sequence[float],
+    motion: str = "planar",
+    **initial: Any,
+) -> str:
+    """Return a body that hangs in `hinge`, about y through the origin.
+
+    Further keywords are those of the start of the hinge, which is the last table.
+    """
+    bar = table("body", name=body, motion=motion, mass=mass, center_of_gravity=at, inertia=inertia)
+    hinge = table(
+        "joint",
+        name="hinge",
+        type="revolute",
+        body_a="ground",
+        body_b=body,
+        point=ORIGIN,
+        axis=[0.0, 1.0, 0.0],
+        initial=initial or None,
+    )
+    return bar + hinge
+
+
+def driven(
+    body: str, coordinate: str, mass: float, at: Sequence[float] = ORIGIN, **drive: Any
+) -> str:
+    """Return a body whose one coordinate follows a drive with these keys."""
+    mover = table("body", name=body, motion=[coordinate], mass=mass, center_of_gravity=at)
+    return mover + table(
+        "constraint",
+        name="moves",
+        type="coordinate",
+        body=body,
+        coordinate=coordinate,
+        drive=drive,
+    )
+
+
 def cart(
     pto: str,
     *,

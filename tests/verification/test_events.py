@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.scenes import bouncing_ball, slide, table
+from tests.scenes import bouncing_ball, pendulum, slide, table
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
@@ -144,30 +144,11 @@ def test_methods_agree_on_stick_slip(tmp_path: Path) -> None:
 
 def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
     """A rod that falls onto a stop of its hinge: energy falls by the square of the restitution."""
-    text = """
-[[body]]
-name = "rod"
-motion = "rigid"
-mass = 3.0
-center_of_gravity = [0.5, 0.0, 0.0]
-inertia = [0.01, 0.25, 0.25]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "rod"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-[[constraint]]
-name = "stop"
-type = "stop"
-joint = "hinge"
-lower_deg = -10.0
-upper_deg = 40.0
-restitution = 0.5
-[output]
-step = 0.005
-"""
+    rod = {"mass": 3.0, "at": [0.5, 0.0, 0.0], "inertia": [0.01, 0.25, 0.25]}
+    stop = {"lower_deg": -10.0, "upper_deg": 40.0, "restitution": 0.5}
+    text = pendulum("rod", motion="rigid", **rod)
+    text += table("constraint", name="stop", type="stop", joint="hinge", **stop)
+    text += "[output]\nstep = 0.005\n"
     results = run(text, 1.5)
     angle = np.asarray(results["joints/hinge/angle"].values)
     assert np.degrees(angle.max()) == pytest.approx(40.0, abs=1e-6)

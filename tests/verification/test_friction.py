@@ -204,22 +204,9 @@ def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, p
     np.testing.assert_allclose(rate[expected > 0.5], expected[expected > 0.5], rtol=2e-4)
 
 
-PENDULUM = """
-[environment]
-gravity = 9.81
-[[body]]
-name = "arm"
-motion = "MOTION"
-mass = 3.0
-center_of_gravity = [0.8, 0.0, 0.0]
-inertia = [0.1, 0.3, 0.25]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "arm"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
+PENDULUM = (
+    scenes.pendulum("arm", motion="MOTION", mass=3.0, at=[0.8, 0.0, 0.0], inertia=[0.1, 0.3, 0.25])
+    + """
 [[force]]
 type = "friction_stribeck"
 name = "bearing"
@@ -236,6 +223,7 @@ SOLVER
 [output]
 step = 0.02
 """
+)
 
 
 def pendulum(time: np.ndarray) -> np.ndarray:
