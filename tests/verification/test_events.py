@@ -144,9 +144,8 @@ def test_methods_agree_on_stick_slip(tmp_path: Path) -> None:
 
 def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
     """A rod that falls onto a stop of its hinge: energy falls by the square of the restitution."""
-    rod = {"mass": 3.0, "at": [0.5, 0.0, 0.0], "inertia": [0.01, 0.25, 0.25]}
     stop = {"lower_deg": -10.0, "upper_deg": 40.0, "restitution": 0.5}
-    text = pendulum("rod", motion="rigid", **rod)
+    text = pendulum("rod", motion="rigid", mass=3.0, at=[0.5, 0.0, 0.0], inertia=[0.01, 0.25, 0.25])
     text += table("constraint", name="stop", type="stop", joint="hinge", **stop)
     text += "[output]\nstep = 0.005\n"
     results = run(text, 1.5)

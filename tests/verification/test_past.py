@@ -27,10 +27,9 @@ EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
 
 def cart(start: float, speed: float, delay: float = DELAY) -> hydrodae.Case:
     title = "Cart on a spring, with a damper and a spring that act late"
-    begun = {"displacement": [start, 0.0, 0.0], "velocity": [speed, 0.0, 0.0]}
     late = {"stiffness": LATE, "damping": DAMPING, "delay": delay}
     text = (
-        slide(mass=MASS, title=title, **begun)
+        slide(mass=MASS, title=title, displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
         + table("force", type="pto_linear", name="spring", joint="slide", stiffness=STIFFNESS)
         + table("force", type="pto_linear", name="late", joint="slide", **late)
         + run_for(END, 0.1, length_scale=1.0, time_scale=0.5)
