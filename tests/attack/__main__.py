@@ -41,8 +41,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with ProcessPoolExecutor(options.jobs) as pool:
         for made in pool.map(_row, jobs):
             cells += made
-            print(f"{made[0].scene:22} " + "  ".join(f"{suite.label(c):>11}" for c in made),
-                  flush=True)  # fmt: skip
+            print(
+                f"{made[0].scene:22} " + "  ".join(f"{suite.label(c):>11}" for c in made),
+                flush=True,
+            )
             if options.json:  # after every scene, so that a run that is cut leaves what it has
                 _write(cells, options.json)
     _report(cells, options)
@@ -54,10 +56,16 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("scenes", nargs="*", default=["*"], help="patterns of names (default: all)")
     parser.add_argument("--methods", nargs="+", default=["*"], metavar="NAME", help="patterns")
     parser.add_argument("--seed", type=int, default=1, help="of the tolerances and steps (1)")
-    parser.add_argument("--draw", type=int, nargs=2, metavar=("FIRST", "COUNT"),
-                        help="draw COUNT new scenes of each family, from seed FIRST")  # fmt: skip
-    parser.add_argument("--time-limit", type=float, default=10.0, metavar="S",
-                        help="CPU time of a run [s] (10)")  # fmt: skip
+    parser.add_argument(
+        "--draw",
+        type=int,
+        nargs=2,
+        metavar=("FIRST", "COUNT"),
+        help="draw COUNT new scenes of each family, from seed FIRST",
+    )
+    parser.add_argument(
+        "--time-limit", type=float, default=10.0, metavar="S", help="CPU time of a run [s] (10)"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="processes (1)")
     parser.add_argument("--list", action="store_true", help="list scenes and methods, run nothing")
     parser.add_argument("--json", metavar="FILE", help="write cells and figures")
@@ -86,27 +94,27 @@ def _report(cells: Sequence[Cell], options: argparse.Namespace) -> None:
     print()
     print(show.legend(cells))
     figures = suite.figures(cells)
-    print(f"{figures['wrong']:.0f} wrong; {100 * figures['default_share']:.1f} % of "
-          f"{figures['default_runs']:.0f} default runs of scenes that some method passes pass; "
-          "true error a tenth to ten times the estimate in "
-          f"{100 * figures['within_share']:.1f} % of {figures['estimated']:.0f} runs with "
-          "an estimate, beyond a hundred times in "
-          f"{figures['far']:.0f}")  # fmt: skip
+    print(
+        f"{figures['wrong']:.0f} wrong; {100 * figures['default_share']:.1f} % of "
+        f"{figures['default_runs']:.0f} default runs of scenes that some method passes pass; "
+        "true error a tenth to ten times the estimate in "
+        f"{100 * figures['within_share']:.1f} % of {figures['estimated']:.0f} runs with "
+        "an estimate, beyond a hundred times in "
+        f"{figures['far']:.0f}"
+    )
     if options.picture:
         show.write_picture(cells, options.picture, panels=4, text=suite.label)
 
 
 def _write(cells: Sequence[Cell], path: str) -> None:
-    document: dict[str, Any] = {
-        "figures": suite.figures(cells), "cells": [_record(c) for c in cells],
-    }  # fmt: skip
+    document: dict[str, Any] = dict(figures=suite.figures(cells), cells=[_record(c) for c in cells])
     Path(path).write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
 def _record(cell: Cell) -> dict[str, Any]:
-    return asdict(cell) | cell.record() | {
-        "kind": suite.kind_of(cell.scene), "ratio": suite.ratio(cell),
-    }  # fmt: skip
+    return (
+        asdict(cell) | cell.record() | dict(kind=suite.kind_of(cell.scene), ratio=suite.ratio(cell))
+    )
 
 
 if __name__ == "__main__":

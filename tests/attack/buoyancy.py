@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, beside, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
@@ -22,21 +22,22 @@ def period(rate: float, angle: float) -> float:
 
 
 def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-3, 1e6), "mass": log_uniform(g, 1e-6, 1e9),
-        "share": g.uniform(0.05, 2.0), "lever": g.uniform(0.3, 1.5),
-        "angle": log_uniform(g, 1e-3, 2.5), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-3, 1e6),
+        mass=log_uniform(g, 1e-6, 1e9),
+        share=g.uniform(0.05, 2.0),
+        lever=g.uniform(0.3, 1.5),
+        angle=log_uniform(g, 1e-3, 2.5),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_pendulum,
-    {"length": 1.0, "mass": 1.0, "share": 0.4, "lever": 1.2, "angle": 1.0},
-    {"length": 1.0, "mass": 1e6, "share": 0.7, "lever": 0.8, "angle": 2.0},
-    {"length": 1e6, "mass": 1e6, "share": 1.8, "lever": 1.0, "angle": 0.5},
-    {"length": 1e-3, "mass": 1e-6, "share": 0.9, "lever": 1.0, "angle": 1e-3},
-    {"length": 10.0, "mass": 1e4, "share": 0.95, "lever": 1.02, "angle": 1.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_pendulum)
+@chosen(length=1.0, mass=1.0, share=0.4, lever=1.2, angle=1.0)
+@chosen(length=1.0, mass=1e6, share=0.7, lever=0.8, angle=2.0)
+@chosen(length=1e6, mass=1e6, share=1.8, lever=1.0, angle=0.5)
+@chosen(length=1e-3, mass=1e-6, share=0.9, lever=1.0, angle=1e-3)
+@chosen(length=10.0, mass=1e4, share=0.95, lever=1.02, angle=1.0, kind="ship")
 def submerged_pendulum(
     length: float, mass: float, share: float, lever: float, angle: float, kind: str | None = None
 ) -> Scene:
@@ -60,10 +61,9 @@ def submerged_pendulum(
     hinge = np.array([0.0, 0.0, -3.0 * max(1.0, lever) * length])
     arm = length * np.array([np.sin(angle), 0.0, -down * np.cos(angle)])
     bar = body("bar", "planar", mass, hinge + arm, [inertia] * 3)
-    bar |= {
-        "volume": share * mass / WATER,
-        "center_of_buoyancy": [float(x) for x in hinge + lever * arm],
-    }  # fmt: skip
+    bar |= dict(
+        volume=share * mass / WATER, center_of_buoyancy=[float(x) for x in hinge + lever * arm]
+    )
 
     def place(time: Any) -> Any:
         a = truths.pendulum_angle(time, rate, angle)
@@ -74,9 +74,13 @@ def submerged_pendulum(
     turns = joint("hinge", "revolute", "ground", "bar", hinge, [0.0, 1.0, 0.0])
     tables = case([bar], end, joints=[turns], samples=410)
     tables["environment"] = {"water_density": WATER}
-    scene = Scene(
-        "", f"a submerged bar of {length:g} m, {share:g} of its weight lifted", tables,
-        length * min(2.0, angle), 1.0 / rate, "Jacobi elliptic functions", place,
-        position("bar", 0, 2, origin=hinge + arm),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a submerged bar of {length:g} m, {share:g} of its weight lifted",
+        tables=tables,
+        size=length * min(2.0, angle),
+        time_scale=1.0 / rate,
+        source="Jacobi elliptic functions",
+        truth=place,
+        measured=position("bar", 0, 2, origin=hinge + arm),
+    )
     return beside(scene, kind)

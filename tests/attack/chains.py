@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.impacts import stop
 from tests.attack.parts import (
     DOWN_Y,
@@ -47,9 +47,12 @@ class Chain:
     """
 
     def __init__(
-        self, lengths: Sequence[float], masses: Sequence[float], gravity: float = GRAVITY,
+        self,
+        lengths: Sequence[float],
+        masses: Sequence[float],
+        gravity: float = GRAVITY,
         name: str = "bar",
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Sum up what does not depend on the pose."""
         self.lengths, mass = np.array(lengths, dtype=float), np.array(masses, dtype=float)
         self.n, self.masses, self.gravity, self.name = len(mass), mass, gravity, name
@@ -92,8 +95,9 @@ class Chain:
         a = y[: self.n]
         half = 0.5 * self.lengths.reshape(-1, *[1] * (a.ndim - 1))
         x, z = self.ends(a)
-        return [c for k in range(self.n)
-                for c in ((x - half * np.sin(a))[k], (z + half * np.cos(a))[k])]  # fmt: skip
+        return [
+            c for k in range(self.n) for c in ((x - half * np.sin(a))[k], (z + half * np.cos(a))[k])
+        ]
 
     def parts(
         self, angles: Array, rates: Array | None = None, y: float = 0.0, motion: str = "planar"
@@ -112,11 +116,21 @@ class Chain:
                 start = {"velocity": [vx, 0.0, vz], "angular_velocity": [0.0, -rates[k], 0.0]}
             at = [0.0, y, 0.0] if k == 0 else [x[k - 1], y, z[k - 1]]
             before = "ground" if k == 0 else f"{self.name}{k}"
-            bodies.append(body(f"{self.name}{k + 1}", motion, self.masses[k],
-                               [middle[k, 0], y, middle[k, 1]], [self.own[k]] * 3,
-                               **start))  # fmt: skip
-            joints.append(joint(f"{self.name}_h{k + 1}", "revolute", before,
-                                f"{self.name}{k + 1}", at, DOWN_Y))  # fmt: skip
+            bodies.append(
+                body(
+                    f"{self.name}{k + 1}",
+                    motion=motion,
+                    mass=self.masses[k],
+                    at=[middle[k, 0], y, middle[k, 1]],
+                    inertia=[self.own[k]] * 3,
+                    **start,
+                )
+            )
+            joints.append(
+                joint(
+                    f"{self.name}_h{k + 1}", "revolute", before, f"{self.name}{k + 1}", at, DOWN_Y
+                )
+            )
         return bodies, joints
 
     def measured(self) -> Callable[[Any], Array]:
@@ -125,8 +139,15 @@ class Chain:
 
     def scene(self, title: str, tables: Table, exact: truth.Truth, tau: float = 0.0) -> Scene:
         """Return the scene of one chain."""
-        return Scene("", title, tables, float(self.lengths.sum()), tau or self.tau, SOURCE, exact,
-                     self.measured())  # fmt: skip
+        return unnamed(
+            title=title,
+            tables=tables,
+            size=float(self.lengths.sum()),
+            time_scale=tau or self.tau,
+            source=SOURCE,
+            truth=exact,
+            measured=self.measured(),
+        )
 
 
 def _drawn(g: np.random.Generator, most: int = 4) -> dict[str, Any]:
@@ -140,30 +161,69 @@ def _drawn(g: np.random.Generator, most: int = 4) -> dict[str, Any]:
 
 def _draw_stop(g: np.random.Generator) -> dict[str, Any]:
     made = _drawn(g)
-    return made | {
-        "hinge": int(g.integers(len(made["lengths"]))), "room": list(g.uniform(0.1, 0.8, 2)),
-        "restitution": g.uniform(0.0, 0.9), "end": g.uniform(1.0, 3.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return made | dict(
+        hinge=int(g.integers(len(made["lengths"]))),
+        room=list(g.uniform(0.1, 0.8, 2)),
+        restitution=g.uniform(0.0, 0.9),
+        end=g.uniform(1.0, 3.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    "impacts", _draw_stop,
-    {"lengths": [1.0, 0.7], "masses": [2.0, 1.0], "angles": [0.9, 1.4], "hinge": 0,
-     "room": [1.2, 0.3], "restitution": 0.6, "end": 4.0},
-    {"lengths": [1.0, 0.7], "masses": [2.0, 1.0], "angles": [1.2, 0.2], "rates": [0.0, 0.5],
-     "hinge": 1, "room": [0.4, 0.5], "restitution": 0.5, "end": 4.0},
-    {"lengths": [0.5, 0.4, 0.6, 0.3], "masses": [2.0, 1.0, 1.0, 3.0],
-     "angles": [1.2, 0.9, 0.4, 0.0], "rates": [0.0, 0.5, 0.0, 0.0], "hinge": 2,
-     "room": [0.3, 0.3], "restitution": 0.3, "end": 2.0, "kind": "ship"},
-    {"lengths": [1.0] * 3, "masses": [1.0] * 3, "angles": [0.0, 0.1, 0.2],
-     "rates": [1.0, -1.0, 0.5], "hinge": 1, "room": [0.5, 0.5], "restitution": 1.0, "end": 6.0,
-     "gravity": 0.0},
-)  # fmt: skip
+@family("impacts", _draw_stop)
+@chosen(
+    lengths=[1.0, 0.7],
+    masses=[2.0, 1.0],
+    angles=[0.9, 1.4],
+    hinge=0,
+    room=[1.2, 0.3],
+    restitution=0.6,
+    end=4.0,
+)
+@chosen(
+    lengths=[1.0, 0.7],
+    masses=[2.0, 1.0],
+    angles=[1.2, 0.2],
+    rates=[0.0, 0.5],
+    hinge=1,
+    room=[0.4, 0.5],
+    restitution=0.5,
+    end=4.0,
+)
+@chosen(
+    lengths=[0.5, 0.4, 0.6, 0.3],
+    masses=[2.0, 1.0, 1.0, 3.0],
+    angles=[1.2, 0.9, 0.4, 0.0],
+    rates=[0.0, 0.5, 0.0, 0.0],
+    hinge=2,
+    room=[0.3, 0.3],
+    restitution=0.3,
+    end=2.0,
+    kind="ship",
+)
+@chosen(
+    lengths=[1.0] * 3,
+    masses=[1.0] * 3,
+    angles=[0.0, 0.1, 0.2],
+    rates=[1.0, -1.0, 0.5],
+    hinge=1,
+    room=[0.5, 0.5],
+    restitution=1.0,
+    end=6.0,
+    gravity=0.0,
+)
 def chain_stop(
-    lengths: list[float], masses: list[float], angles: list[float], hinge: int,
-    room: list[float], restitution: float, end: float, rates: list[float] | None = None,
-    gravity: float = GRAVITY, kind: str | None = None,
-) -> Scene:  # fmt: skip
+    lengths: list[float],
+    masses: list[float],
+    angles: list[float],
+    hinge: int,
+    room: list[float],
+    restitution: float,
+    end: float,
+    rates: list[float] | None = None,
+    gravity: float = GRAVITY,
+    kind: str | None = None,
+) -> Scene:
     """A chain one of whose hinges has stops on both sides of where it starts."""
     chain = Chain(lengths, masses, gravity)
     n, along, begun = chain.n, chain.hinges[hinge], np.array(angles)
@@ -207,44 +267,65 @@ def chain_stop(
         return "", y
 
     exact = truth.hybrid(
-        "", np.r_[begun, turning], {"": chain.rates(), "upper": held, "lower": held},
-        {"": [truth.Guard(lambda _t, y: along @ y[:n] - upper, True, hit(1.0)),
-              truth.Guard(lambda _t, y: along @ y[:n] - lower, False, hit(-1.0))],
-         "upper": [truth.Guard(lambda _t, y: push(y), True, let_go)],
-         "lower": [truth.Guard(lambda _t, y: push(y), False, let_go)]},
-        lambda t, y, _m: chain.place(t, y), longest=longest,
-    )  # fmt: skip
+        mode="",
+        start=np.r_[begun, turning],
+        flows={"": chain.rates(), "upper": held, "lower": held},
+        guards={
+            "": [
+                truth.Guard(lambda _t, y: along @ y[:n] - upper, True, hit(1.0)),
+                truth.Guard(lambda _t, y: along @ y[:n] - lower, False, hit(-1.0)),
+            ],
+            "upper": [truth.Guard(lambda _t, y: push(y), True, let_go)],
+            "lower": [truth.Guard(lambda _t, y: push(y), False, let_go)],
+        },
+        place=lambda t, y, _m: chain.place(t, y),
+        longest=longest,
+    )
     bodies, joints = chain.parts(begun, turning)
     bounds = {"lower_deg": float(-np.degrees(room[0])), "upper_deg": float(np.degrees(room[1]))}
-    tables = case(bodies, end, joints=joints, samples=300, gravity=gravity,
-                  constraints=[stop("stops", f"bar_h{hinge + 1}", restitution,
-                                    **bounds)])  # fmt: skip
+    tables = case(
+        bodies,
+        end,
+        joints=joints,
+        samples=300,
+        gravity=gravity,
+        constraints=[stop("stops", f"bar_h{hinge + 1}", restitution, **bounds)],
+    )
     return beside(chain.scene(f"{n} bars, stops at hinge {hinge + 1}", tables, exact), kind)
 
 
 def _draw_damped(g: np.random.Generator) -> dict[str, Any]:
-    return _drawn(g) | {"damping": log_uniform(g, 0.05, 1.0), "end": g.uniform(3.0, 8.0),
-                        "kind": neighbour(g)}  # fmt: skip
+    return _drawn(g) | dict(
+        damping=log_uniform(g, 0.05, 1.0), end=g.uniform(3.0, 8.0), kind=neighbour(g)
+    )
 
 
-@family(
-    "power take-offs", _draw_damped,
-    {"lengths": [1.0, 0.7, 0.5], "masses": [2.0, 1.0, 1.0], "angles": [1.5, 1.0, 2.5],
-     "damping": 0.3, "end": 6.0},
-)  # fmt: skip
+@family("power take-offs", _draw_damped)
+@chosen(
+    lengths=[1.0, 0.7, 0.5], masses=[2.0, 1.0, 1.0], angles=[1.5, 1.0, 2.5], damping=0.3, end=6.0
+)
 def damped_chain(
-    lengths: list[float], masses: list[float], angles: list[float], damping: float, end: float,
+    lengths: list[float],
+    masses: list[float],
+    angles: list[float],
+    damping: float,
+    end: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A chain with a damper in each hinge."""
     chain = Chain(lengths, masses)
     begun = np.array(angles)
-    exact = truth.integrated(chain.rates(lambda _t, _s, rate: -damping * rate),
-                             np.r_[begun, np.zeros(chain.n)], chain.place,
-                             longest=0.05)  # fmt: skip
+    exact = truth.integrated(
+        rates=chain.rates(lambda _t, _s, rate: -damping * rate),
+        start=np.r_[begun, np.zeros(chain.n)],
+        place=chain.place,
+        longest=0.05,
+    )
     bodies, joints = chain.parts(begun)
-    forces = [{"type": "pto_linear", "name": f"p{k}", "joint": f"bar_h{k + 1}", "damping": damping}
-              for k in range(chain.n)]  # fmt: skip
+    forces = [
+        {"type": "pto_linear", "name": f"p{k}", "joint": f"bar_h{k + 1}", "damping": damping}
+        for k in range(chain.n)
+    ]
     tables = case(bodies, end, joints=joints, forces=forces, samples=300)
     return beside(chain.scene(f"{chain.n} bars with dampers", tables, exact), kind)
 
@@ -265,14 +346,16 @@ def _reduced(chain: Chain, pose: Callable[[float, float], Any], first: float) ->
 
 
 def _draw_relative(g: np.random.Generator) -> dict[str, Any]:
-    return {"amplitude": g.uniform(0.1, 1.5), "period": g.uniform(0.5, 4.0),
-            "angle": g.uniform(-1.0, 1.0), "end": g.uniform(4.0, 10.0)}  # fmt: skip
+    return dict(
+        amplitude=g.uniform(0.1, 1.5),
+        period=g.uniform(0.5, 4.0),
+        angle=g.uniform(-1.0, 1.0),
+        end=g.uniform(4.0, 10.0),
+    )
 
 
-@family(
-    "drives", _draw_relative,
-    {"amplitude": 1.0, "period": 1.0, "angle": 0.6, "end": 8.0},
-)  # fmt: skip
+@family("drives", _draw_relative)
+@chosen(amplitude=1.0, period=1.0, angle=0.6, end=8.0)
 def driven_knee(amplitude: float, period: float, angle: float, end: float) -> Scene:
     """Two bars; a sine drives the hinge between them, and the upper one swings."""
     chain, w, both_bars = Chain([1.0, 0.8], [2.0, 1.0]), 2.0 * np.pi / period, np.ones(2)
@@ -283,39 +366,49 @@ def driven_knee(amplitude: float, period: float, angle: float, end: float) -> Sc
         return both_bars * x + lower * s, both_bars, w * lower * c, -(w**2) * lower * s
 
     solved = truth.integrated(
-        _reduced(chain, pose, angle), [angle, 0.0],
-        lambda t, y: chain.place(t, both_bars[:, None] * y[0] + lower[:, None] * np.sin(w * t)),
+        rates=_reduced(chain, pose, angle),
+        start=[angle, 0.0],
+        place=lambda t, y: chain.place(
+            t, both_bars[:, None] * y[0] + lower[:, None] * np.sin(w * t)
+        ),
         longest=0.05,
-    )  # fmt: skip
+    )
     bodies, joints = chain.parts(np.full(2, angle), w * lower)
     drive = {"amplitude": amplitude, "period": period}
-    tables = case(bodies, end, joints=joints, samples=300,
-                  constraints=[driven("motor", drive, joint="bar_h2")])  # fmt: skip
+    tables = case(
+        bodies,
+        end,
+        joints=joints,
+        samples=300,
+        constraints=[driven("motor", drive, joint="bar_h2")],
+    )
     return chain.scene("a pendulum whose knee is driven", tables, solved, min(0.25, 1.0 / w))
 
 
 def _draw_coupled(g: np.random.Generator) -> dict[str, Any]:
-    return {"ratio": float(g.choice([-1.0, 1.0]) * g.uniform(0.3, 3.0)),
-            "angle": g.uniform(0.3, 1.5), "bend": g.uniform(-0.5, 0.5),
-            "end": g.uniform(4.0, 10.0)}  # fmt: skip
+    return dict(
+        ratio=float(g.choice([-1.0, 1.0]) * g.uniform(0.3, 3.0)),
+        angle=g.uniform(0.3, 1.5),
+        bend=g.uniform(-0.5, 0.5),
+        end=g.uniform(4.0, 10.0),
+    )
 
 
-@family(
-    "drives", _draw_coupled,
-    {"ratio": -2.5, "angle": 1.2, "bend": 0.3, "end": 10.0},
-    {"ratio": 3.0, "angle": 2.9, "bend": -0.4, "end": 8.0},
-)  # fmt: skip
+@family("drives", _draw_coupled)
+@chosen(ratio=-2.5, angle=1.2, bend=0.3, end=10.0)
+@chosen(ratio=3.0, angle=2.9, bend=-0.4, end=8.0)
 def geared_knee(ratio: float, angle: float, bend: float, end: float) -> Scene:
     """Two bars; a gear turns the knee with the upper hinge."""
     chain, by = Chain([1.0, 0.8], [2.0, 1.0]), np.array([1.0, 1.0 + ratio])
     begun, none = np.array([angle, angle + bend]), np.zeros(2)
     solved = truth.integrated(
-        _reduced(chain, lambda _t, x: (begun + by * x, by, none, none), 0.0), [0.0, 0.0],
-        lambda t, y: chain.place(t, begun[:, None] + by[:, None] * y[0]), longest=0.05,
-    )  # fmt: skip
+        rates=_reduced(chain, lambda _t, x: (begun + by * x, by, none, none), 0.0),
+        start=[0.0, 0.0],
+        place=lambda t, y: chain.place(t, begun[:, None] + by[:, None] * y[0]),
+        longest=0.05,
+    )
     bodies, joints = chain.parts(begun)
-    gear = {"name": "gear", "type": "coupler", "joint": "bar_h1", "joint_b": "bar_h2",
-            "ratio": ratio}  # fmt: skip
+    gear = dict(name="gear", type="coupler", joint="bar_h1", joint_b="bar_h2", ratio=ratio)
     tables = case(bodies, end, joints=joints, constraints=[gear], samples=300)
     return chain.scene(f"two bars with a gear of {ratio:g} at the knee", tables, solved, 0.25)
 
@@ -325,11 +418,9 @@ def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
     return {"ratio": g.uniform(0.3, 2.0) / size, "size": size, "end": g.uniform(5.0, 15.0)}
 
 
-@family(
-    "drives", _draw_pair,
-    {"ratio": -1.7, "size": 1.0, "end": 10.0},
-    {"ratio": 0.01, "size": 100.0, "end": 20.0},
-)  # fmt: skip
+@family("drives", _draw_pair)
+@chosen(ratio=-1.7, size=1.0, end=10.0)
+@chosen(ratio=0.01, size=100.0, end=20.0)
 def geared_pendulums(ratio: float, size: float, end: float) -> Scene:
     """Two bars on hinges of their own, one `size` times as long, which a gear joins."""
     one = Chain([1.0], [2.0], name="one")
@@ -343,55 +434,72 @@ def geared_pendulums(ratio: float, size: float, end: float) -> Scene:
         return np.asarray(np.r_[y[1], load / inertia])
 
     solved = truth.integrated(
-        rates, [0.0, 0.0],
-        lambda t, y: [*one.place(t, begun[0][:, None] + y[:1]),
-                      *two.place(t, begun[1][:, None] + ratio * y[:1])], longest=0.05,
-    )  # fmt: skip
+        rates=rates,
+        start=[0.0, 0.0],
+        place=lambda t, y: [
+            *one.place(t, begun[0][:, None] + y[:1]),
+            *two.place(t, begun[1][:, None] + ratio * y[:1]),
+        ],
+        longest=0.05,
+    )
     first, second = one.parts(begun[0]), two.parts(begun[1], y=3.0)
-    gear = {"name": "gear", "type": "coupler", "joint": "one_h1", "joint_b": "two_h1",
-            "ratio": ratio}  # fmt: skip
-    tables = case(first[0] + second[0], end, joints=first[1] + second[1], constraints=[gear],
-                  samples=300)  # fmt: skip
-    return Scene("", f"two pendulums that a gear of {ratio:g} joins", tables, 1.0, 0.2, SOURCE,
-                 solved, both(one.measured(), two.measured()))  # fmt: skip
+    gear = dict(name="gear", type="coupler", joint="one_h1", joint_b="two_h1", ratio=ratio)
+    tables = case(
+        first[0] + second[0], end, joints=first[1] + second[1], constraints=[gear], samples=300
+    )
+    return unnamed(
+        title=f"two pendulums that a gear of {ratio:g} joins",
+        tables=tables,
+        size=1.0,
+        time_scale=0.2,
+        source=SOURCE,
+        truth=solved,
+        measured=both(one.measured(), two.measured()),
+    )
 
 
 def _draw_beside(g: np.random.Generator) -> dict[str, Any]:
     return {"size": log_uniform(g, 1e-4, 1e4), "end": g.uniform(5.0, 20.0)}
 
 
-@family(
-    "unconnected mechanisms", _draw_beside,
-    {"size": 1e-3, "end": 60.0},
-    {"size": 1e3, "end": 30.0},
-)  # fmt: skip
+@family("unconnected mechanisms", _draw_beside)
+@chosen(size=1e-3, end=60.0)
+@chosen(size=1e3, end=30.0)
 def chains_beside(size: float, end: float) -> Scene:
     """Two double pendulums, one `size` times as long; `end` in times of the smaller one."""
     one = Chain([1.0, 0.5], [2.0, 1.0], name="one")
     two = Chain([size, 0.5 * size], [2.0 * size**3, size**3], name="two")
     angles = np.array([0.6, 0.2]), np.array([-0.5, 0.1])
     tau = one.tau * min(1.0, float(np.sqrt(size)))
-    truths = [truth.integrated(c.rates(), np.r_[a, 0.0, 0.0], c.place, longest=0.2 * c.tau)
-              for c, a in zip((one, two), angles, strict=True)]  # fmt: skip
+    truths = [
+        truth.integrated(c.rates(), np.r_[a, 0.0, 0.0], c.place, longest=0.2 * c.tau)
+        for c, a in zip((one, two), angles, strict=True)
+    ]
     first, second = one.parts(angles[0]), two.parts(angles[1])
     tables = case(first[0] + second[0], end * tau, joints=first[1] + second[1], samples=300)
-    return Scene(
-        "", f"a double pendulum and one {size:g} times as long", tables, 1.0, tau, SOURCE,
-        lambda t: np.column_stack([truths[0](t), truths[1](t) / size]),
-        lambda r: np.column_stack([one.measured()(r), two.measured()(r) / size]),
-    )  # fmt: skip
+    return unnamed(
+        title=f"a double pendulum and one {size:g} times as long",
+        tables=tables,
+        size=1.0,
+        time_scale=tau,
+        source=SOURCE,
+        truth=lambda t: np.column_stack([truths[0](t), truths[1](t) / size]),
+        measured=lambda r: np.column_stack([one.measured()(r), two.measured()(r) / size]),
+    )
 
 
 def _draw_spun(g: np.random.Generator) -> dict[str, Any]:
-    return {"bars": int(g.integers(2, 7)), "rate": log_uniform(g, 1.0, 100.0),
-            "turns": g.uniform(3.0, 20.0), "kind": neighbour(g)}  # fmt: skip
+    return dict(
+        bars=int(g.integers(2, 7)),
+        rate=log_uniform(g, 1.0, 100.0),
+        turns=g.uniform(3.0, 20.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    "turns", _draw_spun,
-    {"bars": 2, "rate": 30.0, "turns": 24.0},
-    {"bars": 6, "rate": 10.0, "turns": 8.0, "kind": "barge"},
-)  # fmt: skip
+@family("turns", _draw_spun)
+@chosen(bars=2, rate=30.0, turns=24.0)
+@chosen(bars=6, rate=10.0, turns=8.0, kind="barge")
 def spun_chain(bars: int, rate: float, turns: float, kind: str | None = None) -> Scene:
     """A chain that turns in the plane without gravity, a bit bent."""
     chain = Chain([0.3] * bars, [1.0] * bars, 0.0)
@@ -407,21 +515,23 @@ def _draw_rates(g: np.random.Generator) -> dict[str, Any]:
     return made | {"rates": list(g.uniform(-3.0, 3.0, len(made["lengths"])))}
 
 
-@family(
-    "start velocities", _draw_rates,
-    {"lengths": [1.0, 0.7, 0.5], "masses": [2.0, 1.0, 1.0], "angles": [0.5, 0.9, 0.2],
-     "rates": [1.0, -2.0, 3.0]},
-)  # fmt: skip
+@family("start velocities", _draw_rates)
+@chosen(
+    lengths=[1.0, 0.7, 0.5], masses=[2.0, 1.0, 1.0], angles=[0.5, 0.9, 0.2], rates=[1.0, -2.0, 3.0]
+)
 def chain_rates(
     lengths: list[float], masses: list[float], angles: list[float], rates: list[float]
 ) -> Scene:
     """A chain of whose start only the rates of the hinges are told."""
     chain, begun = Chain(lengths, masses), np.array(angles)
-    exact = truth.integrated(chain.rates(), np.r_[begun, np.cumsum(rates)], chain.place,
-                             longest=0.05)  # fmt: skip
+    exact = truth.integrated(
+        rates=chain.rates(), start=np.r_[begun, np.cumsum(rates)], place=chain.place, longest=0.05
+    )
     bodies, joints = chain.parts(begun)
-    joints = [hinge | {"initial": {"angle_rate": float(rate)}}
-              for hinge, rate in zip(joints, rates, strict=True)]  # fmt: skip
+    joints = [
+        hinge | {"initial": {"angle_rate": float(rate)}}
+        for hinge, rate in zip(joints, rates, strict=True)
+    ]
     tables = case(bodies, 4.0, joints=joints, samples=300)
     return chain.scene("a chain that starts by the rates of its hinges", tables, exact)
 
@@ -430,7 +540,9 @@ def _draw_upright(g: np.random.Generator) -> dict[str, Any]:
     return {"lean": log_uniform(g, 1e-4, 1.0), "end": g.uniform(5.0, 15.0)}
 
 
-@family("long runs", _draw_upright, {"lean": 0.5, "end": 15.0}, {"lean": 0.2, "end": 3.0})
+@family("long runs", _draw_upright)
+@chosen(lean=0.5, end=15.0)
+@chosen(lean=0.2, end=3.0)
 def upright_bar(lean: float, end: float) -> Scene:
     """A bar let go beside its upright pose: each passage there grows errors by 4 / lean."""
     chain, begun = Chain([1.0], [1.0]), np.array([np.pi - lean])

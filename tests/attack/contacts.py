@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.impacts import falling_ball
 from tests.attack.parts import DOWN_Y, GRAVITY, beside, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
@@ -19,19 +19,21 @@ Three = tuple[float, float, float]
 
 
 def _draw_stop(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "hard": log_uniform(g, 3.0, 100.0), "exponent": g.uniform(1.0, 3.0),
-        "damping": g.uniform(0.0, 0.5), "end": g.uniform(20.0, 100.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        hard=log_uniform(g, 3.0, 100.0),
+        exponent=g.uniform(1.0, 3.0),
+        damping=g.uniform(0.0, 0.5),
+        end=g.uniform(20.0, 100.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_stop,
-    {"scale": UNIT, "hard": 10.0, "exponent": 1.5, "damping": 0.2, "end": 30.0},
-    {"scale": SMALL, "hard": 30.0, "exponent": 1.0, "damping": 0.1, "end": 30.0},
-    {"scale": LARGE, "hard": 5.0, "exponent": 2.0, "damping": 0.0, "end": 100.0},
-    {"scale": UNIT, "hard": 100.0, "exponent": 1.5, "damping": 0.3, "end": 20.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_stop)
+@chosen(scale=UNIT, hard=10.0, exponent=1.5, damping=0.2, end=30.0)
+@chosen(scale=SMALL, hard=30.0, exponent=1.0, damping=0.1, end=30.0)
+@chosen(scale=LARGE, hard=5.0, exponent=2.0, damping=0.0, end=100.0)
+@chosen(scale=UNIT, hard=100.0, exponent=1.5, damping=0.3, end=20.0, kind="ship")
 def compliant_stop(
     scale: Three, hard: float, exponent: float, damping: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -58,36 +60,50 @@ def compliant_stop(
         return truth.Guard(lambda _t, y: side * y[0] - gap, False, lambda _t, y: ("free", y))
 
     solved = truth.hybrid(
-        "upper", [1.0, 0.0], {"free": free, "upper": pressed(1.0), "lower": pressed(-1.0)},
-        {"free": [enter(1.0), enter(-1.0)], "upper": [leave(1.0)], "lower": [leave(-1.0)]},
-        lambda _t, y, _m: [y[0]], longest=1.0 / hard, rtol=1e-11,
-    )  # fmt: skip
-    stop = {
-        "type": "end_stop", "name": "stop", "joint": "slide", "lower": -gap * s.length,
-        "upper": gap * s.length, "stiffness": own, "exponent": exponent,
-        "damping": damping / s.speed,
-    }  # fmt: skip
+        mode="upper",
+        start=[1.0, 0.0],
+        flows={"free": free, "upper": pressed(1.0), "lower": pressed(-1.0)},
+        guards={"free": [enter(1.0), enter(-1.0)], "upper": [leave(1.0)], "lower": [leave(-1.0)]},
+        place=lambda _t, y, _m: [y[0]],
+        longest=1.0 / hard,
+        rtol=1e-11,
+    )
+    stop = dict(
+        type="end_stop",
+        name="stop",
+        joint="slide",
+        lower=-gap * s.length,
+        upper=gap * s.length,
+        stiffness=own,
+        exponent=exponent,
+        damping=damping / s.speed,
+    )
     scene = block(
-        s, f"a block between stops {hard:g} times as stiff as its spring", [spring(s), stop],
-        placed(s, solved), end, tau=1.0 / hard,
-    )  # fmt: skip
+        s,
+        title=f"a block between stops {hard:g} times as stiff as its spring",
+        forces=[spring(s), stop],
+        exact=placed(s, solved),
+        end=end,
+        tau=1.0 / hard,
+    )
     return beside(scene, kind)
 
 
 def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "pull": log_uniform(g, 0.02, 2.0), "bristle": log_uniform(g, 1e-3, 0.05),
-        "end": g.uniform(20.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        pull=log_uniform(g, 0.02, 2.0),
+        bristle=log_uniform(g, 1e-3, 0.05),
+        end=g.uniform(20.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_belt,
-    {"scale": UNIT, "pull": 0.1, "bristle": 0.01, "end": 40.0},
-    {"scale": SMALL, "pull": 0.3, "bristle": 0.02, "end": 40.0},
-    {"scale": LARGE, "pull": 0.1, "bristle": 0.01, "end": 40.0},
-    {"scale": UNIT, "pull": 1.0, "bristle": 0.005, "end": 30.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_belt)
+@chosen(scale=UNIT, pull=0.1, bristle=0.01, end=40.0)
+@chosen(scale=SMALL, pull=0.3, bristle=0.02, end=40.0)
+@chosen(scale=LARGE, pull=0.1, bristle=0.01, end=40.0)
+@chosen(scale=UNIT, pull=1.0, bristle=0.005, end=30.0, kind="ship")
 def bristle_pull(
     scale: Three, pull: float, bristle: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -103,28 +119,49 @@ def bristle_pull(
         return [v, pull * t - x - stiff * z - damp * change, change]
 
     solved = truth.integrated(
-        rates, [0.0, 0.0, 0.0], lambda _t, y: [y[0]], method="LSODA", rtol=1e-11,
-        scale=[1.0, 1.0, bristle], longest=0.05,
-    )  # fmt: skip
-    friction = {
-        "type": "friction_lugre", "name": "rail", "joint": "slide", "static": stick * s.force,
-        "kinetic": slip * s.force, "stribeck_rate": over * s.speed,
-        "bristle_stiffness": stiff * s.stiffness, "bristle_damping": damp * s.mass * s.rate,
-    }  # fmt: skip
+        rates=rates,
+        start=[0.0, 0.0, 0.0],
+        place=lambda _t, y: [y[0]],
+        method="LSODA",
+        rtol=1e-11,
+        scale=[1.0, 1.0, bristle],
+        longest=0.05,
+    )
+    friction = dict(
+        type="friction_lugre",
+        name="rail",
+        joint="slide",
+        static=stick * s.force,
+        kinetic=slip * s.force,
+        stribeck_rate=over * s.speed,
+        bristle_stiffness=stiff * s.stiffness,
+        bristle_damping=damp * s.mass * s.rate,
+    )
     size = pull * end
     scene = block(
-        s, f"a block that bristles hold, drawn at {pull:g}", [friction], placed(s, solved), end,
-        start=0.0, tau=1.0 / np.sqrt(1.0 + stiff), size=min(size, 1.0),
-    )  # fmt: skip
+        s,
+        title=f"a block that bristles hold, drawn at {pull:g}",
+        forces=[friction],
+        exact=placed(s, solved),
+        end=end,
+        start=0.0,
+        tau=1.0 / np.sqrt(1.0 + stiff),
+        size=min(size, 1.0),
+    )
     tables = dict(scene.tables)
     tables["body"] = [
         *tables["body"],
         body("cart", "surge", s.mass, velocity=[pull * s.speed, 0, 0]),
     ]
     tables["constraint"] = [
-        {"name": "run", "type": "coordinate", "body": "cart", "coordinate": "surge",
-         "drive": {"rate": pull * s.speed}}
-    ]  # fmt: skip
+        dict(
+            name="run",
+            type="coordinate",
+            body="cart",
+            coordinate="surge",
+            drive={"rate": pull * s.speed},
+        )
+    ]
     tables["joint"] = [
         *tables["joint"],
         joint("between", "prismatic", "block", "cart", axis=[1.0, 0.0, 0.0]),
@@ -137,22 +174,22 @@ def bristle_pull(
 
 
 def _draw_incline(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("stribeck", "dry")[g.integers(2)], "angle": g.uniform(0.1, 1.0),
-        "friction": g.uniform(0.05, 0.6), "mass": log_uniform(g, 1e-3, 1e6),
-        "length": log_uniform(g, 1e-3, 1e3), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("stribeck", "dry")[g.integers(2)],
+        angle=g.uniform(0.1, 1.0),
+        friction=g.uniform(0.05, 0.6),
+        mass=log_uniform(g, 1e-3, 1e6),
+        length=log_uniform(g, 1e-3, 1e3),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_incline,
-    {"how": "stribeck", "angle": 0.5, "friction": 0.3, "mass": 1.0, "length": 1.0},
-    {"how": "dry", "angle": 0.5, "friction": 0.3, "mass": 1e-3, "length": 1e-3},
-    {"how": "dry", "angle": 0.3, "friction": 0.5, "mass": 1e6, "length": 100.0},
-    {"how": "dry", "angle": 0.8, "friction": 0.2, "mass": 1.0, "length": 1.0, "kind": "ship"},
-    {"how": "stribeck", "angle": 0.8, "friction": 0.2, "mass": 1e6, "length": 10.0,
-     "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_incline)
+@chosen(how="stribeck", angle=0.5, friction=0.3, mass=1.0, length=1.0)
+@chosen(how="dry", angle=0.5, friction=0.3, mass=1e-3, length=1e-3)
+@chosen(how="dry", angle=0.3, friction=0.5, mass=1e6, length=100.0)
+@chosen(how="dry", angle=0.8, friction=0.2, mass=1.0, length=1.0, kind="ship")
+@chosen(how="stribeck", angle=0.8, friction=0.2, mass=1e6, length=10.0, kind="barge")
 def pressed_incline(
     how: str, angle: float, friction: float, mass: float, length: float, kind: str | None = None
 ) -> Scene:
@@ -182,41 +219,57 @@ def pressed_incline(
             v = y[1]
             return [v, -pull - friction * press * v / np.sqrt(v * v + creep * creep)]
 
-        solved = truth.integrated(rates, [0.0, 1.0], lambda _t, y: [y[0]], method="Radau",
-                                  rtol=1e-11, longest=0.02)  # fmt: skip
+        solved = truth.integrated(
+            rates=rates,
+            start=[0.0, 1.0],
+            place=lambda _t, y: [y[0]],
+            method="Radau",
+            rtol=1e-11,
+            longest=0.02,
+        )
         law = {"type": "friction_stribeck", "creep_rate": creep * speed}
         height = 0.5 / (pull + friction * press)
     along = [float(np.cos(angle)), 0.0, float(np.sin(angle))]
-    law |= {"name": "pads", "joint": "guide", "static_coefficient": friction,
-            "length": 0.5 * length, "radius": 0.1 * length}  # fmt: skip
+    law |= dict(
+        name="pads",
+        joint="guide",
+        static_coefficient=friction,
+        length=0.5 * length,
+        radius=0.1 * length,
+    )
     inertia = [0.01 * mass * length**2] * 3
     tables = case(
         [body("block", "rigid", mass, inertia=inertia, velocity=speed * np.array(along))],
-        end * tau, joints=[joint("guide", "prismatic", "ground", "block", axis=along)],
+        end * tau,
+        joints=[joint("guide", "prismatic", "ground", "block", axis=along)],
         forces=[law],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a block shot up an incline, {how} friction", tables, height * length, tau,
-        "closed form" if how == "dry" else "Radau in one coordinate",
-        lambda t: length * solved(np.asarray(t) / tau) * np.array([along]),
-        position("block", 0, 1, 2),
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a block shot up an incline, {how} friction",
+        tables=tables,
+        size=height * length,
+        time_scale=tau,
+        source="closed form" if how == "dry" else "Radau in one coordinate",
+        truth=lambda t: length * solved(np.asarray(t) / tau) * np.array([along]),
+        measured=position("block", 0, 1, 2),
+    )
     return beside(scene, kind)
 
 
 def _draw_hinge(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-3, 1e3), "mass": log_uniform(g, 1e-3, 1e6),
-        "angle": g.uniform(0.3, 2.8), "friction": g.uniform(0.05, 0.4), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-3, 1e3),
+        mass=log_uniform(g, 1e-3, 1e6),
+        angle=g.uniform(0.3, 2.8),
+        friction=g.uniform(0.05, 0.4),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_hinge,
-    {"length": 1.0, "mass": 1.0, "angle": 1.5, "friction": 0.2},
-    {"length": 1e-3, "mass": 1e-3, "angle": 2.5, "friction": 0.1},
-    {"length": 100.0, "mass": 1e6, "angle": 1.0, "friction": 0.3, "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_hinge)
+@chosen(length=1.0, mass=1.0, angle=1.5, friction=0.2)
+@chosen(length=1e-3, mass=1e-3, angle=2.5, friction=0.1)
+@chosen(length=100.0, mass=1e6, angle=1.0, friction=0.3, kind="barge")
 def pressed_hinge(
     length: float, mass: float, angle: float, friction: float, kind: str | None = None
 ) -> Scene:
@@ -235,38 +288,55 @@ def pressed_hinge(
             change = (-np.sin(a) - friction * pin * normal * turn) / about
         return [w, change]
 
-    solved = truth.integrated(rates, [angle, 0.0], lambda _t, y: [np.sin(y[0]), -np.cos(y[0])],
-                              method="LSODA", rtol=1e-11, longest=0.05)  # fmt: skip
+    solved = truth.integrated(
+        rates=rates,
+        start=[angle, 0.0],
+        place=lambda _t, y: [np.sin(y[0]), -np.cos(y[0])],
+        method="LSODA",
+        rtol=1e-11,
+        longest=0.05,
+    )
     start = np.array([np.sin(angle), 0.0, -np.cos(angle)])
     bar = body("bar", "planar", mass, length * start, [mass * length**2 / 3.0] * 3)
-    law = {
-        "type": "friction_stribeck", "name": "pin", "joint": "hinge",
-        "static_coefficient": friction, "radius": pin * length, "creep_rate": creep / tau,
-    }  # fmt: skip
-    tables = case([bar], 15.0 * tau, joints=[joint("hinge", "revolute", "ground", "bar",
-                                                   axis=DOWN_Y)], forces=[law])  # fmt: skip
-    scene = Scene(
-        "", f"a bar on a pin with friction {friction:g}", tables, length * min(1.0, angle), tau,
-        "LSODA in one angle",
-        lambda t: length * (solved(np.asarray(t) / tau) - start[[0, 2]]),
-        position("bar", 0, 2, origin=length * start),
-    )  # fmt: skip
+    law = dict(
+        type="friction_stribeck",
+        name="pin",
+        joint="hinge",
+        static_coefficient=friction,
+        radius=pin * length,
+        creep_rate=creep / tau,
+    )
+    tables = case(
+        [bar],
+        15.0 * tau,
+        joints=[joint("hinge", "revolute", "ground", "bar", axis=DOWN_Y)],
+        forces=[law],
+    )
+    scene = unnamed(
+        title=f"a bar on a pin with friction {friction:g}",
+        tables=tables,
+        size=length * min(1.0, angle),
+        time_scale=tau,
+        source="LSODA in one angle",
+        truth=lambda t: length * (solved(np.asarray(t) / tau) - start[[0, 2]]),
+        measured=position("bar", 0, 2, origin=length * start),
+    )
     return beside(scene, kind)
 
 
 def _draw_timed(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 1e-3, 100.0), "restitution": g.uniform(0.0, 0.9),
-        "mass": log_uniform(g, 1e-3, 1e6), "contact": log_uniform(g, 1e-6, 1.0),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 1e-3, 100.0),
+        restitution=g.uniform(0.0, 0.9),
+        mass=log_uniform(g, 1e-3, 1e6),
+        contact=log_uniform(g, 1e-6, 1.0),
+    )
 
 
-@family(
-    KIND, _draw_timed,
-    {"height": 1.0, "restitution": 0.5, "mass": 1.0, "contact": 0.01},
-    {"height": 1e-3, "restitution": 0.3, "mass": 1e-3, "contact": 1.0},
-    {"height": 10.0, "restitution": 0.7, "mass": 1e6, "contact": 1e-4},
-)  # fmt: skip
+@family(KIND, _draw_timed)
+@chosen(height=1.0, restitution=0.5, mass=1.0, contact=0.01)
+@chosen(height=1e-3, restitution=0.3, mass=1e-3, contact=1.0)
+@chosen(height=10.0, restitution=0.7, mass=1e6, contact=1e-4)
 def timed_impact(height: float, restitution: float, mass: float, contact: float) -> Scene:
     """A ball whose impacts are taken to last: its motion knows nothing of that."""
     scene = falling_ball(height, restitution, mass)

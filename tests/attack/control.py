@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour
 from tests.attack.parts import beside
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, spring
 
@@ -45,19 +45,21 @@ def held(
 
 
 def _draw_pi(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "period": log_uniform(g, 0.003, 0.5), "late": g.uniform(0.0, 0.9),
-        "limit": g.uniform(0.05, 1.0), "end": g.uniform(10.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        period=log_uniform(g, 0.003, 0.5),
+        late=g.uniform(0.0, 0.9),
+        limit=g.uniform(0.05, 1.0),
+        end=g.uniform(10.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_pi,
-    {"scale": UNIT, "period": 0.1, "late": 0.0, "limit": 1.0, "end": 30.0},
-    {"scale": SMALL, "period": 0.05, "late": 0.5, "limit": 0.1, "end": 30.0},
-    {"scale": LARGE, "period": 0.3, "late": 0.3, "limit": 0.2, "end": 60.0},
-    {"scale": UNIT, "period": 0.05, "late": 0.0, "limit": 0.2, "end": 30.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_pi)
+@chosen(scale=UNIT, period=0.1, late=0.0, limit=1.0, end=30.0)
+@chosen(scale=SMALL, period=0.05, late=0.5, limit=0.1, end=30.0)
+@chosen(scale=LARGE, period=0.3, late=0.3, limit=0.2, end=60.0)
+@chosen(scale=UNIT, period=0.05, late=0.0, limit=0.2, end=30.0, kind="ship")
 def pi_block(
     scale: Three, period: float, late: float, limit: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -77,15 +79,27 @@ def pi_block(
         return s.length * held(answer, period, late * period, time * s.rate)[:, None]
 
     impedance = s.mass * s.rate
-    controller = {
-        "type": "pid", "name": "pi", "inputs": ["joints/slide/displacement_rate"],
-        "outputs": ["forces/pto/load"], "period": period / s.rate, "gain_p": gain * impedance,
-        "gain_i": rise * impedance * s.rate, "lower": -limit * s.force, "upper": limit * s.force,
-        "delay": late * period / s.rate,
-    }  # fmt: skip
+    controller = dict(
+        type="pid",
+        name="pi",
+        inputs=["joints/slide/displacement_rate"],
+        outputs=["forces/pto/load"],
+        period=period / s.rate,
+        gain_p=gain * impedance,
+        gain_i=rise * impedance * s.rate,
+        lower=-limit * s.force,
+        upper=limit * s.force,
+        delay=late * period / s.rate,
+    )
     machine = {"type": "pto_general", "name": "pto", "joint": "slide"}
-    scene = block(s, "a block under a sampled PI controller", [spring(s), machine], exact, end,
-                  controller=[controller])  # fmt: skip
+    scene = block(
+        s,
+        title="a block under a sampled PI controller",
+        forces=[spring(s), machine],
+        exact=exact,
+        end=end,
+        controller=[controller],
+    )
     return beside(scene, kind)
 
 
@@ -102,19 +116,20 @@ class Switch:
 
 
 def _draw_switch(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "period": log_uniform(g, 0.01, 0.7), "load": g.uniform(0.02, 0.2),
-        "end": g.uniform(10.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        period=log_uniform(g, 0.01, 0.7),
+        load=g.uniform(0.02, 0.2),
+        end=g.uniform(10.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_switch,
-    {"scale": UNIT, "period": 0.13, "load": 0.1, "end": 20.0},
-    {"scale": SMALL, "period": 0.37, "load": 0.05, "end": 40.0},
-    {"scale": LARGE, "period": 0.07, "load": 0.03, "end": 40.0},
-    {"scale": UNIT, "period": 0.13, "load": 0.1, "end": 20.0, "kind": "rotor"},
-)  # fmt: skip
+@family(KIND, _draw_switch)
+@chosen(scale=UNIT, period=0.13, load=0.1, end=20.0)
+@chosen(scale=SMALL, period=0.37, load=0.05, end=40.0)
+@chosen(scale=LARGE, period=0.07, load=0.03, end=40.0)
+@chosen(scale=UNIT, period=0.13, load=0.1, end=20.0, kind="rotor")
 def python_switch(
     scale: Three, period: float, load: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -122,35 +137,48 @@ def python_switch(
     s = Scale(*scale)
 
     def exact(time: Any) -> Any:
-        return s.length * held(
-            lambda state: -load * float(np.sign(state[1])), period, 0.0, time * s.rate
-        )[:, None]  # fmt: skip
+        return (
+            s.length
+            * held(lambda state: -load * float(np.sign(state[1])), period, 0.0, time * s.rate)[
+                :, None
+            ]
+        )
 
-    controller = {
-        "type": "python", "name": "brake", "inputs": ["joints/slide/displacement_rate"],
-        "outputs": ["forces/pto/load"], "period": period / s.rate,
-    }  # fmt: skip
+    controller = dict(
+        type="python",
+        name="brake",
+        inputs=["joints/slide/displacement_rate"],
+        outputs=["forces/pto/load"],
+        period=period / s.rate,
+    )
     machine = {"type": "pto_linear", "name": "pto", "joint": "slide"}
-    scene = block(s, "a block that a switch in Python brakes", [spring(s), machine], exact, end,
-                  controller=[controller],
-                  controllers={"brake": lambda: Switch(load * s.force)})  # fmt: skip
+    scene = block(
+        s,
+        title="a block that a switch in Python brakes",
+        forces=[spring(s), machine],
+        exact=exact,
+        end=end,
+        controller=[controller],
+        controllers={"brake": lambda: Switch(load * s.force)},
+    )
     return beside(scene, kind)
 
 
 def _draw_latch(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "hold": log_uniform(g, 0.05, 10.0), "damping": g.uniform(0.0, 0.2),
-        "end": g.uniform(20.0, 80.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        hold=log_uniform(g, 0.05, 10.0),
+        damping=g.uniform(0.0, 0.2),
+        end=g.uniform(20.0, 80.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_latch,
-    {"scale": UNIT, "hold": 1.2, "damping": 0.05, "end": 40.0},
-    {"scale": SMALL, "hold": 0.3, "damping": 0.0, "end": 40.0},
-    {"scale": LARGE, "hold": 5.0, "damping": 0.1, "end": 60.0},
-    {"scale": UNIT, "hold": 1.0, "damping": 0.02, "end": 40.0, "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_latch)
+@chosen(scale=UNIT, hold=1.2, damping=0.05, end=40.0)
+@chosen(scale=SMALL, hold=0.3, damping=0.0, end=40.0)
+@chosen(scale=LARGE, hold=5.0, damping=0.1, end=60.0)
+@chosen(scale=UNIT, hold=1.0, damping=0.02, end=40.0, kind="barge")
 def latched_block(
     scale: Three, hold: float, damping: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -169,14 +197,20 @@ def latched_block(
         )
         return s.length * ((-kept) ** k * from_rest)[:, None]
 
-    friction = {"type": "dry_friction", "name": "latch", "joint": "slide",
-                "static": 10.0 * s.force, "kinetic": 0.0}  # fmt: skip
-    controller = {
-        "type": "latching", "name": "latching", "inputs": ["joints/slide/displacement_rate"],
-        "outputs": ["forces/latch/static"], "hold_load": 10.0 * s.force,
-        "hold_time": hold / s.rate, "period": 0.2 / s.rate,
-    }  # fmt: skip
+    friction = dict(
+        type="dry_friction", name="latch", joint="slide", static=10.0 * s.force, kinetic=0.0
+    )
+    controller = dict(
+        type="latching",
+        name="latching",
+        inputs=["joints/slide/displacement_rate"],
+        outputs=["forces/latch/static"],
+        hold_load=10.0 * s.force,
+        hold_time=hold / s.rate,
+        period=0.2 / s.rate,
+    )
     damper = spring(s) | {"damping": 2.0 * damping * s.mass * s.rate}
-    scene = block(s, f"a block latched for {hold:g}", [damper, friction], exact, end,
-                  controller=[controller])  # fmt: skip
+    scene = block(
+        s, f"a block latched for {hold:g}", [damper, friction], exact, end, controller=[controller]
+    )
     return beside(scene, kind)

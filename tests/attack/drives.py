@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import (
     DOWN_Y,
     GRAVITY,
@@ -45,8 +45,7 @@ def motion(how: str, amplitude: float, period: float, end: float) -> tuple[Motio
 
     match how:
         case "sine":
-            drive = {"constant": -amplitude, "amplitude": amplitude, "period": period,
-                     "phase_deg": 90.0}  # fmt: skip
+            drive = dict(constant=-amplitude, amplitude=amplitude, period=period, phase_deg=90.0)
             return sine, drive
         case "ramp":
             k = np.pi / (2.0 * period)
@@ -73,8 +72,11 @@ def motion(how: str, amplitude: float, period: float, end: float) -> tuple[Motio
             return sine, {"python": True}
         case "rate":
             rate = amplitude * w
-            return lambda t: (rate * np.asarray(t), rate + 0.0 * np.asarray(t),
-                              0.0 * np.asarray(t)), {"rate": rate}  # fmt: skip
+            return lambda t: (
+                rate * np.asarray(t),
+                rate + 0.0 * np.asarray(t),
+                0.0 * np.asarray(t),
+            ), {"rate": rate}
     raise ValueError(how)
 
 
@@ -101,23 +103,24 @@ def start_rate(f: Motion) -> float:
 
 
 def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": HOW[g.integers(5)], "amplitude": log_uniform(g, 0.01, 2.0),
-        "period": log_uniform(g, 0.3, 20.0), "length": log_uniform(g, 0.01, 100.0),
-        "mass": log_uniform(g, 1e-3, 1e6), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=HOW[g.integers(5)],
+        amplitude=log_uniform(g, 0.01, 2.0),
+        period=log_uniform(g, 0.3, 20.0),
+        length=log_uniform(g, 0.01, 100.0),
+        mass=log_uniform(g, 1e-3, 1e6),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_arm,
-    {"how": "sine", "amplitude": 0.2, "period": 2.0, "length": 1.0, "mass": 1.0},
-    {"how": "sine", "amplitude": 0.2, "period": 1.0, "length": 1.0, "mass": 1.0, "kind": "ship"},
-    {"how": "table", "amplitude": 0.5, "period": 4.0, "length": 1.0, "mass": 20.0},
-    {"how": "rate", "amplitude": 0.5, "period": 3.0, "length": 0.5, "mass": 5.0},
-    {"how": "python", "amplitude": 0.3, "period": 10.0, "length": 2.0, "mass": 1e3},
-    {"how": "ramp", "amplitude": 1.0, "period": 5.0, "length": 1.0, "mass": 1.0},
-    {"how": "sine", "amplitude": 0.02, "period": 0.3, "length": 10.0, "mass": 1e5},
-)  # fmt: skip
+@family(KIND, _draw_arm)
+@chosen(how="sine", amplitude=0.2, period=2.0, length=1.0, mass=1.0)
+@chosen(how="sine", amplitude=0.2, period=1.0, length=1.0, mass=1.0, kind="ship")
+@chosen(how="table", amplitude=0.5, period=4.0, length=1.0, mass=20.0)
+@chosen(how="rate", amplitude=0.5, period=3.0, length=0.5, mass=5.0)
+@chosen(how="python", amplitude=0.3, period=10.0, length=2.0, mass=1e3)
+@chosen(how="ramp", amplitude=1.0, period=5.0, length=1.0, mass=1.0)
+@chosen(how="sine", amplitude=0.02, period=0.3, length=10.0, mass=1e5)
 def driven_arm(
     how: str, amplitude: float, period: float, length: float, mass: float, kind: str | None = None
 ) -> Scene:
@@ -132,11 +135,24 @@ def driven_arm(
     half, rate = 0.5 * length, start_rate(f)
     inertia = [mass * length**2 / 12.0] * 3
     bodies = [
-        body("arm", "planar", mass, [0.0, 0.0, -half], inertia,
-             velocity=[rate * half, 0.0, 0.0], angular_velocity=[0.0, -rate, 0.0]),
-        body("tail", "planar", mass, [0.0, 0.0, -3.0 * half], inertia,
-             velocity=[rate * length, 0.0, 0.0]),
-    ]  # fmt: skip
+        body(
+            "arm",
+            motion="planar",
+            mass=mass,
+            at=[0.0, 0.0, -half],
+            inertia=inertia,
+            velocity=[rate * half, 0.0, 0.0],
+            angular_velocity=[0.0, -rate, 0.0],
+        ),
+        body(
+            "tail",
+            motion="planar",
+            mass=mass,
+            at=[0.0, 0.0, -3.0 * half],
+            inertia=inertia,
+            velocity=[rate * length, 0.0, 0.0],
+        ),
+    ]
     joints = [
         joint("hinge", "revolute", "ground", "arm", axis=DOWN_Y),
         joint("pin", "revolute", "arm", "tail", [0.0, 0.0, -length], DOWN_Y),
@@ -152,44 +168,54 @@ def driven_arm(
     def place(t: Any, y: Any) -> Any:
         a = f(t)[0]
         return [
-            half * np.sin(a), -half * np.cos(a),
-            length * np.sin(a) + half * np.sin(y[0]), -length * np.cos(a) - half * np.cos(y[0]),
-        ]  # fmt: skip
+            half * np.sin(a),
+            -half * np.cos(a),
+            length * np.sin(a) + half * np.sin(y[0]),
+            -length * np.cos(a) - half * np.cos(y[0]),
+        ]
 
     exact = truth.integrated(rates, [0.0, 0.0], place, breaks=knots(how, period, end))
-    tables = case(bodies, end, joints=joints,
-                  constraints=[driven("motor", drive, joint="hinge")], samples=400)  # fmt: skip
+    tables = case(
+        bodies, end, joints=joints, constraints=[driven("motor", drive, joint="hinge")], samples=400
+    )
     size = length * min(1.0, amplitude * max(1.0, amplitude) * (1.0 if how != "rate" else 10.0))
-    scene = Scene(
-        "", f"an arm driven by a {how}, a bar hangs from it", tables, size, tau,
-        "DOP853, angle of the hanging bar", exact,
-        both(position("arm", 0, 2), position("tail", 0, 2)),
+    scene = unnamed(
+        title=f"an arm driven by a {how}, a bar hangs from it",
+        tables=tables,
+        size=size,
+        time_scale=tau,
+        source="DOP853, angle of the hanging bar",
+        truth=exact,
+        measured=both(position("arm", 0, 2), position("tail", 0, 2)),
         drives=functions("motor", how, f),
-    )  # fmt: skip
+    )
     return beside(scene, kind)
 
 
 def _draw_belt(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("sine", "table", "python", "rate")[g.integers(4)],
-        "amplitude": log_uniform(g, 0.05, 2.0), "period": log_uniform(g, 0.5, 10.0),
-        "friction": log_uniform(g, 0.5, 20.0), "stiffness": log_uniform(g, 5.0, 100.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("sine", "table", "python", "rate")[g.integers(4)],
+        amplitude=log_uniform(g, 0.05, 2.0),
+        period=log_uniform(g, 0.5, 10.0),
+        friction=log_uniform(g, 0.5, 20.0),
+        stiffness=log_uniform(g, 5.0, 100.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_belt,
-    {"how": "sine", "amplitude": 0.5, "period": 3.0, "friction": 5.0, "stiffness": 50.0},
-    {"how": "table", "amplitude": 0.3, "period": 2.0, "friction": 3.0, "stiffness": 20.0},
-    {"how": "python", "amplitude": 1.0, "period": 6.0, "friction": 8.0, "stiffness": 40.0,
-     "kind": "barge"},
-    {"how": "rate", "amplitude": 0.2, "period": 6.0, "friction": 8.0, "stiffness": 40.0},
-)  # fmt: skip
+@family(KIND, _draw_belt)
+@chosen(how="sine", amplitude=0.5, period=3.0, friction=5.0, stiffness=50.0)
+@chosen(how="table", amplitude=0.3, period=2.0, friction=3.0, stiffness=20.0)
+@chosen(how="python", amplitude=1.0, period=6.0, friction=8.0, stiffness=40.0, kind="barge")
+@chosen(how="rate", amplitude=0.2, period=6.0, friction=8.0, stiffness=40.0)
 def swinging_belt(
-    how: str, amplitude: float, period: float, friction: float, stiffness: float,
+    how: str,
+    amplitude: float,
+    period: float,
+    friction: float,
+    stiffness: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A block of 1 kg with a spring to the ground on a driven belt, with Coulomb's friction.
 
     Sticking while |f'' + k x| < F; slipping, x'' = -k x + F sign(f' - x').
@@ -210,9 +236,10 @@ def swinging_belt(
 
     def release(sign: float) -> truth.Guard:  # sign of the force of the belt at the limit
         return truth.Guard(
-            lambda t, y: sign * needed(t, y) - friction, True,
+            lambda t, y: sign * needed(t, y) - friction,
+            True,
             lambda t, y: ("forth" if sign > 0 else "back", y),
-        )  # fmt: skip
+        )
 
     def meet(t: float, y: Any) -> tuple[str, Any]:
         y = np.array([y[0], float(f(t)[1]), 0.0])
@@ -222,48 +249,56 @@ def swinging_belt(
         return ("forth" if load > 0 else "back"), y
 
     exact = truth.hybrid(
-        "stick", [0.0, start_rate(f), 0.0],
-        {"stick": stick, "forth": slip(1.0), "back": slip(-1.0)},
-        {
-            "stick": [release(1.0), release(-1.0)],
-            "forth": [truth.Guard(lambda t, y: float(f(t)[1]) - y[1], False, meet)],
-            "back": [truth.Guard(lambda t, y: float(f(t)[1]) - y[1], True, meet)],
-        },
-        lambda t, y, _m: [f(t)[0], y[0]],
-        breaks=knots(how, period, end), longest=tau / 20.0,
-    )  # fmt: skip
+        mode="stick",
+        start=[0.0, start_rate(f), 0.0],
+        flows={"stick": stick, "forth": slip(1.0), "back": slip(-1.0)},
+        guards=dict(
+            stick=[release(1.0), release(-1.0)],
+            forth=[truth.Guard(lambda t, y: float(f(t)[1]) - y[1], False, meet)],
+            back=[truth.Guard(lambda t, y: float(f(t)[1]) - y[1], True, meet)],
+        ),
+        place=lambda t, y, _m: [f(t)[0], y[0]],
+        breaks=knots(how, period, end),
+        longest=tau / 20.0,
+    )
     rate = [start_rate(f), 0.0, 0.0]
     tables = case(
         [body("belt", "surge", 1.0, velocity=rate), body("block", "surge", 1.0, velocity=rate)],
-        end, joints=[joint("contact", "prismatic", "belt", "block", axis=X)],
+        end,
+        joints=[joint("contact", "prismatic", "belt", "block", axis=X)],
         constraints=[driven("motor", drive, body="belt", coordinate="surge")],
         forces=[
             spring("spring", "ground", "block", [-50.0, 0.0, 0.0], [0.0] * 3, stiffness),
             {"type": "dry_friction", "name": "dry", "joint": "contact", "static": friction},
         ],
         samples=400,
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a block with dry friction on a belt driven by a {how}", tables,
-        min(amplitude, friction / stiffness), tau, "pieces between events (DOP853)", exact,
-        both(position("belt", 0), position("block", 0)), drives=functions("motor", how, f),
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a block with dry friction on a belt driven by a {how}",
+        tables=tables,
+        size=min(amplitude, friction / stiffness),
+        time_scale=tau,
+        source="pieces between events (DOP853)",
+        truth=exact,
+        measured=both(position("belt", 0), position("block", 0)),
+        drives=functions("motor", how, f),
+    )
     return beside(scene, kind)
 
 
 def _draw_velocity(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "speed": log_uniform(g, 0.01, 5.0), "period": log_uniform(g, 0.3, 20.0),
-        "length": log_uniform(g, 0.1, 10.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        speed=log_uniform(g, 0.01, 5.0),
+        period=log_uniform(g, 0.3, 20.0),
+        length=log_uniform(g, 0.1, 10.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_velocity,
-    {"speed": 0.5, "period": 3.0, "length": 1.0},
-    {"speed": 0.1, "period": 0.5, "length": 2.0},
-    {"speed": 0.5, "period": 8.0, "length": 1.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_velocity)
+@chosen(speed=0.5, period=3.0, length=1.0)
+@chosen(speed=0.1, period=0.5, length=2.0)
+@chosen(speed=0.5, period=8.0, length=1.0, kind="ship")
 def velocity_drive(speed: float, period: float, length: float, kind: str | None = None) -> Scene:
     """A cart whose rate is a sine, x = V / w (1 - cos wt), with a bob that hangs from it."""
     w, slow = 2.0 * np.pi / period, np.sqrt(length / GRAVITY)
@@ -276,58 +311,85 @@ def velocity_drive(speed: float, period: float, length: float, kind: str | None 
     ]
     motor = driven("motor", {"amplitude": speed, "period": period}, joint="guide", level="velocity")
     exact = truth.integrated(
-        lambda t, y: [
-            y[1], -(GRAVITY * np.sin(y[0]) + speed * w * np.cos(w * t) * np.cos(y[0])) / length,
+        rates=lambda t, y: [
+            y[1],
+            -(GRAVITY * np.sin(y[0]) + speed * w * np.cos(w * t) * np.cos(y[0])) / length,
         ],
-        [0.0, 0.0],
-        lambda t, y: [
+        start=[0.0, 0.0],
+        place=lambda t, y: [
             speed / w * (1 - np.cos(w * t)),
-            speed / w * (1 - np.cos(w * t)) + length * np.sin(y[0]), -length * np.cos(y[0]),
+            speed / w * (1 - np.cos(w * t)) + length * np.sin(y[0]),
+            -length * np.cos(y[0]),
         ],
-    )  # fmt: skip
+    )
     tables = case(bodies, end, joints=joints, constraints=[motor], samples=400)
-    scene = Scene(
-        "", "a cart whose rate is driven by a sine", tables, speed / w, tau,
-        "DOP853, angle of the bob", exact, both(position("cart", 0), position("bob", 0, 2)),
-    )  # fmt: skip
+    scene = unnamed(
+        title="a cart whose rate is driven by a sine",
+        tables=tables,
+        size=speed / w,
+        time_scale=tau,
+        source="DOP853, angle of the bob",
+        truth=exact,
+        measured=both(position("cart", 0), position("bob", 0, 2)),
+    )
     return beside(scene, kind)
 
 
 def _draw_alone(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "amplitude": log_uniform(g, 0.01, 10.0), "period": log_uniform(g, 0.1, 20.0),
-        "phase_deg": g.uniform(0.0, 90.0), "length": log_uniform(g, 0.01, 100.0),
-        "motion": ("planar", "rigid")[g.integers(2)], "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        amplitude=log_uniform(g, 0.01, 10.0),
+        period=log_uniform(g, 0.1, 20.0),
+        phase_deg=g.uniform(0.0, 90.0),
+        length=log_uniform(g, 0.01, 100.0),
+        motion=("planar", "rigid")[g.integers(2)],
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_alone,
-    {"amplitude": 0.2, "period": 2.0, "phase_deg": 0.0, "length": 1.0, "motion": "planar"},
-    {"amplitude": 0.2, "period": 2.0, "phase_deg": 0.0, "length": 1.0, "motion": "planar",
-     "kind": "ship"},
-    {"amplitude": 3.0, "period": 5.0, "phase_deg": 30.0, "length": 1.0, "motion": "rigid"},
-    {"amplitude": 0.2, "period": 1.0, "phase_deg": 0.0, "length": 1.0, "motion": "rigid",
-     "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_alone)
+@chosen(amplitude=0.2, period=2.0, phase_deg=0.0, length=1.0, motion="planar")
+@chosen(amplitude=0.2, period=2.0, phase_deg=0.0, length=1.0, motion="planar", kind="ship")
+@chosen(amplitude=3.0, period=5.0, phase_deg=30.0, length=1.0, motion="rigid")
+@chosen(amplitude=0.2, period=1.0, phase_deg=0.0, length=1.0, motion="rigid", kind="barge")
 def arm_alone(
-    amplitude: float, period: float, phase_deg: float, length: float, motion: str,
+    amplitude: float,
+    period: float,
+    phase_deg: float,
+    length: float,
+    motion: str,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A bar that does nothing but follow the sine of its hinge."""
     w, phase, half = 2.0 * np.pi / period, np.radians(phase_deg), 0.5 * length
     end = 12.0 * period
-    drive = {"constant": -amplitude * np.sin(phase), "amplitude": amplitude, "period": period,
-             "phase_deg": phase_deg}  # fmt: skip
+    drive = dict(
+        constant=-amplitude * np.sin(phase), amplitude=amplitude, period=period, phase_deg=phase_deg
+    )
     rate = amplitude * w * float(np.cos(phase))
-    arm = body("arm", motion, 3.0, [0.0, 0.0, -half], [0.25 * length**2] * 3,
-               velocity=[rate * half, 0.0, 0.0], angular_velocity=[0.0, -rate, 0.0])  # fmt: skip
-    tables = case([arm], end, joints=[joint("hinge", "revolute", "ground", "arm", axis=DOWN_Y)],
-                  constraints=[driven("motor", drive, joint="hinge")], samples=400)  # fmt: skip
-    scene = Scene(
-        "", "an arm that follows a sine", tables, min(1.0, amplitude),
-        1.0 / (w * max(1.0, amplitude)), "closed form",
-        truth.column(lambda t: amplitude * (np.sin(w * t + phase) - np.sin(phase))),
-        channel("joints/hinge/angle"), unit="rad",
-    )  # fmt: skip
+    arm = body(
+        "arm",
+        motion=motion,
+        mass=3.0,
+        at=[0.0, 0.0, -half],
+        inertia=[0.25 * length**2] * 3,
+        velocity=[rate * half, 0.0, 0.0],
+        angular_velocity=[0.0, -rate, 0.0],
+    )
+    tables = case(
+        [arm],
+        end,
+        joints=[joint("hinge", "revolute", "ground", "arm", axis=DOWN_Y)],
+        constraints=[driven("motor", drive, joint="hinge")],
+        samples=400,
+    )
+    scene = unnamed(
+        title="an arm that follows a sine",
+        tables=tables,
+        size=min(1.0, amplitude),
+        time_scale=1.0 / (w * max(1.0, amplitude)),
+        source="closed form",
+        truth=truth.column(lambda t: amplitude * (np.sin(w * t + phase) - np.sin(phase))),
+        measured=channel("joints/hinge/angle"),
+        unit="rad",
+    )
     return beside(scene, kind)

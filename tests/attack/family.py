@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -51,16 +52,29 @@ class Family:
 
 
 FAMILIES: dict[str, Family] = {}
+#: A scene to which its family gives the name.
+unnamed = partial(Scene, "")
+_CHOSEN: dict[Make, list[dict[str, Any]]] = {}
 
 
-def family(kind: str, draw: Draw, *chosen: Mapping[str, Any]) -> Callable[[Make], Make]:
-    """Register the decorated function of parameters as a family of scenes."""
+def family(kind: str, draw: Draw) -> Callable[[Make], Make]:
+    """Register the decorated function of parameters as a family of scenes; see `chosen`."""
 
     def register(make: Make) -> Make:
-        FAMILIES[make.__name__] = Family(kind, make.__name__, make, chosen, draw)
+        FAMILIES[make.__name__] = Family(kind, make.__name__, make, _CHOSEN.pop(make), draw)
         return make
 
     return register
+
+
+def chosen(**parameters: Any) -> Callable[[Make], Make]:
+    """Add a scene of the suite to the family: its parameters, between `family` and the function."""
+
+    def note(make: Make) -> Make:
+        _CHOSEN.setdefault(make, []).insert(0, parameters)  # the lowest decorator comes first
+        return make
+
+    return note
 
 
 def log_uniform(generator: np.random.Generator, low: float, high: float) -> float:

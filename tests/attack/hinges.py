@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour
 from tests.attack.parts import beside
 
 from hydrodae.study.stability import Scene, all_scenes
@@ -20,19 +20,22 @@ TOLD = (
 
 
 def _draw(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "misfit": log_uniform(g, 1e-9, 1e-3),
-        "direction": ("side", "across", "tilt")[g.integers(3)],
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        misfit=log_uniform(g, 1e-9, 1e-3),
+        direction=("side", "across", "tilt")[g.integers(3)],
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw,
-    *({"misfit": m, "direction": d} for m in (1e-8, 1e-6, 1e-4) for d in ("side", "tilt")),
-    {"misfit": 1e-8, "direction": "across"},
-    {"misfit": 1e-8, "direction": "side", "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw)
+@chosen(misfit=1e-8, direction="side")
+@chosen(misfit=1e-8, direction="tilt")
+@chosen(misfit=1e-6, direction="side")
+@chosen(misfit=1e-6, direction="tilt")
+@chosen(misfit=1e-4, direction="side")
+@chosen(misfit=1e-4, direction="tilt")
+@chosen(misfit=1e-8, direction="across")
+@chosen(misfit=1e-8, direction="side", kind="ship")
 def misaligned_door(misfit: float, direction: str, kind: str | None = None) -> Scene:
     """The door of the benchmarks, its lower hinge off by `misfit` metres (or its axis, in rad)."""
     scene = all_scenes()["door"]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from tests.attack import sea, truth
 from tests.attack.drives import functions, motion
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import (
     DOWN_Y,
     GRAVITY,
@@ -33,55 +33,68 @@ def stop(name: str, guide: str, restitution: float, **bounds: float) -> dict[str
 
 
 def _draw_ball(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 1e-3, 100.0), "restitution": g.uniform(0.0, 0.95),
-        "mass": log_uniform(g, 1e-3, 1e5), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 1e-3, 100.0),
+        restitution=g.uniform(0.0, 0.95),
+        mass=log_uniform(g, 1e-3, 1e5),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_ball,
-    {"height": 1.0, "restitution": 0.3, "mass": 1.0},
-    {"height": 1.0, "restitution": 0.8, "mass": 1.0, "kind": "ship"},
-    {"height": 1e-3, "restitution": 0.6, "mass": 1e-3},
-    {"height": 50.0, "restitution": 0.9, "mass": 1e4},
-)  # fmt: skip
+@family(KIND, _draw_ball)
+@chosen(height=1.0, restitution=0.3, mass=1.0)
+@chosen(height=1.0, restitution=0.8, mass=1.0, kind="ship")
+@chosen(height=1e-3, restitution=0.6, mass=1e-3)
+@chosen(height=50.0, restitution=0.9, mass=1e4)
 def falling_ball(height: float, restitution: float, mass: float, kind: str | None = None) -> Scene:
     """A ball that falls onto the floor and bounces until it rests."""
     tau = float(np.sqrt(2.0 * height / GRAVITY))
     end = 1.3 * tau * (1.0 + restitution) / (1.0 - restitution) + tau
     exact = truth.walls(
-        lambda _t: (0.0, 0.0, 0.0), -height, np.inf, restitution, (0.0, 0.0), GRAVITY, tau / 20.0,
-        GRAVITY * tau,
-    )  # fmt: skip
+        wall=lambda _t: (0.0, 0.0, 0.0),
+        lower=-height,
+        upper=np.inf,
+        restitution=restitution,
+        start=(0.0, 0.0),
+        gravity=GRAVITY,
+        finest=tau / 20.0,
+        speed=GRAVITY * tau,
+    )
     tables = case(
-        [body("ball", "heave", mass, [0.0, 0.0, height])], end, samples=500,
+        [body("ball", "heave", mass, [0.0, 0.0, height])],
+        end,
+        samples=500,
         joints=[joint("guide", "prismatic", "ground", "ball", [0.0, 0.0, height], Z)],
         constraints=[stop("floor", "guide", restitution, lower=-height)],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a ball dropped {height:g} m, restitution {restitution:g}", tables, height, tau,
-        "closed flights", exact, position("ball", 2, origin=[0.0, 0.0, height]),
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a ball dropped {height:g} m, restitution {restitution:g}",
+        tables=tables,
+        size=height,
+        time_scale=tau,
+        source="closed flights",
+        truth=exact,
+        measured=position("ball", 2, origin=[0.0, 0.0, height]),
+    )
     return beside(scene, kind)
 
 
 def _draw_table(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("sine", "python", "table")[g.integers(3)], "period": log_uniform(g, 0.2, 5.0),
-        "shake": g.uniform(0.2, 1.3), "restitution": g.uniform(0.0, 0.8),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("sine", "python", "table")[g.integers(3)],
+        period=log_uniform(g, 0.2, 5.0),
+        shake=g.uniform(0.2, 1.3),
+        restitution=g.uniform(0.0, 0.8),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_table,
-    {"how": "sine", "period": 1.0, "shake": 0.5, "restitution": 0.5},
-    {"how": "sine", "period": 0.5, "shake": 1.2, "restitution": 0.6},
-    {"how": "python", "period": 2.0, "shake": 0.4, "restitution": 0.7},
-    {"how": "sine", "period": 1.0, "shake": 0.8, "restitution": 0.0, "kind": "ship"},
-    {"how": "table", "period": 1.5, "shake": 0.3, "restitution": 0.4},
-)  # fmt: skip
+@family(KIND, _draw_table)
+@chosen(how="sine", period=1.0, shake=0.5, restitution=0.5)
+@chosen(how="sine", period=0.5, shake=1.2, restitution=0.6)
+@chosen(how="python", period=2.0, shake=0.4, restitution=0.7)
+@chosen(how="sine", period=1.0, shake=0.8, restitution=0.0, kind="ship")
+@chosen(how="table", period=1.5, shake=0.3, restitution=0.4)
 def shaken_table(
     how: str, period: float, shake: float, restitution: float, kind: str | None = None
 ) -> Scene:
@@ -96,43 +109,63 @@ def shaken_table(
         value, rate, change = f(t)
         return float(value), float(rate), float(change)
 
-    solved = truth.walls(wall, -height, np.inf, restitution, (0.0, 0.0), GRAVITY, period / 400.0,
-                         amplitude * w)  # fmt: skip
+    solved = truth.walls(
+        wall=wall,
+        lower=-height,
+        upper=np.inf,
+        restitution=restitution,
+        start=(0.0, 0.0),
+        gravity=GRAVITY,
+        finest=period / 400.0,
+        speed=amplitude * w,
+    )
     bodies = [body("table", "heave", 10.0), body("ball", "heave", 1.0, [0.0, 0.0, height])]
     tables = case(
-        bodies, end, samples=500,
+        bodies,
+        end,
+        samples=500,
         joints=[joint("guide", "prismatic", "table", "ball", [0.0, 0.0, height], Z)],
-        constraints=[driven("motor", drive, body="table", coordinate="heave"),
-                     stop("top", "guide", restitution, lower=-height)],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a ball on a table shaken with {shake:g} g", tables, amplitude, 1.0 / w,
-        "closed flights", lambda t: np.column_stack([f(t)[0], solved(t)]),
-        both(position("table", 2), position("ball", 2, origin=[0.0, 0.0, height])),
+        constraints=[
+            driven("motor", drive, body="table", coordinate="heave"),
+            stop("top", "guide", restitution, lower=-height),
+        ],
+    )
+    scene = unnamed(
+        title=f"a ball on a table shaken with {shake:g} g",
+        tables=tables,
+        size=amplitude,
+        time_scale=1.0 / w,
+        source="closed flights",
+        truth=lambda t: np.column_stack([f(t)[0], solved(t)]),
+        measured=both(position("table", 2), position("ball", 2, origin=[0.0, 0.0, height])),
         drives=functions("motor", how, f),
-    )  # fmt: skip
+    )
     return beside(scene, kind)
 
 
 def _draw_box(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("sine", "python", "table")[g.integers(3)], "period": log_uniform(g, 0.2, 10.0),
-        "amplitude": log_uniform(g, 0.01, 2.0), "gap": g.uniform(0.3, 2.0),
-        "restitution": g.uniform(0.0, 0.8), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("sine", "python", "table")[g.integers(3)],
+        period=log_uniform(g, 0.2, 10.0),
+        amplitude=log_uniform(g, 0.01, 2.0),
+        gap=g.uniform(0.3, 2.0),
+        restitution=g.uniform(0.0, 0.8),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_box,
-    {"how": "sine", "period": 2.0, "amplitude": 0.5, "gap": 0.6, "restitution": 0.5},
-    {"how": "table", "period": 3.0, "amplitude": 0.2, "gap": 1.0, "restitution": 0.2},
-    {"how": "sine", "period": 2.0, "amplitude": 0.5, "gap": 0.8, "restitution": 0.0,
-     "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_box)
+@chosen(how="sine", period=2.0, amplitude=0.5, gap=0.6, restitution=0.5)
+@chosen(how="table", period=3.0, amplitude=0.2, gap=1.0, restitution=0.2)
+@chosen(how="sine", period=2.0, amplitude=0.5, gap=0.8, restitution=0.0, kind="barge")
 def driven_box(
-    how: str, period: float, amplitude: float, gap: float, restitution: float,
+    how: str,
+    period: float,
+    amplitude: float,
+    gap: float,
+    restitution: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A block that slides freely between the walls of a driven box (gap in amplitudes)."""
     w, room = 2.0 * np.pi / period, gap * amplitude
     end = 4.0 * period
@@ -142,28 +175,47 @@ def driven_box(
         value, rate, change = f(t)
         return float(value), float(rate), float(change)
 
-    solved = truth.walls(wall, -room, room, restitution, (0.0, 0.0), 0.0, period / 400.0,
-                         amplitude * w)  # fmt: skip
+    solved = truth.walls(
+        wall=wall,
+        lower=-room,
+        upper=room,
+        restitution=restitution,
+        start=(0.0, 0.0),
+        gravity=0.0,
+        finest=period / 400.0,
+        speed=amplitude * w,
+    )
     tables = case(
-        [body("box", "surge", 10.0), body("block", "surge", 1.0)], end, samples=500,
+        [body("box", "surge", 10.0), body("block", "surge", 1.0)],
+        end,
+        samples=500,
         joints=[joint("guide", "prismatic", "box", "block", axis=X)],
-        constraints=[driven("motor", drive, body="box", coordinate="surge"),
-                     stop("walls", "guide", restitution, lower=-room, upper=room)],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a block in a box driven by a {how}", tables, amplitude, 1.0 / w, "closed flights",
-        lambda t: np.column_stack([f(t)[0], solved(t)]),
-        both(position("box", 0), position("block", 0)), drives=functions("motor", how, f),
-    )  # fmt: skip
+        constraints=[
+            driven("motor", drive, body="box", coordinate="surge"),
+            stop("walls", "guide", restitution, lower=-room, upper=room),
+        ],
+    )
+    scene = unnamed(
+        title=f"a block in a box driven by a {how}",
+        tables=tables,
+        size=amplitude,
+        time_scale=1.0 / w,
+        source="closed flights",
+        truth=lambda t: np.column_stack([f(t)[0], solved(t)]),
+        measured=both(position("box", 0), position("block", 0)),
+        drives=functions("motor", how, f),
+    )
     return beside(scene, kind)
 
 
 def _draw_arm(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 0.01, 100.0), "start_deg": g.uniform(30.0, 120.0),
-        "stop_deg": g.uniform(-30.0, 20.0), "restitution": g.uniform(0.0, 1.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 0.01, 100.0),
+        start_deg=g.uniform(30.0, 120.0),
+        stop_deg=g.uniform(-30.0, 20.0),
+        restitution=g.uniform(0.0, 1.0),
+        kind=neighbour(g),
+    )
 
 
 def _against(angle: float, below: bool, rate2: float, restitution: float) -> dict[str, Any]:
@@ -184,21 +236,20 @@ def _against(angle: float, below: bool, rate2: float, restitution: float) -> dic
             return float(usual)
         return float(min(usual, max(abs(y[1]), tiny) / pull / 5.0))
 
-    return {
-        "flows": {"swing": lambda _t, y: [y[1], -rate2 * np.sin(y[0])],
-                  "rest": lambda _t, _y: [0.0, 0.0]},
-        "guards": {"swing": [truth.Guard(lambda _t, y: y[0] - angle, not below, strike)]},
-        "longest": longest,
-    }  # fmt: skip
+    return dict(
+        flows=dict(
+            swing=lambda _t, y: [y[1], -rate2 * np.sin(y[0])], rest=lambda _t, _y: [0.0, 0.0]
+        ),
+        guards={"swing": [truth.Guard(lambda _t, y: y[0] - angle, not below, strike)]},
+        longest=longest,
+    )
 
 
-@family(
-    KIND, _draw_arm,
-    {"length": 1.0, "start_deg": 60.0, "stop_deg": -10.0, "restitution": 0.5},
-    {"length": 1.0, "start_deg": 90.0, "stop_deg": 15.0, "restitution": 0.5},
-    {"length": 0.1, "start_deg": 60.0, "stop_deg": 0.0, "restitution": 0.9, "kind": "ship"},
-    {"length": 20.0, "start_deg": 80.0, "stop_deg": 5.0, "restitution": 0.0},
-)  # fmt: skip
+@family(KIND, _draw_arm)
+@chosen(length=1.0, start_deg=60.0, stop_deg=-10.0, restitution=0.5)
+@chosen(length=1.0, start_deg=90.0, stop_deg=15.0, restitution=0.5)
+@chosen(length=0.1, start_deg=60.0, stop_deg=0.0, restitution=0.9, kind="ship")
+@chosen(length=20.0, start_deg=80.0, stop_deg=5.0, restitution=0.0)
 def arm_and_stop(
     length: float, start_deg: float, stop_deg: float, restitution: float, kind: str | None = None
 ) -> Scene:
@@ -207,85 +258,123 @@ def arm_and_stop(
     rate2 = 1.5 * GRAVITY / length
     end = 15.0 / np.sqrt(rate2)
     exact = truth.hybrid(
-        "swing", [start, 0.0], place=lambda _t, y, _m: [np.sin(y[0]) * half, -np.cos(y[0]) * half],
+        mode="swing",
+        start=[start, 0.0],
+        place=lambda _t, y, _m: [np.sin(y[0]) * half, -np.cos(y[0]) * half],
         **_against(at, True, rate2, restitution),
-    )  # fmt: skip
+    )
     place = [half * np.sin(start), 0.0, -half * np.cos(start)]
     tables = case(
-        [body("bar", "planar", 3.0, place, [0.25 * length**2] * 3)], float(end), samples=500,
+        [body("bar", "planar", 3.0, place, [0.25 * length**2] * 3)],
+        float(end),
+        samples=500,
         joints=[joint("hinge", "revolute", "ground", "bar", axis=DOWN_Y)],
         constraints=[stop("stop", "hinge", restitution, lower_deg=stop_deg - start_deg)],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a bar against a stop at {stop_deg:g} deg", tables, half, float(1.0 / np.sqrt(rate2)),
-        "an angle between impacts (DOP853)", exact, position("bar", 0, 2),
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a bar against a stop at {stop_deg:g} deg",
+        tables=tables,
+        size=half,
+        time_scale=float(1.0 / np.sqrt(rate2)),
+        source="an angle between impacts (DOP853)",
+        truth=exact,
+        measured=position("bar", 0, 2),
+    )
     return beside(scene, kind)
 
 
 def _draw_stops(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "mass": log_uniform(g, 1e-3, 1e6), "rate": log_uniform(g, 0.1, 100.0),
-        "release": log_uniform(g, 1e-4, 1.0), "room": g.uniform(0.2, 0.9),
-        "restitution": g.uniform(0.0, 1.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        mass=log_uniform(g, 1e-3, 1e6),
+        rate=log_uniform(g, 0.1, 100.0),
+        release=log_uniform(g, 1e-4, 1.0),
+        room=g.uniform(0.2, 0.9),
+        restitution=g.uniform(0.0, 1.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_stops,
-    {"mass": 1.0, "rate": 3.0, "release": 0.5, "room": 0.4, "restitution": 0.7},
-    {"mass": 1e3, "rate": 1.0, "release": 1e-3, "room": 0.5, "restitution": 0.9},
-    {"mass": 1.0, "rate": 10.0, "release": 0.1, "room": 0.3, "restitution": 1.0, "kind": "ship"},
-    {"mass": 76.0, "rate": 0.24, "release": 0.024, "room": 0.82, "restitution": 0.48},
-)  # fmt: skip
+@family(KIND, _draw_stops)
+@chosen(mass=1.0, rate=3.0, release=0.5, room=0.4, restitution=0.7)
+@chosen(mass=1e3, rate=1.0, release=1e-3, room=0.5, restitution=0.9)
+@chosen(mass=1.0, rate=10.0, release=0.1, room=0.3, restitution=1.0, kind="ship")
+@chosen(mass=76.0, rate=0.24, release=0.024, room=0.82, restitution=0.48)
 def spring_and_stop(
-    mass: float, rate: float, release: float, room: float, restitution: float,
+    mass: float,
+    rate: float,
+    release: float,
+    room: float,
+    restitution: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A sprung mass whose way is bounded at `room` of its release on the other side."""
     bound = room * release
     end = 30.0 / rate
     exact = truth.hybrid(
-        "", [release, 0.0], {"": lambda _t, y: [y[1], -(rate**2) * y[0]]},
-        {"": [truth.Guard(lambda _t, y: y[0] + bound, False,
-                          lambda _t, y: ("", np.array([-bound, -restitution * y[1]])))]},
-        lambda _t, y, _m: [y[0]], longest=0.02 / rate, scale=[release, release * rate],
-    )  # fmt: skip
+        mode="",
+        start=[release, 0.0],
+        flows={"": lambda _t, y: [y[1], -(rate**2) * y[0]]},
+        guards={
+            "": [
+                truth.Guard(
+                    lambda _t, y: y[0] + bound,
+                    False,
+                    lambda _t, y: ("", np.array([-bound, -restitution * y[1]])),
+                )
+            ]
+        },
+        place=lambda _t, y, _m: [y[0]],
+        longest=0.02 / rate,
+        scale=[release, release * rate],
+    )
     pto = {"type": "pto_linear", "name": "spring", "joint": "guide", "stiffness": mass * rate**2}
     tables = case(
-        [body("mass", "surge", mass, displacement=[release, 0.0, 0.0])], end, samples=500,
-        joints=[joint("guide", "prismatic", "ground", "mass", axis=X)], forces=[pto],
+        [body("mass", "surge", mass, displacement=[release, 0.0, 0.0])],
+        end,
+        samples=500,
+        joints=[joint("guide", "prismatic", "ground", "mass", axis=X)],
+        forces=[pto],
         constraints=[stop("stop", "guide", restitution, lower=-bound)],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a sprung mass against a stop, restitution {restitution:g}", tables, release,
-        1.0 / rate, "pieces between impacts (DOP853)", exact, position("mass", 0),
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a sprung mass against a stop, restitution {restitution:g}",
+        tables=tables,
+        size=release,
+        time_scale=1.0 / rate,
+        source="pieces between impacts (DOP853)",
+        truth=exact,
+        measured=position("mass", 0),
+    )
     return beside(scene, kind)
 
 
 def _draw_sea(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 0.05, 1.0), "period": g.uniform(4.0, 8.0),
-        "room": g.uniform(0.3, 0.9), "restitution": g.uniform(0.0, 0.8), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 0.05, 1.0),
+        period=g.uniform(4.0, 8.0),
+        room=g.uniform(0.3, 0.9),
+        restitution=g.uniform(0.0, 0.8),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND,
-    _draw_sea,
-    {"height": 0.5, "period": 5.0, "room": 0.6, "restitution": 0.5},
-    {"height": 0.02, "period": 5.0, "room": 0.6, "restitution": 0.3},
-    {"height": 0.5, "period": 6.0, "room": 0.5, "restitution": 0.0},
-)
+@family(KIND, _draw_sea)
+@chosen(height=0.5, period=5.0, room=0.6, restitution=0.5)
+@chosen(height=0.02, period=5.0, room=0.6, restitution=0.3)
+@chosen(height=0.5, period=6.0, room=0.5, restitution=0.0)
 def stop_in_waves(
     height: float, period: float, room: float, restitution: float, kind: str | None = None
 ) -> Scene:
     """A sphere in waves under an end stop at `room` of its free amplitude."""
     s, w, ramp = sea.sphere(), 2.0 * np.pi / period, 2.0 * period
-    amplitude = float(0.5 * height * abs(
-        s.excitation(w) / (s.stiffness - w**2 * s.inertia + 1j * w * s.radiation(np.array([w]))[0])
-    ))  # fmt: skip
+    amplitude = float(
+        0.5
+        * height
+        * abs(
+            s.excitation(w)
+            / (s.stiffness - w**2 * s.inertia + 1j * w * s.radiation(np.array([w]))[0])
+        )
+    )
     bound, end = room * amplitude, 12.0 * period
     force = sea.regular(height, period, ramp)
     free = s.rates(force)
@@ -313,43 +402,62 @@ def stop_in_waves(
         return float(min(0.02 * period, abs(y[1]) / strong))
 
     exact = truth.hybrid(
-        "free", s.start(), {"free": free, "held": held},
-        {"free": [truth.Guard(lambda _t, y: y[0] - bound, True, strike)],
-         "held": [truth.Guard(push, False, lambda _t, y: ("free", y))]},
-        lambda _t, y, _m: [y[0]], longest=longest, breaks=[ramp], scale=amplitude, rtol=1e-9,
-    )  # fmt: skip
+        mode="free",
+        start=s.start(),
+        flows={"free": free, "held": held},
+        guards=dict(
+            free=[truth.Guard(lambda _t, y: y[0] - bound, True, strike)],
+            held=[truth.Guard(push, False, lambda _t, y: ("free", y))],
+        ),
+        place=lambda _t, y, _m: [y[0]],
+        longest=longest,
+        breaks=[ramp],
+        scale=amplitude,
+        rtol=1e-9,
+    )
     tables = case(
-        [sea.float_body()], end, samples=400, sea={"ramp": ramp},
+        [sea.float_body()],
+        end,
+        samples=400,
+        sea={"ramp": ramp},
         joints=[joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -sea.DRAFT], Z)],
         constraints=[stop("stop", "guide", restitution, upper=bound)],
         wave=[{"name": "swell", "type": "regular", "period": period, "height": height}],
-    )  # fmt: skip
-    scene = Scene(
-        "", f"a sphere in waves of {height:g} m under an end stop", tables, amplitude, 0.6,
-        "linear states between impacts (DOP853)", exact,
-        position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]), database=sea.stored,
-    )  # fmt: skip
+    )
+    scene = unnamed(
+        title=f"a sphere in waves of {height:g} m under an end stop",
+        tables=tables,
+        size=amplitude,
+        time_scale=0.6,
+        source="linear states between impacts (DOP853)",
+        truth=exact,
+        measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
+        database=sea.stored,
+    )
     return beside(scene, kind)
 
 
 def _draw_balls(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "masses": (log_uniform(g, 0.1, 10.0), log_uniform(g, 0.1, 10.0)),
-        "height": log_uniform(g, 0.01, 10.0), "apart": g.uniform(0.01, 0.5),
-        "restitution": g.uniform(0.4, 1.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        masses=(log_uniform(g, 0.1, 10.0), log_uniform(g, 0.1, 10.0)),
+        height=log_uniform(g, 0.01, 10.0),
+        apart=g.uniform(0.01, 0.5),
+        restitution=g.uniform(0.4, 1.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_balls,
-    {"masses": (2.0, 1.0), "height": 1.0, "apart": 0.1, "restitution": 0.7},
-    {"masses": (1.0, 3.0), "height": 0.1, "apart": 0.3, "restitution": 0.9},
-    {"masses": (2.0, 1.0), "height": 1.0, "apart": 0.1, "restitution": 0.7, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_balls)
+@chosen(masses=(2.0, 1.0), height=1.0, apart=0.1, restitution=0.7)
+@chosen(masses=(1.0, 3.0), height=0.1, apart=0.3, restitution=0.9)
+@chosen(masses=(2.0, 1.0), height=1.0, apart=0.1, restitution=0.7, kind="ship")
 def two_balls(
-    masses: tuple[float, float], height: float, apart: float, restitution: float,
+    masses: tuple[float, float],
+    height: float,
+    apart: float,
+    restitution: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """Two balls one above the other, dropped onto the floor, over their first eight impacts."""
     m, n = masses
     space = apart * height
@@ -366,17 +474,27 @@ def two_balls(
 
     low, high = [0.0, 0.0, height], [0.0, 0.0, height + space]
     tables = case(
-        [body("low", "heave", m, low), body("high", "heave", n, high)], end, samples=500,
-        joints=[joint("guide", "prismatic", "ground", "low", low, Z),
-                joint("between", "prismatic", "low", "high", high, Z)],
-        constraints=[stop("floor", "guide", restitution, lower=-height),
-                     stop("touch", "between", restitution, lower=-space)],
-    )  # fmt: skip
-    scene = Scene(
-        "", "two balls one above the other", tables, height, float(np.sqrt(2 * height / GRAVITY)),
-        "closed flights", exact,
-        both(position("low", 2), position("high", 2, origin=[0.0, 0.0, space])),
-    )  # fmt: skip
+        [body("low", "heave", m, low), body("high", "heave", n, high)],
+        end,
+        samples=500,
+        joints=[
+            joint("guide", "prismatic", "ground", "low", low, Z),
+            joint("between", "prismatic", "low", "high", high, Z),
+        ],
+        constraints=[
+            stop("floor", "guide", restitution, lower=-height),
+            stop("touch", "between", restitution, lower=-space),
+        ],
+    )
+    scene = unnamed(
+        title="two balls one above the other",
+        tables=tables,
+        size=height,
+        time_scale=float(np.sqrt(2 * height / GRAVITY)),
+        source="closed flights",
+        truth=exact,
+        measured=both(position("low", 2), position("high", 2, origin=[0.0, 0.0, space])),
+    )
     return beside(scene, kind)
 
 

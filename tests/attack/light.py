@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, Table, beside, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
@@ -24,24 +24,24 @@ def _scene(
         return length * np.column_stack([np.sin(a), -np.cos(a)])
 
     tables = case(bodies, 20.0 / rate, joints=joints)
-    return Scene("", title, tables, length, 1.0 / rate, SOURCE, place, position("bob", 0, 2))
+    return unnamed(title, tables, length, 1.0 / rate, SOURCE, place, position("bob", 0, 2))
 
 
 def _draw_point(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-2, 1e3), "mass": log_uniform(g, 1e-3, 1e8),
-        "ratio": float(g.choice([0.0, log_uniform(g, 1e-13, 1.0)])),
-        "angle": g.uniform(0.1, 2.5), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-2, 1e3),
+        mass=log_uniform(g, 1e-3, 1e8),
+        ratio=float(g.choice([0.0, log_uniform(g, 1e-13, 1.0)])),
+        angle=g.uniform(0.1, 2.5),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_point,
-    {"length": 10.0, "mass": 1e5, "ratio": 1e-8, "angle": 1.0},
-    {"length": 0.2, "mass": 1.0, "ratio": 7.5e-9, "angle": 1.0},
-    {"length": 10.0, "mass": 1e5, "ratio": 1e-12, "angle": 2.0, "kind": "ship"},
-    {"length": 1.0, "mass": 1.0, "ratio": 0.0, "angle": 1.5},
-)  # fmt: skip
+@family(KIND, _draw_point)
+@chosen(length=10.0, mass=1e5, ratio=1e-8, angle=1.0)
+@chosen(length=0.2, mass=1.0, ratio=7.5e-9, angle=1.0)
+@chosen(length=10.0, mass=1e5, ratio=1e-12, angle=2.0, kind="ship")
+@chosen(length=1.0, mass=1.0, ratio=0.0, angle=1.5)
 def point_on_hinge(
     length: float, mass: float, ratio: float, angle: float, kind: str | None = None
 ) -> Scene:
@@ -55,21 +55,22 @@ def point_on_hinge(
 
 
 def _draw_link(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 0.1, 100.0), "mass": log_uniform(g, 1e-2, 1e7),
-        "light": float(g.choice([0.0, log_uniform(g, 1e-12, 1e-3)])),
-        "angle": g.uniform(0.1, 2.0), "n_links": int(g.integers(1, 3)), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 0.1, 100.0),
+        mass=log_uniform(g, 1e-2, 1e7),
+        light=float(g.choice([0.0, log_uniform(g, 1e-12, 1e-3)])),
+        angle=g.uniform(0.1, 2.0),
+        n_links=int(g.integers(1, 3)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_link,
-    {"length": 4.0, "mass": 500.0, "light": 0.0, "angle": 1.2, "n_links": 1},
-    {"length": 4.0, "mass": 500.0, "light": 1e-6, "angle": 1.2, "n_links": 1},
-    {"length": 1.0, "mass": 1e6, "light": 1e-10, "angle": 0.5, "n_links": 1, "kind": "rotor"},
-    {"length": 2.0, "mass": 80.0, "light": 0.0, "angle": 0.8, "n_links": 2},
-    {"length": 2.0, "mass": 80.0, "light": 1e-7, "angle": 0.8, "n_links": 2},
-)  # fmt: skip
+@family(KIND, _draw_link)
+@chosen(length=4.0, mass=500.0, light=0.0, angle=1.2, n_links=1)
+@chosen(length=4.0, mass=500.0, light=1e-6, angle=1.2, n_links=1)
+@chosen(length=1.0, mass=1e6, light=1e-10, angle=0.5, n_links=1, kind="rotor")
+@chosen(length=2.0, mass=80.0, light=0.0, angle=0.8, n_links=2)
+@chosen(length=2.0, mass=80.0, light=1e-7, angle=0.8, n_links=2)
 def bob_on_links(
     length: float, mass: float, light: float, angle: float, n_links: int, kind: str | None = None
 ) -> Scene:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, beside, body, case, joint, position
 
 from hydrodae.study.stability import Scene, truths
@@ -18,12 +18,10 @@ def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
     return {"end": g.uniform(500.0, 5000.0), "angle": g.uniform(0.1, 3.0), "kind": neighbour(g)}
 
 
-@family(
-    KIND, _draw_pendulum,
-    {"end": 1000.0, "angle": 1.0},
-    {"end": 5000.0, "angle": 0.5},
-    {"end": 2000.0, "angle": 2.5, "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_pendulum)
+@chosen(end=1000.0, angle=1.0)
+@chosen(end=5000.0, angle=0.5)
+@chosen(end=2000.0, angle=2.5, kind="barge")
 def long_pendulum(end: float, angle: float, kind: str | None = None) -> Scene:
     """A pendulum of 1 m for thousands of swings."""
     start = [np.sin(angle), 0.0, -np.cos(angle)]
@@ -33,55 +31,75 @@ def long_pendulum(end: float, angle: float, kind: str | None = None) -> Scene:
         a = truths.pendulum_angle(time, rate, angle)
         return np.column_stack([np.sin(a), -np.cos(a)])
 
-    tables = case([body("bob", "point", 1.0, start)], end, samples=2000,
-                  joints=[joint("rod", "distance", "ground", "bob", point_b=start)])  # fmt: skip
-    scene = Scene(
-        "", f"a pendulum for {end:g} s", tables, min(1.0, angle), 1.0 / rate,
-        "Jacobi elliptic functions", place, position("bob", 0, 2),
-    )  # fmt: skip
+    tables = case(
+        [body("bob", "point", 1.0, start)],
+        end,
+        samples=2000,
+        joints=[joint("rod", "distance", "ground", "bob", point_b=start)],
+    )
+    scene = unnamed(
+        title=f"a pendulum for {end:g} s",
+        tables=tables,
+        size=min(1.0, angle),
+        time_scale=1.0 / rate,
+        source="Jacobi elliptic functions",
+        truth=place,
+        measured=position("bob", 0, 2),
+    )
     return beside(scene, kind)
 
 
 def _draw_oscillator(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "rate": log_uniform(g, 0.1, 100.0), "turns": log_uniform(g, 200.0, 3000.0),
-        "damping": float(g.choice([0.0, 1e-4, 1e-3])), "release": log_uniform(g, 1e-3, 10.0),
-        "mass": log_uniform(g, 1e-3, 1e6), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        rate=log_uniform(g, 0.1, 100.0),
+        turns=log_uniform(g, 200.0, 3000.0),
+        damping=float(g.choice([0.0, 1e-4, 1e-3])),
+        release=log_uniform(g, 1e-3, 10.0),
+        mass=log_uniform(g, 1e-3, 1e6),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_oscillator,
-    {"rate": 2.0, "turns": 1000.0, "damping": 0.0, "release": 0.5, "mass": 1.0},
-    {"rate": 2.0, "turns": 3000.0, "damping": 1e-4, "release": 0.5, "mass": 1.0},
-    {"rate": 20.0, "turns": 500.0, "damping": 1e-3, "release": 0.01, "mass": 100.0},
-)  # fmt: skip
+@family(KIND, _draw_oscillator)
+@chosen(rate=2.0, turns=1000.0, damping=0.0, release=0.5, mass=1.0)
+@chosen(rate=2.0, turns=3000.0, damping=1e-4, release=0.5, mass=1.0)
+@chosen(rate=20.0, turns=500.0, damping=1e-3, release=0.01, mass=100.0)
 def oscillator(
     rate: float, turns: float, damping: float, release: float, mass: float, kind: str | None = None
 ) -> Scene:
     """A mass on a spring for thousands of periods."""
     end = 2.0 * np.pi * turns / rate
     stiffness, friction = mass * rate**2, 2.0 * damping * rate * mass
-    mooring = {"type": "mooring_matrix", "name": "spring", "body": "mass",
-               "stiffness": [stiffness] + [0.0] * 5, "damping": [friction] + [0.0] * 5}  # fmt: skip
+    mooring = dict(
+        type="mooring_matrix",
+        name="spring",
+        body="mass",
+        stiffness=[stiffness] + [0.0] * 5,
+        damping=[friction] + [0.0] * 5,
+    )
     mass_ = body("mass", "surge", mass, displacement=[release, 0.0, 0.0])
-    scene = Scene(
-        "", f"an oscillator for {turns:g} periods", case([mass_], end, forces=[mooring],
-                                                         samples=2000),
-        release, 1.0 / rate, "closed form",
-        truth.column(truth.oscillation(rate, damping, release, 0.0)), position("mass", 0),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"an oscillator for {turns:g} periods",
+        tables=case([mass_], end, forces=[mooring], samples=2000),
+        size=release,
+        time_scale=1.0 / rate,
+        source="closed form",
+        truth=truth.column(truth.oscillation(rate, damping, release, 0.0)),
+        measured=position("mass", 0),
+    )
     return beside(scene, kind)
 
 
 def turned(p: Any, vector: Any) -> Any:
     """Return a body's vector in world axes, (3, nt), from the (4, nt) quaternion."""
     w, x, y, z = p / np.linalg.norm(p, axis=0)
-    matrix = np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
+    matrix = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
     return np.einsum("ijt,j->it", matrix, np.asarray(vector, dtype=float))
 
 
@@ -92,8 +110,12 @@ def tumbling(inertia: Any, rates: Any) -> Any:
     def turning(_t: float, y: Any) -> Any:
         w, x, yy, z = y[:4]
         a, b, c = y[4:]
-        change = [-x * a - yy * b - z * c, w * a + yy * c - z * b, w * b + z * a - x * c,
-                  w * c + x * b - yy * a]  # fmt: skip
+        change = [
+            -x * a - yy * b - z * c,
+            w * a + yy * c - z * b,
+            w * b + z * a - x * c,
+            w * c + x * b - yy * a,
+        ]
         spin = -np.cross(y[4:], inertia * y[4:]) / inertia
         return np.r_[0.5 * np.array(change), spin]
 
@@ -107,19 +129,19 @@ def _axis(results: Any) -> Any:
 
 
 def _draw_nut(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "inertia": [1.0, g.uniform(1.3, 2.2), g.uniform(2.2, 2.3)],
-        "rate": log_uniform(g, 0.5, 20.0),
-        "seed": log_uniform(g, 1e-3, 0.1), "angle": g.uniform(50.0, 200.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        inertia=[1.0, g.uniform(1.3, 2.2), g.uniform(2.2, 2.3)],
+        rate=log_uniform(g, 0.5, 20.0),
+        seed=log_uniform(g, 1e-3, 0.1),
+        angle=g.uniform(50.0, 200.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_nut,
-    {"inertia": [1.0, 2.0, 2.8], "rate": 5.0, "seed": 1e-2, "angle": 200.0},
-    {"inertia": [1.0, 1.5, 2.4], "rate": 1.0, "seed": 1e-3, "angle": 100.0},
-    {"inertia": [1.0, 2.0, 2.8], "rate": 5.0, "seed": 1e-2, "angle": 100.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_nut)
+@chosen(inertia=[1.0, 2.0, 2.8], rate=5.0, seed=1e-2, angle=200.0)
+@chosen(inertia=[1.0, 1.5, 2.4], rate=1.0, seed=1e-3, angle=100.0)
+@chosen(inertia=[1.0, 2.0, 2.8], rate=5.0, seed=1e-2, angle=100.0, kind="ship")
 def tumbling_nut(
     inertia: list[float], rate: float, seed: float, angle: float, kind: str | None = None
 ) -> Scene:
@@ -128,31 +150,38 @@ def tumbling_nut(
     flow, start = tumbling(inertia, rates)
     end = angle / rate
     exact = truth.integrated(
-        flow, start,
-        lambda _t, y: [*turned(y[:4], [1, 0, 0]), *turned(y[:4], [0, 1, 0])], rtol=1e-13,
-    )  # fmt: skip
+        rates=flow,
+        start=start,
+        place=lambda _t, y: [*turned(y[:4], [1, 0, 0]), *turned(y[:4], [0, 1, 0])],
+        rtol=1e-13,
+    )
     nut = body("nut", "rigid", 1.0, inertia=inertia, angular_velocity=rates)
-    scene = Scene(
-        "", "a nut that flips", case([nut], end, samples=500, gravity=0.0), 1.0, 1.0 / rate,
-        "DOP853, quaternion and body rates", exact, _axis, unit="-",
-    )  # fmt: skip
+    scene = unnamed(
+        title="a nut that flips",
+        tables=case([nut], end, samples=500, gravity=0.0),
+        size=1.0,
+        time_scale=1.0 / rate,
+        source="DOP853, quaternion and body rates",
+        truth=exact,
+        measured=_axis,
+        unit="-",
+    )
     return beside(scene, kind)
 
 
 def _draw_top(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "excess": g.uniform(1.02, 2.0), "tilt": log_uniform(g, 1e-4, 0.1),
-        "end": g.uniform(5.0, 60.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        excess=g.uniform(1.02, 2.0),
+        tilt=log_uniform(g, 1e-4, 0.1),
+        end=g.uniform(5.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_top,
-    {"excess": 1.2, "tilt": 1e-2, "end": 30.0},
-    {"excess": 1.05, "tilt": 1e-3, "end": 60.0},
-    {"excess": 1.5, "tilt": 0.1, "end": 20.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_top)
+@chosen(excess=1.2, tilt=1e-2, end=30.0)
+@chosen(excess=1.05, tilt=1e-3, end=60.0)
+@chosen(excess=1.5, tilt=0.1, end=20.0, kind="ship")
 def sleeping_top(excess: float, tilt: float, end: float, kind: str | None = None) -> Scene:
     """An upright top, `excess` times as fast as it must be to sleep, leaning by `tilt` [rad]."""
     mass, arm, axial, cross = 1.0, 0.1, 0.002, 0.004
@@ -171,35 +200,39 @@ def sleeping_top(excess: float, tilt: float, end: float, kind: str | None = None
 
     begin = arm * up
     solved = truth.integrated(
-        rates, [*up, *(axial * spin * up)], lambda _t, y: list(arm * y[:3]), rtol=1e-13,
+        rates=rates,
+        start=[*up, *(axial * spin * up)],
+        place=lambda _t, y: list(arm * y[:3]),
+        rtol=1e-13,
         scale=[1.0] * 3 + [axial * spin] * 3,
-    )  # fmt: skip
+    )
     top = body("top", "rigid", mass, begin, inertia, angular_velocity=spin * up)
     top["principal_axes_deg"] = pose
     tables = case([top], end, samples=1000, joints=[joint("tip", "spherical", "ground", "top")])
-    scene = Scene(
-        "", f"a sleeping top, {excess:g} times as fast as it must be", tables,
-        arm * min(1.0, 2.0 * tilt), 2.0 * about / (axial * spin),
-        "DOP853, axis and angular momentum", lambda t: solved(t) - begin,
-        position("top", 0, 1, 2, origin=begin),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a sleeping top, {excess:g} times as fast as it must be",
+        tables=tables,
+        size=arm * min(1.0, 2.0 * tilt),
+        time_scale=2.0 * about / (axial * spin),
+        source="DOP853, axis and angular momentum",
+        truth=lambda t: solved(t) - begin,
+        measured=position("top", 0, 1, 2, origin=begin),
+    )
     return beside(scene, kind)
 
 
 def _draw_spherical(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "angle": g.uniform(0.2, 1.5), "sideways": g.uniform(0.05, 1.0),
-        "end": g.uniform(100.0, 600.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        angle=g.uniform(0.2, 1.5),
+        sideways=g.uniform(0.05, 1.0),
+        end=g.uniform(100.0, 600.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND,
-    _draw_spherical,
-    {"angle": 0.8, "sideways": 0.3, "end": 300.0},
-    {"angle": 1.2, "sideways": 0.1, "end": 200.0, "kind": "rotor"},
-)
+@family(KIND, _draw_spherical)
+@chosen(angle=0.8, sideways=0.3, end=300.0)
+@chosen(angle=1.2, sideways=0.1, end=200.0, kind="rotor")
 def spherical_pendulum(angle: float, sideways: float, end: float, kind: str | None = None) -> Scene:
     """A bob on a rod of 1 m pushed sideways [m/s]: r'' = -g z - (v^2 - g r_z) r on the sphere."""
     start = np.array([np.sin(angle), 0.0, -np.cos(angle)])
@@ -209,13 +242,22 @@ def spherical_pendulum(angle: float, sideways: float, end: float, kind: str | No
         pull = (v @ v - GRAVITY * r[2]) / (r @ r)
         return np.r_[v, -pull * r - [0.0, 0.0, GRAVITY]]
 
-    exact = truth.integrated(rates, [*start, 0.0, sideways, 0.0], lambda _t, y: list(y[:3]),
-                             rtol=1e-13)  # fmt: skip
-    tables = case([body("bob", "point", 1.0, start, velocity=[0.0, sideways, 0.0])], end,
-                  samples=1000,
-                  joints=[joint("rod", "distance", "ground", "bob", point_b=start)])  # fmt: skip
-    scene = Scene(
-        "", "a spherical pendulum", tables, min(1.0, angle), 1.0 / float(np.sqrt(GRAVITY)),
-        "DOP853, place and velocity", exact, position("bob", 0, 1, 2),
-    )  # fmt: skip
+    exact = truth.integrated(
+        rates=rates, start=[*start, 0.0, sideways, 0.0], place=lambda _t, y: list(y[:3]), rtol=1e-13
+    )
+    tables = case(
+        [body("bob", "point", 1.0, start, velocity=[0.0, sideways, 0.0])],
+        end,
+        samples=1000,
+        joints=[joint("rod", "distance", "ground", "bob", point_b=start)],
+    )
+    scene = unnamed(
+        title="a spherical pendulum",
+        tables=tables,
+        size=min(1.0, angle),
+        time_scale=1.0 / float(np.sqrt(GRAVITY)),
+        source="DOP853, place and velocity",
+        truth=exact,
+        measured=position("bob", 0, 1, 2),
+    )
     return beside(scene, kind)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import scales
-from tests.attack.family import family, log_uniform
+from tests.attack.family import chosen, family, log_uniform
 from tests.attack.parts import beside, both
 
 from hydrodae.study.stability import Scene, all_scenes
@@ -18,42 +18,36 @@ HARD = ("four_bar", "dead_point", "door", "bricard", "mass_ratio", "pendulum", "
 
 
 def _draw(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "which": HARD[g.integers(len(HARD))], "kind": NEIGHBOURS[g.integers(len(NEIGHBOURS))],
-    }  # fmt: skip
+    return dict(which=HARD[g.integers(len(HARD))], kind=NEIGHBOURS[g.integers(len(NEIGHBOURS))])
 
 
-@family(
-    KIND, _draw,
-    {"which": "four_bar", "kind": "ship"},
-    {"which": "four_bar", "kind": "barge"},
-    {"which": "four_bar", "kind": "rotor"},
-    {"which": "dead_point", "kind": "ship"},
-    {"which": "dead_point", "kind": "barge"},
-    {"which": "dead_point", "kind": "swing"},
-    {"which": "door", "kind": "ship"},
-    {"which": "bricard", "kind": "rotor"},
-    {"which": "snap", "kind": "ship"},
-    {"which": "stick_slip", "kind": "swing"},
-)  # fmt: skip
+@family(KIND, _draw)
+@chosen(which="four_bar", kind="ship")
+@chosen(which="four_bar", kind="barge")
+@chosen(which="four_bar", kind="rotor")
+@chosen(which="dead_point", kind="ship")
+@chosen(which="dead_point", kind="barge")
+@chosen(which="dead_point", kind="swing")
+@chosen(which="door", kind="ship")
+@chosen(which="bricard", kind="rotor")
+@chosen(which="snap", kind="ship")
+@chosen(which="stick_slip", kind="swing")
 def hard_beside(which: str, kind: str) -> Scene:
     """A hard scene of the stability map with an unrelated mechanism beside it."""
     return beside(all_scenes()[which], kind)
 
 
 def _draw_two(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "small": log_uniform(g, 1e-4, 0.1), "large": log_uniform(g, 10.0, 1e5),
-        "angle": log_uniform(g, 1e-3, 1.5),
-    }  # fmt: skip
+    return dict(
+        small=log_uniform(g, 1e-4, 0.1),
+        large=log_uniform(g, 10.0, 1e5),
+        angle=log_uniform(g, 1e-3, 1.5),
+    )
 
 
-@family(
-    KIND,
-    _draw_two,
-    {"small": 1e-2, "large": 100.0, "angle": 1.0},
-    {"small": 1e-3, "large": 1e4, "angle": 0.01},
-)
+@family(KIND, _draw_two)
+@chosen(small=1e-2, large=100.0, angle=1.0)
+@chosen(small=1e-3, large=1e4, angle=0.01)
 def two_pendulums(small: float, large: float, angle: float) -> Scene:
     """A small and a large pendulum, each judged by its own size."""
     one = scales.pendulum(small, small**3, angle)
@@ -79,7 +73,11 @@ def two_pendulums(small: float, large: float, angle: float) -> Scene:
         return values[:, [0, 2]] / large
 
     return replace(
-        one, title="a small and a large pendulum", tables=tables, size=min(2.0, angle), unit="of L",
+        one,
+        title="a small and a large pendulum",
+        tables=tables,
+        size=min(2.0, angle),
+        unit="of L",
         measured=both(lambda r: measured_one(r) / small, second),
         truth=lambda t: np.column_stack([exact_one(t) / small, exact_two(t) / large]),
-    )  # fmt: skip
+    )

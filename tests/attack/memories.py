@@ -8,7 +8,7 @@ from typing import Any
 import h5py
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import beside, case, position
 
 from hydrodae.study.stability import Scene, past, truths, water
@@ -32,29 +32,31 @@ def flipped(path: Path, factor: float) -> None:
 
 
 def _draw_flip(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "rung": RUNGS[g.integers(3)], "factor": -log_uniform(g, 0.05, 1.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(rung=RUNGS[g.integers(3)], factor=-log_uniform(g, 0.05, 1.0), kind=neighbour(g))
 
 
-@family(
-    KIND, _draw_flip,
-    {"rung": "exponential", "factor": -1.0},
-    {"rung": "convolution", "factor": -1.0},
-    {"rung": "constant", "factor": -1.0},
-    {"rung": "exponential", "factor": -0.1},
-    {"rung": "convolution", "factor": -0.1},
-    {"rung": "constant", "factor": -0.1},
-    {"rung": "exponential", "factor": -1.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_flip)
+@chosen(rung="exponential", factor=-1.0)
+@chosen(rung="convolution", factor=-1.0)
+@chosen(rung="constant", factor=-1.0)
+@chosen(rung="exponential", factor=-0.1)
+@chosen(rung="convolution", factor=-0.1)
+@chosen(rung="constant", factor=-0.1)
+@chosen(rung="exponential", factor=-1.0, kind="ship")
 def flipped_sphere(rung: str, factor: float, kind: str | None = None) -> Scene:
     """The decay of the sphere, its radiation times a negative factor."""
     tables = case([sea.float_body(displacement=[0.0, 0.0, 1.0])], 60.0, hydro=_options(rung))
-    scene = Scene(
-        "", f"a sphere whose {rung} radiation is flipped ({factor:g})", tables, 1.0, 0.7,
-        "still water gives no energy", None, position("sphere", 2), impossible=FEEDS,
+    scene = unnamed(
+        title=f"a sphere whose {rung} radiation is flipped ({factor:g})",
+        tables=tables,
+        size=1.0,
+        time_scale=0.7,
+        source="still water gives no energy",
+        truth=None,
+        measured=position("sphere", 2),
+        impossible=FEEDS,
         database=lambda path: flipped(path, factor),
-    )  # fmt: skip
+    )
     return beside(scene, kind)
 
 
@@ -62,13 +64,10 @@ def _draw_band(g: np.random.Generator) -> dict[str, Any]:
     return {"rung": RUNGS[g.integers(3)], "excess": g.uniform(1.5, 4.0)}
 
 
-@family(
-    KIND,
-    _draw_band,
-    {"rung": "exponential", "excess": 2.0},
-    {"rung": "convolution", "excess": 2.0},
-    {"rung": "constant", "excess": 2.0},
-)
+@family(KIND, _draw_band)
+@chosen(rung="exponential", excess=2.0)
+@chosen(rung="convolution", excess=2.0)
+@chosen(rung="constant", excess=2.0)
 def band_that_feeds(rung: str, excess: float) -> Scene:
     """The sphere with a band about its resonance whose damping is negative, the rest as it is.
 
@@ -88,9 +87,10 @@ def band_that_feeds(rung: str, excess: float) -> Scene:
             file["added_mass"][at] += added.imag / omega
             fit = file["memory/heave"]
             for name, value, axis in (
-                ("poles", [pole], 0), ("input_matrix", [[1.0 + 0j]], 0),
+                ("poles", [pole], 0),
+                ("input_matrix", [[1.0 + 0j]], 0),
                 ("output_matrix", [[gain + 0j]], 1),
-            ):  # fmt: skip
+            ):
                 longer = np.concatenate([fit[name][:], value], axis=axis)
                 del fit[name]
                 fit[name] = longer
@@ -100,24 +100,27 @@ def band_that_feeds(rung: str, excess: float) -> Scene:
             kernel["kernel"][:, 0, 0] += gain * (np.exp(pole * time)).real
 
     tables = case([sea.float_body(displacement=[0.0, 0.0, 1.0])], 60.0, hydro=_options(rung))
-    return Scene(
-        "", f"a sphere whose {rung} radiation feeds its resonance", tables, 1.0, 0.7,
-        "still water gives no energy", None, position("sphere", 2), impossible=FEEDS,
+    return unnamed(
+        title=f"a sphere whose {rung} radiation feeds its resonance",
+        tables=tables,
+        size=1.0,
+        time_scale=0.7,
+        source="still water gives no energy",
+        truth=None,
+        measured=position("sphere", 2),
+        impossible=FEEDS,
         database=write,
-    )  # fmt: skip
+    )
 
 
 def _draw_false(g: np.random.Generator) -> dict[str, Any]:
     return {"residue": -log_uniform(g, 20.0, 2000.0), "kind": neighbour(g)}
 
 
-@family(
-    KIND,
-    _draw_false,
-    {"residue": -800.0},
-    {"residue": -100.0},
-    {"residue": -800.0, "kind": "ship"},
-)
+@family(KIND, _draw_false)
+@chosen(residue=-800.0)
+@chosen(residue=-100.0)
+@chosen(residue=-800.0, kind="ship")
 def falsely_passive(residue: float, kind: str | None = None) -> Scene:
     """A float whose memory says that it is passive and is not."""
 
@@ -126,10 +129,17 @@ def falsely_passive(residue: float, kind: str | None = None) -> Scene:
         with h5py.File(path, "r+") as file:
             file["memory/heave"].attrs["passive"] = True
 
-    scene = Scene(
-        "", "a memory with a false attribute `passive`", water.float_tables(), 1.0, 0.5,
-        "still water gives no energy", None, water.heave, impossible=FEEDS, database=write,
-    )  # fmt: skip
+    scene = unnamed(
+        title="a memory with a false attribute `passive`",
+        tables=water.float_tables(),
+        size=1.0,
+        time_scale=0.5,
+        source="still water gives no energy",
+        truth=None,
+        measured=water.heave,
+        impossible=FEEDS,
+        database=write,
+    )
     return beside(scene, kind)
 
 
@@ -137,24 +147,37 @@ def _draw_sound(g: np.random.Generator) -> dict[str, Any]:
     return {"release": log_uniform(g, 1e-3, 1.0), "kind": neighbour(g)}
 
 
-@family(KIND, _draw_sound, {"release": 1.0}, {"release": 1e-3}, {"release": 0.1, "kind": "ship"})
+@family(KIND, _draw_sound)
+@chosen(release=1.0)
+@chosen(release=1e-3)
+@chosen(release=0.1, kind="ship")
 def sound_sphere(release: float, kind: str | None = None) -> Scene:
     """The decay of the sphere as it is (a check must not refuse it)."""
     s = sea.sphere()
-    exact = truth.integrated(s.rates(lambda _t: 0.0), s.start(release), lambda _t, y: [y[0]],
-                             scale=release, rtol=1e-10)  # fmt: skip
+    exact = truth.integrated(
+        rates=s.rates(lambda _t: 0.0),
+        start=s.start(release),
+        place=lambda _t, y: [y[0]],
+        scale=release,
+        rtol=1e-10,
+    )
     tables = case([sea.float_body(displacement=[0.0, 0.0, release])], 40.0)
-    scene = Scene(
-        "", f"decay of the sphere from {release:g} m", tables, release, 0.7,
-        "linear states of the same tables (DOP853)", exact,
-        position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]), database=sea.stored,
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"decay of the sphere from {release:g} m",
+        tables=tables,
+        size=release,
+        time_scale=0.7,
+        source="linear states of the same tables (DOP853)",
+        truth=exact,
+        measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
+        database=sea.stored,
+    )
     return beside(scene, kind)
 
 
-@family(
-    KIND, lambda g: {"rung": RUNGS[g.integers(3)]}, {"rung": "convolution"}, {"rung": "constant"}
-)
+@family(KIND, lambda g: {"rung": RUNGS[g.integers(3)]})
+@chosen(rung="convolution")
+@chosen(rung="constant")
 def sound_float(rung: str) -> Scene:
     """A float with the kernel 800 exp(-t), or with a constant damping."""
     inertia = water.MASS + water.ADDED_MASS
@@ -176,7 +199,13 @@ def sound_float(rung: str) -> Scene:
         system = np.array([[0, 1], [-water.STIFFNESS / inertia, -300.0 / inertia]])
         options["frequency"] = 2.0
     tables = water.float_tables() | {"hydro": options}
-    return Scene(
-        "", f"a float with sound {rung} radiation", tables, 1.0, 0.5, "closed form by eigenvectors",
-        truths.linear(system, [1.0, 0.0, 0.0][: len(system)], 0), water.heave, database=write,
-    )  # fmt: skip
+    return unnamed(
+        title=f"a float with sound {rung} radiation",
+        tables=tables,
+        size=1.0,
+        time_scale=0.5,
+        source="closed form by eigenvectors",
+        truth=truths.linear(system, [1.0, 0.0, 0.0][: len(system)], 0),
+        measured=water.heave,
+        database=write,
+    )

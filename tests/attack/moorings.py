@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, Array, beside, body, both, case, driven, position
 
 from hydrodae.results import Results
@@ -17,25 +17,31 @@ KIND = "moorings"
 
 
 def _draw_winch(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-3, 1e3), "mass": log_uniform(g, 1e-3, 1e6),
-        "stretch": log_uniform(g, 1e-3, 0.1), "at": g.uniform(5.0, 50.0),
-        "heave": g.uniform(-0.3, 0.3), "over": g.uniform(1.0, 20.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-3, 1e3),
+        mass=log_uniform(g, 1e-3, 1e6),
+        stretch=log_uniform(g, 1e-3, 0.1),
+        at=g.uniform(5.0, 50.0),
+        heave=g.uniform(-0.3, 0.3),
+        over=g.uniform(1.0, 20.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_winch,
-    {"length": 1.0, "mass": 1.0, "stretch": 0.02, "at": 10.0, "heave": -0.2, "over": 5.0},
-    {"length": 1e-3, "mass": 1e-3, "stretch": 0.05, "at": 40.0, "heave": 0.3, "over": 10.0},
-    {"length": 100.0, "mass": 1e6, "stretch": 0.01, "at": 5.0, "heave": -0.1, "over": 2.0},
-    {"length": 10.0, "mass": 100.0, "stretch": 0.05, "at": 20.0, "heave": -0.3, "over": 10.0,
-     "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_winch)
+@chosen(length=1.0, mass=1.0, stretch=0.02, at=10.0, heave=-0.2, over=5.0)
+@chosen(length=1e-3, mass=1e-3, stretch=0.05, at=40.0, heave=0.3, over=10.0)
+@chosen(length=100.0, mass=1e6, stretch=0.01, at=5.0, heave=-0.1, over=2.0)
+@chosen(length=10.0, mass=100.0, stretch=0.05, at=20.0, heave=-0.3, over=10.0, kind="ship")
 def winch_lift(
-    length: float, mass: float, stretch: float, at: float, heave: float, over: float,
+    length: float,
+    mass: float,
+    stretch: float,
+    at: float,
+    heave: float,
+    over: float,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A load that hangs at rest until a winch lifts or lowers it by `heave` lengths."""
     tau = float(np.sqrt(stretch * length / GRAVITY))  # of the spring of the rope
     begin, stop = at, at + over / np.sqrt(stretch)  # in tau
@@ -53,41 +59,57 @@ def winch_lift(
         return [v, stretch - max(pull, 0.0)]
 
     start = 1.0 + stretch
-    solved = truth.integrated(rates, [start, 0.0], lambda _t, y: [start - y[0]],
-                              breaks=[begin, stop], longest=0.2)  # fmt: skip
+    solved = truth.integrated(
+        rates=rates,
+        start=[start, 0.0],
+        place=lambda _t, y: [start - y[0]],
+        breaks=[begin, stop],
+        longest=0.2,
+    )
     weight = mass * GRAVITY
-    rope = {
-        "type": "rope", "name": "rope", "bodies": ["ground", "load"],
-        "points": [[0.0, 0.0, 0.0], [0.0, 0.0, -start * length]], "stiffness": weight / stretch,
-        "damping": damping * tau * weight / stretch,
-        "winch_time": [begin * tau, stop * tau],
-        "winch_length": [length, (1.0 + heave) * length],
-    }  # fmt: skip
-    tables = case([body("load", "heave", mass, [0.0, 0.0, -start * length])],
-                  (stop + 20.0) * tau, forces=[rope], samples=400)  # fmt: skip
-    scene = Scene(
-        "", f"a winch lifts {mass:g} kg by {heave:g} of {length:g} m", tables,
-        abs(heave) * length, tau, "DOP853 in the height",
-        lambda t: length * solved(np.asarray(t) / tau),
-        position("load", 2, origin=[0.0, 0.0, -start * length]),
-    )  # fmt: skip
+    rope = dict(
+        type="rope",
+        name="rope",
+        bodies=["ground", "load"],
+        points=[[0.0, 0.0, 0.0], [0.0, 0.0, -start * length]],
+        stiffness=weight / stretch,
+        damping=damping * tau * weight / stretch,
+        winch_time=[begin * tau, stop * tau],
+        winch_length=[length, (1.0 + heave) * length],
+    )
+    tables = case(
+        [body("load", "heave", mass, [0.0, 0.0, -start * length])],
+        (stop + 20.0) * tau,
+        forces=[rope],
+        samples=400,
+    )
+    scene = unnamed(
+        title=f"a winch lifts {mass:g} kg by {heave:g} of {length:g} m",
+        tables=tables,
+        size=abs(heave) * length,
+        time_scale=tau,
+        source="DOP853 in the height",
+        truth=lambda t: length * solved(np.asarray(t) / tau),
+        measured=position("load", 2, origin=[0.0, 0.0, -start * length]),
+    )
     return beside(scene, kind)
 
 
 def _draw_atwood(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-3, 1e3), "mass": log_uniform(g, 1e-3, 1e6),
-        "ratio": g.uniform(1.05, 3.0), "stretch": log_uniform(g, 1e-4, 0.1), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-3, 1e3),
+        mass=log_uniform(g, 1e-3, 1e6),
+        ratio=g.uniform(1.05, 3.0),
+        stretch=log_uniform(g, 1e-4, 0.1),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_atwood,
-    {"length": 1.0, "mass": 1.0, "ratio": 1.5, "stretch": 0.01},
-    {"length": 1e-3, "mass": 1e-3, "ratio": 1.2, "stretch": 0.05},
-    {"length": 100.0, "mass": 1e6, "ratio": 2.0, "stretch": 1e-3},
-    {"length": 10.0, "mass": 1.0, "ratio": 1.1, "stretch": 0.01, "kind": "rotor"},
-)  # fmt: skip
+@family(KIND, _draw_atwood)
+@chosen(length=1.0, mass=1.0, ratio=1.5, stretch=0.01)
+@chosen(length=1e-3, mass=1e-3, ratio=1.2, stretch=0.05)
+@chosen(length=100.0, mass=1e6, ratio=2.0, stretch=1e-3)
+@chosen(length=10.0, mass=1.0, ratio=1.1, stretch=0.01, kind="rotor")
 def atwood(
     length: float, mass: float, ratio: float, stretch: float, kind: str | None = None
 ) -> Scene:
@@ -106,17 +128,25 @@ def atwood(
         return np.column_stack([fall - swing / mass, -fall - swing / heavy])
 
     at = [0.0, 0.0, -length]
-    rope = {
-        "type": "rope", "name": "rope", "bodies": ["light", "ground", "heavy"],
-        "points": [at, [0.0, 0.0, 0.0], at], "stiffness": stiffness * 2.0 * length,
-    }  # fmt: skip
-    tables = case([body("light", "heave", mass, at), body("heavy", "heave", heavy, at)], end,
-                  forces=[rope])  # fmt: skip
-    scene = Scene(
-        "", f"an Atwood machine of {mass:g} kg on an elastic rope", tables, 0.5 * length,
-        1.0 / float(np.sqrt(w2)), "closed form", place,
-        both(position("light", 2, origin=at), position("heavy", 2, origin=at)),
-    )  # fmt: skip
+    rope = dict(
+        type="rope",
+        name="rope",
+        bodies=["light", "ground", "heavy"],
+        points=[at, [0.0, 0.0, 0.0], at],
+        stiffness=stiffness * 2.0 * length,
+    )
+    tables = case(
+        [body("light", "heave", mass, at), body("heavy", "heave", heavy, at)], end, forces=[rope]
+    )
+    scene = unnamed(
+        title=f"an Atwood machine of {mass:g} kg on an elastic rope",
+        tables=tables,
+        size=0.5 * length,
+        time_scale=1.0 / float(np.sqrt(w2)),
+        source="closed form",
+        truth=place,
+        measured=both(position("light", 2, origin=at), position("heavy", 2, origin=at)),
+    )
     return beside(scene, kind)
 
 
@@ -129,20 +159,21 @@ def suspended(h: float, v: float, n: float, stiff: float) -> tuple[float, float]
 
 
 def _draw_catenary(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 0.1, 1e3), "heavy": log_uniform(g, 0.1, 1e4),
-        "mass": g.uniform(2.0, 50.0), "stiff": log_uniform(g, 50.0, 1e4),
-        "release": g.uniform(-0.03, 0.03), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 0.1, 1e3),
+        heavy=log_uniform(g, 0.1, 1e4),
+        mass=g.uniform(2.0, 50.0),
+        stiff=log_uniform(g, 50.0, 1e4),
+        release=g.uniform(-0.03, 0.03),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_catenary,
-    {"length": 1.0, "heavy": 1.0, "mass": 5.0, "stiff": 200.0, "release": 0.02},
-    {"length": 1e-3, "heavy": 1e-3, "mass": 3.0, "stiff": 500.0, "release": -0.03},
-    {"length": 500.0, "heavy": 1e3, "mass": 20.0, "stiff": 1e3, "release": 0.02},
-    {"length": 100.0, "heavy": 1e3, "mass": 10.0, "stiff": 300.0, "release": 0.03, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_catenary)
+@chosen(length=1.0, heavy=1.0, mass=5.0, stiff=200.0, release=0.02)
+@chosen(length=1e-3, heavy=1e-3, mass=3.0, stiff=500.0, release=-0.03)
+@chosen(length=500.0, heavy=1e3, mass=20.0, stiff=1e3, release=0.02)
+@chosen(length=100.0, heavy=1e3, mass=10.0, stiff=300.0, release=0.03, kind="ship")
 def catenary_pair(
     length: float, heavy: float, mass: float, stiff: float, release: float, kind: str | None = None
 ) -> Scene:
@@ -158,8 +189,9 @@ def catenary_pair(
     def pull(span: float, guess: Any) -> Any:
         found = root(
             lambda x: np.subtract(suspended(np.exp(x[0]), x[1], 1.0, stiff), (span, rise)),
-            guess, tol=1e-13,
-        )  # fmt: skip
+            guess,
+            tol=1e-13,
+        )
         return found.x
 
     spans = np.linspace(reach - 0.06, reach + 0.06, 121)
@@ -176,49 +208,71 @@ def catenary_pair(
     tau = float(np.sqrt(length / GRAVITY))
     weight = heavy * GRAVITY / length  # N/m
     lines = [
-        {"type": "catenary", "name": name, "body_b": "mass", "seabed": False,
-         "point_a": [side * reach * length, 0.0, 0.0], "point_b": [0.0, 0.0, rise * length],
-         "length": [length], "weight": [weight], "stiffness": [stiff * weight * length]}
+        dict(
+            type="catenary",
+            name=name,
+            body_b="mass",
+            seabed=False,
+            point_a=[side * reach * length, 0.0, 0.0],
+            point_b=[0.0, 0.0, rise * length],
+            length=[length],
+            weight=[weight],
+            stiffness=[stiff * weight * length],
+        )
         for name, side in (("fore", 1.0), ("aft", -1.0))
-    ]  # fmt: skip
+    ]
     swing = float(np.sqrt(mass / (2.0 * tension(reach, 1))))
-    mass_ = body("mass", "surge", mass * heavy, [0.0, 0.0, rise * length],
-                 displacement=[release * length, 0.0, 0.0])  # fmt: skip
+    mass_ = body(
+        "mass",
+        "surge",
+        mass * heavy,
+        [0.0, 0.0, rise * length],
+        displacement=[release * length, 0.0, 0.0],
+    )
     tables = case([mass_], 60.0 * swing * tau, forces=lines, samples=400)
-    scene = Scene(
-        "", f"a mass between two hanging lines of {length:g} m", tables, abs(release) * length,
-        swing * tau, "DOP853 with the closed form of the elastic catenary",
-        lambda t: length * solved(np.asarray(t) / tau), position("mass", 0),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a mass between two hanging lines of {length:g} m",
+        tables=tables,
+        size=abs(release) * length,
+        time_scale=swing * tau,
+        source="DOP853 with the closed form of the elastic catenary",
+        truth=lambda t: length * solved(np.asarray(t) / tau),
+        measured=position("mass", 0),
+    )
     return beside(scene, kind)
 
 
 def _draw_line(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 0.01, 100.0), "heavy": log_uniform(g, 1e-2, 1e4),
-        "mass": g.uniform(0.5, 5.0), "stretch": log_uniform(g, 1e-3, 0.05),
-        "speed": g.uniform(0.05, 0.8), "drag": float(g.choice([0.0, 1.0])),
-        "segments": int(g.integers(3, 9)), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 0.01, 100.0),
+        heavy=log_uniform(g, 1e-2, 1e4),
+        mass=g.uniform(0.5, 5.0),
+        stretch=log_uniform(g, 1e-3, 0.05),
+        speed=g.uniform(0.05, 0.8),
+        drag=float(g.choice([0.0, 1.0])),
+        segments=int(g.integers(3, 9)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_line,
-    {"length": 1.0, "heavy": 1.0, "mass": 2.0, "stretch": 0.02, "speed": 0.5, "drag": 0.0,
-     "segments": 5},
-    {"length": 1e-3, "heavy": 1e-3, "mass": 1.0, "stretch": 0.03, "speed": 0.3, "drag": 0.0,
-     "segments": 4},
-    {"length": 100.0, "heavy": 1e6, "mass": 2.0, "stretch": 0.01, "speed": 0.5, "drag": 0.0,
-     "segments": 5},
-    {"length": 10.0, "heavy": 200.0, "mass": 2.0, "stretch": 0.02, "speed": 0.5, "drag": 1.0,
-     "segments": 6},
-    {"length": 10.0, "heavy": 200.0, "mass": 2.0, "stretch": 0.02, "speed": 0.5, "drag": 1.0,
-     "segments": 5, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_line)
+@chosen(length=1.0, heavy=1.0, mass=2.0, stretch=0.02, speed=0.5, drag=0.0, segments=5)
+@chosen(length=1e-3, heavy=1e-3, mass=1.0, stretch=0.03, speed=0.3, drag=0.0, segments=4)
+@chosen(length=100.0, heavy=1e6, mass=2.0, stretch=0.01, speed=0.5, drag=0.0, segments=5)
+@chosen(length=10.0, heavy=200.0, mass=2.0, stretch=0.02, speed=0.5, drag=1.0, segments=6)
+@chosen(
+    length=10.0, heavy=200.0, mass=2.0, stretch=0.02, speed=0.5, drag=1.0, segments=5, kind="ship"
+)
 def hanging_line(
-    length: float, heavy: float, mass: float, stretch: float, speed: float, drag: float,
-    segments: int, kind: str | None = None,
-) -> Scene:  # fmt: skip
+    length: float,
+    heavy: float,
+    mass: float,
+    stretch: float,
+    speed: float,
+    drag: float,
+    segments: int,
+    kind: str | None = None,
+) -> Scene:
     """A mass at the end of a dynamic line, pushed sideways; in water with `drag`.
 
     `mass` counts in that of the line, `stretch` is that under the weight of the mass, `speed` is
@@ -280,59 +334,92 @@ def hanging_line(
     begun[:, 0] = speed * np.arange(1, n + 1) / n  # the nodes move with the ends
     tau = float(np.sqrt(length / GRAVITY))
     solved = truth.integrated(
-        rates, np.r_[start.ravel(), begun.ravel()],
-        lambda _t, y: [y[2 * n - 2], y[2 * n - 1] + rest[-1]], rtol=1e-10,
+        rates=rates,
+        start=np.r_[start.ravel(), begun.ravel()],
+        place=lambda _t, y: [y[2 * n - 2], y[2 * n - 1] + rest[-1]],
+        rtol=1e-10,
         longest=0.02,
-    )  # fmt: skip
+    )
     sink = 10.0 * length if wet else 0.0
     top, bob = [0.0, 0.0, -sink], [0.0, 0.0, -sink - rest[-1] * length]
-    line: dict[str, Any] = {
-        "type": "line", "name": "line", "body_b": "bob", "point_a": top, "point_b": bob,
-        "length": [length], "segments": [n], "mass": [heavy / length],
-        "stiffness": [stiff * heavy * GRAVITY],
-        "damping": [inner * heavy * GRAVITY * tau],
-    }  # fmt: skip
+    line: dict[str, Any] = dict(
+        type="line",
+        name="line",
+        body_b="bob",
+        point_a=top,
+        point_b=bob,
+        length=[length],
+        segments=[n],
+        mass=[heavy / length],
+        stiffness=[stiff * heavy * GRAVITY],
+        damping=[inner * heavy * GRAVITY * tau],
+    )
     tables = case(
-        [body("bob", ["surge", "heave"], mass * heavy, bob,
-              velocity=[speed * length / tau, 0.0, 0.0])],
-        15.0 * tau, samples=300,
-    )  # fmt: skip
+        [
+            body(
+                "bob",
+                ["surge", "heave"],
+                mass * heavy,
+                bob,
+                velocity=[speed * length / tau, 0.0, 0.0],
+            )
+        ],
+        15.0 * tau,
+        samples=300,
+    )
     if wet:
         line |= {"diameter": [diameter], "drag": [c_d], "added_mass": [c_a]}
         tables["environment"] = {"water_density": density}
     tables["force"] = [line]
     fast = tau * float(np.sqrt(stretch))
-    scene = Scene(
-        "", f"a mass on a dynamic line of {n} segments and {length:g} m", tables,
-        speed * length, fast, "DOP853 with nodes of its own",
-        lambda t: length * solved(np.asarray(t) / tau),
-        position("bob", 0, 2, origin=bob),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a mass on a dynamic line of {n} segments and {length:g} m",
+        tables=tables,
+        size=speed * length,
+        time_scale=fast,
+        source="DOP853 with nodes of its own",
+        truth=lambda t: length * solved(np.asarray(t) / tau),
+        measured=position("bob", 0, 2, origin=bob),
+    )
     return beside(scene, kind)
 
 
 def _draw_shaken(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 0.01, 100.0), "heavy": log_uniform(g, 1e-2, 1e4),
-        "stretch": log_uniform(g, 1e-3, 0.05), "span": g.uniform(0.75, 0.85),
-        "amplitude": log_uniform(g, 1e-3, 0.03), "rate": g.uniform(0.5, 2.0),
-        "segments": int(g.integers(4, 9)), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 0.01, 100.0),
+        heavy=log_uniform(g, 1e-2, 1e4),
+        stretch=log_uniform(g, 1e-3, 0.05),
+        span=g.uniform(0.75, 0.85),
+        amplitude=log_uniform(g, 1e-3, 0.03),
+        rate=g.uniform(0.5, 2.0),
+        segments=int(g.integers(4, 9)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_shaken,
-    {"length": 10.0, "heavy": 10.0, "stretch": 0.01, "span": 0.8, "amplitude": 0.05, "rate": 2.0,
-     "segments": 6},
-    {"length": 1.0, "heavy": 1e-2, "stretch": 0.05, "span": 0.7, "amplitude": 0.1, "rate": 1.0,
-     "segments": 5},
-    {"length": 100.0, "heavy": 1e4, "stretch": 0.01, "span": 0.8, "amplitude": 1e-3, "rate": 4.0,
-     "segments": 6, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_shaken)
+@chosen(length=10.0, heavy=10.0, stretch=0.01, span=0.8, amplitude=0.05, rate=2.0, segments=6)
+@chosen(length=1.0, heavy=1e-2, stretch=0.05, span=0.7, amplitude=0.1, rate=1.0, segments=5)
+@chosen(
+    length=100.0,
+    heavy=1e4,
+    stretch=0.01,
+    span=0.8,
+    amplitude=1e-3,
+    rate=4.0,
+    segments=6,
+    kind="ship",
+)
 def shaken_line(
-    length: float, heavy: float, stretch: float, span: float, amplitude: float, rate: float,
-    segments: int, kind: str | None = None,
-) -> Scene:  # fmt: skip
+    length: float,
+    heavy: float,
+    stretch: float,
+    span: float,
+    amplitude: float,
+    rate: float,
+    segments: int,
+    kind: str | None = None,
+) -> Scene:
     """The lowest node of a line that hangs between the ground and a point that is shaken sideways.
 
     No body moves but by the drive. `stretch` is that under the weight of the line, `rate` is
@@ -387,33 +474,59 @@ def shaken_line(
     low = (n - 1) // 2
     tau = float(np.sqrt(length / GRAVITY))
     solved = truth.integrated(
-        rates, np.r_[rest.ravel(), begun.ravel()],
-        lambda _t, y: [y[2 * low] - rest[low, 0], y[2 * low + 1] - rest[low, 1]], rtol=1e-10,
+        rates=rates,
+        start=np.r_[rest.ravel(), begun.ravel()],
+        place=lambda _t, y: [y[2 * low] - rest[low, 0], y[2 * low + 1] - rest[low, 1]],
+        rtol=1e-10,
         longest=0.02,
-    )  # fmt: skip
-    line = {
-        "type": "line", "name": "line", "body_b": "top", "point_a": [0.0, 0.0, 0.0],
-        "point_b": [span * length, 0.0, 0.0], "length": [length], "segments": [n],
-        "mass": [heavy / length], "stiffness": [stiff * heavy * GRAVITY],
-        "damping": [inner * heavy * GRAVITY * tau],
-    }  # fmt: skip
+    )
+    line = dict(
+        type="line",
+        name="line",
+        body_b="top",
+        point_a=[0.0, 0.0, 0.0],
+        point_b=[span * length, 0.0, 0.0],
+        length=[length],
+        segments=[n],
+        mass=[heavy / length],
+        stiffness=[stiff * heavy * GRAVITY],
+        damping=[inner * heavy * GRAVITY * tau],
+    )
     tables = case(
-        [body("top", ["surge"], heavy, [span * length, 0.0, 0.0],
-              velocity=[amplitude * rate * length / tau, 0.0, 0.0])],
-        15.0 * tau, samples=300, forces=[line],
-        constraints=[driven("hand", {"amplitude": amplitude * length,
-                                     "period": 2.0 * np.pi * tau / rate},
-                            body="top", coordinate="surge")],
-    )  # fmt: skip
+        [
+            body(
+                "top",
+                ["surge"],
+                heavy,
+                [span * length, 0.0, 0.0],
+                velocity=[amplitude * rate * length / tau, 0.0, 0.0],
+            )
+        ],
+        15.0 * tau,
+        samples=300,
+        forces=[line],
+        constraints=[
+            driven(
+                "hand",
+                dict(amplitude=amplitude * length, period=2.0 * np.pi * tau / rate),
+                body="top",
+                coordinate="surge",
+            )
+        ],
+    )
 
     def lowest(results: Results) -> Array:
         places = np.asarray(results["forces/line/position"].values)
         places = places.reshape(len(places), n + 1, 3)[:, low + 1, [0, 2]]
         return np.asarray(places - length * rest[low])
 
-    scene = Scene(
-        "", f"a line of {n} segments and {length:g} m whose upper end is shaken", tables,
-        amplitude * length, tau * float(np.sqrt(stretch)), "DOP853 with nodes of its own",
-        lambda t: length * solved(np.asarray(t) / tau), lowest,
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a line of {n} segments and {length:g} m whose upper end is shaken",
+        tables=tables,
+        size=amplitude * length,
+        time_scale=tau * float(np.sqrt(stretch)),
+        source="DOP853 with nodes of its own",
+        truth=lambda t: length * solved(np.asarray(t) / tau),
+        measured=lowest,
+    )
     return beside(scene, kind)

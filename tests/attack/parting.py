@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, Array, Table, beside, body, both, case, position
 
 from hydrodae.study.stability import Scene
@@ -16,14 +16,24 @@ LENGTH = 10.0  #: of the ropes [m]
 
 
 def rope(
-    name: str, bodies: list[str], ends: list[list[float]], stiffness: float, length: float,
-    breaking: float | None, damping: float = 0.0,
-) -> Table:  # fmt: skip
+    name: str,
+    bodies: list[str],
+    ends: list[list[float]],
+    stiffness: float,
+    length: float,
+    breaking: float | None,
+    damping: float = 0.0,
+) -> Table:
     """Return a rope of this stiffness and damping as a whole [N/m, N s/m]."""
-    table: Table = {
-        "type": "rope", "name": name, "bodies": bodies, "points": ends, "length": length,
-        "stiffness": stiffness * length, "damping": damping * length,
-    }  # fmt: skip
+    table: Table = dict(
+        type="rope",
+        name=name,
+        bodies=bodies,
+        points=ends,
+        length=length,
+        stiffness=stiffness * length,
+        damping=damping * length,
+    )
     return table if breaking is None else table | {"breaking_load": breaking, "breaks": True}
 
 
@@ -87,8 +97,14 @@ class Bundle:
         """Return the height from x, v."""
         first = "".join("t" if x >= r[1] else "s" for r in self.ropes)
         modes = _Made(self.flow)
-        return truth.hybrid(first, [x, v], modes, _Made(self.guards), lambda _t, y, _m: [-y[0]],
-                            longest=0.2 / self.fastest)  # fmt: skip
+        return truth.hybrid(
+            mode=first,
+            start=[x, v],
+            flows=modes,
+            guards=_Made(self.guards),
+            place=lambda _t, y, _m: [-y[0]],
+            longest=0.2 / self.fastest,
+        )
 
 
 class _Made(dict[str, Any]):
@@ -108,52 +124,80 @@ class _Made(dict[str, Any]):
 def _draw_bundle(g: np.random.Generator) -> dict[str, Any]:
     mass, n = log_uniform(g, 1e-3, 1e6), int(g.integers(1, 8))
     each = mass * GRAVITY / n
-    ropes = [[each / 0.1 * g.uniform(0.5, 2.0), g.uniform(0.0, 0.2), 0.0, each * g.uniform(0.5, 3)]
-             for _ in range(n)]  # fmt: skip
+    ropes = [
+        [each / 0.1 * g.uniform(0.5, 2.0), g.uniform(0.0, 0.2), 0.0, each * g.uniform(0.5, 3)]
+        for _ in range(n)
+    ]
     ropes[0][1] = 0.0
     return {"mass": mass, "ropes": ropes, "end": g.uniform(1.0, 3.0), "kind": neighbour(g)}
 
 
-@family(
-    KIND, _draw_bundle,
-    {"mass": 100.0, "ropes": [[5e3, 0.0, 0.0, 60.0 * GRAVITY]] * 2, "end": 2.0},
-    {"mass": 100.0, "end": 3.0, "ropes": [[5e3, 0.0, 0.0, 65.0 * GRAVITY],
-     [5e3, 0.01, 0.0, 75.0 * GRAVITY], [5e3, 0.3, 0.0, None]]},
-    {"mass": 100.0, "ropes": [[1e3, 0.002 * k, 5.0, 100.0 + 10.0 * k] for k in range(10)],
-     "end": 3.0},
-    {"mass": 10.0, "ropes": [[1e4, 0.0, 10.0, 100.0]], "x": 0.009, "v": 0.9, "end": 1.0},
-    {"mass": 1e-6, "ropes": [[1e-2, 0.0, 0.0, 1.5e-6 * GRAVITY]], "end": 0.3},
-    {"mass": 0.01, "ropes": [[10.0, 0.0, 0.0, 0.015 * GRAVITY]], "end": 1.0, "kind": "ship"},
-    {"mass": 1e7, "ropes": [[5e6, 0.0, 0.0, 1.2e7 * GRAVITY]], "end": 12.0},
-)  # fmt: skip
+@family(KIND, _draw_bundle)
+@chosen(mass=100.0, ropes=[[5e3, 0.0, 0.0, 60.0 * GRAVITY]] * 2, end=2.0)
+@chosen(
+    mass=100.0,
+    end=3.0,
+    ropes=[
+        [5e3, 0.0, 0.0, 65.0 * GRAVITY],
+        [5e3, 0.01, 0.0, 75.0 * GRAVITY],
+        [5e3, 0.3, 0.0, None],
+    ],
+)
+@chosen(mass=100.0, ropes=[[1e3, 0.002 * k, 5.0, 100.0 + 10.0 * k] for k in range(10)], end=3.0)
+@chosen(mass=10.0, ropes=[[1e4, 0.0, 10.0, 100.0]], x=0.009, v=0.9, end=1.0)
+@chosen(mass=1e-6, ropes=[[1e-2, 0.0, 0.0, 1.5e-6 * GRAVITY]], end=0.3)
+@chosen(mass=0.01, ropes=[[10.0, 0.0, 0.0, 0.015 * GRAVITY]], end=1.0, kind="ship")
+@chosen(mass=1e7, ropes=[[5e6, 0.0, 0.0, 1.2e7 * GRAVITY]], end=12.0)
 def rope_bundle(
-    mass: float, ropes: list[Any], end: float, x: float = 0.0, v: float = 0.0,
+    mass: float,
+    ropes: list[Any],
+    end: float,
+    x: float = 0.0,
+    v: float = 0.0,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A mass on ropes side by side, which part as it falls into them."""
     bundle = Bundle(mass, ropes)
-    forces = [rope(f"rope{k}", ["ground", "load"], [[0.0, 0.0, LENGTH], [0.0] * 3], r[0],
-                   LENGTH + r[1], r[3], r[2]) for k, r in enumerate(ropes)]  # fmt: skip
+    forces = [
+        rope(
+            f"rope{k}",
+            bodies=["ground", "load"],
+            ends=[[0.0, 0.0, LENGTH], [0.0] * 3],
+            stiffness=r[0],
+            length=LENGTH + r[1],
+            breaking=r[3],
+            damping=r[2],
+        )
+        for k, r in enumerate(ropes)
+    ]
     start = {"displacement": [0.0, 0.0, -x], "velocity": [0.0, 0.0, -v]}
     tables = case([body("load", "heave", mass, **start)], end, forces=forces, samples=300)
     size = max(1.0, 2.0 * GRAVITY / bundle.fastest**2)  # how far soft ropes give way
-    scene = Scene("", f"{mass:g} kg on {len(ropes)} ropes that part", tables, size,
-                  1.0 / bundle.fastest, "DOP853 with events", bundle.truth(x, v),
-                  position("load", 2))  # fmt: skip
+    scene = unnamed(
+        title=f"{mass:g} kg on {len(ropes)} ropes that part",
+        tables=tables,
+        size=size,
+        time_scale=1.0 / bundle.fastest,
+        source="DOP853 with events",
+        truth=bundle.truth(x, v),
+        measured=position("load", 2),
+    )
     return beside(scene, kind)
 
 
 def _draw_apart(g: np.random.Generator) -> dict[str, Any]:
-    return {"one": log_uniform(g, 1e-3, 1e6), "two": log_uniform(g, 1e-3, 1e6),
-            "speed": log_uniform(g, 0.01, 10.0), "bears": g.uniform(0.1, 2.0)}  # fmt: skip
+    return dict(
+        one=log_uniform(g, 1e-3, 1e6),
+        two=log_uniform(g, 1e-3, 1e6),
+        speed=log_uniform(g, 0.01, 10.0),
+        bears=g.uniform(0.1, 2.0),
+    )
 
 
-@family(
-    KIND, _draw_apart,
-    {"one": 1.0, "two": 3.0, "speed": 1.0, "bears": 0.5},
-    {"one": 1.0, "two": 3.0, "speed": 1.0, "bears": 1.5},
-    {"one": 1e-3, "two": 1e7, "speed": 1.0, "bears": 0.3},
-)  # fmt: skip
+@family(KIND, _draw_apart)
+@chosen(one=1.0, two=3.0, speed=1.0, bears=0.5)
+@chosen(one=1.0, two=3.0, speed=1.0, bears=1.5)
+@chosen(one=1e-3, two=1e7, speed=1.0, bears=0.3)
 def tied_pair(one: float, two: float, speed: float, bears: float) -> Scene:
     """Two masses in free space that fly apart into a rope; `bears` of what would stop them."""
     meant = one * two / (one + two)
@@ -181,19 +225,24 @@ def tied_pair(one: float, two: float, speed: float, bears: float) -> Scene:
     tie = rope("tie", ["one", "two"], [[0.0] * 3, at], stiffness, 1.0, breaking)
     bodies = [body("one", "point", one), body("two", "point", two, at, velocity=[speed, 0.0, 0.0])]
     tables = case(bodies, 1.0 / speed, forces=[tie], gravity=0.0, samples=300)
-    return Scene("", f"{one:g} and {two:g} kg on a rope that bears {bears:g}", tables, 1.0,
-                 1.0 / w, "closed form", place,
-                 both(position("one", 0), position("two", 0, origin=at)))  # fmt: skip
+    return unnamed(
+        title=f"{one:g} and {two:g} kg on a rope that bears {bears:g}",
+        tables=tables,
+        size=1.0,
+        time_scale=1.0 / w,
+        source="closed form",
+        truth=place,
+        measured=both(position("one", 0), position("two", 0, origin=at)),
+    )
 
 
 def _draw_brief(g: np.random.Generator) -> dict[str, Any]:
-    return {"over": log_uniform(g, 1e-6, 0.3), "mass": log_uniform(g, 1e-3, 1e6),
-            "kind": neighbour(g)}  # fmt: skip
+    return dict(over=log_uniform(g, 1e-6, 0.3), mass=log_uniform(g, 1e-3, 1e6), kind=neighbour(g))
 
 
-@family(
-    KIND, _draw_brief, {"over": 0.1, "mass": 10.0}, {"over": 0.01, "mass": 1e4, "kind": "rotor"},
-)  # fmt: skip
+@family(KIND, _draw_brief)
+@chosen(over=0.1, mass=10.0)
+@chosen(over=0.01, mass=1e4, kind="rotor")
 def brief_overload(over: float, mass: float, kind: str | None = None) -> Scene:
     """A mass that drops into a rope whose largest tension passes what it bears by a part `over`."""
     w = 10.0
@@ -207,9 +256,22 @@ def brief_overload(over: float, mass: float, kind: str | None = None) -> Scene:
         whole = high * (1.0 - np.cos(w * np.asarray(time)))
         return -np.where(s > 0.0, falls, whole)[:, None]
 
-    tie = rope("rope", ["ground", "load"], [[0.0, 0.0, LENGTH], [0.0] * 3], mass * w**2, LENGTH,
-               2.0 * mass * GRAVITY * (1.0 - over))  # fmt: skip
+    tie = rope(
+        "rope",
+        bodies=["ground", "load"],
+        ends=[[0.0, 0.0, LENGTH], [0.0] * 3],
+        stiffness=mass * w**2,
+        length=LENGTH,
+        breaking=2.0 * mass * GRAVITY * (1.0 - over),
+    )
     tables = case([body("load", "heave", mass)], 1.5, forces=[tie], samples=300)
-    scene = Scene("", f"a rope overloaded by {over:g} for a moment", tables, 2.0 * high, 1.0 / w,
-                  "closed form", place, position("load", 2))  # fmt: skip
+    scene = unnamed(
+        title=f"a rope overloaded by {over:g} for a moment",
+        tables=tables,
+        size=2.0 * high,
+        time_scale=1.0 / w,
+        source="closed form",
+        truth=place,
+        measured=position("load", 2),
+    )
     return beside(scene, kind)

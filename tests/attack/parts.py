@@ -22,13 +22,15 @@ ORIGIN = (0.0, 0.0, 0.0)
 
 
 def body(
-    name: str, motion: str | list[str], mass: float, at: Vector = ORIGIN,
-    inertia: Vector | None = None, **initial: Any,
-) -> Table:  # fmt: skip
+    name: str,
+    motion: str | list[str],
+    mass: float,
+    at: Vector = ORIGIN,
+    inertia: Vector | None = None,
+    **initial: Any,
+) -> Table:
     """Return an entry of [[body]]; further keywords are those of its start."""
-    table: Table = {
-        "name": name, "motion": motion, "mass": float(mass), "center_of_gravity": _floats(at),
-    }  # fmt: skip
+    table: Table = dict(name=name, motion=motion, mass=float(mass), center_of_gravity=_floats(at))
     if inertia is not None:
         table["inertia"] = _floats(inertia)
     if initial:
@@ -37,9 +39,14 @@ def body(
 
 
 def joint(
-    name: str, kind: str, a: str, b: str, at: Vector = ORIGIN,
-    axis: Vector | None = None, **more: Any,
-) -> Table:  # fmt: skip
+    name: str,
+    kind: str,
+    a: str,
+    b: str,
+    at: Vector = ORIGIN,
+    axis: Vector | None = None,
+    **more: Any,
+) -> Table:
     """Return an entry of [[joint]]."""
     table: Table = {"name": name, "type": kind, "body_a": a, "body_b": b, "point": _floats(at)}
     if axis is not None:
@@ -48,15 +55,27 @@ def joint(
 
 
 def spring(
-    name: str, a: str, b: str, start: Vector, end: Vector,
-    stiffness: float, damping: float = 0.0, **more: Any,
-) -> Table:  # fmt: skip
+    name: str,
+    a: str,
+    b: str,
+    start: Vector,
+    end: Vector,
+    stiffness: float,
+    damping: float = 0.0,
+    **more: Any,
+) -> Table:
     """Return a spring-damper between two points, slack in the reference pose."""
     return {
-        "type": "spring_damper", "name": name, "body_a": a, "body_b": b,
-        "point_a": _floats(start), "point_b": _floats(end),
-        "stiffness": float(stiffness), "damping": float(damping), **more,
-    }  # fmt: skip
+        "type": "spring_damper",
+        "name": name,
+        "body_a": a,
+        "body_b": b,
+        "point_a": _floats(start),
+        "point_b": _floats(end),
+        "stiffness": float(stiffness),
+        "damping": float(damping),
+        **more,
+    }
 
 
 def driven(name: str, drive: Table, **where: Any) -> Table:
@@ -65,10 +84,16 @@ def driven(name: str, drive: Table, **where: Any) -> Table:
 
 
 def case(
-    bodies: Sequence[Table], end: float, *, joints: Sequence[Table] = (),
-    constraints: Sequence[Table] = (), forces: Sequence[Table] = (), samples: int = 200,
-    gravity: float | None = None, **more: Any,
-) -> Table:  # fmt: skip
+    bodies: Sequence[Table],
+    end: float,
+    *,
+    joints: Sequence[Table] = (),
+    constraints: Sequence[Table] = (),
+    forces: Sequence[Table] = (),
+    samples: int = 200,
+    gravity: float | None = None,
+    **more: Any,
+) -> Table:
     """Return the tables of a case of `end` seconds with `samples` intervals of output."""
     tables: Table = {} if gravity is None else {"environment": {"gravity": float(gravity)}}
     tables["body"] = list(bodies)
@@ -76,8 +101,10 @@ def case(
         if entries:
             tables[key] = list(entries)
     return tables | {
-        "solver": {"end_time": float(end)}, "output": {"step": float(end) / samples}, **more,
-    }  # fmt: skip
+        "solver": {"end_time": float(end)},
+        "output": {"step": float(end) / samples},
+        **more,
+    }
 
 
 def companion(kind: str) -> Table:
@@ -88,13 +115,15 @@ def companion(kind: str) -> Table:
             return {"body": [body("ship", "surge", 1e6, far, velocity=[10.0, 0.0, 0.0])]}
         case "barge":  # at rest on its mooring
             stiffness = [1e6, 0.0, 0.0, 0.0, 0.0, 0.0]
-            mooring = {"type": "mooring_matrix", "name": "barge_mooring", "body": "barge",
-                       "stiffness": stiffness}  # fmt: skip
+            mooring = dict(
+                type="mooring_matrix", name="barge_mooring", body="barge", stiffness=stiffness
+            )
             return {"body": [body("barge", "surge", 1e7, far)], "force": [mooring]}
         case "rotor":  # 300 rad/s
             spin = [0.0, 0.0, 300.0]
-            return {"body": [body("rotor", ["yaw"], 1e3, far, [50.0, 50.0, 100.0],
-                                  angular_velocity=spin)]}  # fmt: skip
+            return dict(
+                body=[body("rotor", ["yaw"], 1e3, far, [50.0, 50.0, 100.0], angular_velocity=spin)]
+            )
         case "swing":  # a heavy pendulum
             bob = body("swing", "point", 1e5, [-20.0, 100.0, 0.0])
             rod = joint(

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.long import turned
 from tests.attack.parts import Z, beside, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
@@ -30,28 +30,35 @@ def general_keys(
 ) -> dict[str, Any]:
     """Return the keys of that law in SI units."""
     speed = length * rate
-    return {
-        "type": "pto_general", "name": "pto", "damping": 0.3 * force / speed**exponent,
-        "exponent": exponent, "constant": 0.05 * force, "reversal_rate": 0.02 * speed,
-        "stiffness": 0.2 * force / length, "load_limit": limit * force,
-        "power_limit": power * force * speed,
-    }  # fmt: skip
+    return dict(
+        type="pto_general",
+        name="pto",
+        damping=0.3 * force / speed**exponent,
+        exponent=exponent,
+        constant=0.05 * force,
+        reversal_rate=0.02 * speed,
+        stiffness=0.2 * force / length,
+        load_limit=limit * force,
+        power_limit=power * force * speed,
+    )
 
 
 def _draw_general(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "exponent": g.uniform(1.0, 3.0), "limit": g.uniform(0.1, 0.5),
-        "power": g.uniform(0.03, 0.3), "end": g.uniform(15.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g),
+        exponent=g.uniform(1.0, 3.0),
+        limit=g.uniform(0.1, 0.5),
+        power=g.uniform(0.03, 0.3),
+        end=g.uniform(15.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_general,
-    {"scale": UNIT, "exponent": 2.0, "limit": 0.2, "power": 0.1, "end": 30.0},
-    {"scale": SMALL, "exponent": 1.0, "limit": 0.3, "power": 0.2, "end": 30.0},
-    {"scale": LARGE, "exponent": 1.5, "limit": 0.15, "power": 0.05, "end": 30.0},
-    {"scale": UNIT, "exponent": 2.0, "limit": 0.2, "power": 0.1, "end": 30.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_general)
+@chosen(scale=UNIT, exponent=2.0, limit=0.2, power=0.1, end=30.0)
+@chosen(scale=SMALL, exponent=1.0, limit=0.3, power=0.2, end=30.0)
+@chosen(scale=LARGE, exponent=1.5, limit=0.15, power=0.05, end=30.0)
+@chosen(scale=UNIT, exponent=2.0, limit=0.2, power=0.1, end=30.0, kind="ship")
 def general_pto(
     scale: Three, exponent: float, limit: float, power: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -81,28 +88,30 @@ def hydraulic_keys(leak: float, force: float, length: float, rate: float) -> dic
     """Return the keys of that law: 0.2 force at a unit of pressure, gas of 2 strokes."""
     area, speed = 1e-2 * length**2, length * rate
     unit = 0.2 * force / area  # Pa
-    return {
-        "type": "pto_hydraulic", "name": "pto", "area": area,
-        "motor_conductance": leak * area * speed / unit, "pressure_high": HIGH * unit,
-        "pressure_low": LOW * unit, "volume_high": GAS * 5.0 * area * length,
-        "volume_low": 2.0 * GAS * 5.0 * area * length, "valve_rate": SHUT * speed,
-    }  # fmt: skip
+    return dict(
+        type="pto_hydraulic",
+        name="pto",
+        area=area,
+        motor_conductance=leak * area * speed / unit,
+        pressure_high=HIGH * unit,
+        pressure_low=LOW * unit,
+        volume_high=GAS * 5.0 * area * length,
+        volume_low=2.0 * GAS * 5.0 * area * length,
+        valve_rate=SHUT * speed,
+    )
 
 
 def _draw_hydraulic(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "scale": drawn(g), "leak": log_uniform(g, 0.02, 1.0), "end": g.uniform(10.0, 60.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        scale=drawn(g), leak=log_uniform(g, 0.02, 1.0), end=g.uniform(10.0, 60.0), kind=neighbour(g)
+    )
 
 
-@family(
-    KIND, _draw_hydraulic,
-    {"scale": UNIT, "leak": 0.2, "end": 20.0},
-    {"scale": SMALL, "leak": 0.5, "end": 20.0},
-    {"scale": LARGE, "leak": 0.05, "end": 20.0},
-    {"scale": LARGE, "leak": 0.2, "end": 20.0, "kind": "rotor"},
-)  # fmt: skip
+@family(KIND, _draw_hydraulic)
+@chosen(scale=UNIT, leak=0.2, end=20.0)
+@chosen(scale=SMALL, leak=0.5, end=20.0)
+@chosen(scale=LARGE, leak=0.05, end=20.0)
+@chosen(scale=LARGE, leak=0.2, end=20.0, kind="rotor")
 def hydraulic_pto(scale: Three, leak: float, end: float, kind: str | None = None) -> Scene:
     """A swing that pumps between two accumulators."""
     s = Scale(*scale)
@@ -119,18 +128,19 @@ def hydraulic_pto(scale: Three, leak: float, end: float, kind: str | None = None
 
 
 def _draw_rotary(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "inertia": log_uniform(g, 1e-6, 1e9), "rate": log_uniform(g, 0.1, 30.0),
-        "spin": list(g.uniform(-0.6, 0.6, 3)), "end": g.uniform(10.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        inertia=log_uniform(g, 1e-6, 1e9),
+        rate=log_uniform(g, 0.1, 30.0),
+        spin=list(g.uniform(-0.6, 0.6, 3)),
+        end=g.uniform(10.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_rotary,
-    {"inertia": 1.0, "rate": 2.0, "spin": [0.3, 0.5, -0.2], "end": 30.0},
-    {"inertia": 1e-6, "rate": 20.0, "spin": [0.2, -0.4, 0.3], "end": 30.0},
-    {"inertia": 1e6, "rate": 0.5, "spin": [0.5, 0.5, 0.5], "end": 60.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_rotary)
+@chosen(inertia=1.0, rate=2.0, spin=[0.3, 0.5, -0.2], end=30.0)
+@chosen(inertia=1e-6, rate=20.0, spin=[0.2, -0.4, 0.3], end=30.0)
+@chosen(inertia=1e6, rate=0.5, spin=[0.5, 0.5, 0.5], end=60.0, kind="ship")
 def rotary_pto(
     inertia: float, rate: float, spin: list[float], end: float, kind: str | None = None
 ) -> Scene:
@@ -145,54 +155,75 @@ def rotary_pto(
         columns = np.array([turned(p[:, None], e)[:, 0] for e in np.eye(3)]).T  # R
         moment = columns.T @ (-springs * vector - dampers * (columns @ w))
         q, x, yy, z = p
-        change = 0.5 * np.array([
-            -x * w[0] - yy * w[1] - z * w[2], q * w[0] + yy * w[2] - z * w[1],
-            q * w[1] + z * w[0] - x * w[2], q * w[2] + x * w[1] - yy * w[0],
-        ])  # fmt: skip
+        change = 0.5 * np.array(
+            [
+                -x * w[0] - yy * w[1] - z * w[2],
+                q * w[0] + yy * w[2] - z * w[1],
+                q * w[1] + z * w[0] - x * w[2],
+                q * w[2] + x * w[1] - yy * w[0],
+            ]
+        )
         return np.r_[change, (moment - np.cross(w, moments * w)) / moments]
 
     solved = truth.integrated(
-        rates, [1.0, 0.0, 0.0, 0.0, *spin],
-        lambda _t, y: [*turned(y[:4], [1, 0, 0]), *turned(y[:4], [0, 1, 0])], rtol=1e-12,
-    )  # fmt: skip
-    ball = body("ball", "rigid", inertia, inertia=inertia * moments,
-                angular_velocity=rate * np.array(spin))  # fmt: skip
-    pto = {
-        "type": "pto_rotary", "name": "pto", "body_a": "ground", "body_b": "ball",
-        "stiffness": [float(k) for k in inertia * rate**2 * springs],
-        "damping": [float(c) for c in inertia * rate * dampers],
-    }  # fmt: skip
+        rates=rates,
+        start=[1.0, 0.0, 0.0, 0.0, *spin],
+        place=lambda _t, y: [*turned(y[:4], [1, 0, 0]), *turned(y[:4], [0, 1, 0])],
+        rtol=1e-12,
+    )
+    ball = body(
+        "ball", "rigid", inertia, inertia=inertia * moments, angular_velocity=rate * np.array(spin)
+    )
+    pto = dict(
+        type="pto_rotary",
+        name="pto",
+        body_a="ground",
+        body_b="ball",
+        stiffness=[float(k) for k in inertia * rate**2 * springs],
+        damping=[float(c) for c in inertia * rate * dampers],
+    )
 
     def axes(results: Any) -> Any:
         p = np.asarray(results["bodies/ball/orientation"].values).T
         return np.vstack([turned(p, [1, 0, 0]), turned(p, [0, 1, 0])]).T
 
-    tables = case([ball], end / rate, joints=[joint("ball", "spherical", "ground", "ball")],
-                  forces=[pto], gravity=0.0, samples=400)  # fmt: skip
-    scene = Scene(
-        "", "a rotary power take-off about three axes", tables, float(np.linalg.norm(spin)),
-        1.0 / rate, "DOP853, quaternion and body rates",
-        lambda t: solved(np.asarray(t) * rate), axes, unit="-",
-    )  # fmt: skip
+    tables = case(
+        [ball],
+        end / rate,
+        joints=[joint("ball", "spherical", "ground", "ball")],
+        forces=[pto],
+        gravity=0.0,
+        samples=400,
+    )
+    scene = unnamed(
+        title="a rotary power take-off about three axes",
+        tables=tables,
+        size=float(np.linalg.norm(spin)),
+        time_scale=1.0 / rate,
+        source="DOP853, quaternion and body rates",
+        truth=lambda t: solved(np.asarray(t) * rate),
+        measured=axes,
+        unit="-",
+    )
     return beside(scene, kind)
 
 
 def _draw_wave(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("general", "hydraulic", "stop", "lugre")[g.integers(4)],
-        "height": log_uniform(g, 1e-3, 1.5), "period": g.uniform(3.5, 9.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("general", "hydraulic", "stop", "lugre")[g.integers(4)],
+        height=log_uniform(g, 1e-3, 1.5),
+        period=g.uniform(3.5, 9.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_wave,
-    {"how": "general", "height": 1.0, "period": 5.0},
-    {"how": "general", "height": 1e-3, "period": 6.0},
-    {"how": "hydraulic", "height": 1.0, "period": 5.0},
-    {"how": "stop", "height": 1.0, "period": 4.5},
-    {"how": "lugre", "height": 0.5, "period": 5.0},
-    {"how": "hydraulic", "height": 0.01, "period": 6.0, "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_wave)
+@chosen(how="general", height=1.0, period=5.0)
+@chosen(how="general", height=1e-3, period=6.0)
+@chosen(how="hydraulic", height=1.0, period=5.0)
+@chosen(how="stop", height=1.0, period=4.5)
+@chosen(how="lugre", height=0.5, period=5.0)
+@chosen(how="hydraulic", height=0.01, period=6.0, kind="barge")
 def pto_in_waves(how: str, height: float, period: float, kind: str | None = None) -> Scene:
     """The sphere in a regular wave with a machine, a compliant stop or bristles on its guide."""
     s, ramp = sea.sphere(), 20.0
@@ -219,20 +250,35 @@ def pto_in_waves(how: str, height: float, period: float, kind: str | None = None
     rest = 0.0
     start = {"general": [], "hydraulic": [HIGH, LOW], "stop": [], "lugre": [0.0]}[how]
     exact = truth.integrated(
-        rates, [*s.start(), *start], lambda _t, y: [y[0]], breaks=[ramp], longest=0.05,
-        rtol=1e-9, method="LSODA" if how == "lugre" else "DOP853",
+        rates=rates,
+        start=[*s.start(), *start],
+        place=lambda _t, y: [y[0]],
+        breaks=[ramp],
+        longest=0.05,
+        rtol=1e-9,
+        method="LSODA" if how == "lugre" else "DOP853",
         scale=np.r_[size, speed, np.full(n - 2, size), np.full(len(start), 1.0)],
-    )  # fmt: skip
+    )
     wave = {"name": "swell", "type": "regular", "period": period, "height": height}
-    tables = case([sea.float_body()], ramp + 6.0 * period, samples=400,
-                  joints=[joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -sea.DRAFT],
-                                Z)],
-                  forces=[more], sea={"ramp": ramp}, wave=[wave])  # fmt: skip
-    scene = Scene(
-        "", f"the sphere with {how} in waves of {height:g} m", tables, size, 0.6,
-        "linear states of the same tables and the law", exact,
-        position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]), database=sea.stored,
-    )  # fmt: skip
+    tables = case(
+        [sea.float_body()],
+        ramp + 6.0 * period,
+        samples=400,
+        joints=[joint("guide", "prismatic", "ground", "sphere", [0.0, 0.0, -sea.DRAFT], Z)],
+        forces=[more],
+        sea={"ramp": ramp},
+        wave=[wave],
+    )
+    scene = unnamed(
+        title=f"the sphere with {how} in waves of {height:g} m",
+        tables=tables,
+        size=size,
+        time_scale=0.6,
+        source="linear states of the same tables and the law",
+        truth=exact,
+        measured=position("sphere", 2, origin=[0.0, 0.0, -sea.DRAFT]),
+        database=sea.stored,
+    )
     return beside(scene, kind)
 
 
@@ -242,8 +288,9 @@ def _laws(how: str, force: float, length: float, rate: float) -> tuple[dict[str,
     if how == "general":
         keys = general_keys(2.0, 0.3, 0.1, force, length, rate)
         return {**keys, "joint": "guide"}, lambda x, v, _z: (
-            force * general_law(x / length, v / speed, 2.0, 0.3, 0.1), [],
-        )  # fmt: skip
+            force * general_law(x / length, v / speed, 2.0, 0.3, 0.1),
+            [],
+        )
     if how == "hydraulic":
         keys = hydraulic_keys(0.3, force, length, rate)
 
@@ -253,11 +300,16 @@ def _laws(how: str, force: float, length: float, rate: float) -> tuple[dict[str,
 
         return {**keys, "joint": "guide"}, pumped
     if how == "stop":
-        keys = {
-            "type": "end_stop", "name": "stop", "joint": "guide", "lower": -0.3 * length,
-            "upper": 0.3 * length, "stiffness": 20.0 * force / length**2, "exponent": 2.0,
-            "damping": 0.1 / speed,
-        }  # fmt: skip
+        keys = dict(
+            type="end_stop",
+            name="stop",
+            joint="guide",
+            lower=-0.3 * length,
+            upper=0.3 * length,
+            stiffness=20.0 * force / length**2,
+            exponent=2.0,
+            damping=0.1 / speed,
+        )
 
         def struck(x: float, v: float, _z: Any) -> Any:
             u = max(abs(x) - 0.3 * length, 0.0) / length
@@ -266,11 +318,16 @@ def _laws(how: str, force: float, length: float, rate: float) -> tuple[dict[str,
 
         return keys, struck
     stiff, damp = 0.1 * force / (0.02 * length), 0.02 * force / speed
-    keys = {
-        "type": "friction_lugre", "name": "rail", "joint": "guide", "static": 0.1 * force,
-        "kinetic": 0.08 * force, "stribeck_rate": 0.05 * speed, "bristle_stiffness": stiff,
-        "bristle_damping": damp,
-    }  # fmt: skip
+    keys = dict(
+        type="friction_lugre",
+        name="rail",
+        joint="guide",
+        static=0.1 * force,
+        kinetic=0.08 * force,
+        stribeck_rate=0.05 * speed,
+        bristle_stiffness=stiff,
+        bristle_damping=damp,
+    )
 
     def rubbed(_x: float, v: float, z: Any) -> Any:
         bend = z[0] * length

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, beside, body, both, case, joint, position, spring
 
 from hydrodae.study.stability import Scene, truths
@@ -16,58 +16,74 @@ KIND = "small and large"
 
 def _draw_spring(g: np.random.Generator) -> dict[str, Any]:
     length = log_uniform(g, 1e-3, 1e4)
-    return {
-        "mass": log_uniform(g, 1e-6, 1e9), "rate": log_uniform(g, 0.01, 1e3), "length": length,
-        "release": length * log_uniform(g, 1e-6, 0.3), "damping": float(g.choice([0.0, 0.02])),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        mass=log_uniform(g, 1e-6, 1e9),
+        rate=log_uniform(g, 0.01, 1e3),
+        length=length,
+        release=length * log_uniform(g, 1e-6, 0.3),
+        damping=float(g.choice([0.0, 0.02])),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_spring,
-    {"mass": 1.0, "rate": 10.0, "length": 1.0, "release": 1e-5},
-    {"mass": 1.0, "rate": 10.0, "length": 1.0, "release": 1e-6},
-    {"mass": 1e-6, "rate": 30.0, "length": 1e-3, "release": 1e-6},
-    {"mass": 1e9, "rate": 0.1, "length": 1e3, "release": 1.0},
-    {"mass": 1.0, "rate": 10.0, "length": 1.0, "release": 1e-4, "kind": "ship"},
-    {"mass": 1.0, "rate": 1e3, "length": 1.0, "release": 1e-3, "damping": 0.02},
-    {"mass": 100.0, "rate": 0.01, "length": 1.0, "release": 1e-3},
-)  # fmt: skip
+@family(KIND, _draw_spring)
+@chosen(mass=1.0, rate=10.0, length=1.0, release=1e-5)
+@chosen(mass=1.0, rate=10.0, length=1.0, release=1e-6)
+@chosen(mass=1e-6, rate=30.0, length=1e-3, release=1e-6)
+@chosen(mass=1e9, rate=0.1, length=1e3, release=1.0)
+@chosen(mass=1.0, rate=10.0, length=1.0, release=1e-4, kind="ship")
+@chosen(mass=1.0, rate=1e3, length=1.0, release=1e-3, damping=0.02)
+@chosen(mass=100.0, rate=0.01, length=1.0, release=1e-3)
 def mass_on_spring(
-    mass: float, rate: float, length: float, release: float, damping: float = 0.0,
+    mass: float,
+    rate: float,
+    length: float,
+    release: float,
+    damping: float = 0.0,
     kind: str | None = None,
-) -> Scene:  # fmt: skip
+) -> Scene:
     """A mass on a spring, let go: x = a cos(w t)."""
     end = 60.0 / rate
     stiffness = mass * rate**2
     mass_ = body("mass", "surge", mass, [length, 0.0, 0.0], displacement=[release, 0.0, 0.0])
-    link = spring("spring", "ground", "mass", [0.0] * 3, [length, 0.0, 0.0], stiffness,
-                  2.0 * damping * rate * mass)  # fmt: skip
-    scene = Scene(
-        "", f"a mass of {mass:g} kg released by {release:g} m", case([mass_], end, forces=[link]),
-        release, 1.0 / rate, "closed form",
-        truth.column(truth.oscillation(rate, damping, release, 0.0)),
-        position("mass", 0, origin=[length, 0.0, 0.0]),
-    )  # fmt: skip
+    link = spring(
+        "spring",
+        "ground",
+        "mass",
+        [0.0] * 3,
+        [length, 0.0, 0.0],
+        stiffness,
+        2.0 * damping * rate * mass,
+    )
+    scene = unnamed(
+        title=f"a mass of {mass:g} kg released by {release:g} m",
+        tables=case([mass_], end, forces=[link]),
+        size=release,
+        time_scale=1.0 / rate,
+        source="closed form",
+        truth=truth.column(truth.oscillation(rate, damping, release, 0.0)),
+        measured=position("mass", 0, origin=[length, 0.0, 0.0]),
+    )
     return beside(scene, kind)
 
 
 def _draw_pendulum(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-6, 1e6), "mass": log_uniform(g, 1e-6, 1e9),
-        "angle": log_uniform(g, 1e-6, 2.0), "rigid": bool(g.integers(2)), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-6, 1e6),
+        mass=log_uniform(g, 1e-6, 1e9),
+        angle=log_uniform(g, 1e-6, 2.0),
+        rigid=bool(g.integers(2)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_pendulum,
-    {"length": 1.0, "mass": 1.0, "angle": 1e-3},
-    {"length": 1.0, "mass": 1.0, "angle": 1e-6},
-    {"length": 1e-6, "mass": 1e-6, "angle": 1.0},
-    {"length": 1e6, "mass": 1e9, "angle": 1.0},
-    {"length": 10.0, "mass": 1e5, "angle": 1e-4, "rigid": True},
-    {"length": 0.1, "mass": 0.01, "angle": 0.5, "rigid": True, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_pendulum)
+@chosen(length=1.0, mass=1.0, angle=1e-3)
+@chosen(length=1.0, mass=1.0, angle=1e-6)
+@chosen(length=1e-6, mass=1e-6, angle=1.0)
+@chosen(length=1e6, mass=1e9, angle=1.0)
+@chosen(length=10.0, mass=1e5, angle=1e-4, rigid=True)
+@chosen(length=0.1, mass=0.01, angle=0.5, rigid=True, kind="ship")
 def pendulum(
     length: float, mass: float, angle: float, rigid: bool = False, kind: str | None = None
 ) -> Scene:
@@ -90,28 +106,32 @@ def pendulum(
         middle = 0.5 * (a + angle)
         return length * np.column_stack([rise * np.cos(middle), rise * np.sin(middle)])
 
-    scene = Scene(
-        "", f"a pendulum of {length:g} m let go at {angle:g} rad", case(bodies, end, joints=joints),
-        length * min(2.0, angle), 1.0 / float(rate), "Jacobi elliptic functions", place,
-        position("bob", 0, 2, origin=at),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a pendulum of {length:g} m let go at {angle:g} rad",
+        tables=case(bodies, end, joints=joints),
+        size=length * min(2.0, angle),
+        time_scale=1.0 / float(rate),
+        source="Jacobi elliptic functions",
+        truth=place,
+        measured=position("bob", 0, 2, origin=at),
+    )
     return beside(scene, kind)
 
 
 def _draw_pair(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "masses": (log_uniform(g, 1e-6, 1e6), log_uniform(g, 1e-6, 1e6)),
-        "rate": log_uniform(g, 0.01, 1e3), "length": log_uniform(g, 1e-6, 1e6),
-        "stretch": log_uniform(g, 1e-6, 0.3), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        masses=(log_uniform(g, 1e-6, 1e6), log_uniform(g, 1e-6, 1e6)),
+        rate=log_uniform(g, 0.01, 1e3),
+        length=log_uniform(g, 1e-6, 1e6),
+        stretch=log_uniform(g, 1e-6, 0.3),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_pair,
-    {"masses": (1.0, 3.0), "rate": 6.0, "length": 1.0, "stretch": 1e-4},
-    {"masses": (1e-6, 1e-6), "rate": 100.0, "length": 1e-3, "stretch": 1e-2},
-    {"masses": (1e6, 1.0), "rate": 2.0, "length": 1e3, "stretch": 1e-3},
-)  # fmt: skip
+@family(KIND, _draw_pair)
+@chosen(masses=(1.0, 3.0), rate=6.0, length=1.0, stretch=1e-4)
+@chosen(masses=(1e-6, 1e-6), rate=100.0, length=1e-3, stretch=1e-2)
+@chosen(masses=(1e6, 1.0), rate=2.0, length=1e3, stretch=1e-3)
 def free_pair(
     masses: tuple[float, float], rate: float, length: float, stretch: float, kind: str | None = None
 ) -> Scene:
@@ -130,28 +150,32 @@ def free_pair(
         swing = release * np.cos(rate * time)
         return np.column_stack([-n / (m + n) * swing, m / (m + n) * swing])
 
-    scene = Scene(
-        "", f"two points on a spring in free space, stretched by {release:g} m",
-        case(bodies, end, forces=[link], gravity=0.0), release, 1.0 / rate, "closed form", place,
-        both(position("a", 2), position("b", 2, origin=[0.0, 0.0, length])),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"two points on a spring in free space, stretched by {release:g} m",
+        tables=case(bodies, end, forces=[link], gravity=0.0),
+        size=release,
+        time_scale=1.0 / rate,
+        source="closed form",
+        truth=place,
+        measured=both(position("a", 2), position("b", 2, origin=[0.0, 0.0, length])),
+    )
     return beside(scene, kind)
 
 
 def _draw_double(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "length": log_uniform(g, 1e-6, 1e6), "mass": log_uniform(g, 1e-6, 1e6),
-        "ratio": log_uniform(g, 0.1, 10.0), "angle": log_uniform(g, 1e-5, 1.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        length=log_uniform(g, 1e-6, 1e6),
+        mass=log_uniform(g, 1e-6, 1e6),
+        ratio=log_uniform(g, 0.1, 10.0),
+        angle=log_uniform(g, 1e-5, 1.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_double,
-    {"length": 1e-3, "mass": 1e-6, "ratio": 1.0, "angle": 0.5},
-    {"length": 1.0, "mass": 1.0, "ratio": 0.2, "angle": 1e-4},
-    {"length": 100.0, "mass": 1e6, "ratio": 2.0, "angle": 1.0, "kind": "rotor"},
-)  # fmt: skip
+@family(KIND, _draw_double)
+@chosen(length=1e-3, mass=1e-6, ratio=1.0, angle=0.5)
+@chosen(length=1.0, mass=1.0, ratio=0.2, angle=1e-4)
+@chosen(length=100.0, mass=1e6, ratio=2.0, angle=1.0, kind="rotor")
 def double_pendulum(
     length: float, mass: float, ratio: float, angle: float, kind: str | None = None
 ) -> Scene:
@@ -169,11 +193,16 @@ def double_pendulum(
         return np.r_[u, v, np.linalg.solve(matrix, load)]
 
     solved = truth.integrated(
-        rates, [angle, 0.0, 0.0, 0.0],
-        lambda _t, y: [np.sin(y[0]), -np.cos(y[0]), np.sin(y[0]) + np.sin(y[1]),
-                       -np.cos(y[0]) - np.cos(y[1])],
+        rates=rates,
+        start=[angle, 0.0, 0.0, 0.0],
+        place=lambda _t, y: [
+            np.sin(y[0]),
+            -np.cos(y[0]),
+            np.sin(y[0]) + np.sin(y[1]),
+            -np.cos(y[0]) - np.cos(y[1]),
+        ],
         scale=min(1.0, angle),
-    )  # fmt: skip
+    )
     begin = np.r_[first[[0, 2]], second[[0, 2]]]
 
     def exact(time: Any) -> Any:
@@ -184,10 +213,15 @@ def double_pendulum(
         joint("rod_1", "distance", "ground", "upper", point_b=first),
         joint("rod_2", "distance", "upper", "lower", first, point_b=second),
     ]
-    scene = Scene(
-        "", f"a double pendulum of {length:g} m let go at {angle:g} rad",
-        case(bodies, end, joints=joints), length * min(1.0, angle), 0.5 * tau,
-        "DOP853 in two angles", exact,
-        both(position("upper", 0, 2, origin=first), position("lower", 0, 2, origin=second)),
-    )  # fmt: skip
+    scene = unnamed(
+        title=f"a double pendulum of {length:g} m let go at {angle:g} rad",
+        tables=case(bodies, end, joints=joints),
+        size=length * min(1.0, angle),
+        time_scale=0.5 * tau,
+        source="DOP853 in two angles",
+        truth=exact,
+        measured=both(
+            position("upper", 0, 2, origin=first), position("lower", 0, 2, origin=second)
+        ),
+    )
     return beside(scene, kind)

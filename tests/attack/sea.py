@@ -94,10 +94,13 @@ def stored(path: Path) -> None:
 
 def float_body(**initial: Any) -> dict[str, Any]:
     """Return the entry of [[body]] of the sphere."""
-    table: dict[str, Any] = {
-        "name": "sphere", "hydro": "sphere", "motion": "heave", "mass": MASS,
-        "center_of_gravity": [0.0, 0.0, -DRAFT],
-    }  # fmt: skip
+    table: dict[str, Any] = dict(
+        name="sphere",
+        hydro="sphere",
+        motion="heave",
+        mass=MASS,
+        center_of_gravity=[0.0, 0.0, -DRAFT],
+    )
     return table | ({"initial": initial} if initial else {})
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import log_uniform
+from tests.attack.family import log_uniform, unnamed
 from tests.attack.parts import X, case, joint, position
 from tests.attack.parts import body as body_entry
 
@@ -50,15 +50,23 @@ SMALL, UNIT, LARGE = (1e-3, 1e-3, 20.0), (1.0, 1.0, 2.0), (1e6, 10.0, 0.5)
 
 def spring(scale: Scale, part: float = 1.0) -> dict[str, Any]:
     """Return the spring of the scale, or a part of it, slack at 0."""
-    return {"type": "pto_linear", "name": "spring", "joint": "slide",
-            "stiffness": part * scale.stiffness}  # fmt: skip
+    return dict(type="pto_linear", name="spring", joint="slide", stiffness=part * scale.stiffness)
 
 
 def block(
-    scale: Scale, title: str, forces: Sequence[Mapping[str, Any]], exact: truth.Truth, end: float,
-    *, start: float = 1.0, speed: float = 0.0, tau: float = 1.0, samples: int = 400,
-    size: float = 1.0, **more: Any,
-) -> Scene:  # fmt: skip
+    scale: Scale,
+    title: str,
+    forces: Sequence[Mapping[str, Any]],
+    exact: truth.Truth,
+    end: float,
+    *,
+    start: float = 1.0,
+    speed: float = 0.0,
+    tau: float = 1.0,
+    samples: int = 400,
+    size: float = 1.0,
+    **more: Any,
+) -> Scene:
     """Return the scene.
 
     Parameters
@@ -71,19 +79,32 @@ def block(
         End and shortest time scale, displacement and speed at the start, size of the motion.
     """
     mass = body_entry(
-        "block", "surge", scale.mass, displacement=[start * scale.length, 0.0, 0.0],
+        "block",
+        "surge",
+        scale.mass,
+        displacement=[start * scale.length, 0.0, 0.0],
         velocity=[speed * scale.speed, 0.0, 0.0],
-    )  # fmt: skip
+    )
     tables = case(
-        [mass], end / scale.rate, joints=[joint("slide", "prismatic", "ground", "block", axis=X)],
-        forces=[dict(f) for f in forces], gravity=0.0, samples=samples,
-    )  # fmt: skip
+        [mass],
+        end / scale.rate,
+        joints=[joint("slide", "prismatic", "ground", "block", axis=X)],
+        forces=[dict(f) for f in forces],
+        gravity=0.0,
+        samples=samples,
+    )
     controllers = more.pop("controllers", None)
     tables |= more
-    return Scene(
-        "", title, tables, size * scale.length, tau / scale.rate, "DOP853 in one coordinate",
-        exact, position("block", 0), controllers=controllers,
-    )  # fmt: skip
+    return unnamed(
+        title=title,
+        tables=tables,
+        size=size * scale.length,
+        time_scale=tau / scale.rate,
+        source="DOP853 in one coordinate",
+        truth=exact,
+        measured=position("block", 0),
+        controllers=controllers,
+    )
 
 
 def placed(scale: Scale, solved: truth.Truth) -> truth.Truth:

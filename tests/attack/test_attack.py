@@ -20,23 +20,21 @@ from hydrodae.study.stability.grid import PASS, WRONG
 
 SCENES = suite.all_scenes()
 #: Quick ones of every kind.
-SAMPLE = (
-    "table_stroke_1", "python_pulse_1", "path_bump_1", "coast_to_stop_1", "rope_catch_3",
-    "driven_arm_1", "arm_alone_1", "arm_alone_4", "driven_crank_1", "universal_shaft_1",
-    "universal_shaft_4", "swinging_belt_2", "driven_gear_4", "velocity_drive_1",
-    "mass_on_spring_1", "mass_on_spring_2", "mass_on_spring_3", "pendulum_2", "free_pair_1",
-    "double_pendulum_2", "low_wave_2", "hard_beside_5", "shaken_table_2", "driven_box_3",
-    "spring_and_stop_2", "two_balls_1", "tumbling_nut_2", "sleeping_top_3", "free_wheel_1",
-    "gears_1", "torsion_spring_2", "wheel_on_a_swing_1", "pushed_pendulum_1", "radial_start_2",
-    "drive_from_rest_2", "crank_alone_1", "start_at_floor_3", "flipped_sphere_1",
-    "flipped_sphere_2", "flipped_sphere_3", "band_that_feeds_1", "falsely_passive_1",
-    "slack_pair_2", "bistable_float_1",
-    "sound_sphere_2", "misaligned_door_1", "misaligned_door_4", "submerged_pendulum_1",
-    "submerged_pendulum_3", "compliant_stop_1", "pressed_incline_3", "timed_impact_2", "pi_block_2",
-    "latched_block_1", "winch_lift_2", "hanging_line_1", "general_pto_3", "pto_in_waves_3",
-    "wound_vector_1", "wound_vector_3", "spring_at_one_place_1", "folded_rope_1",
-    "point_on_hinge_1", "point_on_hinge_4", "bob_on_links_1", "bob_on_links_4",
-)  # fmt: skip
+SAMPLE = """
+    table_stroke_1 python_pulse_1 path_bump_1 coast_to_stop_1 rope_catch_3 driven_arm_1
+    arm_alone_1 arm_alone_4 driven_crank_1 universal_shaft_1 universal_shaft_4 swinging_belt_2
+    driven_gear_4 velocity_drive_1 mass_on_spring_1 mass_on_spring_2 mass_on_spring_3 pendulum_2
+    free_pair_1 double_pendulum_2 low_wave_2 hard_beside_5 shaken_table_2 driven_box_3
+    spring_and_stop_2 two_balls_1 tumbling_nut_2 sleeping_top_3 free_wheel_1 gears_1
+    torsion_spring_2 wheel_on_a_swing_1 pushed_pendulum_1 radial_start_2 drive_from_rest_2
+    crank_alone_1 start_at_floor_3 flipped_sphere_1 flipped_sphere_2 flipped_sphere_3
+    band_that_feeds_1 falsely_passive_1 slack_pair_2 bistable_float_1 sound_sphere_2
+    misaligned_door_1 misaligned_door_4 submerged_pendulum_1 submerged_pendulum_3
+    compliant_stop_1 pressed_incline_3 timed_impact_2 pi_block_2 latched_block_1 winch_lift_2
+    hanging_line_1 general_pto_3 pto_in_waves_3 wound_vector_1 wound_vector_3
+    spring_at_one_place_1 folded_rope_1 point_on_hinge_1 point_on_hinge_4 bob_on_links_1
+    bob_on_links_4
+""".split()
 
 
 @pytest.mark.parametrize("name", SAMPLE)
@@ -49,11 +47,25 @@ def test_no_default_run_is_wrong(name: str, tmp_path: Path) -> None:
 def test_the_suite_has_every_kind_and_a_hundred_scenes() -> None:
     kinds = {entry.kind for entry in FAMILIES.values()}
     assert kinds == {
-        "loads after rest", "drives", "small and large", "unconnected mechanisms", "impacts",
-        "long runs", "turns", "start velocities", "bad memories", "misaligned hinges",
-        "buoyancy", "contacts and friction", "controllers", "moorings", "power take-offs",
-        "errors that grow", "special poses", "little inertia",
-    }  # fmt: skip
+        "loads after rest",
+        "drives",
+        "small and large",
+        "unconnected mechanisms",
+        "impacts",
+        "long runs",
+        "turns",
+        "start velocities",
+        "bad memories",
+        "misaligned hinges",
+        "buoyancy",
+        "contacts and friction",
+        "controllers",
+        "moorings",
+        "power take-offs",
+        "errors that grow",
+        "special poses",
+        "little inertia",
+    }
     assert len(SCENES) >= 100
     assert {suite.kind_of(name) for name in SAMPLE} == kinds
 
@@ -88,10 +100,13 @@ def test_pieces_and_closed_flights_agree() -> None:
     time = np.linspace(0.0, 1.2, 50)
     closed = truth.walls(wall, 0.0, np.inf, 0.9, (0.2, 0.0), GRAVITY, 0.005, 0.5)(time)
     pieces = truth.hybrid(
-        "", [0.2, 0.0], {"": lambda _t, y: [y[1], -GRAVITY]},
+        "",
+        [0.2, 0.0],
+        {"": lambda _t, y: [y[1], -GRAVITY]},
         {"": [truth.Guard(lambda t, y: y[0] - wall(t)[0], False, strike)]},
-        lambda _t, y, _m: [y[0]], longest=0.01,
-    )(time)  # fmt: skip
+        lambda _t, y, _m: [y[0]],
+        longest=0.01,
+    )(time)
     np.testing.assert_allclose(pieces, closed, atol=1e-9)
 
 
@@ -166,10 +181,8 @@ def test_the_command_writes_cells_and_figures(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     data, picture = tmp_path / "cells.json", tmp_path / "map.png"
-    code = command.main(
-        ["driven_arm_1", "--methods", "ida", "gauss:*", "--json", str(data), "--picture",
-         str(picture)]
-    )  # fmt: skip
+    written = ["--json", str(data), "--picture", str(picture)]
+    code = command.main(["driven_arm_1", "--methods", "ida", "gauss:*", *written])
     document = json.loads(data.read_text(encoding="utf-8"))
     assert code == int(document["figures"]["wrong"] > 0)
     assert [cell["method"] for cell in document["cells"]] == ["ida", "gauss:random"]

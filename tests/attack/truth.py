@@ -115,17 +115,25 @@ def hybrid(
             wanted = time[done:][time[done:] <= stop]
             if stop > now:
                 solved = solve_ivp(
-                    flows[current], (now, stop), state, method, t_eval=None, dense_output=True,
-                    rtol=max(rtol, 2.3e-14), atol=atol,
+                    flows[current],
+                    (now, stop),
+                    state,
+                    method,
+                    t_eval=None,
+                    dense_output=True,
+                    rtol=max(rtol, 2.3e-14),
+                    atol=atol,
                     max_step=longest(current, state) if callable(longest) else longest,
                     events=[event(g) for g in watched] or None,
-                )  # fmt: skip
+                )
                 assert solved.success, solved.message
                 reached = float(solved.t[-1])
                 here = wanted[wanted <= reached]
-                values = np.where(
-                    here[None, :] <= now, state[:, None], solved.sol(here)
-                ) if len(here) else np.empty((len(state), 0))  # fmt: skip
+                values = (
+                    np.where(here[None, :] <= now, state[:, None], solved.sol(here))
+                    if len(here)
+                    else np.empty((len(state), 0))
+                )
                 state, struck = solved.y[:, -1].copy(), solved.status == 1
             else:
                 reached, here, struck = now, wanted, False
@@ -167,9 +175,15 @@ def column(function: Callable[[Array], Array]) -> Truth:
 
 
 def walls(
-    wall: Callable[[float], tuple[float, float, float]], lower: float, upper: float,
-    restitution: float, start: tuple[float, float], gravity: float, finest: float, speed: float,
-) -> Truth:  # fmt: skip
+    wall: Callable[[float], tuple[float, float, float]],
+    lower: float,
+    upper: float,
+    restitution: float,
+    start: tuple[float, float],
+    gravity: float,
+    finest: float,
+    speed: float,
+) -> Truth:
     """Return the truth of a free point between two walls that move as `wall`: closed flights.
 
     Parameters
@@ -208,9 +222,11 @@ def walls(
                     later += finest
                 if later >= end:
                     break
-                now = later if held(later - finest) <= 0.0 else brentq(
-                    held, later - finest, later, xtol=1e-14
-                )  # fmt: skip
+                now = (
+                    later
+                    if held(later - finest) <= 0.0
+                    else brentq(held, later - finest, later, xtol=1e-14)
+                )
                 place, rate, rest = wall(now)[0] + at, wall(now)[1], 0
                 continue
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, X, Y, Z, beside, body, case, channel, joint
 
 from hydrodae.study.stability import Scene
@@ -16,50 +16,65 @@ TURN = 2.0 * np.pi
 
 
 def _draw_wheel(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("pitch", "planar", "rigid")[g.integers(3)],
-        "rate": float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 1e3),
-        "turns": log_uniform(g, 5.0, 500.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("pitch", "planar", "rigid")[g.integers(3)],
+        rate=float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 1e3),
+        turns=log_uniform(g, 5.0, 500.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_wheel,
-    {"how": "pitch", "rate": 5.0, "turns": 40.0},
-    {"how": "planar", "rate": 5.0, "turns": 40.0},
-    {"how": "rigid", "rate": -50.0, "turns": 300.0},
-    {"how": "pitch", "rate": 500.0, "turns": 500.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_wheel)
+@chosen(how="pitch", rate=5.0, turns=40.0)
+@chosen(how="planar", rate=5.0, turns=40.0)
+@chosen(how="rigid", rate=-50.0, turns=300.0)
+@chosen(how="pitch", rate=500.0, turns=500.0, kind="ship")
 def free_wheel(how: str, rate: float, turns: float, kind: str | None = None) -> Scene:
     """A wheel that turns freely on its hinge: the angle is rate t."""
     end = turns * TURN / abs(rate)
-    wheel = body("wheel", ["pitch"] if how == "pitch" else how, 2.0, inertia=[0.1, 0.2, 0.1],
-                 angular_velocity=[0.0, rate, 0.0])  # fmt: skip
-    tables = case([wheel], end, samples=50, gravity=0.0,
-                  joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)])  # fmt: skip
-    scene = Scene(
-        "", f"a wheel for {turns:g} turns", tables, TURN, end / turns, "closed form",
-        truth.column(lambda t: rate * t), channel("joints/hinge/angle"), unit="rad",
-    )  # fmt: skip
+    wheel = body(
+        "wheel",
+        ["pitch"] if how == "pitch" else how,
+        2.0,
+        inertia=[0.1, 0.2, 0.1],
+        angular_velocity=[0.0, rate, 0.0],
+    )
+    tables = case(
+        [wheel],
+        end,
+        samples=50,
+        gravity=0.0,
+        joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)],
+    )
+    scene = unnamed(
+        title=f"a wheel for {turns:g} turns",
+        tables=tables,
+        size=TURN,
+        time_scale=end / turns,
+        source="closed form",
+        truth=truth.column(lambda t: rate * t),
+        measured=channel("joints/hinge/angle"),
+        unit="rad",
+    )
     return beside(scene, kind)
 
 
 def _draw_gears(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "how": ("pitch", "planar", "rigid")[g.integers(3)], "moment": g.uniform(0.0, 1.0),
-        "rate": log_uniform(g, 0.1, 100.0),
-        "ratio": float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 20.0),
-        "end": log_uniform(g, 5.0, 200.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        how=("pitch", "planar", "rigid")[g.integers(3)],
+        moment=g.uniform(0.0, 1.0),
+        rate=log_uniform(g, 0.1, 100.0),
+        ratio=float(g.choice([-1.0, 1.0])) * log_uniform(g, 0.1, 20.0),
+        end=log_uniform(g, 5.0, 200.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_gears,
-    {"how": "pitch", "moment": 0.0, "rate": 5.0, "ratio": -3.0, "end": 50.0},
-    {"how": "pitch", "moment": 0.5, "rate": 0.0, "ratio": -3.0, "end": 20.0},
-    {"how": "planar", "moment": 0.2, "rate": 5.0, "ratio": 7.5, "end": 30.0},
-    {"how": "rigid", "moment": 0.0, "rate": 20.0, "ratio": 0.3, "end": 50.0, "kind": "ship"},
-)  # fmt: skip
+@family(KIND, _draw_gears)
+@chosen(how="pitch", moment=0.0, rate=5.0, ratio=-3.0, end=50.0)
+@chosen(how="pitch", moment=0.5, rate=0.0, ratio=-3.0, end=20.0)
+@chosen(how="planar", moment=0.2, rate=5.0, ratio=7.5, end=30.0)
+@chosen(how="rigid", moment=0.0, rate=20.0, ratio=0.3, end=50.0, kind="ship")
 def gears(
     how: str, moment: float, rate: float, ratio: float, end: float, kind: str | None = None
 ) -> Scene:
@@ -84,31 +99,43 @@ def gears(
         return np.column_stack([a, ratio * a])
 
     fastest = max(1.0, abs(ratio)) * (rate + change * end)
-    tables = case(bodies, end, joints=joints, constraints=[gear], gravity=0.0, samples=60,
-                  forces=[load] if moment else [])  # fmt: skip
-    scene = Scene(
-        "", f"a gear of {ratio:g} over many turns", tables, TURN * max(1.0, abs(ratio)),
-        max(1.0 / fastest, end / 100.0), "closed form", angles,
-        channel("joints/pin_a/angle", "joints/pin_b/angle"), unit="rad",
-    )  # fmt: skip
+    tables = case(
+        bodies,
+        end,
+        joints=joints,
+        constraints=[gear],
+        gravity=0.0,
+        samples=60,
+        forces=[load] if moment else [],
+    )
+    scene = unnamed(
+        title=f"a gear of {ratio:g} over many turns",
+        tables=tables,
+        size=TURN * max(1.0, abs(ratio)),
+        time_scale=max(1.0 / fastest, end / 100.0),
+        source="closed form",
+        truth=angles,
+        measured=channel("joints/pin_a/angle", "joints/pin_b/angle"),
+        unit="rad",
+    )
     return beside(scene, kind)
 
 
 def _draw_torsion(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "turns": log_uniform(g, 1.0, 100.0), "rate": log_uniform(g, 0.05, 5.0),
-        "damping": float(g.choice([0.0, 0.05, 0.5])), "rigid": bool(g.integers(2)),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        turns=log_uniform(g, 1.0, 100.0),
+        rate=log_uniform(g, 0.05, 5.0),
+        damping=float(g.choice([0.0, 0.05, 0.5])),
+        rigid=bool(g.integers(2)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    KIND, _draw_torsion,
-    {"turns": 5.0, "rate": 1.0, "damping": 0.0},
-    {"turns": 50.0, "rate": 0.5, "damping": 0.05},
-    {"turns": 20.0, "rate": 0.2, "damping": 0.0, "rigid": True},
-    {"turns": 10.0, "rate": 1.0, "damping": 0.0, "kind": "barge"},
-)  # fmt: skip
+@family(KIND, _draw_torsion)
+@chosen(turns=5.0, rate=1.0, damping=0.0)
+@chosen(turns=50.0, rate=0.5, damping=0.05)
+@chosen(turns=20.0, rate=0.2, damping=0.0, rigid=True)
+@chosen(turns=10.0, rate=1.0, damping=0.0, kind="barge")
 def torsion_spring(
     turns: float, rate: float, damping: float, rigid: bool = False, kind: str | None = None
 ) -> Scene:
@@ -117,41 +144,73 @@ def torsion_spring(
     spin = amplitude * rate
     end = 25.0 / rate
     inertia = 0.2
-    wheel = body("wheel", "rigid" if rigid else ["pitch"], 2.0, inertia=[0.1, inertia, 0.1],
-                 angular_velocity=[0.0, spin, 0.0])  # fmt: skip
-    pto = {"type": "pto_linear", "name": "spring", "joint": "hinge",
-           "stiffness": inertia * rate**2, "damping": 2.0 * damping * rate * inertia}  # fmt: skip
-    tables = case([wheel], end, gravity=0.0, forces=[pto], samples=200,
-                  joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)])  # fmt: skip
-    scene = Scene(
-        "", f"a spring wound up by {turns:g} turns", tables, amplitude, 1.0 / rate, "closed form",
-        truth.column(truth.oscillation(rate, damping, 0.0, spin)), channel("joints/hinge/angle"),
+    wheel = body(
+        "wheel",
+        "rigid" if rigid else ["pitch"],
+        2.0,
+        inertia=[0.1, inertia, 0.1],
+        angular_velocity=[0.0, spin, 0.0],
+    )
+    pto = dict(
+        type="pto_linear",
+        name="spring",
+        joint="hinge",
+        stiffness=inertia * rate**2,
+        damping=2.0 * damping * rate * inertia,
+    )
+    tables = case(
+        [wheel],
+        end,
+        gravity=0.0,
+        forces=[pto],
+        samples=200,
+        joints=[joint("hinge", "revolute", "ground", "wheel", axis=Y)],
+    )
+    scene = unnamed(
+        title=f"a spring wound up by {turns:g} turns",
+        tables=tables,
+        size=amplitude,
+        time_scale=1.0 / rate,
+        source="closed form",
+        truth=truth.column(truth.oscillation(rate, damping, 0.0, spin)),
+        measured=channel("joints/hinge/angle"),
         unit="rad",
-    )  # fmt: skip
+    )
     return beside(scene, kind)
 
 
 def _draw_brake(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "turns": log_uniform(g, 1.0, 500.0), "time": log_uniform(g, 0.5, 50.0),
-        "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(turns=log_uniform(g, 1.0, 500.0), time=log_uniform(g, 0.5, 50.0), kind=neighbour(g))
 
 
-@family(KIND, _draw_brake, {"turns": 80.0, "time": 5.0}, {"turns": 300.0, "time": 20.0})
+@family(KIND, _draw_brake)
+@chosen(turns=80.0, time=5.0)
+@chosen(turns=300.0, time=20.0)
 def braked_wheel(turns: float, time: float, kind: str | None = None) -> Scene:
     """A wheel braked by a damper: a = A (1 - exp(-t / T))."""
     amplitude, inertia = TURN * turns, 0.2
-    wheel = body("wheel", ["yaw"], 2.0, inertia=[inertia] * 3,
-                 angular_velocity=[0.0, 0.0, amplitude / time])  # fmt: skip
+    wheel = body(
+        "wheel", ["yaw"], 2.0, inertia=[inertia] * 3, angular_velocity=[0.0, 0.0, amplitude / time]
+    )
     pto = {"type": "pto_linear", "name": "brake", "joint": "hinge", "damping": inertia / time}
-    tables = case([wheel], 6.0 * time, gravity=0.0, forces=[pto], samples=100,
-                  joints=[joint("hinge", "revolute", "ground", "wheel", axis=Z)])  # fmt: skip
-    scene = Scene(
-        "", f"a wheel braked over {turns:g} turns", tables, amplitude, time, "closed form",
-        truth.column(lambda t: amplitude * (1.0 - np.exp(-t / time))),
-        channel("joints/hinge/angle"), unit="rad",
-    )  # fmt: skip
+    tables = case(
+        [wheel],
+        6.0 * time,
+        gravity=0.0,
+        forces=[pto],
+        samples=100,
+        joints=[joint("hinge", "revolute", "ground", "wheel", axis=Z)],
+    )
+    scene = unnamed(
+        title=f"a wheel braked over {turns:g} turns",
+        tables=tables,
+        size=amplitude,
+        time_scale=time,
+        source="closed form",
+        truth=truth.column(lambda t: amplitude * (1.0 - np.exp(-t / time))),
+        measured=channel("joints/hinge/angle"),
+        unit="rad",
+    )
     return beside(scene, kind)
 
 
@@ -159,33 +218,46 @@ def _draw_screw(g: np.random.Generator) -> dict[str, Any]:
     return {"pitch": log_uniform(g, 0.01, 1.0), "end": g.uniform(1.0, 6.0), "kind": neighbour(g)}
 
 
-@family(KIND, _draw_screw, {"pitch": 0.2, "end": 5.0}, {"pitch": 0.02, "end": 6.0, "kind": "ship"})
+@family(KIND, _draw_screw)
+@chosen(pitch=0.2, end=5.0)
+@chosen(pitch=0.02, end=6.0, kind="ship")
 def falling_nut(pitch: float, end: float, kind: str | None = None) -> Scene:
     """A nut on an upright screw: m z'' (1 + I k^2 / m) = -m g, angle k z, k = 2 pi / pitch."""
     mass, inertia, k = 2.0, 0.1, TURN / pitch
     fall = GRAVITY / (1.0 + inertia * k**2 / mass)
     nut = body("nut", "rigid", mass, inertia=[inertia] * 3)
-    tables = case([nut], end, samples=100,
-                  joints=[joint("screw", "screw", "ground", "nut", axis=Z,
-                                pitch=pitch)])  # fmt: skip
+    tables = case(
+        [nut],
+        end,
+        samples=100,
+        joints=[joint("screw", "screw", "ground", "nut", axis=Z, pitch=pitch)],
+    )
     way = 0.5 * fall * end**2
     tau = min(end, 1.0 / (k * fall * end))  # its fastest rate is that at which it turns at the end
-    scene = Scene(
-        "", f"a nut on a screw of {pitch:g} m a turn", tables, k * way, tau, "closed form",
-        lambda t: np.column_stack([-0.5 * fall * t**2 * k]), channel("joints/screw/angle"),
+    scene = unnamed(
+        title=f"a nut on a screw of {pitch:g} m a turn",
+        tables=tables,
+        size=k * way,
+        time_scale=tau,
+        source="closed form",
+        truth=lambda t: np.column_stack([-0.5 * fall * t**2 * k]),
+        measured=channel("joints/screw/angle"),
         unit="rad",
-    )  # fmt: skip
+    )
     return beside(scene, kind)
 
 
 def _draw_roll(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "rate": log_uniform(g, 0.5, 50.0), "sway": log_uniform(g, 0.05, 1.0),
-        "turns": log_uniform(g, 5.0, 100.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        rate=log_uniform(g, 0.5, 50.0),
+        sway=log_uniform(g, 0.05, 1.0),
+        turns=log_uniform(g, 5.0, 100.0),
+        kind=neighbour(g),
+    )
 
 
-@family(KIND, _draw_roll, {"rate": 5.0, "sway": 0.2, "turns": 30.0})
+@family(KIND, _draw_roll)
+@chosen(rate=5.0, sway=0.2, turns=30.0)
 def wheel_on_a_swing(rate: float, sway: float, turns: float, kind: str | None = None) -> Scene:
     """A wheel that spins about the axis about which its carrier swings on a spring.
 
@@ -201,16 +273,21 @@ def wheel_on_a_swing(rate: float, sway: float, turns: float, kind: str | None = 
         joint("hinge", "revolute", "ground", "carrier", axis=X),
         joint("axle", "revolute", "carrier", "wheel", axis=X),
     ]
-    pto = {"type": "pto_linear", "name": "spring", "joint": "hinge",
-           "stiffness": carrier * swing**2}  # fmt: skip
+    pto = dict(type="pto_linear", name="spring", joint="hinge", stiffness=carrier * swing**2)
 
     def angles(t: Any) -> Any:
         a = sway * np.sin(swing * t)
         return np.column_stack([a, rate * t - a])
 
     tables = case(bodies, end, gravity=0.0, joints=joints, forces=[pto], samples=100)
-    scene = Scene(
-        "", "a wheel that spins on a carrier that swings", tables, max(sway, 1.0), 1.0 / rate,
-        "closed form", angles, channel("joints/hinge/angle", "joints/axle/angle"), unit="rad",
-    )  # fmt: skip
+    scene = unnamed(
+        title="a wheel that spins on a carrier that swings",
+        tables=tables,
+        size=max(sway, 1.0),
+        time_scale=1.0 / rate,
+        source="closed form",
+        truth=angles,
+        measured=channel("joints/hinge/angle", "joints/axle/angle"),
+        unit="rad",
+    )
     return beside(scene, kind)

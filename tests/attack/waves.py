@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import sea, truth
-from tests.attack.family import family, log_uniform, neighbour
+from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import beside, case, position
 
 from hydrodae.study.stability import Scene
@@ -25,37 +25,49 @@ def _response(height: float, period: float) -> float:
 
 
 def _in_waves(
-    title: str, force: Any, size: float, end: float, extra: dict[str, Any],
-    breaks: list[float], kind: str | None, settled: bool = False,
-) -> Scene:  # fmt: skip
+    title: str,
+    force: Any,
+    size: float,
+    end: float,
+    extra: dict[str, Any],
+    breaks: list[float],
+    kind: str | None,
+    settled: bool = False,
+) -> Scene:
     s = sea.sphere()
     scale = np.r_[size, size, np.full(2 * len(s.poles), size)]
     exact = truth.integrated(
-        s.rates(force), s.start(s.lift / s.stiffness if settled else 0.0), lambda _t, y: [y[0]],
-        breaks=breaks, scale=scale, longest=0.5, rtol=1e-10,
-    )  # fmt: skip
+        rates=s.rates(force),
+        start=s.start(s.lift / s.stiffness if settled else 0.0),
+        place=lambda _t, y: [y[0]],
+        breaks=breaks,
+        scale=scale,
+        longest=0.5,
+        rtol=1e-10,
+    )
     tables = case([sea.float_body()], end, samples=int(2.5 * end), **extra)
     if settled:  # nothing at all moves until the waves come
         tables["solver"]["start"] = "equilibrium"
-    scene = Scene("", title, tables, size, 0.6, SOURCE, exact, HEAVE, database=sea.stored)
+    scene = unnamed(title, tables, size, 0.6, SOURCE, exact, HEAVE, database=sea.stored)
     return beside(scene, kind)
 
 
 def _draw_group(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 0.01, 2.0), "period": g.uniform(3.5, 10.0),
-        "at": g.uniform(150.0, 300.0), "settled": bool(g.integers(2)), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 0.01, 2.0),
+        period=g.uniform(3.5, 10.0),
+        at=g.uniform(150.0, 300.0),
+        settled=bool(g.integers(2)),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    "loads after rest", _draw_group,
-    {"height": 1.0, "period": 6.0, "at": 220.0},
-    {"height": 0.05, "period": 4.5, "at": 180.0},
-    {"height": 0.5, "period": 7.0, "at": 200.0, "kind": "ship"},
-    {"height": 1.0, "period": 6.0, "at": 260.0, "settled": True},
-    {"height": 0.05, "period": 5.0, "at": 220.0, "settled": True},
-)  # fmt: skip
+@family("loads after rest", _draw_group)
+@chosen(height=1.0, period=6.0, at=220.0)
+@chosen(height=0.05, period=4.5, at=180.0)
+@chosen(height=0.5, period=7.0, at=200.0, kind="ship")
+@chosen(height=1.0, period=6.0, at=260.0, settled=True)
+@chosen(height=0.05, period=5.0, at=220.0, settled=True)
 def wave_group(
     height: float, period: float, at: float, settled: bool = False, kind: str | None = None
 ) -> Scene:
@@ -68,55 +80,67 @@ def wave_group(
     elevation[np.abs(time - at) > 7.0 * deviation] = 0.0
     wave = {"name": "group", "type": "measured", "time": time, "elevation": elevation}
     return _in_waves(
-        "a measured wave group after silence", sea.record(np.asarray(time), elevation),
-        _response(height, period), at + 50.0, {"wave": [wave]},
-        [max(0.0, at - 8.0 * deviation)], kind, settled,
-    )  # fmt: skip
+        "a measured wave group after silence",
+        force=sea.record(np.asarray(time), elevation),
+        size=_response(height, period),
+        end=at + 50.0,
+        extra={"wave": [wave]},
+        breaks=[max(0.0, at - 8.0 * deviation)],
+        kind=kind,
+        settled=settled,
+    )
 
 
 def _draw_low(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 1e-4, 1.0), "period": g.uniform(3.0, 12.0),
-        "ramp": g.uniform(5.0, 60.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 1e-4, 1.0),
+        period=g.uniform(3.0, 12.0),
+        ramp=g.uniform(5.0, 60.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    "small and large", _draw_low,
-    {"height": 1e-4, "period": 6.0, "ramp": 20.0},
-    {"height": 1e-3, "period": 5.0, "ramp": 20.0},
-    {"height": 1e-2, "period": 8.0, "ramp": 20.0},
-    {"height": 1.0, "period": 4.4, "ramp": 20.0},
-    {"height": 1e-3, "period": 6.0, "ramp": 20.0, "kind": "barge"},
-)  # fmt: skip
+@family("small and large", _draw_low)
+@chosen(height=1e-4, period=6.0, ramp=20.0)
+@chosen(height=1e-3, period=5.0, ramp=20.0)
+@chosen(height=1e-2, period=8.0, ramp=20.0)
+@chosen(height=1.0, period=4.4, ramp=20.0)
+@chosen(height=1e-3, period=6.0, ramp=20.0, kind="barge")
 def low_wave(height: float, period: float, ramp: float, kind: str | None = None) -> Scene:
     """A regular wave of any height."""
     wave = {"name": "swell", "type": "regular", "period": period, "height": height}
     return _in_waves(
-        f"a sphere in waves of {height:g} m", sea.regular(height, period, ramp),
-        _response(height, period), ramp + 10.0 * period, {"sea": {"ramp": ramp}, "wave": [wave]},
-        [ramp], kind,
-    )  # fmt: skip
+        f"a sphere in waves of {height:g} m",
+        force=sea.regular(height, period, ramp),
+        size=_response(height, period),
+        end=ramp + 10.0 * period,
+        extra={"sea": {"ramp": ramp}, "wave": [wave]},
+        breaks=[ramp],
+        kind=kind,
+    )
 
 
 def _draw_ramp(g: np.random.Generator) -> dict[str, Any]:
-    return {
-        "height": log_uniform(g, 0.01, 1.0), "period": g.uniform(3.5, 10.0),
-        "ramp": g.uniform(200.0, 800.0), "kind": neighbour(g),
-    }  # fmt: skip
+    return dict(
+        height=log_uniform(g, 0.01, 1.0),
+        period=g.uniform(3.5, 10.0),
+        ramp=g.uniform(200.0, 800.0),
+        kind=neighbour(g),
+    )
 
 
-@family(
-    "loads after rest",
-    _draw_ramp,
-    {"height": 1.0, "period": 6.0, "ramp": 400.0},
-    {"height": 0.1, "period": 4.4, "ramp": 800.0},
-)
+@family("loads after rest", _draw_ramp)
+@chosen(height=1.0, period=6.0, ramp=400.0)
+@chosen(height=0.1, period=4.4, ramp=800.0)
 def late_ramp(height: float, period: float, ramp: float, kind: str | None = None) -> Scene:
     """A sea that grows so slowly that it begins late."""
     wave = {"name": "swell", "type": "regular", "period": period, "height": height}
     return _in_waves(
-        f"a sea that grows over {ramp:g} s", sea.regular(height, period, ramp),
-        _response(height, period), 1.1 * ramp, {"sea": {"ramp": ramp}, "wave": [wave]}, [ramp],
-        kind,
-    )  # fmt: skip
+        f"a sea that grows over {ramp:g} s",
+        force=sea.regular(height, period, ramp),
+        size=_response(height, period),
+        end=1.1 * ramp,
+        extra={"sea": {"ramp": ramp}, "wave": [wave]},
+        breaks=[ramp],
+        kind=kind,
+    )

@@ -42,11 +42,18 @@ BANK = np.array([0.35, 0.5, 0.7, 0.95, 1.3, 1.7])  # rad/s, of the memory's reso
 NAMES = [f"segment{i}" for i in range(1, 6)]
 PLACES = {name: (0.5 * SPACING + i * SPACING, 0.0) for i, name in enumerate(NAMES)}  # m
 SIDES = {"top": (0.0, 1.5), "keel": (0.0, -1.5), "left": (1.5, 0.0), "right": (-1.5, 0.0)}  # m
-ROPE: dict[str, Any] = {
-    "mass": [10.0], "diameter": [0.04], "stiffness": [50e6], "damping_ratio": [0.8],
-    "drag": [1.2], "drag_axial": [0.05], "added_mass": [0.8],
-    "seabed_stiffness": 3e6, "seabed_damping": 3e5, "waves": False,
-}  # fmt: skip
+ROPE: dict[str, Any] = dict(
+    mass=[10.0],
+    diameter=[0.04],
+    stiffness=[50e6],
+    damping_ratio=[0.8],
+    drag=[1.2],
+    drag_axial=[0.05],
+    added_mass=[0.8],
+    seabed_stiffness=3e6,
+    seabed_damping=3e5,
+    waves=False,
+)
 WEIGHT = [-10.0, 0.0, -25.0]  # m, where the lines of the bow meet
 LINES = {  # body A, point A, body B, point B, length, segments
     "ahead": ("ground", [-150.0, 0.0, -DEPTH], "weight", WEIGHT, 160.0, 40),

@@ -234,8 +234,10 @@ def main() -> None:
         print(json.dumps(measure(given.one, given.end, given.repeats)))
         return
     print(f"load of the machine (1 min): {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
-    print("| array | units | bodies | states | unknowns | method | start, ms | ms a simulated s |"
-          " times real time | memory, MiB | estimated error |")  # fmt: skip
+    print(
+        "| array | units | bodies | states | unknowns | method | start, ms | ms a simulated s |"
+        " times real time | memory, MiB | estimated error |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     rows: dict[str, list[dict[str, Any]]] = {way: [] for way in WAYS}
     with tempfile.TemporaryDirectory() as folder:

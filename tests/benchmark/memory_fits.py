@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-NAMES = (
-    "sphere", "sphere_nemoh", "f3of_flaps", "cubes_heave", "oswec_flap", "rm3_heave",
-    "rm3_planar", "rm3_planar_40", "4n3la", "star", "hexagon",
-)  # fmt: skip
+NAMES = """
+    sphere sphere_nemoh f3of_flaps cubes_heave oswec_flap rm3_heave rm3_planar rm3_planar_40
+    4n3la star hexagon
+""".split()
 
 
 def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:

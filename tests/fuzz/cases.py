@@ -179,8 +179,8 @@ def _combine(tables: Tables, corpus: Corpus, random: Random) -> None:
         random.choice([e for e in corpus.entries[name] if str(e.get("type")) == kind])
     )
     entry["name"] = f"new_{random.randrange(1000)}"
-    for k, of in {"body": "body", "body_a": "body", "body_b": "body", "joint": "joint",
-                    "joint_b": "joint"}.items():  # fmt: skip
+    for k in ("body", "body_a", "body_b", "joint", "joint_b"):
+        of = k.partition("_")[0]
         names = [str(e.get("name")) for e in _listed(tables, of)]
         if k in entry and names:
             entry[k] = random.choice([*names, "ground"] if of == "body" else names)

@@ -86,8 +86,12 @@ def exponent(unit: str) -> float:
 def of_matrix(units: str, scale: float) -> Array:
     """Scales (6, 6) of forces and moments over translations and rotations: "N/m, N, N m"."""
     straight, mixed, turning = (scale ** exponent(unit) for unit in units.split(", "))
-    return np.block([[np.full((3, 3), straight), np.full((3, 3), mixed)],
-                     [np.full((3, 3), mixed), np.full((3, 3), turning)]])  # fmt: skip
+    return np.block(
+        [
+            [np.full((3, 3), straight), np.full((3, 3), mixed)],
+            [np.full((3, 3), mixed), np.full((3, 3), turning)],
+        ]
+    )
 
 
 def scaled(scene: Scene, scale: float) -> Scene:

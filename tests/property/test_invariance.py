@@ -121,9 +121,11 @@ def run(made: dict[str, Any], folder: Path) -> Motion:
         return {n: np.asarray(results[path].values) for n, path in found.items()}
 
     return Motion(
-        np.asarray(results.time), channel("position"), channel("velocity"),
+        np.asarray(results.time),
+        channel("position"),
+        channel("velocity"),
         channel("angular_velocity"),
-    )  # fmt: skip
+    )
 
 
 @cache

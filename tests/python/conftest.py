@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import sys
 import tomllib
 from collections.abc import Callable
@@ -185,3 +186,31 @@ def case_file(tmp_path: Path) -> Path:
     path = tmp_path / "flap_decay.toml"
     path.write_text('title = "Flap decay"\n')
     return path
+
+
+@pytest.fixture(scope="session")
+def sphere_tables(repository: Path) -> Any:
+    """Tables of cases/sphere, of 100 frequencies in deep water, without their fits."""
+    from hydrodae import hdb
+
+    whole = hdb.read(repository / "cases" / "sphere" / "hydro.h5")
+    return dataclasses.replace(whole, kernel=None, memory={})
+
+
+@pytest.fixture(scope="session")
+def sphere_file(sphere_tables: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same as a netCDF file of Capytaine."""
+    from hydrodae.hdb.database import writers
+
+    path = tmp_path_factory.mktemp("sphere") / "sphere.nc"
+    writers.write_capytaine(sphere_tables, path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def device_tables(repository: Path) -> Any:
+    """Tables of cases/f3of: base, flap1 and flap2 at five headings, without their fits."""
+    from hydrodae import hdb
+
+    whole = hdb.read(repository / "cases" / "f3of" / "hydro.h5")
+    return dataclasses.replace(whole, memory={})

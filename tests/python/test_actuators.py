@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
-from tests.python.test_controllers import CART, LATCH, PLACE, RATE, Pi, case, sampled_cart
+from tests.python.test_controllers import LATCH, PLACE, RATE, Pi, case, sampled_cart
+from tests.scenes import controlled_cart, damped_ball
 
 import hydrodae
 from hydrodae import Case, CaseError, Simulation
@@ -90,7 +91,7 @@ def test_a_lagging_run_goes_on_bit_for_bit() -> None:
 
 def test_a_state_of_the_equations_lags_as_well() -> None:
     """T f' = -k s - c s' - f of a continuous law, within its limit, against the exponential."""
-    text = CART.format(type="pid", inputs=RATE, period=0.1, keys="")
+    text = controlled_cart("pid")
     text = text.split("[[controller]]")[0].replace("pto_general", "pto_lagged") + (
         "lag = 0.4\nstiffness = -1.5\ndamping = 2.0\nload_limit = 50.0\n"
         '[solver]\nmethod = "METHOD"\nend_time = 5.0\nrtol = 1e-9\n[output]\nstep = 0.05\n'
@@ -134,9 +135,7 @@ def declutched(end: float, damping: float, free: float) -> Any:
 
 @pytest.mark.parametrize("method", METHODS)
 def test_declutching_frees_the_machine_from_each_standstill(method: str) -> None:
-    text = CART.format(
-        type="declutching", inputs=RATE, period=0.05, keys="engaged = 3.0\nfree_time = 0.4"
-    )
+    text = controlled_cart("declutching", period=0.05, keys="engaged = 3.0\nfree_time = 0.4")
     text = text.replace("forces/pto/load", "forces/pto/damping")
     text = text.replace("displacement = [0.5, 0.0, 0.0]", "velocity = [1.0, 0.0, 0.0]")
     text = text.replace('"radau"', f'"{method}"')
@@ -148,8 +147,8 @@ def test_declutching_frees_the_machine_from_each_standstill(method: str) -> None
 
 
 def test_declutching_goes_on_bit_for_bit() -> None:
-    text = CART.format(
-        type="declutching", inputs=RATE, period=0.05, keys="engaged = 3.0\nfree_time = 0.4"
+    text = controlled_cart(
+        "declutching", period=0.05, keys="engaged = 3.0\nfree_time = 0.4"
     ).replace("forces/pto/load", "forces/pto/damping")
     simulation = Simulation(Case.from_text(text))
     while simulation.time < 1.1:
@@ -185,38 +184,14 @@ def test_what_cannot_be_heard_or_lag_is_told() -> None:
     place = case("declutching", "engaged = 1.0\nfree_time = 0.4", PLACE)
     with pytest.raises(CaseError, match=r"is no rate of a joint.*did you mean 'joints/slide/displ"):
         hydrodae.run(place)
-    text = CART.format(type="resistive", inputs=RATE, period=0.1, keys="damping = 1.0\nlag = 0.1")
+    text = controlled_cart("resistive", keys="damping = 1.0\nlag = 0.1")
     text = text.replace("forces/pto/load", "forces/latch/static")
     text = text.replace("[[controller]]", LATCH + "[[controller]]")
     with pytest.raises(CaseError, match="'forces/latch/static' jumps at events, and cannot follow"):
         hydrodae.run(Case.from_text(text))
 
 
-BALL = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "ball"
-mass = 1.0
-inertia = [2.0, 2.0, 2.0]
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { angular_velocity = [0.0, 0.3, 0.0] }
-[[joint]]
-name = "ball"
-type = "spherical"
-body_a = "ground"
-body_b = "ball"
-point = [0.0, 0.0, 0.0]
-[[force]]
-type = "pto_rotary"
-name = "pto"
-body_a = "ground"
-body_b = "ball"
-damping = [0.0, 1.0, 0.0]
-[solver]
-end_time = 4.0
-rtol = 1e-9
-"""
+BALL = damped_ball("damping = [0.0, 1.0, 0.0]") + "[solver]\nend_time = 4.0\nrtol = 1e-9\n"
 
 
 def test_a_rotary_power_take_off_is_driven() -> None:

@@ -22,12 +22,24 @@ def device(directory: Path) -> hydrodae.Scene:
     """A float on a spring to an arm that hangs from a fixed point."""
     scene = hydrodae.Scene("float", directory=directory)
     scene.hydro(database="hydro.h5", radiation="constant", frequency=3.0)
-    scene.body("float", hydro="float", mass=173.887, center_of_gravity=[0, 0, -0.3],
-               inertia=[9.1, 9.1, 7.8])  # fmt: skip
+    scene.body(
+        "float",
+        hydro="float",
+        mass=173.887,
+        center_of_gravity=[0, 0, -0.3],
+        inertia=[9.1, 9.1, 7.8],
+    )
     scene.body("arm", mass=5.0, center_of_gravity=[0.5, 0, 1.0], inertia=[0.1, 0.5, 0.5])
     scene.joint.revolute("hinge", body_a="ground", body_b="arm", point=[1, 0, 1], axis=[0, 1, 0])
-    scene.force.spring_damper("spring", body_a="float", body_b="arm", point_a=[0, 0, 0],
-                              point_b=[0, 0, 1], stiffness=300.0, damping=50.0)  # fmt: skip
+    scene.force.spring_damper(
+        "spring",
+        body_a="float",
+        body_b="arm",
+        point_a=[0, 0, 0],
+        point_b=[0, 0, 1],
+        stiffness=300.0,
+        damping=50.0,
+    )
     scene.force.pto_linear("pto", joint="hinge", damping=10.0)
     scene.wave.regular("wave", height=0.02, period=2.1)
     scene.solver(end_time=2.0, rtol=1e-8)
@@ -84,10 +96,12 @@ def test_only_names_of_channels_are_copied(tmp_path: Path) -> None:
     """A joint may be called as what it tells."""
     one = hydrodae.Scene("arm", directory=tmp_path)
     one.body("angle_rate", mass=1.0, center_of_gravity=[0, 0, 0], inertia=[1, 1, 1])
-    one.joint.revolute("angle", body_a="ground", body_b="angle_rate", point=[0, 0, 1],
-                       axis=[0, 1, 0])  # fmt: skip
-    one.controller.pid("brake", inputs=["joints/angle/angle_rate"], outputs=["sea/elevation"],
-                       period=0.1)  # fmt: skip
+    one.joint.revolute(
+        "angle", body_a="ground", body_b="angle_rate", point=[0, 0, 1], axis=[0, 1, 0]
+    )
+    one.controller.pid(
+        "brake", inputs=["joints/angle/angle_rate"], outputs=["sea/elevation"], period=0.1
+    )
     found = tomllib.loads(arrays.place(one, {"u": (0, 0)}, tmp_path).to_toml())
     (brake,) = found["controller"]
     assert brake["inputs"] == ["joints/u_angle/angle_rate"]
@@ -137,11 +151,12 @@ def test_error_of_a_limited_interaction_is_what_is_left_out(
 
 def test_every_name_and_place_of_the_tables_is_known() -> None:
     """A key that is added to the tables has to be known here, or copies would share it."""
-    words = {
-        "type", "motion", "coordinate", "coordinate_b", "level", "axes", "surface", "file", "mesh",
-        "protocol", "role", "host", "law", "fmu_inputs", "fmu_outputs", "parameters",
-        "text_parameters", "text_values",
-    }  # fmt: skip
+    words = set(
+        """
+        type motion coordinate coordinate_b level axes surface file mesh protocol role host law
+        fmu_inputs fmu_outputs parameters text_parameters text_values
+        """.split()
+    )
     for table in (t for t in tables() if t.name in arrays.OF_UNITS):
         for kind in (table, *table.types):
             for key in kind.keys:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import toeplitz
 from tests.python.doc_blocks import blocks, command_lines
+from tests.scenes import cart
 from tests.verification import test_lines as lines
-from tests.verification.carts import cart
 from tests.verification.test_lines_in_motion import BAR, PERIOD, ROUND
 
 import hydrodae
@@ -110,13 +110,21 @@ def test_a_record_without_noise_gives_the_truth(case: Case) -> None:
 def test_the_offset_of_time_and_the_zero_of_a_gauge_are_fitted(case: Case) -> None:
     """Times of the record are 3.217 s late, its values 0.1 m too high."""
     late = Record(
-        "late", TIME[:150] + 3.217, {CHANNEL: motion()[:150] + 0.1}, offset=-3.1,
-        offset_bounds=(-3.217, -2.9), level=True,
-    )  # fmt: skip
+        "late",
+        TIME[:150] + 3.217,
+        {CHANNEL: motion()[:150] + 0.1},
+        offset=-3.1,
+        offset_bounds=(-3.217, -2.9),
+        level=True,
+    )
     near = Record(
-        "late", late.time[5:], {CHANNEL: late.channels[CHANNEL][5:]}, offset=-3.1,
-        offset_bounds=(-3.5, -2.9), level=True,
-    )  # fmt: skip
+        "late",
+        late.time[5:],
+        {CHANNEL: late.channels[CHANNEL][5:]},
+        offset=-3.1,
+        offset_bounds=(-3.5, -2.9),
+        level=True,
+    )
     found = calibrate(case, [near], FREE[:2], set={"force.pto.stiffness": 8.5})
     assert found.values["offset of late"] == pytest.approx(-3.217, abs=2e-4)
     assert found.values["stiffness"] == pytest.approx(8.0, rel=1e-3)
@@ -148,9 +156,11 @@ def test_what_the_records_do_not_determine_is_refused_by_name(case: Case) -> Non
         assert name in str(refused.value)
     with pytest.raises(hydrodae.CaseError, match=r"linear\[2\]: has no effect on the channels"):
         calibrate(
-            case, [record(motion())], [FREE[0], Free("force.water.linear[2]", (0.0, 1.0))],
+            case,
+            [record(motion())],
+            [FREE[0], Free("force.water.linear[2]", (0.0, 1.0))],
             set={"force.water.linear": [0.0] * 6},
-        )  # fmt: skip
+        )
 
 
 def test_a_parameter_at_its_bound_has_no_interval(case: Case) -> None:
@@ -189,8 +199,9 @@ def test_correlated_samples_count_as_fewer(case: Case) -> None:
     """Noise of correlation 0.9 leaves (1 - 0.9) / (1 + 0.9) of the samples of a mean value."""
     draw, clean, left = np.random.default_rng(1), motion(), {}
     for kind in ("white", "red"):
-        found = [calibrate(case, [record(clean + noise(draw, kind))], FREE, set=START)
-                 for _ in range(3)]  # fmt: skip
+        found = [
+            calibrate(case, [record(clean + noise(draw, kind))], FREE, set=START) for _ in range(3)
+        ]
         left[kind] = np.mean([[e.independent for e in f.estimates] for f in found]) / len(TIME)
     assert left["white"] > 0.7
     assert left["red"] < 0.5
@@ -209,12 +220,8 @@ def test_the_spread_is_that_of_generalised_errors(rho: float) -> None:
     covariance = toeplitz(rho ** np.arange(few)) / (1.0 - rho**2)
     exact = inverse @ basis.T @ covariance @ basis @ inverse
     found = np.mean(
-        [
-            spread(basis, part, [slice(0, few)]).covariance
-            for part in np.split(e, m // few)
-        ],
-        axis=0,
-    )  # fmt: skip
+        [spread(basis, part, [slice(0, few)]).covariance for part in np.split(e, m // few)], axis=0
+    )
     np.testing.assert_allclose(np.diag(found), np.diag(exact), rtol=0.1)
 
 
@@ -299,11 +306,10 @@ def write_files(folder: Path) -> None:
             rows.writerow([f"{1e3 * t + 1e3:.1f}", f"{-1e3 * x:.6f}"])
 
 
-ARGUMENTS = [
-    "calibrate", "case.toml", "--record", "decay.csv", "--time", "Time_[ms]:ms",
-    "--channel", f"{CHANNEL}=Slide_[mm]:-mm", "--offset", "-1.0",
-    "--parameter", "force.pto.stiffness=1,50", "--parameter", "force.pto.damping=0,5",
-]  # fmt: skip
+ARGUMENTS = f"""
+    calibrate case.toml --record decay.csv --time Time_[ms]:ms --channel {CHANNEL}=Slide_[mm]:-mm
+    --offset -1.0 --parameter force.pto.stiffness=1,50 --parameter force.pto.damping=0,5
+""".split()
 
 
 def test_command_writes_the_case_with_its_comments(
@@ -418,11 +424,15 @@ def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
     late = 2.0 * PERIOD + 2.945
     halves = [
         Record(
-            name, time[part], {"forces/line/tension": tension[part]}, offset=late,
-            offset_bounds=(late - 0.3, late + 0.3), fitted=name == "first",
+            name,
+            time[part],
+            {"forces/line/tension": tension[part]},
+            offset=late,
+            offset_bounds=(late - 0.3, late + 0.3),
+            fitted=name == "first",
         )
         for name, part in (("first", time < 7.5), ("second", time >= 7.5))
-    ]  # fmt: skip
+    ]
     free = [
         Free("force.line.drag[0]", (0.1, 8.0), name="drag"),
         Free("force.line.drag_axial[0]", (0.0, 3.0), scale=0.2, name="axial drag"),

@@ -13,37 +13,13 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from tests.scenes import bouncing_ball, run_for
 
 import hydrodae
 from hydrodae import CaseError, RunInterrupted
 from hydrodae.commands.cli import main
 
-CASE = """
-title = "Ball that bounces"
-[[body]]
-name = "ball"
-motion = "heave"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 1.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "ball"
-point = [0.0, 0.0, 1.0]
-axis = [0.0, 0.0, 1.0]
-[[constraint]]
-name = "floor"
-type = "stop"
-joint = "guide"
-lower = -1.0
-restitution = 0.9
-[solver]
-end_time = 3.0
-max_step = 0.02
-[output]
-step = 0.01
-"""
+CASE = bouncing_ball(0.9, title="Ball that bounces") + run_for(3.0, 0.01, max_step=0.02)
 METHODS = ("auto", "ida", "radau", "explicit_rk")
 
 

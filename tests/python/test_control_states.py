@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import CART, LATCH, RATE
+from tests.python.test_controllers import LATCH
 from tests.python.test_tcp import case, free_port
+from tests.scenes import controlled_cart
 
 import hydrodae
 from hydrodae import Case, Simulation, tcp
@@ -67,7 +68,7 @@ def again(run: Simulation, between: Callable[[], None] = lambda: None) -> None:
 @pytest.mark.parametrize("method", ["radau", "ida", "auto"])
 def test_latching_goes_on_from_inside_a_hold(method: str) -> None:
     keys = "hold_time = 0.4\nhold_load = 100.0"
-    text = CART.format(type="latching", inputs=RATE, period=0.05, keys=keys)
+    text = controlled_cart("latching", keys, period=0.05)
     text = text.replace("forces/pto/load", "forces/latch/static")
     text = text.replace("[[controller]]", LATCH + "[[controller]]").replace("radau", method)
     text = text.replace("displacement = [0.5, 0.0, 0.0]", "velocity = [1.0, 0.0, 0.0]")

@@ -8,56 +8,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import controlled_cart
 
 import hydrodae
 from hydrodae import Case, CaseError, Simulation, SolverError
 from hydrodae.results import Results
 
-CART = """
-title = "Cart on a spring"
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = {{ displacement = [0.5, 0.0, 0.0] }}
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "spring"
-type = "pto_linear"
-joint = "slide"
-stiffness = 8.0
-[[force]]
-name = "pto"
-type = "pto_general"
-joint = "slide"
-[[controller]]
-name = "pi"
-type = "{type}"
-inputs = [{inputs}]
-outputs = ["forces/pto/load"]
-period = {period}
-{keys}
-[solver]
-method = "radau"
-end_time = 5.0
-rtol = 1e-9
-[output]
-step = 0.05
-"""
 RATE, PLACE = '"joints/slide/displacement_rate"', '"joints/slide/displacement"'
 PI = "gain_p = 1.3\ngain_i = 0.7\ngain_d = 0.05\nfilter_time = 0.2\nlower = -0.5\nupper = 0.6"
 
 
 def case(type: str, keys: str = "", inputs: str = RATE, period: float = 0.1) -> Case:
-    return Case.from_text(CART.format(type=type, keys=keys, inputs=inputs, period=period))
+    return Case.from_text(controlled_cart(type, keys, inputs, period))
 
 
 class Pi:
@@ -146,7 +108,7 @@ def test_a_python_controller_equals_the_kernels_own() -> None:
 
 def test_a_controller_reads_what_another_one_holds() -> None:
     """A cascade: it sees what held up to the instant."""
-    text = CART.format(type="python", keys="", inputs=RATE, period=0.1)
+    text = controlled_cart("python")
     second = text[text.index("[[controller]]") : text.index("[solver]")]
     second = second.replace('"pi"', '"two"').replace("forces/pto/load", "forces/spring/load")
     second = second.replace("joints/slide/displacement_rate", "controllers/pi/output")
@@ -165,7 +127,7 @@ def test_a_controller_reads_what_another_one_holds() -> None:
 @pytest.mark.parametrize("method", ["radau", "ida"])
 def test_instants_that_differ_by_rounding_are_one(method: str) -> None:
     """48 x 0.1 + 0.2 is 1e-15 beside 5, and 3 x 0.1 beside 0.3."""
-    text = CART.format(type="python", keys="delay = 0.2", inputs=RATE, period=0.1)
+    text = controlled_cart("python", "delay = 0.2")
     second = text[text.index("[[controller]]") : text.index("[solver]")]
     second = second.replace('"pi"', '"two"').replace("pto", "spring").replace("0.1", "0.3")
     text = text.replace("[solver]", second + "[solver]").replace("radau", method)
@@ -320,9 +282,9 @@ def test_samples_without_end_are_refused() -> None:
 def test_names_that_there_are_not() -> None:
     with pytest.raises(CaseError, match="did you mean 'joints/slide/displacement_rate'"):
         hydrodae.check(case("pid", "", '"joints/slide/displacement_rat"'))
-    wrong = CART.replace("forces/pto/load", "forces/pto/lod")
+    wrong = controlled_cart("pid").replace("forces/pto/load", "forces/pto/lod")
     with pytest.raises(CaseError, match="did you mean 'forces/pto/load'"):
-        hydrodae.check(Case.from_text(wrong.format(type="pid", keys="", inputs=RATE, period=0.1)))
+        hydrodae.check(Case.from_text(wrong))
     with pytest.raises(CaseError, match="which nobody gave"):
         hydrodae.run(case("python"))
     with pytest.raises(CaseError, match="'pj' is no controller of type python"):
@@ -354,7 +316,7 @@ kinetic = 0.0
 
 def latched(load: float = 100.0) -> str:
     keys = f"hold_time = 0.4\nhold_load = {load}"
-    text = CART.format(type="latching", inputs=RATE, period=0.05, keys=keys)
+    text = controlled_cart("latching", period=0.05, keys=keys)
     text = text.replace("forces/pto/load", "forces/latch/static")
     return text.replace("[[controller]]", LATCH + "[[controller]]")
 
@@ -409,7 +371,7 @@ def test_a_latch_on_a_joint_that_rests_lets_go_ever_again(start: str, method: st
 def test_declutching_frees_from_each_standstill_of_a_joint_that_rested() -> None:
     """At rest for 1 s, then 4 N: x = 0.5 (1 - cos 2 t'), standstills each pi / 2."""
     keys = "engaged = 1e-9\nfree = 0.0\nfree_time = 0.2"
-    text = CART.format(type="declutching", inputs=RATE, period=0.05, keys=keys)
+    text = controlled_cart("declutching", period=0.05, keys=keys)
     text = text.replace("forces/pto/load", "forces/spring/damping")
     text = text.replace("displacement = [0.5, 0.0, 0.0]", "displacement = [0.0, 0.0, 0.0]")
     run = Simulation(Case.from_text(text.replace("[solver]", '[solver]\nstart = "equilibrium"')))

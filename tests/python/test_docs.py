@@ -305,3 +305,14 @@ def test_code_of_the_pages_for_controllers_and_forces_runs(
     Path("case.toml").write_text(text[:start] + own.replace("0.05", "0.1") + text[end:])
     exec(compile(predictive, "control.md", "exec"), known)
     assert known["results"].status == "completed"  # type: ignore[attr-defined]
+
+
+def test_the_page_of_the_tests_names_what_is_there(repository):
+    """Its folders are those of tests/, and the files that its tables name exist."""
+    tests = repository / "tests"
+    text = (tests / "README.md").read_text()
+    named = set(re.findall(r"^\| `(\w+)/` \|", text, re.M))
+    assert named == {p.name for p in tests.iterdir() if p.is_dir() and p.name[0] not in "_."}
+    files = {p.stem for p in tests.rglob("*.py")}
+    assert set(re.findall(r"`(test_\w+)`", text)) <= files
+    assert {f"test_hdb{name}" for name in re.findall(r"`(_\w+)`", text)} <= files

@@ -158,8 +158,8 @@ def test_hdb_read_check_and_write(sphere: Path, tmp_path: Path, capsys: CAPTURE)
     assert examined == f"{database.summary()}\n\n{hydrodae.hdb.examination(report)}\n"
 
 
-def test_hdb_import(reference: Path, tmp_path: Path, capsys: CAPTURE) -> None:
-    source, out = reference / "hdb" / "own" / "sphere.nc", tmp_path / "hydro.h5"
+def test_hdb_import(sphere_file: Path, tmp_path: Path, capsys: CAPTURE) -> None:
+    source, out = sphere_file, tmp_path / "hydro.h5"
     words = ("-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5", "--keep", "buoy.planar")
     told = said(capsys, "hdb", "import", source, *words)
     database, report = hydrodae.hdb.import_database(

@@ -213,7 +213,7 @@ RECORD = (
             "no channel 'gauges/front/ahead_2'.*'gauges/frint/ahead_2'",
         ),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_is_told(more: str, message: str) -> None:
     with pytest.raises(CaseError, match=message) as caught:
         Simulation(case(more), controllers={"law": lambda t, x: 0.0} if "law" in more else None)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.optimize import minimize
-from tests.verification.carts import cart
+from tests.scenes import cart
 
 import hydrodae
 import hydrodae.case.contents
@@ -60,7 +60,7 @@ MASS = cart(
     title="Mass that a take-off brakes",
     body="float",
     motion="heave",
-    initial="velocity = [0.0, 0.0, 1.0]",
+    initial={"velocity": [0.0, 0.0, 1.0]},
     joint="guide",
     solver='method = "gauss"\nstep = 0.02\nend_time = 4.0',
     step=0.02,
@@ -196,9 +196,11 @@ def test_reaction_of_a_joint_with_moving_constraints(tmp_path: Path) -> None:
     joint = case.joint_names[0]
     model = LinearModel(case)
     name = f"joints/{joint}/reaction_force.x"
-    of = name if name in model.irregular()[0] else next(
-        n for n in model.irregular()[0] if "reaction_force" in n
-    )  # fmt: skip
+    of = (
+        name
+        if name in model.irregular()[0]
+        else next(n for n in model.irregular()[0] if "reaction_force" in n)
+    )
     key = f"joint.{joint}.point[2]"
     point = next(
         j["point"] for j in hydrodae.case.contents.case_tables(case)["joint"] if j["name"] == joint

@@ -14,8 +14,8 @@ from hydrodae.hdb.checks.longwave import long_wave_findings
 
 
 @pytest.fixture(scope="module")
-def sphere(reference):
-    return hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
+def sphere(sphere_tables):
+    return sphere_tables
 
 
 def test_waves_much_shorter_than_the_body_are_not_felt(sphere):

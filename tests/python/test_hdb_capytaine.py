@@ -167,6 +167,15 @@ def test_files_that_are_something_else(tmp_path):
         hdb.read(other)
 
 
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_netcdf_file_that_is_cut_short_is_refused(tmp_path, version):
+    path = save(dataset(version, OMEGA), tmp_path / "cut.nc", version)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: 3 * len(whole) // 4])
+    with pytest.raises(DatabaseError, match=r"cut.nc: (not a readable|incomplete)"):
+        hdb.read(path)
+
+
 def test_hydrostatics_with_the_weight_taken_out(tmp_path):
     # box 4 x 2 x 1 m, draught 1, about (0, 0, -1), centre of gravity at z = 0.5
     rho, g, volume, zb, zc, zg = 1025.0, 9.81, 8.0, -0.5, -1.0, 0.5
@@ -191,8 +200,8 @@ def test_hydrostatics_with_the_weight_taken_out(tmp_path):
 # real files
 
 
-def test_own_sphere(reference):
-    db, report = hdb.import_database(reference / "hdb" / "own" / "sphere.nc")
+def test_own_sphere(sphere_file):
+    db, report = hdb.import_database(sphere_file)
     assert report.ok
     assert not report.of("warning")
     assert db.omega.size == 100

@@ -19,8 +19,8 @@ from hydrodae.hdb.relations.dispersion import wavenumber
 
 
 @pytest.fixture(scope="module")
-def sphere(reference):
-    return hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def sphere(sphere_tables):
+    return sphere_tables
 
 
 @pytest.fixture(scope="module")

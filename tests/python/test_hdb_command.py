@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from hydrodae.commands import hdb as command
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import files
 from hydrodae.hdb.database.findings import CheckReport, Finding
+from hydrodae.hdb.database.writers import write_capytaine
 from hydrodae.hdb.memory import ExponentialMemory
 
 
@@ -46,13 +49,11 @@ def fits(monkeypatch):
     return calls
 
 
-def test_import_writes_a_file_about_the_new_points(reference, tmp_path, capsys):
-    source = reference / "hdb" / "own" / "sphere.nc"
+def test_import_writes_a_file_about_the_new_points(sphere_file, tmp_path, capsys):
     out = tmp_path / "hydro.h5"
-    code = call(
-        "import", source, "-o", out, "--bodies", "buoy", "--cog", "buoy=0,0,-1.5",
-        "--keep", "buoy.planar", "--kernel", "buoy.heave", "--length", "10", "--single",
-    )  # fmt: skip
+    options = "--bodies buoy --cog buoy=0,0,-1.5 --keep buoy.planar"
+    kernel = "--kernel buoy.heave --length 10 --single"
+    code = call("import", sphere_file, "-o", out, *options.split(), *kernel.split())
     assert code == 0
     db = hdb.read(out)
     assert db.coordinates == ("buoy.surge", "buoy.heave", "buoy.pitch")
@@ -82,6 +83,20 @@ def test_import_with_an_error_writes_nothing_unless_accepted(reference, tmp_path
     named = ("--accept", "b-positive-semidefinite", "--accept", "irregular-frequencies")
     assert call(*whole, *named) == 0
     assert list(hdb.read(out).bodies) == ["float", "spar"]
+
+
+def test_tables_with_an_error_are_written_only_if_it_is_accepted(sphere_tables, tmp_path, capsys):
+    damping = sphere_tables.radiation_damping.copy()
+    damping[20, 2, 2] *= -3.0
+    source, out = tmp_path / "wrong.nc", tmp_path / "hydro.h5"
+    write_capytaine(dataclasses.replace(sphere_tables, radiation_damping=damping), source)
+    assert call("import", source, "-o", out) == 2
+    assert not out.exists()
+    errors = re.findall(r"--accept ([\w-]+)", capsys.readouterr().out)
+    assert "b-positive-semidefinite" in errors
+    accepted = [word for error in errors for word in ("--accept", error)]
+    assert call("import", source, "-o", out, *accepted) == 0
+    assert hdb.read(out).omega.size == 100
 
 
 def test_cut_leaves_out_what_is_above(reference, tmp_path, capsys):
@@ -147,10 +162,9 @@ def test_fits_at_import_and_later(reference, tmp_path, fits, capsys):
         (["--kernel", "sphere.heave", "--length", "-1"], DatabaseError, "too short"),
     ],
 )
-def test_bad_arguments_say_what_is_expected(reference, tmp_path, fits, words, error, message):
-    source = reference / "hdb" / "own" / "sphere.nc"
+def test_bad_arguments_say_what_is_expected(sphere_file, tmp_path, fits, words, error, message):
     with pytest.raises(error, match=message):
-        call("import", source, "-o", tmp_path / "x.h5", *words)
+        call("import", sphere_file, "-o", tmp_path / "x.h5", *words)
 
 
 def test_show_checks_any_source(reference, capsys):

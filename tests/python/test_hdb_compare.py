@@ -8,15 +8,14 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hydrodae import hdb
 from hydrodae.commands import hdb as command
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.checks.compare import compare, grid_sensitivity, other_water
 
 
 @pytest.fixture(scope="module")
-def sphere(reference):
-    return hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def sphere(sphere_tables):
+    return sphere_tables
 
 
 def test_a_database_equals_itself(sphere):
@@ -44,9 +43,9 @@ def test_what_cannot_be_compared(sphere):
         compare(sphere, sphere.moved_to({"sphere": (0, 0, -1)}))
 
 
-def test_twins_in_other_water_are_told_apart(sphere, reference):
+def test_twins_in_other_water_are_told_apart(sphere):
     assert other_water(sphere, sphere) == []
-    other = hdb.read(reference / "hdb" / "sphere_wamit", rho=1000.0)
+    other = dataclasses.replace(sphere, water_depth=50.0)
     assert other_water(sphere, other) == ["water depth: inf m and 50 m"]
 
 
@@ -60,12 +59,11 @@ def test_sensitivity_of_the_sphere(sphere):
     assert memory == sorted(memory, reverse=True)
 
 
-def test_command(reference, capsys):
+def test_command(repository, sphere_file, capsys):
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
-    folder = reference / "hdb"
-    oc3 = str(folder / "oc3hywind_nemoh_v3.0.2")
-    assert command.run(parser.parse_args(["compare", oc3, oc3])) == 0
+    device = str(repository / "cases" / "f3of" / "hydro.h5")
+    assert command.run(parser.parse_args(["compare", device, device])) == 0
     assert "radiation_damping       0.00%" in capsys.readouterr().out
-    assert command.run(parser.parse_args(["compare", str(folder / "own" / "sphere.nc")])) == 0
+    assert command.run(parser.parse_args(["compare", str(sphere_file)])) == 0
     assert "every second frequency" in capsys.readouterr().out

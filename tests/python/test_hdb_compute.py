@@ -158,11 +158,8 @@ def test_command_from_a_mesh_file(tmp_path, capsys):
     stl = tmp_path / "c.stl"
     stl.write_text("\n".join(lines))
     out = tmp_path / "hydro.h5"
-    words = [
-        "compute", "--body", f"can={stl}:x=2", "--cog", "can=2,0,-1.5", "--omega", "0.4,1.6,5",
-        "--heading-deg", "0,90", "--depth", "20", "-o", out, "-q",
-    ]  # fmt: skip
-    assert call(*words) == 0
+    options = "--cog can=2,0,-1.5 --omega 0.4,1.6,5 --heading-deg 0,90 --depth 20 -q"
+    assert call("compute", "--body", f"can={stl}:x=2", "-o", out, *options.split()) == 0
     text = capsys.readouterr().out
     assert "displaces 113." in text
     assert "not in the file" not in text

@@ -371,8 +371,8 @@ def test_the_body_behind_feels_the_wave_later(reference, name):
     np.testing.assert_allclose(np.angle(across[:, 1] / across[:, 0]), 0.0, atol=1e-3)
 
 
-def test_phases_of_the_array_follow_the_places_of_the_nodes(reference):
-    db = hdb.read(reference / "hdb" / "own" / "4n3la.nc")
+def test_phases_of_the_bodies_follow_their_places(device_tables):
+    db = device_tables
     k = wavenumber(db.omega[5], db.water_depth, db.gravity)
     for h, beta in enumerate(db.heading):
         direction = np.array([np.cos(beta), np.sin(beta), 0.0])
@@ -382,13 +382,20 @@ def test_phases_of_the_array_follow_the_places_of_the_nodes(reference):
             assert np.angle(force * np.exp(-1j * expected)) == pytest.approx(0.0, abs=0.02)
 
 
-def test_surge_leads_and_heave_follows_the_elevation_in_long_waves(reference):
-    for name in ("sphere_nemoh_v2.3", "sphere_nemoh_v3.0.2", "own/sphere.nc"):
-        db = hdb.read(reference / "hdb" / name)
-        f = db.excitation[0, 0]
-        assert np.angle(f[0]) == pytest.approx(np.pi / 2, abs=0.01)
-        assert np.angle(f[2]) == pytest.approx(0.0, abs=0.01)
-        assert abs(f[2]) == pytest.approx(db.hydrostatic_stiffness("sphere")[2, 2], rel=5e-3)
+def assert_long_wave_phases(db):
+    f = db.excitation[0, 0]
+    assert np.angle(f[0]) == pytest.approx(np.pi / 2, abs=0.01)
+    assert np.angle(f[2]) == pytest.approx(0.0, abs=0.01)
+    assert abs(f[2]) == pytest.approx(db.hydrostatic_stiffness("sphere")[2, 2], rel=5e-3)
+
+
+def test_surge_leads_and_heave_follows_the_elevation_in_long_waves(sphere_tables):
+    assert_long_wave_phases(sphere_tables)
+
+
+@pytest.mark.parametrize("name", ["sphere_nemoh_v2.3", "sphere_nemoh_v3.0.2"])
+def test_phases_of_nemoh_in_long_waves(reference, name):
+    assert_long_wave_phases(hdb.read(reference / "hdb" / name))
 
 
 @pytest.mark.parametrize(

@@ -27,8 +27,8 @@ def call(*words):
 
 
 @pytest.fixture(scope="module")
-def sphere(reference):
-    return hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def sphere(sphere_tables):
+    return sphere_tables
 
 
 @pytest.fixture(scope="module")
@@ -135,6 +135,25 @@ def test_interpolation_makes_the_tables_causal(nemoh, reference):
         truth = np.interp(nemoh.omega[bad], other.omega, np.abs(other.excitation[:, 0, i]))
         off = np.abs(np.abs(clean.excitation[bad, 0, i]) - truth)
         assert off.max() < 0.015 * np.abs(other.excitation[:, 0, i]).max()
+
+
+def test_interpolation_gives_back_what_a_false_resonance_spoiled(sphere):
+    """Three rows of a smooth table are spoiled: here the truth is known."""
+    added, damping = sphere.added_mass.copy(), sphere.radiation_damping.copy()
+    force, heave = sphere.diffraction.copy(), sphere.index("sphere.heave")[0]
+    added[43:46, heave, heave] *= [1.3, 1.0, 0.7]
+    damping[43:46, heave, heave] *= [1.5, 3.0, 1.5]
+    force[43:46, 0, heave] *= [1.1, 1.5, 1.1]
+    spoiled = dataclasses.replace(
+        sphere, added_mass=added, radiation_damping=damping, diffraction=force
+    )
+    found = bands(spoiled.omega, suspect_rows(spoiled))
+    assert any(low <= sphere.omega[44] <= high for low, high in found)
+    assert not suspect_rows(sphere).any()
+    clean = repair(spoiled, ["irregular"])
+    for name in ("added_mass", "radiation_damping", "excitation"):
+        off, truth = (getattr(d, name)[..., heave] for d in (clean, sphere))
+        assert np.abs(off - truth).max() < 5e-3 * np.abs(truth).max(), name
 
 
 def test_bad_frequencies_at_the_end_are_left_out(nemoh, monkeypatch):
@@ -280,10 +299,13 @@ def test_f3of_fits_are_compared_with_their_tables(repository):
     db = hdb.read(repository / "cases" / "f3of" / "hydro.h5")
     fits = hdb.check(db).find("memory fit")
     assert [f.severity for f in fits] == ["warning", "warning"]
-    low = dataclasses.replace(db, **{
-        t: getattr(db, t)[db.omega < 1.0]
-        for t in ("omega", "added_mass", "radiation_damping", "froude_krylov", "diffraction")
-    })  # fmt: skip
+    low = dataclasses.replace(
+        db,
+        **{
+            t: getattr(db, t)[db.omega < 1.0]
+            for t in ("omega", "added_mass", "radiation_damping", "froude_krylov", "diffraction")
+        },
+    )
     assert [f.value < 2e-3 for f in hdb.check(low).find("memory fit")] == [True, True]
 
 
@@ -326,10 +348,10 @@ def test_doctor_draws_a_pdf_of_fits_and_exits_with_2_on_an_error(
         (["-r", "x.docx"], "no such kind of picture"),
     ],
 )
-def test_bad_arguments_of_the_doctor(reference, tmp_path, monkeypatch, words, message):
+def test_bad_arguments_of_the_doctor(sphere_file, tmp_path, monkeypatch, words, message):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(CaseError, match=message):
-        call("doctor", reference / "hdb" / "own" / "sphere.nc", *words)
+        call("doctor", sphere_file, *words)
 
 
 def test_findings_are_wrapped_and_sorted():

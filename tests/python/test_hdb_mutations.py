@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.python.nemoh_writer import NemohFolder
 
 from hydrodae import hdb
 from hydrodae.errors import DatabaseError
@@ -20,8 +21,10 @@ from hydrodae.hdb.checks.hulls import hull_findings
 from hydrodae.hdb.checks.spikes import spike_findings
 from hydrodae.hdb.readers.reading import read_source
 
+OWN = "own_nemoh"  #: A folder that the tests write themselves, in every clone.
 #: Folders, and the file whose numbers are garbled.
 SOURCES = {
+    OWN: "Results/RadiationCoefficients.tec",
     "cylinder_hams": "Wamit_format/Buoy.1",
     "boxes_aqwa": "ANALYSIS.LIS",
     "cylinder_aqwa": "cylinder.AH1",
@@ -40,10 +43,13 @@ HARMLESS = {
 
 
 @pytest.fixture
-def copy(reference, tmp_path):
-    """Copies a folder of the reference without its pictures."""
+def copy(request, tmp_path):
+    """Copies a folder of the reference without its pictures, or writes the own one."""
 
     def copied(name: str) -> Path:
+        if name == OWN:
+            return Path(NemohFolder().write(tmp_path / name))
+        reference = request.getfixturevalue("reference")
         leave = shutil.ignore_patterns(
             "*.png", "*.pdf", "*.LIS" if name == "cylinder_aqwa" else "-"
         )
@@ -178,8 +184,8 @@ def test_water_without_weight_is_refused_and_strange_water_told(copy):
     assert any(f.check == "water" and "density 1e+06 kg/m3" in f.message for f in found)
 
 
-def test_a_single_garbled_force_is_told(reference):
-    sphere = hdb.read(reference / "hdb" / "own" / "sphere.nc")
+def test_a_single_garbled_force_is_told(sphere_tables):
+    sphere = sphere_tables
     band = (0.3, 2.0)
     assert spike_findings(sphere, band) == []
     at, heave = int(np.abs(sphere.omega - 1.0).argmin()), sphere.index("sphere.heave")[0]
@@ -240,8 +246,8 @@ def test_overflows_are_dropped_and_told(copy):
     assert any(f.check == "NaN" for f in report.of("warning"))
 
 
-def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(reference):
-    sphere = hdb.read(reference / "hdb" / "own" / "sphere.nc").select(["sphere.heave"])
+def test_damping_of_the_wrong_sign_of_one_coordinate_is_told(sphere_tables):
+    sphere = sphere_tables.select(["sphere.heave"])
     damping = sphere.radiation_damping.copy()
     damping[np.abs(sphere.omega - 1.0).argmin()] *= -3.0
     wrong = dataclasses.replace(sphere, radiation_damping=damping)

@@ -18,11 +18,11 @@ from hydrodae.hdb.readers.reading import read, read_source
 
 
 @pytest.fixture
-def sphere(reference, tmp_path):
+def sphere(sphere_file, tmp_path):
     """Writes a changed copy of Capytaine's sphere."""
 
     def written(change):
-        with xr.open_dataset(reference / "hdb" / "own" / "sphere.nc") as source:
+        with xr.open_dataset(sphere_file) as source:
             data = change(source.isel(omega=slice(None, None, 6)).load())
         path = tmp_path / "sphere.nc"
         data.to_netcdf(path, engine="netcdf4", format="NETCDF4")
@@ -111,8 +111,8 @@ def test_numbers_of_nemoh_cal_that_are_none(reference, tmp_path, old, new, messa
         read_source(folder)
 
 
-def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(reference):
-    whole = read(reference / "hdb" / "own" / "sphere.nc").select(["sphere.heave"])
+def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(sphere_tables):
+    whole = sphere_tables.select(["sphere.heave"])
     b = whole.radiation_damping.copy()
     b[(whole.omega > 4.9) & (whole.omega < 5.4)] -= 0.4 * b.max()  # as an irregular frequency
     noisy = dataclasses.replace(whole, radiation_damping=b)

@@ -158,9 +158,9 @@ def test_density_is_stated_once(tmp_path):
         hdb.read(path, rho=1000.0)
 
 
-def test_a_density_that_contradicts_the_source_is_refused(reference):
+def test_a_density_that_contradicts_the_source_is_refused(sphere_file):
     with pytest.raises(DatabaseError, match=r"1000 kg/m3, not 1025"):
-        hdb.read(reference / "hdb" / "own" / "sphere.nc", rho=1025.0)
+        hdb.read(sphere_file, rho=1025.0)
 
 
 # real files

@@ -336,15 +336,23 @@ def test_what_cannot_be_read_is_said(tmp_path: Path, change: tuple[str, str], me
 
 #: The types of RM3 in the order and by the names of other files.
 ORDERS = {
-    "version 1": ("LineType Diam MassDenInAir EA BA/-zeta Can Cat Cdn Cdt",
-                  "chain 0.144 126.0 583.376e6 -0.8 1.0 0.2 1.6 0.05"),
-    "nine columns, drag first": ("Name Diam MassDen EA BA Cd Ca CdAx CaAx",
-                                 "chain 0.144 126.0 583.376e6 -0.8 1.6 1.0 0.05 0.2"),
-    "version 1 with bending": ("LineType Diam MassDenInAir EA cIntDamp EI Can Cat Cdn Cdt",
-                               "chain 0.144 126.0 583.376e6 -0.8 7.0 1.0 0.2 1.6 0.05"),
-    "lift": ("TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx Cl dF cF",
-             "chain 0.144 126.0 583.376e6 -0.8 7.0 1.6 1.0 0.05 0.2 0.8 0.08 0.18"),
-}  # fmt: skip
+    "version 1": (
+        "LineType Diam MassDenInAir EA BA/-zeta Can Cat Cdn Cdt",
+        "chain 0.144 126.0 583.376e6 -0.8 1.0 0.2 1.6 0.05",
+    ),
+    "nine columns, drag first": (
+        "Name Diam MassDen EA BA Cd Ca CdAx CaAx",
+        "chain 0.144 126.0 583.376e6 -0.8 1.6 1.0 0.05 0.2",
+    ),
+    "version 1 with bending": (
+        "LineType Diam MassDenInAir EA cIntDamp EI Can Cat Cdn Cdt",
+        "chain 0.144 126.0 583.376e6 -0.8 7.0 1.0 0.2 1.6 0.05",
+    ),
+    "lift": (
+        "TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx Cl dF cF",
+        "chain 0.144 126.0 583.376e6 -0.8 7.0 1.6 1.0 0.05 0.2 0.8 0.08 0.18",
+    ),
+}
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -456,12 +464,17 @@ def test_a_line_with_a_floating_part_keeps_its_seabed(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (("3        4        360", "3        4        560"),
-         r"lines.txt:17: lines 1, 2, 3: .*down on the seabed.*--type line"),
-        (("1    Fixed      -800    0   -300", "1    Fixed      -800    0   -290"),
-         r"lines.txt:17: lines 1, 2, 3: between its ends it hangs down to z = -3\d\d.*--type line"),
+        (
+            ("3        4        360", "3        4        560"),
+            r"lines.txt:17: lines 1, 2, 3: .*down on the seabed.*--type line",
+        ),
+        (
+            ("1    Fixed      -800    0   -300", "1    Fixed      -800    0   -290"),
+            r"lines.txt:17: lines 1, 2, 3: between its ends it hangs down to z = -3\d\d"
+            r".*--type line",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_line_at_rest_that_would_lose_its_seabed_is_refused(
     tmp_path: Path, change: tuple[str, str], message: str
 ) -> None:

@@ -91,6 +91,23 @@ def wait_for(condition: Callable[[], object]) -> None:
 # ---- what is replaced -----------------------------------------------------------------------
 
 
+def refused(way, case, output, executable, capsys):
+    """Run the case by one of three ways, which has to fail; returns the message."""
+    if way == "run":
+        with pytest.raises(CaseError) as caught:
+            hydrodae.run(case, output)
+        return str(caught.value)
+    if way == "cli":
+        assert cli.main(["run", str(case), "-o", str(output)]) == 2
+        return capsys.readouterr().err
+    process = subprocess.run(
+        [executable, case, "-o", output], check=False, capture_output=True, text=True
+    )
+    assert process.returncode == 2
+    assert process.stdout == ""
+    return process.stderr
+
+
 @pytest.mark.parametrize("way", ["run", "cli", "solve"])
 @pytest.mark.parametrize(
     ("kind", "message"),
@@ -128,20 +145,7 @@ def test_nothing_but_results_is_replaced(case, executable, tmp_path, capsys, way
         output = Path("/dev/full")
     before = output.read_bytes() if output.is_file() else None
     names = sorted(tmp_path.iterdir())
-    if way == "run":
-        with pytest.raises(CaseError) as caught:
-            hydrodae.run(case, output)
-        told = str(caught.value)
-    elif way == "cli":
-        assert cli.main(["run", str(case), "-o", str(output)]) == 2
-        told = capsys.readouterr().err
-    else:
-        process = subprocess.run(
-            [executable, case, "-o", output], check=False, capture_output=True, text=True
-        )
-        assert process.returncode == 2
-        assert process.stdout == ""
-        told = process.stderr
+    told = refused(way, case, output, executable, capsys)
     assert message in told
     assert str(output) in told
     assert len(told.strip().splitlines()) == 1
@@ -255,19 +259,7 @@ def test_of_two_processes_the_second_is_refused_until_the_first_is_gone(
     partial = partial_path(output)
     wait_for(lambda: partial.exists() and h5py.is_hdf5(partial))
     before = partial.read_bytes()
-    if way == "run":
-        with pytest.raises(CaseError) as caught:
-            hydrodae.run(case, output)
-        told = str(caught.value)
-    elif way == "cli":
-        assert cli.main(["run", str(case), "-o", str(output)]) == 2
-        told = capsys.readouterr().err
-    else:
-        process = subprocess.run(
-            [executable, case, "-o", output], check=False, capture_output=True, text=True
-        )
-        assert process.returncode == 2
-        told = process.stderr
+    told = refused(way, case, output, executable, capsys)
     assert "another run is writing it" in told
     assert len(told.strip().splitlines()) == 1
     assert partial.read_bytes() == before

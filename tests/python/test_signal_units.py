@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import CART, PLACE, RATE, case
+from tests.python.test_controllers import PLACE, RATE, case
 from tests.python.test_tcp import free_port
+from tests.scenes import controlled_cart
 
 import hydrodae
 from hydrodae import Case, CaseError, SolverError, tcp
@@ -19,7 +20,7 @@ IN_MM, IN_KN = '"joints/slide/displacement_rate [mm/s]"', "forces/pto/load [kN]"
 
 
 def in_other_units(type: str, keys: str = "") -> Case:
-    text = CART.format(type=type, keys=keys, inputs=IN_MM, period=0.1)
+    text = controlled_cart(type, keys, IN_MM)
     return Case.from_text(text.replace("forces/pto/load", IN_KN))
 
 
@@ -115,14 +116,15 @@ def test_units_of_a_program_that_cannot_be(units: dict[str, Any], message: str) 
 )
 def test_units_that_a_case_cannot_give(type: str, keys: str, inputs: str, message: str) -> None:
     given = case(type, keys, inputs)
+    line = controlled_cart(type, keys, inputs).splitlines().index(f"inputs = [{inputs}]") + 1
     for act in (hydrodae.check, hydrodae.Simulation):
         with pytest.raises(CaseError, match=message) as caught:
             act(given)
-        assert str(caught.value).startswith("<case>:29:1: controller 'pi': ")
+        assert str(caught.value).startswith(f"<case>:{line}:1: controller 'pi': ")
 
 
 def test_a_load_must_be_where_a_damper_answers() -> None:
-    text = CART.format(type="resistive", keys="", inputs=RATE, period=0.1)
+    text = controlled_cart("resistive")
     with pytest.raises(
         CaseError, match=r"'forces/pto/damping' is in .*; a resistive controller an"
     ):
@@ -147,7 +149,7 @@ def test_a_load_must_be_where_a_damper_answers() -> None:
 )
 def test_units_that_are_known(unit: str, of: str, factor: float) -> None:
     """The controller gives on what it reads, in the unit of the scene again."""
-    text = CART.format(type="python", keys="", inputs=f'"{of}", "{of} [{unit}]"', period=0.1)
+    text = controlled_cart("python", inputs=f'"{of}", "{of} [{unit}]"')
     seen: list[tuple[float, float]] = []
 
     def told(_time: float, plain: float, other: float) -> float:

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.verification import carts
+from tests import scenes
 
 import hydrodae
 from hydrodae import CaseError, Simulation
 
-CART = carts.cart(
+CART = scenes.cart(
     "stiffness = 200.0",
     more='[[force]]\nname = "push"\ntype = "constant_load"\nbody = "cart"',
     solver="end_time = 2.0\nrtol = 1e-9",

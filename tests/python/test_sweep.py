@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import xarray
 from scipy.stats import t as student
-from tests.verification.carts import cart
+from tests.scenes import cart
 
 import hydrodae
 from hydrodae.starters import create
@@ -29,7 +29,7 @@ CASE = cart(
     title="Mass on a spring with a take-off",
     body="float",
     motion="heave",
-    initial="velocity = [0.0, 0.0, 1.0]",
+    initial={"velocity": [0.0, 0.0, 1.0]},
     joint="guide",
     solver="end_time = 8.0",
     step=0.02,

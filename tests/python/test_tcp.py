@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import CART, PI, RATE, Pi
+from tests.python.test_controllers import PI, Pi
+from tests.scenes import controlled_cart
 
 import hydrodae
 from hydrodae import Case, CaseError, SolverError, tcp
@@ -29,7 +30,7 @@ def free_port() -> int:
 
 def case(port: int, keys: str = "", end: float = 5.0) -> Case:
     keys = f"port = {port}\ntimeout = 1.0\nconnect_timeout = 5.0\n{keys}"
-    text = CART.format(type="tcp", keys=keys, inputs=RATE, period=0.1)
+    text = controlled_cart("tcp", keys)
     return Case.from_text(text.replace("end_time = 5.0", f"end_time = {end}"))
 
 
@@ -77,7 +78,7 @@ def test_a_pi_over_tcp_equals_the_kernels_own(protocol: str, role: str) -> None:
                 assert run.error == ""
 
     over = with_peer(case(port, f'protocol = "{protocol}"\nrole = "{role}"'), peer)
-    own = hydrodae.run(Case.from_text(CART.format(type="pid", keys=PI, inputs=RATE, period=0.1)))
+    own = hydrodae.run(Case.from_text(controlled_cart("pid", PI)))
     for name in ("joints/slide/displacement", "controllers/pi/output"):
         np.testing.assert_allclose(over[name], own[name], atol=1e-12)
     assert flags == [False] * 50
@@ -126,8 +127,8 @@ def test_going_back_is_told_as_a_reset() -> None:
         simulation.advance()
     simulation.close()
     thread.join(5.0)
-    assert seen[:6] == [(0.0, False), (0.1, False), (0.2, False), (0.3, False), (0.4, False),
-                        (0.3, True)]  # fmt: skip
+    assert seen[:5] == [(0.0, False), (0.1, False), (0.2, False), (0.3, False), (0.4, False)]
+    assert seen[5] == (0.3, True)
     assert seen[-1] == (0.9, False)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import builtins
+import hashlib
 import json
 import re
 
@@ -398,6 +399,26 @@ def test_the_libraries_of_the_page_are_those_that_are_named(repository):
     revision = named["devDependencies"]["three"].split(".")[1]
     assert f'"{revision}"' in (page / "libraries.min.js").read_text()
     assert (page / "libraries.min.js").stat().st_size < 2**20
+
+
+def test_the_libraries_of_the_page_are_the_files_that_their_readme_states(repository):
+    named = json.loads((repository / "python" / "viewer" / "package.json").read_text())
+    page = repository / "python" / "hydrodae" / "viewer" / "page"
+    stated: dict[str, str] = {}
+    versions = set()
+    for line in (page / "README.md").read_text().splitlines():
+        if not line.startswith("| `"):
+            continue
+        file, library, version, licence, _, digest = (c.strip("` ") for c in line.split("|")[1:-1])
+        versions.add((library.lower().removesuffix(".js"), version.split()[0]))
+        assert licence == "MIT"
+        if digest != "the same file":
+            stated[file] = digest
+    expected = {name: named["devDependencies"][name] for name in ("three", "uplot")}
+    assert versions == set(expected.items())
+    assert set(stated) == {path.name for path in page.glob("*.min.*")}
+    for file, digest in stated.items():
+        assert hashlib.sha256((page / file).read_bytes()).hexdigest() == digest, file
 
 
 def test_results_whose_case_has_gone_ask_for_it(tmp_path, repository):

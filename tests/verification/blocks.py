@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from tests.scenes import slide
 
 import hydrodae
 
 METHODS = ["ida", "radau", "explicit_rk"]
 G = 9.81
 
-BLOCK = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "block"
-motion = "surge"
-mass = MASS
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [START, 0.0, 0.0], velocity = [SPEED, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "block"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-"""
+
+def on_a_slide(mass: float = 2.0, start: float = 0.0, speed: float = 0.0) -> str:
+    """Return a block on a slide."""
+    return slide("block", mass=mass, displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
 
 
 def block(
@@ -41,9 +29,7 @@ def block(
     extra: str = "",
 ) -> hydrodae.Results:
     """Run a block on a slide under these forces."""
-    text = (
-        BLOCK.replace("MASS", str(mass)).replace("START", str(start)).replace("SPEED", str(speed))
-    )
+    text = on_a_slide(mass, start, speed)
     text += forces + f'[solver]\nend_time = {end}\nmethod = "{method}"\nrtol = {rtol}\n{extra}\n'
     return hydrodae.run(hydrodae.Case.from_text(text + f"[output]\nstep = {step}\n"))
 

@@ -38,9 +38,16 @@ def cap_decay(database: Path, radius: float, mass: float, release: float, times:
 
 
 def panel_heave(
-    database: Path, mesh: tuple[Array, Triangles], mass: float, omega: float, amplitude: float,
-    ramp: float, times: Array, *, mean: bool,
-) -> Array:  # fmt: skip
+    database: Path,
+    mesh: tuple[Array, Triangles],
+    mass: float,
+    omega: float,
+    amplitude: float,
+    ramp: float,
+    times: Array,
+    *,
+    mean: bool,
+) -> Array:
     """Return the heave of a body about the origin in a regular wave of deep water [m].
 
     The pressure acts at the centres of the triangles: on those beneath z = 0 (`mean`), or beneath

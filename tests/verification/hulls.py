@@ -23,8 +23,10 @@ def revolved(radius: Array, height: Array, n: int) -> tuple[Array, Triangles]:
     """
     angle = 2.0 * np.pi * np.arange(n) / n
     ring = np.column_stack([np.cos(angle), np.sin(angle)])
-    inner = [np.column_stack([r * ring, np.full(n, z)])
-             for r, z in zip(radius[1:-1], height[1:-1], strict=True)]  # fmt: skip
+    inner = [
+        np.column_stack([r * ring, np.full(n, z)])
+        for r, z in zip(radius[1:-1], height[1:-1], strict=True)
+    ]
     vertices = np.vstack([[0.0, 0.0, height[0]], *inner, [0.0, 0.0, height[-1]]])
     last, rows = len(vertices) - 1, []
     for k in range(n):
@@ -49,8 +51,14 @@ def sphere(radius: float, n: int) -> tuple[Array, Triangles]:
 
 def box(length: float, width: float, low: float, high: float) -> tuple[Array, Triangles]:
     """Return a box about the z axis."""
-    corners = np.array([[x, y, z] for z in (low, high) for y in (-0.5 * width, 0.5 * width)
-                        for x in (-0.5 * length, 0.5 * length)])  # fmt: skip
+    corners = np.array(
+        [
+            [x, y, z]
+            for z in (low, high)
+            for y in (-0.5 * width, 0.5 * width)
+            for x in (-0.5 * length, 0.5 * length)
+        ]
+    )
     faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
     rows = [[f[0], f[k], f[k + 1]] for f in faces for k in (1, 2)]
     return corners, np.array(rows)

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests import scenes
 from tests.attack import suite
 from tests.attack.family import FAMILIES
+from tests.scenes import driven, run_for, slide, table
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -44,33 +46,12 @@ def pendulum(angle: float, end: float, **solver: Any) -> hydrodae.Case:
     )
 
 
-BOUNCING = """
-[[body]]
-name = "bob"
-motion = "planar"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, -1.0]
-inertia = [0.1, 0.1, 0.1]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "bob"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-initial = { angle_rate = 3.0 }
-[[constraint]]
-name = "buffer"
-type = "stop"
-joint = "hinge"
-lower_deg = -20.0
-upper_deg = 20.0
-restitution = 1.0
-[solver]
-end_time = 40.0
-[output]
-step = 0.1
-"""
+BOUNCING = (
+    scenes.pendulum("bob", mass=1.0, at=[0.0, 0.0, -1.0], inertia=[0.1, 0.1, 0.1], angle_rate=3.0)
+    + table("constraint", name="buffer", type="stop", joint="hinge")
+    + "lower_deg = -20.0\nupper_deg = 20.0\nrestitution = 1.0\n"
+    + run_for(40.0, 0.1)
+)
 
 
 BAR = """
@@ -112,20 +93,9 @@ step = 1.0
 """
 
 
-CABLE = """
-[environment]
-gravity = 9.81
-[[body]]
-name = "top"
-motion = ["surge"]
-mass = 10.0
-center_of_gravity = [8.0, 0.0, 0.0]
-[[constraint]]
-type = "coordinate"
-name = "hand"
-body = "top"
-coordinate = "surge"
-drive = { amplitude = 1.0, period = 1.5, ramp = 3.0 }
+CABLE = (
+    driven("top", "surge", 10.0, [8.0, 0.0, 0.0], amplitude=1.0, period=1.5, ramp=3.0)
+    + """
 [[force]]
 type = "line"
 name = "cable"
@@ -139,6 +109,7 @@ stiffness = [1e4]
 [solver]
 end_time = 20.0
 """
+)
 
 
 DUFFING = """
@@ -292,36 +263,13 @@ def test_controllers_with_memory_are_repeated_from_their_records() -> None:
         assert results.statistics[name] < 1e-3 if name == "estimated_error" else True
 
 
-CONTROLLED = """
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.velocity = [1.0, 0.0, 0.0]
-[[joint]]
-name = "rail"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "motor"
-type = "pto_linear"
-joint = "rail"
-stiffness = 4.0
-[[controller]]
-name = "brake"
-type = "python"
-inputs = ["joints/rail/displacement_rate"]
-outputs = ["forces/motor/load"]
-period = 0.1
-[solver]
-end_time = 10.0
-[output]
-step = 0.1
-"""
+CONTROLLED = (
+    slide(joint="rail", mass=1.0, gravity=None, velocity=[1.0, 0.0, 0.0])
+    + table("force", name="motor", type="pto_linear", joint="rail", stiffness=4.0)
+    + table("controller", name="brake", type="python", inputs=["joints/rail/displacement_rate"])
+    + 'outputs = ["forces/motor/load"]\nperiod = 0.1\n'
+    + run_for(10.0, 0.1)
+)
 
 
 def test_without_an_estimate_the_reason_is_printed() -> None:
@@ -341,8 +289,10 @@ def test_both_commands_verify_and_are_strict(
     assert main(["run", str(case), *loose, "-o", str(tmp_path / "a.h5")]) == 5
     done = subprocess.run(
         [executable, case, *loose, "-o", tmp_path / "b.h5"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 5
     assert "bob: reproducible until t = " in done.stdout
 

@@ -34,9 +34,12 @@ def state_space(memory: ExponentialMemory, scale: np.ndarray) -> tuple[np.ndarra
     total = memory.n_states
     matrix, at = np.zeros((total, total)), 0
     for pole, one, b, c in zip(
-        memory.poles, single, memory.input_matrix / scale, (memory.output_matrix.T) / scale,
+        memory.poles,
+        single,
+        memory.input_matrix / scale,
+        (memory.output_matrix.T) / scale,
         strict=True,
-    ):  # fmt: skip
+    ):
         if one:
             matrix[at, at] = pole.real
             inlet.append(b.real)
@@ -164,9 +167,14 @@ def test_crossings_tell_a_fit_that_is_not_passive(four: Table, fitted: Exponenti
     outlet = fitted.output_matrix.copy()
     outlet[:, np.argmax(np.linalg.norm(outlet, axis=0))] *= -1.0
     bad = ExponentialMemory(
-        "bad", fitted.inputs, fitted.outputs, fitted.poles, fitted.input_matrix, outlet,
+        "bad",
+        fitted.inputs,
+        fitted.outputs,
+        fitted.poles,
+        fitted.input_matrix,
+        outlet,
         fitted.added_mass_inf,
-    )  # fmt: skip
+    )
     scale = scales(four)
     assert crossings(bad, scale, 1e-4 * largest(bad, scale)).size > 0
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.attack import suite
-from tests.verification.carts import cart
+from tests.scenes import cart
 
 import hydrodae
 from hydrodae import Simulation

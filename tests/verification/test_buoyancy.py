@@ -18,9 +18,7 @@ def off(scene: Scene, folder: Path, **solver: object) -> float:
 
 
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
-@pytest.mark.parametrize(
-    ("length", "mass"), [(1.0, 1.0), (1e-3, 1e-6), (10.0, 1e6), (1e6, 1e9)]
-)  # fmt: skip
+@pytest.mark.parametrize(("length", "mass"), [(1.0, 1.0), (1e-3, 1e-6), (10.0, 1e6), (1e6, 1e9)])
 def test_a_submerged_pendulum_keeps_time_for_20_periods(
     length: float, mass: float, method: str, tmp_path: Path
 ) -> None:

@@ -26,9 +26,15 @@ def test_reference_lines(reference: Path) -> None:
     for c in cases:
         bed = c["type"] != "suspended"
         line = hydrodae.catenary(
-            c["X"], c["Z"], c["L"], c["w"], c["EA"],
-            seabed=bed, friction=c["CB"] or 0.0, n=len(c["profile_s_x_z_T"]),
-        )  # fmt: skip
+            c["X"],
+            c["Z"],
+            c["L"],
+            c["w"],
+            c["EA"],
+            seabed=bed,
+            friction=c["CB"] or 0.0,
+            n=len(c["profile_s_x_z_T"]),
+        )
         size = np.max(np.abs(c["K_inplane"]))
         assert line.horizontal == pytest.approx(c["H"], rel=1e-10), c["name"]
         assert line.vertical == pytest.approx(c["V"], rel=1e-10), c["name"]

@@ -6,39 +6,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import slide, table
 
 import hydrodae
 
-WELL = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "mass"
-motion = "surge"
-mass = 1.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "rail"
-type = "prismatic"
-body_a = "ground"
-body_b = "mass"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "motor"
-type = "pto_linear"
-joint = "rail"
-damping = 0.2
-[[controller]]
-name = "well"
-type = "python"
-inputs = ["joints/rail/displacement"]
-outputs = ["forces/motor/load"]
-period = 0.05
-[output]
-step = 0.1
-"""
+WELL = (
+    slide("mass", joint="rail", mass=1.0, displacement=[0.5, 0.0, 0.0])
+    + table("force", name="motor", type="pto_linear", joint="rail", damping=0.2)
+    + table("controller", name="well", type="python", inputs=["joints/rail/displacement"])
+    + 'outputs = ["forces/motor/load"]\nperiod = 0.05\n[output]\nstep = 0.1\n'
+)
 ARMS = """
 [environment]
 water_density = 1025.0

@@ -6,56 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.scenes import run_for, slide, table
 
 import hydrodae
 from hydrodae.linear import LinearModel
 
 MASS, STIFFNESS, START = 2.0, 8.0, 0.3
 OMEGA = 2.0
-
-CASE = """
-title = "Cart on a spring with a late damper"
-environment.gravity = 0.0
-
-[[body]]
-name = "cart"
-motion = ["surge", "sway", "heave"]
-mass = {mass}
-center_of_gravity = [0.0, 0.0, 0.0]
-
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-initial.displacement = {start}
-
-[[force]]
-type = "pto_linear"
-name = "spring"
-joint = "slide"
-stiffness = {spring}
-
-[[force]]
-type = "pto_linear"
-name = "late"
-joint = "slide"
-stiffness = {late_spring}
-damping = {damping}
-delay = {delay}
-
-[solver]
-end_time = {end}
-rtol = {rtol}
-method = "{method}"
-length_scale = 0.1
-time_scale = 0.5
-
-[output]
-step = 0.05
-"""
 
 
 def case(
@@ -67,18 +24,17 @@ def case(
     rtol: float = 1e-9,
     method: str = "ida",
 ) -> hydrodae.Case:
+    late = {"stiffness": late_spring, "damping": damping, "delay": delay}
     return hydrodae.Case.from_text(
-        CASE.format(
+        slide(
             mass=MASS,
-            start=START,
-            spring=spring,
-            late_spring=late_spring,
-            damping=damping,
-            delay=delay,
-            end=end,
-            rtol=rtol,
-            method=method,
+            motion=["surge", "sway", "heave"],
+            title="Cart on a spring with a late damper",
         )
+        + f"initial.displacement = {START}\n"
+        + table("force", type="pto_linear", name="spring", joint="slide", stiffness=spring)
+        + table("force", type="pto_linear", name="late", joint="slide", **late)
+        + run_for(end, 0.05, rtol=rtol, method=method, length_scale=0.1, time_scale=0.5)
     )
 
 

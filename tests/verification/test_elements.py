@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests import scenes
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -11,23 +12,6 @@ from hydrodae.linear import LinearModel
 
 METHODS = ["ida", "radau", "explicit_rk"]
 
-SLIDE = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "block"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [START, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "block"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-"""
 
 HYDRAULIC = """
 [[force]]
@@ -70,7 +54,7 @@ def slide(
     forces: str, end: float, *, start: float = 0.0, solver: str = "", step: float = 0.01
 ) -> str:
     return (
-        SLIDE.replace("START", str(start))
+        scenes.slide("block", displacement=[start, 0.0, 0.0])
         + forces
         + f"[solver]\nend_time = {end}\n{solver}\n[output]\nstep = {step}\n"
     )

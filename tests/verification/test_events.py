@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.scenes import bouncing_ball, pendulum, slide, table
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
@@ -21,59 +22,16 @@ METHODS = {
     "lobatto_iiic": 'method = "lobatto_iiic"\nstep = 0.01\n',
 }
 GRAVITY = 9.81
+OUTPUT = "[output]\nstep = 0.01\n"
 
-BALL = """
-[[body]]
-name = "ball"
-motion = "heave"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 1.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "ball"
-point = [0.0, 0.0, 1.0]
-axis = [0.0, 0.0, 1.0]
-[[constraint]]
-name = "floor"
-type = "stop"
-joint = "guide"
-lower = -1.0
-restitution = 0.8
-[output]
-step = 0.01
-"""
+BALL = bouncing_ball(0.8) + OUTPUT
 
-BLOCK = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "block"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "block"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "spring"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-[[force]]
-name = "dry"
-type = "dry_friction"
-joint = "slide"
-static = 6.0
-[output]
-step = 0.01
-"""
+BLOCK = (
+    slide("block", displacement=[0.5, 0.0, 0.0])
+    + table("force", name="spring", type="pto_linear", joint="slide", stiffness=200.0)
+    + table("force", name="dry", type="dry_friction", joint="slide", static=6.0)
+    + OUTPUT
+)
 
 
 def run(text: str, end_time: float, method: str = "ida", rtol: float = 1e-8) -> hydrodae.Results:
@@ -186,30 +144,10 @@ def test_methods_agree_on_stick_slip(tmp_path: Path) -> None:
 
 def test_an_arm_strikes_a_stop_through_its_hinge() -> None:
     """A rod that falls onto a stop of its hinge: energy falls by the square of the restitution."""
-    text = """
-[[body]]
-name = "rod"
-motion = "rigid"
-mass = 3.0
-center_of_gravity = [0.5, 0.0, 0.0]
-inertia = [0.01, 0.25, 0.25]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "rod"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-[[constraint]]
-name = "stop"
-type = "stop"
-joint = "hinge"
-lower_deg = -10.0
-upper_deg = 40.0
-restitution = 0.5
-[output]
-step = 0.005
-"""
+    stop = {"lower_deg": -10.0, "upper_deg": 40.0, "restitution": 0.5}
+    text = pendulum("rod", motion="rigid", mass=3.0, at=[0.5, 0.0, 0.0], inertia=[0.01, 0.25, 0.25])
+    text += table("constraint", name="stop", type="stop", joint="hinge", **stop)
+    text += "[output]\nstep = 0.005\n"
     results = run(text, 1.5)
     angle = np.asarray(results["joints/hinge/angle"].values)
     assert np.degrees(angle.max()) == pytest.approx(40.0, abs=1e-6)

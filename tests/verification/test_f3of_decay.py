@@ -195,9 +195,10 @@ def test_locked_flaps_follow_the_base(surge_decay: hydrodae.Results) -> None:
         )
 
 
-@pytest.mark.parametrize(("name", "release"), [
-    ("surge_decay", [0.05, 0.0, 0.0]), ("pitch_decay", [0.0, 0.0, np.radians(0.1)]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "release"),
+    [("surge_decay", [0.05, 0.0, 0.0]), ("pitch_decay", [0.0, 0.0, np.radians(0.1)])],
+)
 def test_small_releases_of_the_locked_device_match_linear_theory(
     repository: Path, database: Path, name: str, release: list[float]
 ) -> None:

@@ -106,25 +106,39 @@ EA = 4e8
 LINES = {
     "lazy wave": (800.0, 300.0, [(360, 700, EA), (240, -500, EA), (360, 700, EA)], ()),
     "all of the lower part off the bed": (
-        950.0, 300.0, [(360, 700, EA), (240, -500, EA), (400, 700, EA)], (),
+        950.0,
+        300.0,
+        [(360, 700, EA), (240, -500, EA), (400, 700, EA)],
+        (),
     ),
     "with a clump at the upper end of the lower part": (
-        800.0, 300.0, [(360, 700, EA), (240, -900, EA), (360, 700, EA)], (3e4, 0.0),
+        800.0,
+        300.0,
+        [(360, 700, EA), (240, -900, EA), (360, 700, EA)],
+        (3e4, 0.0),
     ),
     "with a clump that stands on the bed": (
-        850.0, 300.0, [(200, 900, EA), (200, 900, EA), (200, -400, EA), (360, 500, EA)],
+        850.0,
+        300.0,
+        [(200, 900, EA), (200, 900, EA), (200, -400, EA), (360, 500, EA)],
         (0.0, 2e5, 0.0),
     ),
     "two floating parts and a buoy": (
-        1000.0, 300.0,
+        1000.0,
+        300.0,
         [(300, 800, EA), (150, -600, EA), (200, 300, EA), (150, -300, EA), (300, 500, EA)],
         (0.0, -2e4, 0.0, 1e4),
     ),
-}  # fmt: skip
+}
 
 
-def ours(x: float, z: float, parts: Sequence[tuple[float, float, float]], loads: tuple[float, ...],
-         **more: Any) -> Catenary:  # fmt: skip
+def ours(
+    x: float,
+    z: float,
+    parts: Sequence[tuple[float, float, float]],
+    loads: tuple[float, ...],
+    **more: Any,
+) -> Catenary:
     length, weight, stiffness = (list(column) for column in zip(*parts, strict=True))
     return hydrodae.catenary(x, z, length, weight, stiffness, loads=loads, **more)
 

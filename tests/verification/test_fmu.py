@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import scenes
 from tests.python.test_tcp import free_port
-from tests.verification import carts as scenes
 from tests.verification.fmu_device import Device, problems, simulate
 
 import hydrodae

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from tests.verification import carts as scenes
+from tests import scenes
 from tests.verification.fmu_of_c import description, library, with_units, write_fmu
 
 import hydrodae
@@ -150,7 +150,7 @@ SECOND = scenes.cart(
     "stiffness = 27.0\ndamping = 0.6",
     body="float",
     mass=3.0,
-    initial="displacement = [0.0, 0.0, 0.0]",
+    initial={"displacement": [0.0, 0.0, 0.0]},
     solver="end_time = 1.0\nrtol = 1e-9",
 )
 
@@ -162,9 +162,13 @@ def test_a_second_device_answers(fmi: int, tmp_path: Path) -> None:
     """
     x, load, force = "joints/slide/displacement", "forces/pto/load", "forces/pto/force"
     export(
-        Case.from_text(SECOND), tmp_path / "b.fmu", fmi=fmi, inputs=[load], outputs=[force],
+        Case.from_text(SECOND),
+        tmp_path / "b.fmu",
+        fmi=fmi,
+        inputs=[load],
+        outputs=[force],
         parameters=["body.float.mass"],
-    )  # fmt: skip
+    )
     keys = f"""type = "fmu"
 file = "b.fmu"
 fmu_inputs = ["{load}"]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.verification import carts as scenes
+from tests import scenes
 from tests.verification.fmu_of_c import PLATFORMS, compiled
 
 import hydrodae

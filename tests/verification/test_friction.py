@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests import scenes
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
@@ -21,33 +22,6 @@ METHODS = IMPLICIT | {"explicit_rk": 'method = "explicit_rk"\nrtol = 1e-8', "aut
 # From rest the rate of creep is 1e4 1/s and more: beyond the fixed steps above, which refuse it.
 ADAPTIVE = ["ida", "radau", "explicit_rk", "auto"]
 
-SLIDE = """
-[environment]
-gravity = 9.81
-[[body]]
-name = "block"
-motion = "MOTION"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [0.1, 0.2, 0.15]
-initial = { velocity = [VELOCITY] }
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "block"
-point = [POINT]
-axis = [AXIS]
-[[force]]
-name = "pads"
-joint = "guide"
-FRICTION
-[solver]
-end_time = END
-SOLVER
-[output]
-step = 0.01
-"""
 
 STRIBECK = 'type = "friction_stribeck"\nlength = 0.5\nradius = 0.1\ncreep_rate = 1e-4'
 LUGRE = (
@@ -65,14 +39,22 @@ def slide(
     axis: np.ndarray | None = None,
     motion: str = "rigid",
     speed: float = 0.0,
-    point: str = "0.0, 0.0, 0.0",
+    point: list[float] | None = None,
 ) -> str:
     """Return the case of a block on a straight guide; `axis` points along the motion."""
     along = np.array([1.0, 0.0, 0.0]) if axis is None else axis
-    text = SLIDE.replace("FRICTION", friction).replace("SOLVER", solver).replace("END", f"{end}")
-    text = text.replace("MOTION", motion).replace("POINT", point)
-    text = text.replace("AXIS", ", ".join(f"{x:.17g}" for x in along))
-    return text.replace("VELOCITY", ", ".join(f"{x:.17g}" for x in speed * along))
+    mover = scenes.slide(
+        "block",
+        joint="guide",
+        motion=motion,
+        axis=along.tolist(),
+        point=point,
+        inertia=[0.1, 0.2, 0.15],
+        gravity=9.81,
+        velocity=(speed * along).tolist(),
+    )
+    pads = f'[[force]]\nname = "pads"\njoint = "guide"\n{friction}\n'
+    return f"{mover}{pads}[solver]\nend_time = {end}\n{solver}\n[output]\nstep = 0.01\n"
 
 
 def run(text: str) -> hydrodae.Results:
@@ -203,7 +185,7 @@ def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, p
     mu = part * length / (2.0 * offset)
     law = DRY if kind == "dry" else STRIBECK
     friction = law + f"\nstatic_coefficient = {mu}\nsmall_force = 0.001"
-    text = slide(friction, METHODS[method], 0.005, speed=speed, point=f"0.0, {-offset}, 0.0")
+    text = slide(friction, METHODS[method], 0.005, speed=speed, point=[0.0, -offset, 0.0])
     text = text.replace("gravity = 9.81", "gravity = 0.0").replace("step = 0.01", "step = 0.001")
     text = text.replace("0.002", "0.0005")
     # The load acts on the line of the guide: a moment about the centre of gravity.
@@ -222,22 +204,9 @@ def test_a_centre_off_the_guide_jams_it(method: str, kind: str, pushed: float, p
     np.testing.assert_allclose(rate[expected > 0.5], expected[expected > 0.5], rtol=2e-4)
 
 
-PENDULUM = """
-[environment]
-gravity = 9.81
-[[body]]
-name = "arm"
-motion = "MOTION"
-mass = 3.0
-center_of_gravity = [0.8, 0.0, 0.0]
-inertia = [0.1, 0.3, 0.25]
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "arm"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
+PENDULUM = (
+    scenes.pendulum("arm", motion="MOTION", mass=3.0, at=[0.8, 0.0, 0.0], inertia=[0.1, 0.3, 0.25])
+    + """
 [[force]]
 type = "friction_stribeck"
 name = "bearing"
@@ -254,6 +223,7 @@ SOLVER
 [output]
 step = 0.02
 """
+)
 
 
 def pendulum(time: np.ndarray) -> np.ndarray:

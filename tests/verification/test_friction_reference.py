@@ -8,35 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import slide
 from tests.verification.test_events import METHODS
 
 import hydrodae
-
-CART = """
-[environment]
-gravity = GRAVITY
-[[body]]
-name = "cart"
-motion = "MOTION"
-mass = MASS
-center_of_gravity = [0.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0]
-initial = { displacement = [START, 0.0, 0.0], velocity = [SPEED, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [START, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-FORCES
-[solver]
-end_time = END
-rtol = 1e-8
-METHOD
-[output]
-step = STEP
-"""
 
 
 def force(type_name: str, name: str, **keys: float) -> str:
@@ -44,13 +19,29 @@ def force(type_name: str, name: str, **keys: float) -> str:
     return f'[[force]]\ntype = "{type_name}"\nname = "{name}"\njoint = "slide"\n{lines}'
 
 
-def cart(forces: str, method: str, end: float, step: float, **given: Any) -> str:
-    values = {"GRAVITY": 0.0, "MOTION": "surge", "MASS": 1.0, "START": 0.0, "SPEED": 0.0}
-    text = CART
-    for key, value in (values | given).items():
-        text = text.replace(key, str(value))
-    text = text.replace("FORCES", forces).replace("END", f"{end!r}").replace("STEP", f"{step!r}")
-    return text.replace("METHOD", METHODS[method].strip())
+def cart(
+    forces: str,
+    method: str,
+    end: float,
+    step: float,
+    *,
+    gravity: float = 0.0,
+    motion: str = "surge",
+    mass: float = 1.0,
+    start: float = 0.0,
+    speed: float = 0.0,
+) -> str:
+    mover = slide(
+        mass=mass,
+        motion=motion,
+        point=[start, 0.0, 0.0],
+        inertia=[1.0, 1.0, 1.0],
+        gravity=gravity,
+        displacement=[start, 0.0, 0.0],
+        velocity=[speed, 0.0, 0.0],
+    )
+    solver = f"[solver]\nend_time = {end!r}\nrtol = 1e-8\n{METHODS[method].strip()}\n"
+    return f"{mover}{forces}\n{solver}[output]\nstep = {step!r}\n"
 
 
 def run(text: str, **given: Any) -> hydrodae.Results:
@@ -71,7 +62,7 @@ def test_coulomb_stop(reference: Path, method: str) -> None:
     data = json.loads((reference / "multibody" / "coulomb_stop.json").read_text())
     p, rows = data["params"], np.array(data["rows"])
     dry = force("dry_friction", "dry", static=p["mu"] * p["N"])
-    text = cart(spring(p["k"]) + dry, method, p["T"], 0.005, MASS=p["m"], START=p["x0"])
+    text = cart(spring(p["k"]) + dry, method, p["T"], 0.005, mass=p["m"], start=p["x0"])
     text = text.replace("point = [1.0,", "point = [0.0,")
     results = run(text)
     place = column(results, "bodies/cart/position")[:, 0]
@@ -94,7 +85,7 @@ def test_stick_slip_by_a_smooth_law(reference: Path, method: str) -> None:
         return float(p["N"] * mu * np.tanh(slip / p["v_d"]))
 
     forces = spring(p["k"]) + force("python_load", "belt")
-    results = run(cart(forces, method, p["T"], 0.025, MASS=p["m"]), forces={"belt": belt})
+    results = run(cart(forces, method, p["T"], 0.025, mass=p["m"]), forces={"belt": belt})
     place = column(results, "bodies/cart/position")[:, 0]
     np.testing.assert_allclose(results.time, rows[:, 0], atol=1e-12)
     assert np.abs(place - rows[:, 1]).max() < 1e-4
@@ -149,7 +140,7 @@ def test_turning_points_of_a_rubbing_oscillator(endstop: Any, method: str) -> No
     forces = spring(p["k"]) + force("dry_friction", "dry", static=p["Fc"])
     half, end = p["half_period"], 1.2 * p["t_stop"]
     results = run(
-        cart(forces, method, end, half / 100, MASS=p["m"], START=p["x0"]).replace(
+        cart(forces, method, end, half / 100, mass=p["m"], start=p["x0"]).replace(
             f"point = [{p['x0']}", "point = [0.0"
         )
     )
@@ -166,11 +157,11 @@ def test_a_sliding_block_stops(endstop: Any, method: str, kind: str) -> None:
     p = endstop["sliding_block"]
     if kind == "given":
         dry = force("dry_friction", "dry", static=p["mu"] * 2.0 * p["g"])
-        text = cart(dry, method, 2.0, 0.001, MASS=2.0, SPEED=p["v0"])
+        text = cart(dry, method, 2.0, 0.001, mass=2.0, speed=p["v0"])
     else:
         dry = force("dry_friction", "dry", static_coefficient=p["mu"], length=1.0, radius=0.1)
-        given = {"GRAVITY": p["g"], "MOTION": "rigid"}
-        text = cart(dry, method, 2.0, 0.001, MASS=2.0, SPEED=p["v0"], **given)
+        given = {"gravity": p["g"], "motion": "rigid"}
+        text = cart(dry, method, 2.0, 0.001, mass=2.0, speed=p["v0"], **given)
     results = run(text)
     place = column(results, "bodies/cart/position")[:, 0]
     assert place[-1] == pytest.approx(p["distance"], rel=1e-5)
@@ -254,7 +245,7 @@ def test_a_spring_damper_stop(endstop: Any, method: str, case: int) -> None:
     """It lets go where its load is zero: depth, peak force and restitution."""
     p = endstop["end_stop_spring_damper"]["cases"][case]
     stop = force("end_stop", "stop", upper=0.0, stiffness=p["k"], exponent=1.0, viscous=p["c"])
-    text = cart(stop, method, 0.05, 5e-6, MASS=p["m"], SPEED=p["v0"])
+    text = cart(stop, method, 0.05, 5e-6, mass=p["m"], speed=p["v0"])
     results = run(text)
     place = column(results, "joints/slide/displacement")
     speed = column(results, "joints/slide/displacement_rate")

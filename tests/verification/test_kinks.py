@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.verification.blocks import BLOCK
+from tests.verification.blocks import on_a_slide
 
 import hydrodae
 
@@ -23,8 +23,7 @@ RATE = math.sqrt(STIFFNESS / MASS)  # rad/s
 
 def block(force: str, start: float, speed: float, method: str, rtol: float) -> hydrodae.Results:
     """A run of a mass that slides without weight."""
-    text = BLOCK.replace("MASS", repr(MASS)).replace("START", repr(start))
-    text = text.replace("SPEED", repr(speed)) + force
+    text = on_a_slide(MASS, start, speed) + force
     text += (
         f'[solver]\nend_time = {END}\nmethod = "{method}"\nrtol = {rtol}\n[output]\nstep = 0.01\n'
     )

@@ -120,8 +120,13 @@ def test_what_is_no_library_is_refused(repository: Path, tmp_path: Path) -> None
     with pytest.raises(CaseError, match="HYDRODAE_PLUGIN"):
         hydrodae.Case.read(case, libraries=[empty])
     old = (repository / "cases" / "plugin" / "brake.cpp").read_text()
-    source.write_text(old.replace('#include "plugin.h"', '#include "plugin.h"\n'
-        "#undef HYDRODAE_PLUGIN_VERSION\n#define HYDRODAE_PLUGIN_VERSION 7"))  # fmt: skip
+    source.write_text(
+        old.replace(
+            '#include "plugin.h"',
+            '#include "plugin.h"\n'
+            "#undef HYDRODAE_PLUGIN_VERSION\n#define HYDRODAE_PLUGIN_VERSION 7",
+        )
+    )
     other = compile_library(source, repository, tmp_path / "other.so")
     with pytest.raises(CaseError, match="version 7"):
         hydrodae.Case.read(case, libraries=[other])

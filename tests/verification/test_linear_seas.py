@@ -83,8 +83,10 @@ def test_floating_flaps_against_linear_theory(repository: Path) -> None:
     assert found == pytest.approx([1.0, 1.0, 1.0], abs=0.04)
     carried = hydrodae.run(floating_flaps(repository, "body"))
     for name, factor in (("joints/hinge2/angle", 1.5), ("bodies/base/position", 2.0)):
-        largest = [abs(run[name].to_numpy()).reshape(len(run.time), -1)[:, 0].max()
-                   for run in (results, carried)]  # fmt: skip
+        largest = [
+            abs(run[name].to_numpy()).reshape(len(run.time), -1)[:, 0].max()
+            for run in (results, carried)
+        ]
         assert largest[1] > factor * largest[0]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.scenes import driven
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -162,25 +163,16 @@ def chain(segments: int, extra: str = "") -> str:
 WATER = "[environment]\nwater_density = 1025.0\nwater_depth = 50.0\n"
 WEIGHT = 140.0 * 9.81 - 1025.0 * 9.81 * 0.25 * math.pi * 0.15**2
 
-DRIVEN = """
-[[body]]
-name = "buoy"
-motion = ["surge"]
-mass = 2e5
-center_of_gravity = [0.0, 0.0, 0.0]
-[[constraint]]
-name = "moves"
-type = "coordinate"
-body = "buoy"
-coordinate = "surge"
-drive = { amplitude = 4.0, period = PERIOD, ramp = PERIOD }
-"""
+
+def moving(period: float) -> str:
+    """Return a buoy that a sine moves sideways."""
+    return driven("buoy", "surge", 2e5, amplitude=4.0, period=period, ramp=period)
 
 
 def test_slow_motion_is_that_of_a_catenary() -> None:
     """Some metres in 600 s; the bed is stiff, the drag small."""
     keys = chain(40, "drag = [1.0]\nadded_mass = [1.0]\ndamping_ratio = [0.5]")
-    text = WATER + DRIVEN.replace("PERIOD", "600.0") + line(keys)
+    text = WATER + moving(600.0) + line(keys)
     run = hydrodae.run(case(text, "end_time = 900.0", 5.0))
     surge = run["bodies/buoy/position"].values[:, 0]
     exact = [hydrodae.catenary(385.0 + x, 50.0, 400.0, WEIGHT, 5e7).tension for x in surge]
@@ -196,7 +188,7 @@ def test_what_goes_in_is_stored_or_spent(more: str) -> None:
         "drag = [1.2]\ndrag_axial = [0.1]\nadded_mass = [1.0]\ndamping_ratio = [0.5]\n"
         f"seabed_damping = 1e4\nseabed_friction = 0.4\n{more}",
     )
-    text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
+    text = WATER + moving(8.0) + line(keys)
     run = hydrodae.run(case(text, "end_time = 24.0\nrtol = 1e-5", 0.01))
     stored = run["forces/line/energy"].values
     powers = [run[f"forces/line/power_{k}"].values for k in ("water", "damping", "seabed")]
@@ -212,7 +204,7 @@ def test_what_goes_in_is_stored_or_spent(more: str) -> None:
 
 
 def test_the_damping_of_the_seabed_carries_nothing_at_rest() -> None:
-    text = WATER + DRIVEN.replace("PERIOD", "8.0")
+    text = WATER + moving(8.0)
     loads = [
         at_rest(text + line(chain(20, f"seabed_damping = {c}")), "forces/line/tension")
         for c in (0.0, 1e7)
@@ -254,21 +246,8 @@ def snap(damped_slack: bool) -> np.ndarray:
 @pytest.mark.parametrize("damped_slack", [False, True])
 def test_the_damping_of_slack_segments(damped_slack: bool) -> None:
     """Against the same law with a hard onset; the other law is far from it."""
-    text = f"""
-[environment]
-gravity = 0.0
-[[body]]
-name = "end"
-motion = ["surge"]
-mass = 1.0
-center_of_gravity = [{SNAP_L}, 0.0, 0.0]
-[[constraint]]
-name = "moves"
-type = "coordinate"
-body = "end"
-coordinate = "surge"
-drive = {{ amplitude = {SNAP_A}, period = {SNAP_T} }}
-"""
+    text = "environment.gravity = 0.0\n"
+    text += driven("end", "surge", 1.0, [SNAP_L, 0.0, 0.0], amplitude=SNAP_A, period=SNAP_T)
     keys = (
         f'body_b = "end"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [{SNAP_L}, 0.0, 0.0]\n'
         f"length = [{SNAP_L}]\nsegments = [{SNAP_N}]\nmass = [{SNAP_M}]\n"
@@ -291,7 +270,7 @@ def test_the_damping_of_the_seabed_on_the_way_up(up: bool) -> None:
         f"damping_ratio = [0.5]\nseabed_stiffness = {k}\nseabed_damping = {c}\n"
         f"seabed_damps_up = {str(up).lower()}",
     )
-    text = WATER + DRIVEN.replace("PERIOD", "8.0") + line(keys)
+    text = WATER + moving(8.0) + line(keys)
     run = hydrodae.run(case(text, "end_time = 20.0\nrtol = 1e-5", 0.005))
     z = run["forces/line/position"].values.reshape(len(run.time), -1, 3)[:, 1:-1, 2]
     v = np.gradient(z, 0.005, axis=0)
@@ -308,9 +287,7 @@ def test_the_damping_of_the_seabed_on_the_way_up(up: bool) -> None:
 def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:
     for strength, told in ((1e9, False), (1.5e5, True)):
         keys = chain(8, f"drag = [1.2]\nadded_mass = [1.0]\nbreaking_load = [{strength}]")
-        run = hydrodae.run(
-            case(WATER + DRIVEN.replace("PERIOD", "10.0") + line(keys), "end_time = 4.0")
-        )
+        run = hydrodae.run(case(WATER + moving(10.0) + line(keys), "end_time = 4.0"))
         ratio = run["forces/line/tension_ratio"].values
         assert bool(ratio.max() > 1.0) is told
         lines = [text for text in run.summary().splitlines() if "BREAKING LOAD" in text]
@@ -324,7 +301,7 @@ def test_the_summary_tells_that_a_breaking_load_is_exceeded() -> None:
 @pytest.mark.parametrize("method", ["ida", "radau", "explicit_rk"])
 def test_methods_agree(method: str) -> None:
     keys = chain(8, "drag = [1.2]\nadded_mass = [1.0]\ndamping_ratio = [0.5]")
-    text = WATER + DRIVEN.replace("PERIOD", "10.0") + line(keys)
+    text = WATER + moving(10.0) + line(keys)
     runs = [
         hydrodae.run(case(text, f'end_time = 4.0\nmethod = "{m}"\nrtol = 1e-6', 0.2))
         for m in ("radau", method)
@@ -399,22 +376,9 @@ def orcaflex(
     heave = [
         row[3] * g**3 * (6.0 * g * g - 15.0 * g + 10.0) for row, g in zip(rows, grown, strict=True)
     ]
-    text = f"""
-[environment]
-water_density = 1025.0
-water_depth = {depth}
-[[body]]
-name = "fairlead"
-motion = ["heave"]
-mass = 1e6
-center_of_gravity = [0.0, 0.0, 0.0]
-[[constraint]]
-name = "moves"
-type = "coordinate"
-body = "fairlead"
-coordinate = "heave"
-drive = {{ time = {times}, values = {heave} }}
-""" + line(
+    water = f"[environment]\nwater_density = 1025.0\nwater_depth = {depth}\n"
+    text = water + driven("fairlead", "heave", 1e6, time=times, values=heave)
+    text += line(
         f'body_b = "fairlead"\npoint_a = [{anchor}.0, 0.0, -{depth}.0]\n'
         f"point_b = [0.0, 0.0, 0.0]\nlength = [{length}.0]\nsegments = [{n}]\nmass = [390.0]\n"
         "diameter = [0.252]\nstiffness = [1.674e9]\ndamping_ratio = [1.0]\ndrag = [1.37]\n"
@@ -547,12 +511,8 @@ def test_a_jumper_whose_top_moves_of_lowe_and_langley(
     """10 m in 27 s [kN], of 11, 5 and 21 kN from least to most. Up and down, the top of 5 m comes
     out of the water and dips in again: there it takes twice their segments. All three graphs agree
     best if they are taken to be 0.1 s early."""
-    moves = (
-        f'[[body]]\nname = "top"\nmotion = ["{coordinate}"]\nmass = 1e6\n'
-        f"center_of_gravity = [0.0, 0.0, {-5.0 - deeper}]\n"
-        f'[[constraint]]\nname = "moves"\ntype = "coordinate"\nbody = "top"\n'
-        f'coordinate = "{coordinate}"\ndrive = {{ amplitude = 10.0, period = 27.0, ramp = 27.0 }}\n'
-    )
+    at = [0.0, 0.0, -5.0 - deeper]
+    moves = driven("top", coordinate, 1e6, at, amplitude=10.0, period=27.0, ramp=27.0)
     run = jumper(moves, 'body_b = "top"\n', 27.0 + 30.0, n, deeper)
     found, shifted = beside_lowe_and_langley(run, reference, number, 27.0)
     assert found < bar

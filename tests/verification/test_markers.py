@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.scenes import pendulum
 
 import hydrodae
 
@@ -11,23 +12,16 @@ GRAVITY = 9.81
 ARM = 1.2  # m, the centre of gravity from the hinge
 TIP = 2.0  # m, the marker from the hinge
 
-PENDULUM = f"""
-[[body]]
-name = "rod"
-motion = "rigid"
-mass = 3.0
-center_of_gravity = [0.0, 0.0, {-ARM}]
-inertia = [0.49, 0.5, 0.02]
-
-[[joint]]
-name = "hinge"
-type = "revolute"
-body_a = "ground"
-body_b = "rod"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-initial.angle_deg = 70.0
-
+PENDULUM = (
+    pendulum(
+        "rod",
+        motion="rigid",
+        mass=3.0,
+        at=[0.0, 0.0, -ARM],
+        inertia=[0.49, 0.5, 0.02],
+        angle_deg=70.0,
+    )
+    + f"""
 [[marker]]
 name = "tip"
 body = "rod"
@@ -43,6 +37,7 @@ axes = "body"
 end_time = 5.0
 rtol = 1e-9
 """
+)
 
 
 def test_tip_of_a_pendulum() -> None:

@@ -193,9 +193,13 @@ def test_instantaneous_surface_reaches_the_crest() -> None:
     forces = {}
     for surface in ("mean", "instantaneous"):
         text = PILE.format(
-            depth="", sea="", wave=WAVE, bottom=-20.0, surface=surface,
+            depth="",
+            sea="",
+            wave=WAVE,
+            bottom=-20.0,
+            surface=surface,
             elements="drag_coefficient = 1.2",
-        )  # fmt: skip
+        )
         results = run(text + solver(14.0, 0.05))
         forces[surface] = results["forces/water/pile/force"].values[:, 0]
     omega = 2 * np.pi / 7.0

@@ -256,11 +256,19 @@ def test_frequency_domain_at_a_mean_yaw_is_that_of_the_turned_heading(tmp_path: 
         }
         case = hydrodae.Case.read(tmp_path / "case.toml").with_values(values)
         response = LinearModel(case).response(OMEGA, np.radians(40.0 + degrees))
-        lag = OMEGA**2 / G * (POINT[0] * np.cos(response.heading) + POINT[1] * np.sin(response.heading))  # fmt: skip # noqa: E501
-        phasors = [response[f"bodies/float/{dof}"] * np.exp(1j * lag) for dof in ("surge", "sway", "yaw")]  # fmt: skip # noqa: E501
+        lag = (
+            OMEGA**2
+            / G
+            * (POINT[0] * np.cos(response.heading) + POINT[1] * np.sin(response.heading))
+        )
+        phasors = [
+            response[f"bodies/float/{dof}"] * np.exp(1j * lag) for dof in ("surge", "sway", "yaw")
+        ]
         angle = np.radians(degrees)
         c, s = np.cos(angle), np.sin(angle)
-        found.append(np.array([c * phasors[0] + s * phasors[1], c * phasors[1] - s * phasors[0], phasors[2]]))  # fmt: skip # noqa: E501
+        found.append(
+            np.array([c * phasors[0] + s * phasors[1], c * phasors[1] - s * phasors[0], phasors[2]])
+        )
     assert abs(found[0][2]).min() > 1e-3
     np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-9)
 

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from tests.scenes import run_for, slide, table
 
 import hydrodae
 from hydrodae.study.stability import water
@@ -23,55 +24,16 @@ Array = NDArray[np.float64]
 MASS, STIFFNESS, DAMPING, LATE, DELAY, END = 1000.0, 4000.0, 400.0, 1500.0, 5.0, 40.0
 EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
 
-CART = """
-title = "Cart on a spring, with a damper and a spring that act late"
-environment.gravity = 0.0
-
-[[body]]
-name = "cart"
-motion = "surge"
-mass = {mass}
-center_of_gravity = [0.0, 0.0, 0.0]
-initial.displacement = [{start}, 0.0, 0.0]
-initial.velocity = [{speed}, 0.0, 0.0]
-
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-
-[[force]]
-type = "pto_linear"
-name = "spring"
-joint = "slide"
-stiffness = {stiffness}
-
-[[force]]
-type = "pto_linear"
-name = "late"
-joint = "slide"
-stiffness = {late}
-damping = {damping}
-delay = {delay}
-
-[solver]
-end_time = {end}
-length_scale = 1.0
-time_scale = 0.5
-
-[output]
-step = 0.1
-"""
-
 
 def cart(start: float, speed: float, delay: float = DELAY) -> hydrodae.Case:
-    text = CART.format(
-        mass=MASS, start=start, speed=speed, stiffness=STIFFNESS, late=LATE, damping=DAMPING,
-        delay=delay, end=END,
-    )  # fmt: skip
+    title = "Cart on a spring, with a damper and a spring that act late"
+    late = {"stiffness": LATE, "damping": DAMPING, "delay": delay}
+    text = (
+        slide(mass=MASS, title=title, displacement=[start, 0.0, 0.0], velocity=[speed, 0.0, 0.0])
+        + table("force", type="pto_linear", name="spring", joint="slide", stiffness=STIFFNESS)
+        + table("force", type="pto_linear", name="late", joint="slide", **late)
+        + run_for(END, 0.1, length_scale=1.0, time_scale=0.5)
+    )
     return hydrodae.Case.from_text(text)
 
 

@@ -29,9 +29,13 @@ restitution = {restitution}
 
 
 def cell(
-    folder: Path, period: float, height: float, motion: str, stroke: float = STROKE,
+    folder: Path,
+    period: float,
+    height: float,
+    motion: str,
+    stroke: float = STROKE,
     restitution: float = 0.3,
-) -> hydrodae.Case:  # fmt: skip
+) -> hydrodae.Case:
     """cases/rm3/wave.toml with end stops, in an irregular sea for five minutes."""
     text = (folder / "wave.toml").read_text()
     if motion == "heave":
@@ -79,6 +83,38 @@ def test_power_grows_with_the_square_of_the_height_until_the_stops_are_met(rm3: 
     assert power[2] < 0.95 * 25.0 * power[0]
     assert events[:2] == [0, 0]
     assert events[2] > 0
+
+
+SPHERE = """
+[[joint]]
+name = "slide"
+type = "prismatic"
+body_a = "ground"
+body_b = "sphere"
+point = [0.0, 0.0, -2.0]
+axis = [0.0, 0.0, 1.0]
+[[force]]
+name = "pto"
+type = "pto_linear"
+joint = "slide"
+damping = 1e5
+"""
+
+
+def test_power_of_the_sphere_grows_likewise(repository: Path) -> None:
+    """The same with the database of cases/sphere, in a regular wave near its resonance."""
+    folder, power, stroke = repository / "cases" / "sphere", [], 0.5
+    stop = STOP.format(lower=-stroke, upper=stroke, restitution=0.3)
+    text = (folder / "wave.toml").read_text() + SPHERE + stop
+    for height in (0.2, 0.4, 2.0):
+        values = {"wave.swell.height": height, "sea.ramp": 15.0, "solver.end_time": 60.0}
+        results = hydrodae.run(hydrodae.Case.from_text(text, folder), set=values)
+        assert stroke_of(results) <= stroke + GAP
+        assert (results.statistics["events"] > 0) == (height == 2.0)
+        power.append(mean_absorbed_power(results, "pto", 40.0))
+        assert 0.0 < power[-1] < 1000.0 * 9.81**3 * (0.5 * height) ** 2 / (4.0 * (0.4 * np.pi) ** 3)
+    assert power[1] == pytest.approx(4.0 * power[0], rel=1e-3)
+    assert power[2] < 0.95 * 100.0 * power[0]
 
 
 def check_all(

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from tests.scenes import slide, table
 
 import hydrodae
 from hydrodae import CaseError, SolverError
@@ -16,29 +17,11 @@ from hydrodae.control import AutoregressiveForecast, KnownSea, ModelPredictive, 
 
 OMEGA, AMPLITUDE, PERIOD = 1.2, 0.01, 0.1  # rad/s, m: of cases/sphere/control.toml; s
 SLIDE = "joints/guide/displacement"
-SPRING = """
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-[[joint]]
-name = "guide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [-1.0, 0.0, 0.0]
-[[force]]
-name = "pto"
-type = "pto_linear"
-joint = "guide"
-stiffness = 200.0
-damping = 3.0
-[solver]
-end_time = 1.0
-"""
+SPRING = (
+    slide(joint="guide", axis=[-1.0, 0.0, 0.0])
+    + table("force", name="pto", type="pto_linear", joint="guide", stiffness=200.0, damping=3.0)
+    + "[solver]\nend_time = 1.0\n"
+)
 
 
 PYTHON = """[[controller]]
@@ -77,9 +60,16 @@ def test_a_stroke_that_no_load_can_reach_leaves_the_nearest() -> None:
     """A spring of 200 N/m under at most 3 N comes to 0.015 m, far below the 5 m asked for."""
     plant = Plant(hydrodae.Case.from_text(SPRING), "guide")
     law = ModelPredictive(
-        plant, NO_WAVES, period=0.1, horizon=10, damping=0.0, weight=1e-3, load_limit=3.0,
-        rate_limit=20.0, stroke=(5.0, 6.0),
-    )  # fmt: skip
+        plant,
+        NO_WAVES,
+        period=0.1,
+        horizon=10,
+        damping=0.0,
+        weight=1e-3,
+        load_limit=3.0,
+        rate_limit=20.0,
+        stroke=(5.0, 6.0),
+    )
     text = SPRING.replace("[solver]\n", PYTHON).replace("end_time = 1.0", "end_time = 3.0")
     results = hydrodae.run(hydrodae.Case.from_text(text), controllers={"law": law})
     held = results["controllers/law/output"].to_numpy()

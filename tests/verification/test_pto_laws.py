@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes import damped_ball
 from tests.verification.blocks import METHODS, block, run_text
 
 from hydrodae.errors import CaseError
@@ -51,29 +52,7 @@ def test_power_take_off_within_its_limits(method: str) -> None:
 
 def test_rotary_power_take_off_damps_each_axis() -> None:
     """Slow spins of a ball with I = 2 in dampers c: w = w0 exp(-c t / I), each by itself."""
-    text = """
-[environment]
-gravity = 0.0
-[[body]]
-name = "ball"
-mass = 1.0
-inertia = [2.0, 2.0, 2.0]
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { angular_velocity = [0.0, 0.3, 0.0] }
-[[joint]]
-name = "ball"
-type = "spherical"
-body_a = "ground"
-body_b = "ball"
-point = [0.0, 0.0, 0.0]
-[[force]]
-type = "pto_rotary"
-name = "pto"
-body_a = "ground"
-body_b = "ball"
-damping = [0.5, 1.0, 0.0]
-"""
-    run = run_text(text, 4.0)
+    run = run_text(damped_ball("damping = [0.5, 1.0, 0.0]"), 4.0)
     w = run["bodies/ball/angular_velocity"].values[:, 1]
     assert w == pytest.approx(0.3 * np.exp(-run.time / 2.0), abs=1e-8)
     power = run["forces/pto/power_absorbed"].values

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from pathlib import Path
 
 import numpy as np
@@ -94,11 +93,8 @@ def test_masses_over_a_fixed_bar(mu: float, masses: tuple[float, float]) -> None
         assert np.abs(slip(run)[late]) == pytest.approx(v, rel=1e-6)
 
 
-def test_masses_over_a_fixed_bar_as_in_the_reference() -> None:
-    folder = os.environ.get("HYDRODAE_REFERENCE", "../shared/reference")
-    path = Path(folder) / "rope/capstan.json"
-    if not path.exists():
-        pytest.skip(f"no reference data at {path}")
+def test_masses_over_a_fixed_bar_as_in_the_reference(reference: Path) -> None:
+    path = reference / "rope" / "capstan.json"
     for wanted in json.loads(path.read_text())["atwood_fixed_drum_half_wrap"]["cases"]:
         text = atwood(wanted["mu"], f"{STIFF}pretension = 98.1", wanted["m1"], wanted["m2"])
         run = run_text(text, 0.4, step=0.1)

@@ -37,7 +37,9 @@ step = 0.1
 """
 
 
-def buoy(waves: str, end: float = 100.0, *, sea: str = "", hydro: str = "", motion: str = '"heave"') -> str:  # fmt: skip # noqa: E501
+def buoy(
+    waves: str, end: float = 100.0, *, sea: str = "", hydro: str = "", motion: str = '"heave"'
+) -> str:
     return BUOY.format(end=end, sea=sea, hydro=hydro, motion=motion) + waves
 
 
@@ -108,13 +110,13 @@ def test_record_of_our_own_sea_gives_the_same_motion(sphere: Path, tmp_path: Pat
         ("time,elevation\n0,0\n0.5,x\n", "", "gauge.csv:3: elevation must be a number, got 'x'"),
         ("time,eta\n0,0\n", "", "gauge.csv:1: expected the names of the columns"),
         (None, "start = 150.0", "the run needs it from 150 s to 250 s"),
-        (None, 'height = 1.0', "a measured wave has no 'height'"),
+        (None, "height = 1.0", "a measured wave has no 'height'"),
         (None, "frequency_range = [0.1, 0.6]", "% of the variance of the record lies outside"),
         (None, "frequency_range = [0.01, 1.0]", "is outside the database"),
         ("uneven", "", "the record must have equal steps of time"),
         (None, "time = [0.0, 1.0]", "give either 'file', or 'time' and 'elevation'"),
     ],
-)  # fmt: skip
+)
 def test_bad_records(
     sphere: Path, tmp_path: Path, text: str | None, more: str, message: str
 ) -> None:
@@ -172,7 +174,13 @@ def test_encounter_frequency_of_a_towed_body(sphere: Path) -> None:
     omega, speed = 1.0, 1.7
     tow = f'\n[[constraint]]\nname = "tow"\ntype = "coordinate"\nbody = "sphere"\ncoordinate = "surge"\ndrive = {{ rate = {speed} }}\n'  # noqa: E501
     wave = regular("swell", 2 * np.pi / omega, 2.0, 30.0)
-    text = buoy(wave + tow, 40.0, sea='phase = "moving"', hydro='radiation = "none"', motion='["surge", "heave"]')  # fmt: skip # noqa: E501
+    text = buoy(
+        wave + tow,
+        40.0,
+        sea='phase = "moving"',
+        hydro='radiation = "none"',
+        motion='["surge", "heave"]',
+    )
     results = run(text, sphere)
     db = HydroDatabase.read(sphere / "hydro.h5")
     (k,) = np.flatnonzero(np.isclose(db.omega, omega))

@@ -37,9 +37,7 @@ def _body(
     name: str, mass: float, at: list[float], inertia: float | list[float], **more: Any
 ) -> Any:
     values = [inertia] * 3 if isinstance(inertia, float) else inertia
-    return {
-        "name": name, "motion": "rigid", "mass": mass, "center_of_gravity": at, "inertia": values,
-    } | more  # fmt: skip
+    return dict(name=name, motion="rigid", mass=mass, center_of_gravity=at, inertia=values) | more
 
 
 def _joint(kind: str, name: str, a: str, b: str, point: list[float]) -> dict[str, Any]:
@@ -51,9 +49,14 @@ def _pendulum(length: float, moment_ratio: float, start: float, times: Any) -> A
     """(nt, 2) x and z of a point at `length` with I = ratio m L^2, from rest at `start` rad."""
     rate = GRAVITY / length / (1.0 + moment_ratio)
     found = solve_ivp(
-        lambda _, y: [y[1], -rate * np.sin(y[0])], (0.0, times[-1]), [start, 0.0],
-        method="DOP853", rtol=1e-12, atol=1e-13, t_eval=times,
-    )  # fmt: skip
+        lambda _, y: [y[1], -rate * np.sin(y[0])],
+        (0.0, times[-1]),
+        [start, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=times,
+    )
     return length * np.column_stack([np.sin(found.y[0]), -np.cos(found.y[0])])
 
 
@@ -93,9 +96,14 @@ def _two_points(ratio: float, start: tuple[float, float], times: Any) -> Any:
         return [p, q, *np.linalg.solve(matrix, loads)]
 
     y = solve_ivp(
-        rates, (0.0, times[-1]), [*start, 0.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-13,
+        rates,
+        (0.0, times[-1]),
+        [*start, 0.0, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
         t_eval=times,
-    ).y  # fmt: skip
+    ).y
     first = np.column_stack([np.sin(y[0]), -np.cos(y[0])])
     return np.column_stack([first, first + np.column_stack([np.sin(y[1]), -np.cos(y[1])])])
 

@@ -152,11 +152,16 @@ def test_laws_of_friction_agree_where_they_are_the_same() -> None:
         solve(JONSWAP, along("friction_stribeck", static=load, creep_rate=1e-5)),
         solve(
             JONSWAP,
-            along("friction_lugre", static=load, stribeck_rate=1.0, bristle_stiffness=1e7,
-                  bristle_damping=1e3),
+            along(
+                "friction_lugre",
+                static=load,
+                stribeck_rate=1.0,
+                bristle_stiffness=1e7,
+                bristle_damping=1e3,
+            ),
         ),
         solve(JONSWAP, along("pto_general", constant=load, reversal_rate=1e-5)),
-    ]  # fmt: skip
+    ]
     rates = [one.rate["bodies/ball/heave"] for one in found]
     assert rates == pytest.approx([rates[0]] * 4, rel=1e-3)
     damping = np.sqrt(2.0 / np.pi) * load / rates[0]

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import table
 from tests.verification.blocks import METHODS, block, run_text
 
 from hydrodae.errors import CaseError, SolverError
 
 
+def _spring(name: str, **law: Any) -> str:
+    """Return a spring of 1 m between the ground and the block."""
+    ends = {"point_a": [-1.0, 0.0, 0.0], "point_b": [0.0, 0.0, 0.0]}
+    keys = {"type": "spring_damper", "name": name, "body_a": "ground", "body_b": "block"}
+    return table("force", **keys, **ends, **law)
+
+
 def test_hardening_spring_keeps_its_energy() -> None:
     """m v^2 / 2 + k d^2 / 2 + k2 d^3 / 3 + k3 d^4 / 4 is constant."""
-    spring = """
-[[force]]
-type = "spring_damper"
-name = "spring"
-body_a = "ground"
-body_b = "block"
-point_a = [-1.0, 0.0, 0.0]
-point_b = [0.0, 0.0, 0.0]
-stiffness = 20.0
-hardening = [5.0, 40.0]
-"""
+    spring = _spring("spring", stiffness=20.0, hardening=[5.0, 40.0])
     run = block(spring, 5.0, start=0.6)
     d = run["joints/slide/displacement"].values
     v = run["joints/slide/displacement_rate"].values
@@ -35,17 +34,7 @@ hardening = [5.0, 40.0]
 
 def test_a_spring_that_pushes_away_has_two_places_of_rest() -> None:
     """f = k d - k3 d^3 with k = 8, k3 = 200: rest at d = 0.2; small swings of 2 k / m."""
-    spring = """
-[[force]]
-type = "spring_damper"
-name = "snap"
-body_a = "ground"
-body_b = "block"
-point_a = [-1.0, 0.0, 0.0]
-point_b = [0.0, 0.0, 0.0]
-stiffness = -8.0
-hardening = [0.0, 200.0]
-"""
+    spring = _spring("snap", stiffness=-8.0, hardening=[0.0, 200.0])
     omega = math.sqrt(16.0 / 2.0)
     run = block(spring, 2.0 * math.pi / omega, start=0.2001, step=2.0 * math.pi / omega / 64)
     d = run["joints/slide/displacement"].values
@@ -55,22 +44,15 @@ hardening = [0.0, 200.0]
 
 def test_a_curve_goes_through_its_points() -> None:
     """Driven along it, the load at each point is that of the table, and beyond it straight on."""
-    spring = """
-[[force]]
-type = "spring_damper"
-name = "spring"
-body_a = "ground"
-body_b = "block"
-point_a = [-1.0, 0.0, 0.0]
-point_b = [0.0, 0.0, 0.0]
-curve_at = [-0.2, 0.0, 0.1, 0.3]
-curve_force = [-30.0, 0.0, 5.0, 35.0]
-[[constraint]]
-name = "drive"
-type = "coordinate"
-joint = "slide"
-drive = { constant = -0.4, rate = 0.1 }
-"""
+    spring = _spring(
+        "spring", curve_at=[-0.2, 0.0, 0.1, 0.3], curve_force=[-30.0, 0.0, 5.0, 35.0]
+    ) + table(
+        "constraint",
+        name="drive",
+        type="coordinate",
+        joint="slide",
+        drive={"constant": -0.4, "rate": 0.1},
+    )
     run = block(spring, 8.0, start=-0.4, speed=0.1, step=1.0)
     force = run["forces/spring/force"].values
     at = run["joints/slide/displacement"].values

@@ -105,9 +105,9 @@ def test_mirrored_device_gives_the_mirrored_answer(cases: Any, tmp_path: Path) -
     assert np.abs(one["S2/rotation"]).max() > 1e-3
 
 
-@pytest.mark.parametrize(("folder", "module", "name"), [
-    ("4n3la", "parts", "SQUID"), ("9n9la", "nine_nodes", "LAYOUT"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("folder", "module", "name"), [("4n3la", "parts", "SQUID"), ("9n9la", "nine_nodes", "LAYOUT")]
+)
 def test_case_files_are_those_of_the_scripts(
     cases: Any, repository: Path, folder: str, module: str, name: str
 ) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.scenes import cart, table
 
 import hydrodae
 from hydrodae import Simulation
@@ -22,55 +23,12 @@ METHODS = {
     "lobatto_iiic": {"solver.step": 0.02},
 }
 
-CART = """
-environment.gravity = 0.0
-[[body]]
-name = "cart"
-motion = "surge"
-mass = 2.0
-center_of_gravity = [0.0, 0.0, 0.0]
-initial = { displacement = [0.5, 0.0, 0.0] }
-[[joint]]
-name = "slide"
-type = "prismatic"
-body_a = "ground"
-body_b = "cart"
-point = [0.0, 0.0, 0.0]
-axis = [1.0, 0.0, 0.0]
-[[force]]
-name = "spring"
-type = "pto_linear"
-joint = "slide"
-stiffness = 200.0
-damping = 2.0
-[solver]
-end_time = 6.0
-[output]
-step = 0.1
-"""
-STOP = """
-[[constraint]]
-name = "wall"
-type = "stop"
-joint = "slide"
-lower = -0.3
-restitution = 0.7
-"""
-FRICTION = """
-[[force]]
-name = "dry"
-type = "dry_friction"
-joint = "slide"
-static = 6.0
-"""
-DELAY = """
-[[force]]
-name = "late"
-type = "pto_linear"
-joint = "slide"
-damping = 3.0
-delay = 0.3
-"""
+CART = cart(
+    "stiffness = 200.0\ndamping = 2.0", name="spring", solver="end_time = 6.0", step=0.1, title=""
+)
+STOP = table("constraint", name="wall", type="stop", joint="slide", lower=-0.3, restitution=0.7)
+FRICTION = table("force", name="dry", type="dry_friction", joint="slide", static=6.0)
+DELAY = table("force", name="late", type="pto_linear", joint="slide", damping=3.0, delay=0.3)
 STRUCK = """
 [[joint]]
 name = "guide"

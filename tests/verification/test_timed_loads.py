@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.verification.blocks import BLOCK, METHODS
+from tests.verification.blocks import METHODS, on_a_slide
 
 import hydrodae
 from hydrodae.errors import CaseError
@@ -15,7 +15,7 @@ from hydrodae.errors import CaseError
 def test_a_late_pulse_of_a_python_load_is_not_stepped_over(method: str) -> None:
     """After 80 s of rest a pulse of 0.2 s gives the block its momentum."""
     load = '[[force]]\ntype = "python_load"\nname = "kick"\njoint = "slide"\n'
-    text = BLOCK.replace("MASS", "2.0").replace("START", "0.0").replace("SPEED", "0.0") + load
+    text = on_a_slide() + load
     text += f'[solver]\nend_time = 100.0\nmethod = "{method}"\n[output]\nstep = 0.1\n'
 
     def pulse(t: float, s: float, rate: float) -> float:
@@ -30,7 +30,7 @@ def test_a_late_pulse_of_a_python_load_is_not_stepped_over(method: str) -> None:
 
 def test_a_body_may_not_have_the_name_of_a_channel() -> None:
     """`check` refuses it as `run` does, since forces/kick/force is taken."""
-    text = BLOCK.replace("MASS", "2.0").replace("START", "0.0").replace("SPEED", "0.0")
+    text = on_a_slide()
     text = text.replace('"block"', '"force"')
     text += '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "slide"\ndamping = 1.0\n'
     case = hydrodae.Case.from_text(text + "[solver]\nend_time = 1.0\n")

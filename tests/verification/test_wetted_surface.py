@@ -38,8 +38,16 @@ step = {step!r}
 
 
 def _float(folder: Path, mesh: str, mass: float, **more: float | str) -> Path:
-    values = {"motion": "heave", "height": 0.0, "inertia": 1.0, "release": 0.0, "pitch": 0.0,
-              "end": 10.0, "rtol": 1e-8, "step": 0.05}  # fmt: skip
+    values = dict(
+        motion="heave",
+        height=0.0,
+        inertia=1.0,
+        release=0.0,
+        pitch=0.0,
+        end=10.0,
+        rtol=1e-8,
+        step=0.05,
+    )
     path = folder / "case.toml"
     path.write_text(FLOAT.format(mesh=mesh, mass=mass, **(values | more)))
     return path
@@ -69,8 +77,17 @@ def test_a_turned_box_has_the_load_of_its_submerged_prism(tmp_path: Path) -> Non
     # s = d / cos(a) + x tan(a) above that point, the bottom is 0.8 m below it.
     hulls.write_obj(tmp_path / "box.obj", hulls.box(4.0, 2.0, -1.0, 1.5))
     depth, bottom, angle = 0.2, 0.8, np.deg2rad(20.0)
-    path = _float(tmp_path, "box.obj", RHO * 8.0, motion="planar", height=-depth, inertia=2.0e4,
-                  pitch=20.0, end=0.02, step=0.01)  # fmt: skip
+    path = _float(
+        tmp_path,
+        "box.obj",
+        RHO * 8.0,
+        motion="planar",
+        height=-depth,
+        inertia=2.0e4,
+        pitch=20.0,
+        end=0.02,
+        step=0.01,
+    )
     results = hydrodae.run(path)
     middle, slope = depth / np.cos(angle), np.tan(angle)
     volume = 2.0 * 4.0 * (middle + bottom)
@@ -182,9 +199,15 @@ def test_large_waves_move_it_as_an_independent_program_says(
     heave = results["bodies/sphere/position"].values[:, 2] + 2.0
     times = np.arange(0.0, 60.01, 0.05)
     own = panel_heave(
-        tmp_path / "hydro.h5", hulls.sphere(5.0, 60), 261.8e3, 2.0 * np.pi / 5.0, 1.5, 30.0, times,
+        tmp_path / "hydro.h5",
+        hulls.sphere(5.0, 60),
+        261.8e3,
+        2.0 * np.pi / 5.0,
+        1.5,
+        30.0,
+        times,
         mean=stretching == "none",
-    )  # fmt: skip
+    )
     late = results.time > 40.0
     assert np.abs(heave - own[::2])[late].max() < 0.003 * np.ptp(heave[late])
 
@@ -194,13 +217,15 @@ def test_large_waves_move_it_as_an_independent_program_says(
     [
         ('mesh = "sphere.obj"', 'a mesh does nothing without hydrostatics = "mesh"'),
         ('hydrostatics = "mesh"', "needs 'mesh', the file of the surface"),
-        ('mesh = "sphere.obj"\nfroude_krylov = "mesh"\nhydrostatics = "linear"',
-         "a mesh does nothing without"),
+        (
+            'mesh = "sphere.obj"\nfroude_krylov = "mesh"\nhydrostatics = "linear"',
+            "a mesh does nothing without",
+        ),
         ('mesh = "none.stl"\nhydrostatics = "mesh"', "cannot read the mesh"),
         ('mesh = "hydro.h5"\nhydrostatics = "mesh"', "a mesh is an .stl or .obj file"),
         ('mesh = "open.obj"\nhydrostatics = "mesh"', "key 'mesh' in [[body]] 'sphere'"),
     ],
-)  # fmt: skip
+)
 def test_what_a_mesh_lacks_is_said(tmp_path: Path, body: str, message: str) -> None:
     vertices, triangles = hulls.sphere(5.0, 6)
     hulls.write_obj(tmp_path / "open.obj", (vertices, triangles[:-1]))

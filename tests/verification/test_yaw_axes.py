@@ -19,7 +19,9 @@ def turned_z(angle: float) -> np.ndarray:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def device(folder: Path, axes: str, angle: float, heading: float, phase: str = "fixed") -> hydrodae.Results:  # fmt: skip # noqa: E501
+def device(
+    folder: Path, axes: str, angle: float, heading: float, phase: str = "fixed"
+) -> hydrodae.Results:
     """F3OF, free in six degrees of freedom, turned about the origin by `angle` [deg]."""
     case = hydrodae.Case.read(folder / "rao.toml")
     values: dict[str, Any] = {

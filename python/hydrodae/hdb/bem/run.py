@@ -141,7 +141,8 @@ def compute(
         for i, (w, file) in enumerate(todo, start=1):
             data = _solve(cpt, device, float(w), settings)
             partial = file.with_suffix(".part")
-            cpt.io.xarray.separate_complex_values(data).to_netcdf(partial)
+            plain = cpt.io.xarray.separate_complex_values(data)
+            plain.to_netcdf(partial, engine="netcdf4")
             partial.rename(file)
             if progress is not None:
                 progress(len(files) - len(todo) + i, len(files), float(w), monotonic() - start)
@@ -257,7 +258,7 @@ def _solve(cpt: Any, device: Any, omega: float, settings: Settings) -> xr.Datase
 def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> Path:
     parts = []
     for file in files:
-        with xr.open_dataset(file) as opened:
+        with xr.open_dataset(file, engine="netcdf4") as opened:
             parts.append(opened.load())
     shallow = [float(p["omega"].values.item()) for p in parts if p.attrs.get(SHALLOW)]
     data = xr.concat(
@@ -268,13 +269,13 @@ def _collect(files: list[Path], bodies: Sequence[WettedBody], target: Path) -> P
     points = np.array([b.point for b in bodies], dtype=float)
     data["rotation_center"] = (("body_name", "space_coordinate"), points)
     data.attrs[SHALLOW] = sorted(shallow)
-    data.to_netcdf(target)
+    data.to_netcdf(target, engine="netcdf4")
     return target
 
 
 def count_nan(path: Path) -> dict[str, int]:
     """NaN by table at finite frequencies, those with none left out."""
-    with xr.open_dataset(path) as data:
+    with xr.open_dataset(path, engine="netcdf4") as data:
         usual = data.isel(omega=np.flatnonzero(np.isfinite(data["omega"].values)))
         found = {t: int(np.isnan(usual[t].values).sum()) for t in TABLES if t in usual}
     return {name: count for name, count in found.items() if count}

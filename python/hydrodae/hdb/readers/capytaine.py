@@ -98,7 +98,11 @@ def read_capytaine(path: Path) -> SourceData:
 
 
 def open_dataset(path: Path) -> xr.Dataset:
-    """Open a netCDF file with the backend that its first bytes ask for."""
+    """Open a netCDF file: netCDF-3 with scipy, netCDF-4 with netCDF4.
+
+    netCDF4 reads netCDF-3 as well, but fills what is missing of a file that is cut short with zeros
+    and reports no error. scipy refuses such a file.
+    """
     with open(path, "rb") as f:
         magic = f.read(4)
     engine = "scipy" if magic[:3] == b"CDF" else "netcdf4"
