@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -80,6 +81,8 @@ def press(
     best: tuple[float, Modes] | None = None
     margin, damping, factor, stalled = MARGINS[0], 1e-3, 0.0, 0
     for _ in range(iterations):
+        if problem.clock.over():
+            break
         strict = local_minima(modes, highest)
         top, now = strict.largest, error(modes, problem)
         lowest = strict.lowest / strict.largest
@@ -167,10 +170,16 @@ def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
     starts = np.append(np.flatnonzero(np.diff(omega, prepend=-1.0) > 0.0), omega.size)
     first, second = [np.zeros(0, int)], [np.zeros(0, int)]
     for start, end in pairwise(starts):
-        i, j = np.triu_indices(end - start)
+        i, j = _upper(int(end - start))
         first.append(start + i)
         second.append(start + j)
     return np.concatenate(first), np.concatenate(second)
+
+
+@cache
+def _upper(size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices i <= j of a matrix of this size."""
+    return np.triu_indices(size)
 
 
 def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:

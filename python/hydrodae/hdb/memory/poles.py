@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.goal import Goal, Progress, quality
 from hydrodae.hdb.memory.modes import Problem, from_residues
 from hydrodae.hdb.memory.vector_fitting import (
@@ -34,14 +35,14 @@ def rich_poles(
     found: dict[int, ComplexArray] = {}
     misses: list[float] = []
     after = 0
-    for count in range(4, min(most + 4, problem.samples.omega.size // 2), 4):
+    for count in range(4, max(5, min(most + 4, problem.samples.omega.size // 2)), 4):
         _, found[count] = best_poles(problem, count, found.get(count - 4))
         miss = _vector_miss(found[count], problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
         after += miss <= 1.5
         misses.append(miss)
         noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
-        if after >= 3 or miss <= 0.5 or noise:
+        if after >= 3 or miss <= 0.5 or noise or problem.clock.over(SEARCH):
             break
     return found, min(misses, default=np.inf)
 

@@ -11,10 +11,10 @@ from hydrodae.hdb.memory.data import RadiationData
 from hydrodae.hdb.memory.fit import (
     BAND_WEIGHT,
     COUPLING,
-    DEFAULT_BAND,
     TARGET,
     TARGET_OUTSIDE,
     UNIFORM_WEIGHT,
+    table_band,
 )
 from hydrodae.hdb.memory.goal import Goal
 from hydrodae.hdb.memory.poles import rich_poles
@@ -51,7 +51,7 @@ def reach(
     """
     data = prepare.gather(database, inputs, inputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     weight = BAND_WEIGHT if uniform is None else UNIFORM_WEIGHT
-    goal = Goal(band or DEFAULT_BAND, weight, target, target_outside, None, uniform)
+    goal = Goal(band or table_band(database), weight, target, target_outside, None, uniform)
     groups, _ = prepare.uncoupled_groups(data, COUPLING)
     if any(group.size > MOST_COORDINATES for group in groups):
         return None

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydrodae.hdb.memory import passivity
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.direct import fit_direct
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.hankel import fit_hankel
@@ -139,8 +140,8 @@ def _passive_rungs(
         )
         if reached:
             kept.append(found)
-            if goal.met(found.quality):
-                break
+        if problem.clock.over() or (reached and goal.met(found.quality)):
+            break
     return kept
 
 
@@ -179,8 +180,9 @@ def _tamed(
     found: list[GroupFit] = []
     best = np.inf
     highest = float(problem.samples.omega.max())
-    for count in (8, 12, 16):
-        if 2 * count > problem.samples.omega.size:
+    counts = [count for count in (8, 12, 16) if 2 * count <= problem.samples.omega.size]
+    for count in counts or sorted(known)[-1:]:
+        if found and problem.clock.over(SEARCH):
             break
         poles = known[count] if count in known else best_poles(problem, count)[1]
         modes = _first_modes(problem, goal, [poles], (1.0,))
@@ -210,7 +212,7 @@ def _tamed(
                 if goal.distance(made) > NEARLY * best:
                     break
             least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
-            if modes.n_states <= least:
+            if modes.n_states <= least or problem.clock.over(SEARCH):
                 break
             while modes.n_states > least:
                 modes = _pruned(modes, problem, 1)
@@ -233,6 +235,8 @@ def _ladder(
     found = quality(modes, problem, goal.band)
     limit = SLACK if goal.met(found, SLACK) else 1.15 * goal.miss(found)
     while modes.poles.size > 1:
+        if problem.clock.over(SEARCH) and (cap is None or modes.n_states <= cap):
+            break
         modes = _pruned(modes, problem, 1 if goal.met(found, 0.7) else 3)
         found = quality(modes, problem, goal.band)
         good = goal.met(found, limit)
@@ -281,4 +285,6 @@ def _first_modes(
         near = [item[1] for item in found if item[0] <= SLACK]
         if near:
             return min(near, key=lambda modes: modes.n_states)
+        if problem.clock.over(SEARCH):
+            break
     return min(found, key=lambda item: item[0])[1]
