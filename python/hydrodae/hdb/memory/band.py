@@ -10,7 +10,7 @@ from hydrodae.hdb.memory.vector_fitting import Array
 
 ABOVE_CENTRE = 1.25
 """Upper end of the band over the lowest centre of the damping: beyond the resonance of heave."""
-WIDTH = 25.0
+WIDTH = 30.0
 """Upper end of the band over its lower end: slow modes of articulated devices lie there."""
 NEGLIGIBLE = 1e-3
 """A coordinate whose largest damping is below this share of the largest of its kind is noise."""

@@ -117,11 +117,12 @@ def fit_memory(
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
         h_zero, data_min_eig_relative and data_min_eig_omega (lowest eigenvalue of the tables' B
         over the largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band),
-        target_met, time_limited (whether the search ended at `time_limit`), band, weights, method, dropped_inputs (no radiation: memory zero, A_inf the mean
-        added mass in the band), groups, neglected_coupling, symmetry (groups fitted in blocks),
-        symmetry_left_out (rms share of Z that breaks it), noise (of the tables in the band, as the
-        weighted errors, `hydrodae.hdb.memory.noise`), as_near_as_noise (the target is met, or
-        missed by no more than that or panels explain).
+        target_met, time_limited (the search ended at `time_limit`), band, weights, method,
+        dropped_inputs (no radiation: memory zero, A_inf the mean added mass in the band), groups,
+        neglected_coupling, symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z
+        that breaks it), noise (of the tables in the band, as the weighted errors,
+        `hydrodae.hdb.memory.noise`), as_near_as_noise (the target is met, or missed by no more than
+        that or panels explain).
 
     Raises
     ------

@@ -148,7 +148,7 @@ def _passive_rungs(
 def made_passive(
     modes: Modes, problem: Problem, goal: Goal, thorough: bool = True
 ) -> tuple[Modes, bool]:
-    """Make modes passive, by the penalty or else by constraints; tell whether they are.
+    """Make modes passive, by the penalty or else by constraints; return whether they are.
 
     Not `thorough`: by the penalty alone, of which constraints win some per cent.
     """

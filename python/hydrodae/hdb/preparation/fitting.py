@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,7 +33,7 @@ ABOVE, LEAST_ROWS = (2.0, 1.2), 12
 NEGATIVE = -1e-3
 #: Vector fits within this share of the target show that a fit can meet it; another choice of
 #: frequencies must come nearer by this factor.
-REACHED, NEARER = 1.0, 0.8
+REACHED, NEARER = 1.0, 0.67
 #: Weighted error of H in the band of a fit without a target of its own.
 USUAL = 0.01
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
@@ -161,7 +161,7 @@ def fit(
     if left_out:
         made = replace(made, report={**made.report, "left_out": left_out})
     refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
-    if list(refused) == ["target"] and target is None and _near_enough(made):
+    if list(refused) == ["target"] and target is None and _near_enough(made, tables):
         made, refused, told = _as_near(made), {}, []
     if bad.any() and not goes_on(made, tables):
         refused["limit"] = "goes to another added mass, or rings, beyond the frequencies it matches"
@@ -182,7 +182,7 @@ def _rows(
 
     Vector fits of few poles show how near smooth functions come to each choice of `ways_out`. A
     fit of the table as it stands comes first, then the choice that leaves out least; a later one
-    must be nearer by a fifth.
+    must be nearer by a third.
     """
     from hydrodae.hdb.memory.reach import reach
 
@@ -231,15 +231,15 @@ def without_lone_rows(
     return at(database, ~bad), f"{text}: left out"
 
 
-def _near_enough(fit: ExponentialMemory) -> bool:
+def _near_enough(fit: ExponentialMemory, tables: HydroDatabase) -> bool:
     """Return whether a fit without a target of its own is kept, its error stated."""
     report = fit.report
     if "uniform" in report:
         return False
-    return bool(
-        report["as_near_as_noise"]
-        or (report["weighted_error_band"] <= USUAL and report["weighted_error_outside"] <= OUTSIDE)
-    )
+    if report["as_near_as_noise"]:
+        return True
+    beyond = report["weighted_error_outside"] <= OUTSIDE or goes_on(fit, tables)
+    return bool(report["weighted_error_band"] <= USUAL and beyond)
 
 
 def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
