@@ -28,9 +28,6 @@ SHARED = 0.88
 """Share of a uniform goal that each block must meet at first: largest errors may add up."""
 NEAR = 1.3
 """Error over its target from which a refit of all blocks together may reach it."""
-GIVEN = 0.3
-"""Least target, as a share of the error of the nearest tables that give no energy: no passive fit
-is nearer than those, and this adds a twentieth to their error."""
 WEAK = 3.0
 """A block whose size is this many times below its share has its goal relaxed."""
 
@@ -82,18 +79,7 @@ def fit_group(
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
     problem = replace(problem, clock=clock)
-    own = _tightened(goal, SAFE)
-    if cap is None and goal.uniform is None:
-        turned = prepare.scaled(data.square - data.stored, data.scale, group)
-        entries = problem.rows, problem.columns
-        mass = prepare.first_added_mass(data.omega, matrices, goal.band)[entries]
-        lost = measure(turned[:, *entries], mass, problem, goal.band)
-        own = replace(
-            own,
-            target=max(own.target, GIVEN * lost.weighted_band),
-            target_outside=max(own.target_outside, GIVEN * lost.weighted_outside),
-        )
-    fit = fit_problem(problem, own, cap, group.size > MANY, say)
+    fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
 
 

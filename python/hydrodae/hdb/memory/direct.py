@@ -30,6 +30,9 @@ RICH = 0.5
 """Share of the goal below which no more poles are tried."""
 BATCH = 0.1
 """Share of the modes that leaves at a time."""
+FAILED, GAIN = 2, 0.95
+"""The search ends after so many fits in a row that are not passive, or whose errors with more modes
+are not below this share of the least before."""
 MOST_POLES = 40
 """Most common poles, conjugates counted."""
 
@@ -55,15 +58,19 @@ def fit_direct(
     """
     rungs = _rungs(problem, goal, cap, say)
     best: tuple[Modes, Quality, bool] | None = None
+    failed = 0
     for modes in rungs[::-1]:
         modes, reached = press(
             modes, problem, lambda trial: goal.met(quality(trial, problem, goal.band))
         )
         found = quality(modes, problem, goal.band)
         say(f"{modes.n_states} states, passive: {reached}, {goal.miss(found):.2f} of the target")
-        if best is None or (reached, -goal.miss(found)) > (best[2], -goal.miss(best[1])):
+        miss = goal.miss(found)
+        nearer = best is None or not best[2] or miss < GAIN * goal.miss(best[1])
+        failed = 0 if reached and nearer else failed + 1
+        if best is None or (reached, -miss) > (best[2], -goal.miss(best[1])):
             best = modes, found, reached
-        if (reached and goal.met(found)) or problem.clock.over():
+        if failed >= FAILED or (reached and goal.met(found)) or problem.clock.over():
             break
     assert best is not None
     return best

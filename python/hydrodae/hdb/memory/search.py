@@ -9,7 +9,7 @@ import numpy as np
 
 from hydrodae.hdb.memory import passivity
 from hydrodae.hdb.memory.clock import SEARCH
-from hydrodae.hdb.memory.direct import fit_direct
+from hydrodae.hdb.memory.direct import FAILED, GAIN, fit_direct
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.hankel import fit_hankel
 from hydrodae.hdb.memory.modes import Modes, Problem, error, from_residues, importance, refine
@@ -131,6 +131,7 @@ def _passive_rungs(
     kept: list[GroupFit] = []
     reachable = goal.met(quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[::-1] if reachable else ladder[-1:]
+    failed, best = 0, np.inf
     for modes in rungs:
         passive, reached = made_passive(modes, problem, goal)
         found = GroupFit(passive, problem, quality(passive, problem, goal.band))
@@ -138,9 +139,12 @@ def _passive_rungs(
             f"{passive.n_states} states, passive: {reached}, "
             f"{goal.miss(found.quality):.2f} of the target error"
         )
+        miss = goal.miss(found.quality)
+        failed = 0 if reached and miss < GAIN * best else failed + 1
         if reached:
             kept.append(found)
-        if problem.clock.over() or (reached and goal.met(found.quality)):
+            best = min(best, miss)
+        if failed >= FAILED or problem.clock.over() or (reached and goal.met(found.quality)):
             break
     return kept
 
