@@ -21,9 +21,6 @@ from hydrodae.hdb.memory.poles import rich_poles
 
 MOST_POLES = 16
 """Poles that a look takes at most: more of them follow noise."""
-GIVES = 2.0
-"""Error outside the band, over its target, of the nearest tables that give no energy: beyond this
-no passive fit is of use there."""
 MOST_COORDINATES = 6
 """Groups of more coupled coordinates are not looked at: that would take as long as a fit."""
 
@@ -50,8 +47,8 @@ def reach(
     Returns
     -------
     float or None
-        None where a group has more than 6 coordinates: not looked at. Infinite where the tables
-        give energy outside the band to such an extent that passive fits cannot follow.
+        None where a group has more than 6 coordinates: not looked at. Infinite where the
+        nearest tables that give no energy miss the target outside the band: so do passive fits.
     """
     data = prepare.gather(database, inputs, inputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     weight = BAND_WEIGHT if uniform is None else UNIFORM_WEIGHT
@@ -67,7 +64,7 @@ def reach(
         entries = problem.rows, problem.columns
         mass = prepare.first_added_mass(data.omega, matrices, goal.band)[entries]
         lost = measure(turned[:, *entries], mass, problem, goal.band)
-        if lost.weighted_outside > GIVES * target_outside:
+        if lost.weighted_outside > target_outside:
             return np.inf
         found = max(found, rich_poles(problem, goal, lambda message: None, MOST_POLES)[1])
         if found > worst:

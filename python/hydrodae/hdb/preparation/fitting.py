@@ -143,7 +143,6 @@ def fit(
     options["outputs"] = None if loads is None else _labels(loads, database)
 
     judged = band or table_band(database)
-    options["band"] = judged
     tables, garbled = without_lone_rows(database, moving, judged)
     whole = np.zeros(tables.omega.size, bool)
     bad, text = whole, ""
@@ -154,7 +153,7 @@ def fit(
     if text and progress is not None:
         progress(text)
     if bad.any():
-        options["target_outside"] = OUTSIDE
+        options |= {"band": judged, "target_outside": OUTSIDE}
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", MemoryFitWarning)
         made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
