@@ -94,7 +94,7 @@ def add_fit_options(parser: argparse.ArgumentParser) -> None:
         "--time-limit",
         metavar="SECONDS",
         type=float,
-        help="end the search of a fit after this time, with the best passive one (default 60)",
+        help="end the search of a fit after this time, with the best passive one (default 300)",
     )
     parser.add_argument(
         "--loads", metavar="SPEC", help="coordinates whose loads a fit gives (default: all)"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-TIME_LIMIT = 60.0
+TIME_LIMIT = 300.0
 """Seconds that a fit takes at most where no limit is given."""
 SEARCH = 0.6
 """Share of the time for the search without constraints; the rest is left to make it passive."""

@@ -13,7 +13,7 @@ spectral function does. The margin rises until the smallest eigenvalue between t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
@@ -135,9 +135,13 @@ def _step(
     matrix, gradient = normal_equations(modes, problem)
     before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
     for rows, values in _rows(modes, problem, low, top):
+        if problem.clock.over():
+            return modes, damping, 0.0
         matrix += factor * (rows.T @ rows)
         gradient += factor * (rows.T @ values)
     for _ in range(6):
+        if problem.clock.over():
+            break
         try:
             step = -cho_solve(cho_factor(damped(matrix, damping)), gradient)
         except LinAlgError:
@@ -152,17 +156,15 @@ def _step(
     return modes, damping, 0.0
 
 
-def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> list[tuple[Array, Array]]:
-    """Return derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
+def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
+    """Yield derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
     i, j = _pairs(low.omega)
     values = np.where(i == j, low.values[i], 0.0)
-    parts = []
     for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
         left, right = low.vectors[i[pick]], low.vectors[j[pick]]
         rows = _derivatives(modes, problem, low.omega[i[pick]], left, right) / top
         rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
-        parts.append((rows, values[pick]))
-    return parts
+        yield rows, values[pick]
 
 
 def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:

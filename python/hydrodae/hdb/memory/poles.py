@@ -22,7 +22,7 @@ STARTS = (
 """Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
 KEPT = 64
 """Searches whose poles are kept: a fit takes those of the look before it."""
-_found: dict[tuple[int | bytes, ...], tuple[float, ComplexArray]] = {}
+_found: dict[tuple[int, bytes], tuple[float, ComplexArray]] = {}
 
 
 def rich_poles(
@@ -58,8 +58,10 @@ def best_poles(
     `known`: poles of a fit with fewer, which with some more make one of the starts.
     """
     samples = problem.samples
-    parts = (samples.omega, samples.value, samples.weight, problem.damping_grid, known)
-    key = count, *(b"" if part is None else part.tobytes() for part in parts)
+    parts = [samples.omega, samples.value, samples.weight, problem.damping_grid]
+    if known is not None:
+        parts.append(known)
+    key = count, b"".join(part.tobytes() for part in parts)
     if key in _found:
         return _found[key]
     omega = samples.omega[:-1]

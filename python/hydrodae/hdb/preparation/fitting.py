@@ -89,7 +89,7 @@ def fit(
     method : str, optional
         "modes", "hankel" or "auto" (default: by the number of coordinates).
     time_limit : float, optional
-        Seconds [s]; default: 60. The search ends there, and the best passive fit so far is taken.
+        Seconds [s]; default: 300. The search ends there, and the best passive fit so far is taken.
     accept : sequence of str
         What the fit may miss: "target" (implied by `states`, which asks for the best of so many)
         and "passive".
