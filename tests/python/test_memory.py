@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -346,6 +347,51 @@ def test_bad_data(exact: Table) -> None:
     )
     with pytest.raises(DatabaseError, match="at least 8 ascending frequencies"):
         fit_memory(short, LABELS)
+
+
+def test_eight_frequencies_are_enough(exact: Table) -> None:
+    omega = np.linspace(0.3, 3.0, 8)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MemoryFitWarning)
+        memory = fit_memory(table(exact_transfer(omega), omega), LABELS)
+    assert memory.report["passive"]
+    assert memory.n_states >= 1
+
+
+def test_froude_scaling_keeps_the_dimensionless_fit(
+    exact: Table, fitted: ExponentialMemory
+) -> None:
+    """Lengths times 1/40: frequencies times sqrt(40), H = K t of each entry by its dimension."""
+    length = 1.0 / 40.0
+    faster = length**-0.5
+    arm = np.array([1.0, 1.0, length])  # forces by displacements, moments by angles
+    mass = length**3 * np.outer(arm, arm)
+    model = replace(
+        exact,
+        omega=exact.omega * faster,
+        added_mass=exact.added_mass * mass,
+        radiation_damping=exact.radiation_damping * mass * faster,
+    )
+    memory = fit_memory(model, LABELS)
+    assert memory.report["band"] == pytest.approx(np.array(fitted.report["band"]) * faster)
+    assert memory.n_states == fitted.n_states
+    omega = np.linspace(0.0, 6.0, 100)
+    expected = fitted.transfer(omega) * mass * faster
+    off = np.abs(memory.transfer(omega * faster) - expected).max(axis=0)
+    assert np.all(off <= 1e-5 * np.abs(expected).max(axis=0))
+    assert memory.added_mass_inf == pytest.approx(
+        fitted.added_mass_inf * mass, rel=1e-5, abs=1e-5 * mass.min()
+    )
+
+
+def test_time_limit_ends_the_search(exact: Table) -> None:
+    with pytest.raises(DatabaseError, match="time_limit -1: expected seconds > 0"):
+        fit_memory(exact, LABELS, time_limit=-1.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MemoryFitWarning)
+        memory = fit_memory(exact, LABELS, time_limit=1e-3)
+    assert memory.report["time_limited"]
+    assert not fit_memory(exact, LABELS).report["time_limited"]
 
 
 def test_inconsistent_shapes_are_refused(fitted: ExponentialMemory) -> None:

@@ -91,6 +91,12 @@ def add_fit_options(parser: argparse.ArgumentParser) -> None:
         help="modes for few coordinates, hankel for many (default: by their number)",
     )
     parser.add_argument(
+        "--time-limit",
+        metavar="SECONDS",
+        type=float,
+        help="end the search of a fit after this time, with the best passive one (default 300)",
+    )
+    parser.add_argument(
         "--loads", metavar="SPEC", help="coordinates whose loads a fit gives (default: all)"
     )
 
@@ -137,6 +143,7 @@ def with_fits(database: HydroDatabase, specs: list[str], args: argparse.Namespac
                 target=args.target,
                 uniform=args.uniform,
                 method=args.method,
+                time_limit=args.time_limit,
                 accept=[check for check in args.accept if check in CHECKS],
                 progress=progress,
             )

@@ -64,7 +64,7 @@ def make_kernel(
         (diagonal), at most 600 s, or less where H in the band is no better for it.
     band : (float, float), optional
         Frequencies [rad/s] that the motion is sensitive to, as for the exponential fits: there H
-        weighs 500 times more. Default 0.04 to 1 rad/s, right at full scale.
+        weighs 500 times more. Default: from the damping of the table.
     limit : float
         Largest error of H in the band [-].
 
@@ -93,7 +93,7 @@ def make_kernel(
         database.added_mass[:, rows][:, :, columns],
         database.radiation_damping[:, rows][:, :, columns],
         _scale(database, rows, columns),
-        _asked(omega, band),
+        _asked(database, band),
     )
     radiates = scales(database)[columns] > 0.0
     own = tables.diagonal(np.flatnonzero(radiates if radiates.any() else ~radiates))
@@ -167,10 +167,11 @@ def _scale(database: Tables, rows: Any, columns: Any) -> Array:
     return np.where(np.isfinite(product), product, np.inf)
 
 
-def _asked(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:
-    from hydrodae.hdb.memory.fit import DEFAULT_BAND
+def _asked(database: Tables, band: tuple[float, float] | None) -> tuple[float, float]:
+    from hydrodae.hdb.memory.fit import table_band
 
-    low, high = band or DEFAULT_BAND
+    omega = database.omega
+    low, high = band or table_band(database)
     inside = np.count_nonzero((omega >= low) & (omega <= high))
     if inside < 4:
         raise DatabaseError(

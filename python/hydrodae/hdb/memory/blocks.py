@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory import symmetry
+from hydrodae.hdb.memory.clock import SEARCH, Clock
 from hydrodae.hdb.memory.data import ImpedanceData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, quality
 from hydrodae.hdb.memory.modes import AnyArray, IntArray, Modes, Problem, refine
@@ -47,6 +48,7 @@ def fit_group(
     labels: Sequence[str],
     goal: Goal,
     cap: int | None,
+    clock: Clock,
     say: Progress,
 ) -> FittedGroup:
     """Fit one group of coupled coordinates.
@@ -61,6 +63,8 @@ def fit_group(
         Of all coordinates.
     goal, cap
         What must be reached, with how many states at most.
+    clock
+        Time that it may take.
     say
         Called with one line per stage.
     """
@@ -70,10 +74,11 @@ def fit_group(
         array = _Array.of(data.omega, stored, blocks, goal)
         if goal.met(array.lost, SYMMETRIC):
             say(f"symmetric: {group.size} coordinates in blocks of {sizes(blocks)}")
-            fit = _fit_blocks(array, goal, cap, group.size > MANY, say)
+            fit = _fit_blocks(array, goal, cap, clock, say)
             return FittedGroup(fit, alike[group], tuple(blocks), array.lost.all)
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    problem = replace(problem, clock=clock)
     fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
 
@@ -181,8 +186,11 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
     return lambda text: say(prefix + text)
 
 
-def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Progress) -> GroupFit:
+def _fit_blocks(
+    array: _Array, goal: Goal, cap: int | None, clock: Clock, say: Progress
+) -> GroupFit:
     """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
+    many = array.whole.size > MANY
     share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
@@ -191,6 +199,8 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
         for at, (block, problem) in enumerate(zip(array.blocks, array.problems, strict=True)):
             copies = len(block.bases)
             own = None if left is None else max(2, left * block.size // rest)
+            todo = sum(later.size**2 for later in array.problems[at:])
+            problem = replace(problem, clock=clock.part(problem.size**2 / todo))
             prefix = f"block {at + 1} of {len(array.blocks)}: "
             fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
             rest -= copies * block.size
@@ -200,12 +210,14 @@ def _fit_blocks(array: _Array, goal: Goal, cap: int | None, many: bool, say: Pro
         miss = goal.miss(found)
         say(f"all blocks: {modes.n_states} states, {miss:.2f} of the target error")
         if 1.0 < miss < NEAR and array.whole.size <= MANY:
-            fit = _refitted(modes, array, goal)
+            fit = _refitted(modes, replace(array, whole=replace(array.whole, clock=clock)), goal)
             if fit is not None:
                 say(f"refitted together: {goal.miss(fit.quality):.2f} of the target error")
                 return fit
-        if not 1.0 < miss < 3.0 or not all(
-            own.met(fit.quality) for own, fit in zip(goals, fits, strict=True)
+        if (
+            clock.over(SEARCH)
+            or not 1.0 < miss < 3.0
+            or not all(own.met(fit.quality) for own, fit in zip(goals, fits, strict=True))
         ):
             break
         share *= 0.9 / miss

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.modes import Modes, Problem, error, from_residues, importance, refine
 from hydrodae.hdb.memory.penalty import press
@@ -29,6 +30,9 @@ RICH = 0.5
 """Share of the goal below which no more poles are tried."""
 BATCH = 0.1
 """Share of the modes that leaves at a time."""
+FAILED, GAIN = 2, 0.95
+"""The search ends after so many fits in a row that are not passive, or whose errors with more modes
+are not below this share of the least before."""
 MOST_POLES = 40
 """Most common poles, conjugates counted."""
 
@@ -54,15 +58,19 @@ def fit_direct(
     """
     rungs = _rungs(problem, goal, cap, say)
     best: tuple[Modes, Quality, bool] | None = None
+    failed = 0
     for modes in rungs[::-1]:
         modes, reached = press(
             modes, problem, lambda trial: goal.met(quality(trial, problem, goal.band))
         )
         found = quality(modes, problem, goal.band)
         say(f"{modes.n_states} states, passive: {reached}, {goal.miss(found):.2f} of the target")
-        if best is None or (reached, -goal.miss(found)) > (best[2], -goal.miss(best[1])):
+        miss = goal.miss(found)
+        nearer = best is None or not best[2] or miss < GAIN * goal.miss(best[1])
+        failed = 0 if reached and nearer else failed + 1
+        if best is None or (reached, -miss) > (best[2], -goal.miss(best[1])):
             best = modes, found, reached
-        if reached and goal.met(found):
+        if failed >= FAILED or (reached and goal.met(found)) or problem.clock.over():
             break
     assert best is not None
     return best
@@ -82,6 +90,8 @@ def _rungs(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list
             break
     rungs = [modes]
     while modes.poles.size > 2 * problem.size or (cap is not None and modes.n_states > cap):
+        if problem.clock.over(SEARCH) and (cap is None or modes.n_states <= cap):
+            break
         modes = _refined(_lightened(modes, problem), problem, goal)
         near = goal.met(quality(modes, problem, goal.band), ROOM)
         if not near and (cap is None or rungs[-1].n_states <= cap):
@@ -107,7 +117,7 @@ def _poles(problem: Problem, goal: Goal, say: Progress) -> ComplexArray:
         behind = behind + 1 if best is not None and miss > 0.9 * best[0] else 0
         if best is None or miss < best[0]:
             best = miss, poles
-        if best[0] <= RICH or behind > 2:
+        if best[0] <= RICH or behind > 2 or problem.clock.over(SEARCH):
             break
     assert best is not None
     return best[1]

@@ -13,7 +13,9 @@ import numpy.typing as npt
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import data as prepare
 from hydrodae.hdb.memory.assemble import assemble
+from hydrodae.hdb.memory.band import default_band
 from hydrodae.hdb.memory.blocks import SYMMETRIC, FittedGroup, fit_group, sizes
+from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
@@ -27,9 +29,6 @@ COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
 REPORTED = 2_000_000
 """Entries of H that the report's search of its smallest eigenvalue begins with."""
-DEFAULT_BAND = (0.04, 1.0)
-"""Frequencies of the rigid resonances and of swell at full scale, rad/s."""
-
 TARGET, TARGET_OUTSIDE, BAND_WEIGHT = 4.5e-4, 0.15, 500.0
 """Relative errors of H in the band and outside it, and the weight of the band."""
 UNIFORM_WEIGHT = 10.0
@@ -60,6 +59,7 @@ def fit_memory(
     progress: Progress | None = None,
     uniform: float | None = None,
     method: str = "auto",
+    time_limit: float = TIME_LIMIT,
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
@@ -87,8 +87,8 @@ def fit_memory(
         move use the same modes, by weighted linear least squares with their own added mass.
     band
         Frequencies (low, high) [rad/s] that the device's motion is sensitive to: its resonances and
-        the waves of interest. Weights are `band_weight` times larger there. Default 0.04 to 1
-        rad/s, right at full scale; give it for other scales.
+        the waves of interest. Weights are `band_weight` times larger there. Default: from the
+        damping of the table (`hydrodae.hdb.memory.band.default_band`).
     max_states
         Most states; None for as many as the targets need.
     target, target_outside
@@ -106,6 +106,9 @@ def fit_memory(
     method
         "modes", "hankel", or "auto": by the number of coupled coordinates, and a realisation too
         where no set of modes can be made passive.
+    time_limit
+        Seconds. The search ends there, and the best passive fit so far is returned. A fit that
+        needs less does not depend on the machine.
 
     Returns
     -------
@@ -114,11 +117,12 @@ def fit_memory(
         h_error_all (rms relative, scaled entries), h_error_peak (as `uniform`), h_error_outputs,
         h_zero, data_min_eig_relative and data_min_eig_omega (lowest eigenvalue of the tables' B
         over the largest, and where), data_min_eig_band and data_min_eig_band_omega (in the band),
-        target_met, band, weights, method, dropped_inputs (no radiation: memory zero, A_inf the mean
-        added mass in the band), groups, neglected_coupling, symmetry (groups fitted in blocks),
-        symmetry_left_out (rms share of Z that breaks it), noise (of the tables in the band, as the
-        weighted errors, `hydrodae.hdb.memory.noise`), as_near_as_noise (the target is met, or
-        missed by no more than that or panels explain).
+        target_met, time_limited (the search ended at `time_limit`), band, weights, method,
+        dropped_inputs (no radiation: memory zero, A_inf the mean added mass in the band), groups,
+        neglected_coupling, symmetry (groups fitted in blocks), symmetry_left_out (rms share of Z
+        that breaks it), noise (of the tables in the band, as the weighted errors,
+        `hydrodae.hdb.memory.noise`), as_near_as_noise (the target is met, or missed by no more than
+        that or panels explain).
 
     Raises
     ------
@@ -140,9 +144,12 @@ def fit_memory(
         raise DatabaseError(f"memory fit: method {method!r}: expected auto, modes or hankel")
     if uniform is not None and not uniform > 0.0:
         raise DatabaseError(f"memory fit: uniform {uniform:g}: expected a number > 0")
+    if not time_limit > 0.0:
+        raise DatabaseError(f"memory fit: time_limit {time_limit:g}: expected seconds > 0")
+    clock = Clock(time_limit)
     data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     goal = Goal(
-        _checked_band(data.omega, band),
+        _checked_band(data.omega, band or table_band(database)),
         band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),
         target,
         target_outside,
@@ -152,7 +159,8 @@ def fit_memory(
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
-    made = _fit_groups(data, groups, inputs, goal, say)
+    made = _fit_groups(data, groups, inputs, goal, clock, say)
+    limited = clock.over(SEARCH)
     scale = data.scale.copy()
     for group, part in zip(groups, made, strict=True):
         scale[group] = part.scale
@@ -167,7 +175,7 @@ def fit_memory(
     memory = assemble(data, name, inputs, groups, fits, goal)
     report = memory.report | _report(data, memory, groups, fits, goal, neglected)
     report |= _noise(fits, goal)
-    report |= _symmetry(inputs, groups, made)
+    report |= _symmetry(inputs, groups, made) | {"time_limited": limited}
     _warn(name, report)
     return replace(memory, report=report)
 
@@ -177,6 +185,7 @@ def _fit_groups(
     groups: Sequence[IntArray],
     labels: Sequence[str],
     goal: Goal,
+    clock: Clock,
     say: Progress,
 ) -> list[FittedGroup]:
     """Fit the groups one after the other; states that one leaves go to the next.
@@ -186,7 +195,7 @@ def _fit_groups(
     """
     made: list[FittedGroup] = []
     left, rest = goal.max_states, sum(group.size for group in groups)
-    for group in groups:
+    for at, group in enumerate(groups):
         cap = None if left is None else max(2, left * group.size // rest)
         before = zip(groups, made, strict=False)
         turned = (_alike(data, own, fit, group, goal) for own, fit in before)
@@ -195,7 +204,8 @@ def _fit_groups(
             say(f"{labels[group[0]]} and {group.size - 1} more: tables of a group before, its fit")
             made.append(found)
         else:
-            made.append(fit_group(data, group, labels, goal, cap, say))
+            share = group.size**2 / sum(later.size**2 for later in groups[at:])
+            made.append(fit_group(data, group, labels, goal, cap, clock.part(share), say))
         left = None if left is None else left - made[-1].fit.modes.n_states
         rest -= group.size
     return made
@@ -231,8 +241,15 @@ def _alike(
     return replace(made, fit=fit)
 
 
-def _checked_band(omega: Array, band: tuple[float, float] | None) -> tuple[float, float]:
-    low, high = (float(edge) for edge in (band or DEFAULT_BAND))
+def table_band(database: RadiationData) -> tuple[float, float]:
+    """Return the band of a fit that is given none, rad/s: of all coordinates of the table."""
+    damping = np.einsum("wii->wi", np.asarray(database.radiation_damping, dtype=float))
+    omega = np.asarray(database.omega, dtype=float)
+    return default_band(omega, damping, [str(label) for label in database.coordinates])
+
+
+def _checked_band(omega: Array, band: tuple[float, float]) -> tuple[float, float]:
+    low, high = (float(edge) for edge in band)
     inside = int(np.count_nonzero(prepare.in_band(omega, (low, high))))
     if not 0.0 <= low < high or inside < 4:
         raise DatabaseError(

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.modes import PARAMETERS, Modes, Problem, impedance, refine
 from hydrodae.hdb.memory.penalty import press
@@ -28,8 +29,6 @@ from hydrodae.hdb.relations import irf
 
 ROWS = 1600
 """Most rows of the Hankel matrix."""
-LONGEST = 600.0
-"""Longest memory that is realised [s]."""
 HOPEFUL = 3.0
 """A refit wins at most about this factor: starts with larger errors are passed over."""
 
@@ -62,7 +61,7 @@ def fit_hankel(
     best: tuple[Modes, Quality, bool] | None = None
     near = patient
     for count in orders:
-        last = count == orders[-1]
+        last = count == orders[-1] or problem.clock.over(SEARCH)
         modes = realise(kernel, count, problem)
         while last and modes.n_states > most and count > 1:
             # a pole at the highest frequency that K(t) resolves counts twice
@@ -90,6 +89,8 @@ def fit_hankel(
             return modes, found, True
         if best is None or (reached, -goal.miss(found)) > (best[2], -goal.miss(best[1])):
             best = modes, found, reached
+        if last:
+            break
     assert best is not None
     return best
 
@@ -113,7 +114,7 @@ def _decompose(problem: Problem) -> _Kernel:
     omega, n = problem.samples.omega[:-1], problem.size
     damping = problem.matrix(problem.samples.value[:-1].real)
     step = 0.55 * np.pi / omega[-1]
-    half = int(min(LONGEST / step, 2 * (ROWS // n))) // 2
+    half = ROWS // n
     time = step * np.arange(2 * half)
     k = irf.radiation_kernel(omega, damping.reshape(omega.size, -1), time, extrapolate=True)
     k = k.reshape(-1, n, n)

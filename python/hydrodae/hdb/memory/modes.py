@@ -13,13 +13,14 @@ from four real functions per mode.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 from scipy.linalg import cho_factor, cho_solve
 
+from hydrodae.hdb.memory.clock import SEARCH, Clock
 from hydrodae.hdb.memory.partial_fractions import partial_fractions, pole_slopes, real_fractions
 from hydrodae.hdb.memory.vector_fitting import (
     Array,
@@ -56,6 +57,8 @@ class Problem:
     largest, bases
         Of a block of a symmetric array: the largest entry of H of the array, that the largest error
         is compared with, and the bases (n_array, n) of the block. Else 0 and none.
+    clock
+        Time that the fit may take.
     """
 
     samples: Samples
@@ -66,6 +69,7 @@ class Problem:
     damping: Array
     largest: float = 0.0
     bases: tuple[Array, ...] = ()
+    clock: Clock = field(default_factory=Clock)
 
     def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
@@ -273,6 +277,8 @@ def refine(
     """Levenberg-Marquardt on all parameters; returns the modes and their weighted error."""
     now, damping = error(modes, problem), 1e-3
     for _ in range(iterations):
+        if problem.clock.over(SEARCH):
+            break
         matrix, gradient = normal_equations(modes, problem)
         for _ in range(6):
             trial = moved(modes, -cho_solve(cho_factor(damped(matrix, damping)), gradient), problem)

@@ -184,6 +184,8 @@ def enforce(
     level, damping, ratio, stalled = minima.lowest / minima.largest, 1e-3, lowering, 0
     best: tuple[float, Modes] | None = None
     for _ in range(iterations):
+        if problem.clock.over():
+            break
         level = level * ratio if level * ratio < floor - 0.25 * tolerance else floor
         step = _constrained_step(modes, problem, minima, level, tolerance, (now, damping))
         if step is None:

@@ -13,8 +13,9 @@ spectral function does. The margin rises until the smallest eigenvalue between t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -80,6 +81,8 @@ def press(
     best: tuple[float, Modes] | None = None
     margin, damping, factor, stalled = MARGINS[0], 1e-3, 0.0, 0
     for _ in range(iterations):
+        if problem.clock.over():
+            break
         strict = local_minima(modes, highest)
         top, now = strict.largest, error(modes, problem)
         lowest = strict.lowest / strict.largest
@@ -132,9 +135,13 @@ def _step(
     matrix, gradient = normal_equations(modes, problem)
     before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
     for rows, values in _rows(modes, problem, low, top):
+        if problem.clock.over():
+            return modes, damping, 0.0
         matrix += factor * (rows.T @ rows)
         gradient += factor * (rows.T @ values)
     for _ in range(6):
+        if problem.clock.over():
+            break
         try:
             step = -cho_solve(cho_factor(damped(matrix, damping)), gradient)
         except LinAlgError:
@@ -149,17 +156,15 @@ def _step(
     return modes, damping, 0.0
 
 
-def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> list[tuple[Array, Array]]:
-    """Return derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
+def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
+    """Yield derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
     i, j = _pairs(low.omega)
     values = np.where(i == j, low.values[i], 0.0)
-    parts = []
     for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
         left, right = low.vectors[i[pick]], low.vectors[j[pick]]
         rows = _derivatives(modes, problem, low.omega[i[pick]], left, right) / top
         rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
-        parts.append((rows, values[pick]))
-    return parts
+        yield rows, values[pick]
 
 
 def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
@@ -167,10 +172,16 @@ def _pairs(omega: Array) -> tuple[np.ndarray, np.ndarray]:
     starts = np.append(np.flatnonzero(np.diff(omega, prepend=-1.0) > 0.0), omega.size)
     first, second = [np.zeros(0, int)], [np.zeros(0, int)]
     for start, end in pairwise(starts):
-        i, j = np.triu_indices(end - start)
+        i, j = _upper(int(end - start))
         first.append(start + i)
         second.append(start + j)
     return np.concatenate(first), np.concatenate(second)
+
+
+@cache
+def _upper(size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices i <= j of a matrix of this size."""
+    return np.triu_indices(size)
 
 
 def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydrodae.hdb.memory.clock import SEARCH
 from hydrodae.hdb.memory.goal import Goal, Progress, quality
 from hydrodae.hdb.memory.modes import Problem, from_residues
 from hydrodae.hdb.memory.vector_fitting import (
@@ -19,6 +20,9 @@ STARTS = (
     (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
 )  # fmt: skip
 """Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
+KEPT = 64
+"""Searches whose poles are kept: a fit takes those of the look before it."""
+_found: dict[tuple[int, bytes], tuple[float, ComplexArray]] = {}
 
 
 def rich_poles(
@@ -34,14 +38,14 @@ def rich_poles(
     found: dict[int, ComplexArray] = {}
     misses: list[float] = []
     after = 0
-    for count in range(4, min(most + 4, problem.samples.omega.size // 2), 4):
+    for count in range(4, max(5, min(most + 4, problem.samples.omega.size // 2)), 4):
         _, found[count] = best_poles(problem, count, found.get(count - 4))
         miss = _vector_miss(found[count], problem, goal)
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
         after += miss <= 1.5
         misses.append(miss)
         noise = miss > 1.5 and len(misses) > 4 and miss > 0.93 * misses[-3]
-        if after >= 3 or miss <= 0.5 or noise:
+        if after >= 3 or miss <= 0.5 or noise or problem.clock.over(SEARCH):
             break
     return found, min(misses, default=np.inf)
 
@@ -53,7 +57,14 @@ def best_poles(
 
     `known`: poles of a fit with fewer, which with some more make one of the starts.
     """
-    omega = problem.samples.omega[:-1]
+    samples = problem.samples
+    parts = [samples.omega, samples.value, samples.weight, problem.damping_grid]
+    if known is not None:
+        parts.append(known)
+    key = count, b"".join(part.tobytes() for part in parts)
+    if key in _found:
+        return _found[key]
+    omega = samples.omega[:-1]
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
     spans = ((low, high), (0.6 * middle, 0.65 * high), (1.2 * middle, 0.85 * high))
@@ -66,7 +77,11 @@ def best_poles(
         more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
         starts.append(np.concatenate([known, more]))
     found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
-    return min((_iterate(poles, problem, 12) for _, poles in found[:3]), key=lambda item: item[0])
+    if len(_found) >= KEPT:
+        _found.clear()
+    trials = (_iterate(poles, problem, 12) for _, poles in found[:3])
+    _found[key] = min(trials, key=lambda item: item[0])
+    return _found[key]
 
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:

@@ -11,12 +11,12 @@ from hydrodae.hdb.memory.data import RadiationData
 from hydrodae.hdb.memory.fit import (
     BAND_WEIGHT,
     COUPLING,
-    DEFAULT_BAND,
     TARGET,
     TARGET_OUTSIDE,
     UNIFORM_WEIGHT,
+    table_band,
 )
-from hydrodae.hdb.memory.goal import Goal
+from hydrodae.hdb.memory.goal import Goal, measure
 from hydrodae.hdb.memory.poles import rich_poles
 
 MOST_POLES = 16
@@ -47,11 +47,12 @@ def reach(
     Returns
     -------
     float or None
-        None where a group has more than 6 coordinates: not looked at.
+        None where a group has more than 6 coordinates: not looked at. Infinite where the
+        nearest tables that give no energy miss the target outside the band: so do passive fits.
     """
     data = prepare.gather(database, inputs, inputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
     weight = BAND_WEIGHT if uniform is None else UNIFORM_WEIGHT
-    goal = Goal(band or DEFAULT_BAND, weight, target, target_outside, None, uniform)
+    goal = Goal(band or table_band(database), weight, target, target_outside, None, uniform)
     groups, _ = prepare.uncoupled_groups(data, COUPLING)
     if any(group.size > MOST_COORDINATES for group in groups):
         return None
@@ -59,6 +60,12 @@ def reach(
     for group in sorted(groups, key=len):
         matrices = prepare.scaled(data.square, data.scale, group)
         problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+        turned = prepare.scaled(data.square - data.stored, data.scale, group)
+        entries = problem.rows, problem.columns
+        mass = prepare.first_added_mass(data.omega, matrices, goal.band)[entries]
+        lost = measure(turned[:, *entries], mass, problem, goal.band)
+        if lost.weighted_outside > target_outside:
+            return np.inf
         found = max(found, rich_poles(problem, goal, lambda message: None, MOST_POLES)[1])
         if found > worst:
             break

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydrodae.hdb.memory import passivity
-from hydrodae.hdb.memory.direct import fit_direct
+from hydrodae.hdb.memory.clock import SEARCH
+from hydrodae.hdb.memory.direct import FAILED, GAIN, fit_direct
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, quality
 from hydrodae.hdb.memory.hankel import fit_hankel
 from hydrodae.hdb.memory.modes import Modes, Problem, error, from_residues, importance, refine
@@ -130,6 +131,7 @@ def _passive_rungs(
     kept: list[GroupFit] = []
     reachable = goal.met(quality(ladder[-1], problem, goal.band), SLACK)
     rungs = ladder[::-1] if reachable else ladder[-1:]
+    failed, best = 0, np.inf
     for modes in rungs:
         passive, reached = made_passive(modes, problem, goal)
         found = GroupFit(passive, problem, quality(passive, problem, goal.band))
@@ -137,17 +139,20 @@ def _passive_rungs(
             f"{passive.n_states} states, passive: {reached}, "
             f"{goal.miss(found.quality):.2f} of the target error"
         )
+        miss = goal.miss(found.quality)
+        failed = 0 if reached and miss < GAIN * best else failed + 1
         if reached:
             kept.append(found)
-            if goal.met(found.quality):
-                break
+            best = min(best, miss)
+        if failed >= FAILED or problem.clock.over() or (reached and goal.met(found.quality)):
+            break
     return kept
 
 
 def made_passive(
     modes: Modes, problem: Problem, goal: Goal, thorough: bool = True
 ) -> tuple[Modes, bool]:
-    """Make modes passive, by the penalty or else by constraints; tell whether they are.
+    """Make modes passive, by the penalty or else by constraints; return whether they are.
 
     Not `thorough`: by the penalty alone, of which constraints win some per cent.
     """
@@ -179,8 +184,9 @@ def _tamed(
     found: list[GroupFit] = []
     best = np.inf
     highest = float(problem.samples.omega.max())
-    for count in (8, 12, 16):
-        if 2 * count > problem.samples.omega.size:
+    counts = [count for count in (8, 12, 16) if 2 * count <= problem.samples.omega.size]
+    for count in counts or sorted(known)[-1:]:
+        if found and problem.clock.over(SEARCH):
             break
         poles = known[count] if count in known else best_poles(problem, count)[1]
         modes = _first_modes(problem, goal, [poles], (1.0,))
@@ -210,7 +216,7 @@ def _tamed(
                 if goal.distance(made) > NEARLY * best:
                     break
             least = max(4, 2 * problem.size, modes.n_states * 4 // 5)
-            if modes.n_states <= least:
+            if modes.n_states <= least or problem.clock.over(SEARCH):
                 break
             while modes.n_states > least:
                 modes = _pruned(modes, problem, 1)
@@ -233,6 +239,8 @@ def _ladder(
     found = quality(modes, problem, goal.band)
     limit = SLACK if goal.met(found, SLACK) else 1.15 * goal.miss(found)
     while modes.poles.size > 1:
+        if problem.clock.over(SEARCH) and (cap is None or modes.n_states <= cap):
+            break
         modes = _pruned(modes, problem, 1 if goal.met(found, 0.7) else 3)
         found = quality(modes, problem, goal.band)
         good = goal.met(found, limit)
@@ -281,4 +289,6 @@ def _first_modes(
         near = [item[1] for item in found if item[0] <= SLACK]
         if near:
             return min(near, key=lambda modes: modes.n_states)
+        if problem.clock.over(SEARCH):
+            break
     return min(found, key=lambda item: item[0])[1]

@@ -31,6 +31,8 @@ def missed(report: Mapping[str, Any]) -> dict[str, str]:
         found["target"] = (
             f"misses its target with {report['n_states']} states: {_errors(report)}{_why(report)}"
         )
+    if report.get("time_limited", False):
+        found = {key: f"{text}; the time limit ended the search" for key, text in found.items()}
     return found
 
 

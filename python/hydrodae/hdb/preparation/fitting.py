@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,8 +31,11 @@ OUTSIDE = 0.3
 ABOVE, LEAST_ROWS = (2.0, 1.2), 12
 #: Eigenvalue of B below that of the largest, near the band, which no passive fit goes with.
 NEGATIVE = -1e-3
-#: Vector fits so many times off the target cannot meet it; those within such a share do easily.
-HOPELESS, EASY = 2.0, 0.5
+#: Vector fits within this share of the target show that a fit can meet it; another choice of
+#: frequencies must come nearer by this factor.
+REACHED, NEARER = 1.0, 0.85
+#: Weighted error of H in the band of a fit without a target of its own.
+USUAL = 0.01
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
 #: beyond so many times its largest in the tables.
 INERTIA, RINGS = 0.05, 1.5
@@ -49,18 +52,18 @@ def fit(
     target: float | None = None,
     uniform: float | None = None,
     method: str | None = None,
+    time_limit: float | None = None,
     accept: Sequence[str] = (),
     progress: Callable[[str], None] | None = None,
 ) -> HydroDatabase:
     """Fit the radiation memory of some coordinates; the command `hydrodae hdb fit`.
 
-    A fit that would be refused is tried again without the frequencies outside the band that break
-    causality or energy (irregular frequencies), and then without those above the band; its report
-    tells how many (`left_out`), its A_inf must be that of the tables, and its H not larger.
-    Single frequencies off the curve through their neighbours are left out before, and told.
-    Where no target is given and no fit reaches the usual one, a fit as near as the noise of the
-    tables is taken (`hydrodae.hdb.memory.noise`), or one within 2e-3, which panels are no surer of;
-    its report says so (`noisy`).
+    Where no smooth function follows the whole table, frequencies outside the band that break
+    causality or energy (irregular frequencies) are left out, and then those above the band. The
+    report states how many (`left_out`); A_inf must be that of the tables, and H not larger.
+    Single frequencies off the curve through their neighbours are left out before, and reported.
+    Without a target, a fit that misses the usual one is kept within 1 % of H in the band; its
+    report states the error and the noise of the tables (`noisy`).
 
     Parameters
     ----------
@@ -74,8 +77,9 @@ def fit(
         Coordinates whose loads the fit gives, likewise; default: those that move.
     band : (float, float), optional
         Frequencies that the fit must match [rad/s], for example those of
-        `hydrodae.working_band`; default: 0.04 to 1 rad/s, right at full scale, or with `uniform`
-        the frequencies that the device feels (`hydrodae.hdb.checks.band.felt_band`).
+        `hydrodae.working_band`; default: from the damping of the tables
+        (`hydrodae.hdb.memory.band`), with `uniform` up to the last frequency that the device feels
+        (`hydrodae.hdb.checks.band.felt_band`).
     states : int, optional
         Largest number of states.
     target : float, optional
@@ -84,6 +88,8 @@ def fit(
         Target in place of that: largest error of H in the band over its largest value [-].
     method : str, optional
         "modes", "hankel" or "auto" (default: by the number of coordinates).
+    time_limit : float, optional
+        Seconds [s]; default: 300. The search ends there, and the best passive fit so far is taken.
     accept : sequence of str
         What the fit may miss: "target" (implied by `states`, which asks for the best of so many)
         and "passive".
@@ -109,7 +115,7 @@ def fit(
         What the fit missed and was accepted; coordinates that do not radiate.
     """
     from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
-    from hydrodae.hdb.memory.fit import DEFAULT_BAND
+    from hydrodae.hdb.memory.fit import table_band
     from hydrodae.hdb.memory.verdict import CHECKS, missed
 
     if not is_fit_name(name):
@@ -118,8 +124,10 @@ def fit(
         raise CaseError(f"target {target:g}: expected a number > 0")
     if unknown := [check for check in accept if check not in CHECKS]:
         raise CaseError(f"accept {unknown[0]!r}: expected one of {', '.join(CHECKS)}")
+    if time_limit is not None and not time_limit > 0.0:
+        raise CaseError(f"time limit {time_limit:g}: expected seconds > 0")
     if band is None and uniform is not None:
-        band = felt_band(database)
+        band = table_band(database)[0], felt_band(database)[1]
     allowed = {*accept, *(() if states is None else ("target",))}
     given = {
         "band": band,
@@ -127,103 +135,72 @@ def fit(
         "target": target,
         "uniform": uniform,
         "method": method,
+        "time_limit": time_limit,
         "progress": progress,
     }
     options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     moving = _labels(inputs, database)
     options["outputs"] = None if loads is None else _labels(loads, database)
 
-    judged = band or DEFAULT_BAND
+    judged = band or table_band(database)
     tables, garbled = without_lone_rows(database, moving, judged)
-
-    def attempt(bad: NDArray[np.bool_], text: str) -> _Attempt:
-        """Fit without some frequencies, which the report tells."""
-        away = {**options, "target_outside": OUTSIDE} if bad.any() else options
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter("always", MemoryFitWarning)
-            made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **away)
-        left_out = "; ".join(part for part in (garbled, text) if part)
-        if left_out:
-            made = replace(made, report={**made.report, "left_out": left_out})
-        refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
-        return _Attempt(made, refused, told)
-
-    def on_noise(trial: _Attempt) -> bool:
-        noisy = list(trial.refused) == ["target"] and target is None
-        return noisy and bool(trial.made.report.get("as_near_as_noise"))
-
     whole = np.zeros(tables.omega.size, bool)
+    bad, text = whole, ""
     if states is None and method in (None, "auto"):
-        looked: dict[str, Any] = {
-            k: options[k] for k in ("band", "target", "uniform") if k in options
-        }
-        easy = _easy_way(tables, moving, judged, looked)
-        if easy is not None:
-            if progress is not None:
-                progress(easy[1])
-            trial = attempt(*easy)
-            if not trial.refused and goes_on(trial.made, tables):
-                return _with(database, name, trial)
-    best = attempt(whole, "")
-    near = best if on_noise(best) else None
-    for bad, text in ways_out(tables.select(moving), judged) if best.refused else []:
-        if progress is not None:
-            progress(text)
-        again = attempt(bad, text)
-        if not goes_on(again.made, tables):
-            continue
-        if on_noise(again) and (near is None or _nearer(again.made, near.made)):
-            near = again
-        if len(again.refused) < len(best.refused):
-            best = again
-        if not best.refused:
-            break
-    if best.refused and near is not None:
-        best = _Attempt(_as_noise(near.made), {}, [])
-    if best.refused:
-        raise DatabaseError(
-            f"fit '{name}' {_refusal(best.refused, cure(database, moving, judged))}"
-        )
-    return _with(database, name, best)
+        looked: dict[str, Any] = {k: options[k] for k in ("target", "uniform") if k in options}
+        bad, text = _rows(tables, moving, judged, looked)
+    left_out = "; ".join(part for part in (garbled, text) if part)
+    if text and progress is not None:
+        progress(text)
+    if bad.any():
+        options |= {"band": judged, "target_outside": OUTSIDE}
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", MemoryFitWarning)
+        made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
+    if left_out:
+        made = replace(made, report={**made.report, "left_out": left_out})
+    refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
+    if list(refused) == ["target"] and target is None and _near_enough(made, tables):
+        made, refused, told = _as_near(made), {}, []
+    if bad.any() and not goes_on(made, tables):
+        refused["limit"] = "goes to another added mass, or rings, beyond the frequencies it matches"
+    if refused:
+        raise DatabaseError(f"fit '{name}' {_refusal(refused, cure(database, moving, judged))}")
+    for warning in told:
+        warnings.warn(warning.message, stacklevel=2)
+    return replace(database, memory={**database.memory, name: made})
 
 
-@dataclass(frozen=True)
-class _Attempt:
-    """A fit, what it is refused for, and the warnings that it made."""
-
-    made: ExponentialMemory
-    refused: dict[str, str]
-    told: list[warnings.WarningMessage]
-
-
-def _with(database: HydroDatabase, name: str, fit: _Attempt) -> HydroDatabase:
-    """Return the database with a fit, whose warnings are given."""
-    for warning in fit.told:
-        warnings.warn(warning.message, stacklevel=3)
-    return replace(database, memory={**database.memory, name: fit.made})
-
-
-def _easy_way(
+def _rows(
     database: HydroDatabase,
     moving: Sequence[str],
     band: tuple[float, float],
     options: dict[str, Any],
-) -> tuple[NDArray[np.bool_], str] | None:
-    """Return the first of `ways_out` by which tables that no smooth function follows can be met.
+) -> tuple[NDArray[np.bool_], str]:
+    """Return the frequencies (nw,) that a fit leaves out, and a text: none if the table can be met.
 
-    A look by vector fits spares minutes of passive fits that cannot meet the target.
+    Vector fits of few poles show how near smooth functions come to each choice of `ways_out`. A
+    fit of the table as it stands comes first, then the choice that leaves out least; a later one
+    must be nearer by 15 %.
     """
     from hydrodae.hdb.memory.reach import reach
 
-    whole = reach(database, moving, worst=HOPELESS, **options)
-    if whole is None or whole <= HOPELESS:
-        return None
-    options = {**options, "target_outside": OUTSIDE, "worst": EASY}
-    for bad, text in ways_out(database.select(moving), band):
-        found = reach(at(database, ~bad), moving, **options)
-        if found is not None and found <= EASY:
-            return bad, text
-    return None
+    chosen = np.zeros(database.omega.size, bool), ""
+    best = reach(database, moving, band=band, **options)
+    ways = ways_out(database.select(moving), band)
+    if best is None:  # too many coordinates to look at: leave out what breaks a law, no more
+        beyond = database.omega > ABOVE[0] * band[1]
+        return ways[0] if ways and np.any(beyond & ~ways[0][0]) else chosen
+    for bad, text in ways:
+        if best <= REACHED:
+            break
+        tables = at(database, ~bad)
+        found = reach(
+            tables, moving, band=band, target_outside=OUTSIDE, worst=NEARER * best, **options
+        )
+        if found is not None and found < NEARER * best:
+            best, chosen = found, (bad, text)
+    return chosen
 
 
 def without_lone_rows(
@@ -255,19 +232,28 @@ def without_lone_rows(
     return at(database, ~bad), f"{text}: left out"
 
 
-def _nearer(fit: ExponentialMemory, other: ExponentialMemory) -> bool:
-    """Tell whether a fit is nearer to its tables in the band than another."""
-    return bool(fit.report["weighted_error_band"] < other.report["weighted_error_band"])
+def _near_enough(fit: ExponentialMemory, tables: HydroDatabase) -> bool:
+    """Return whether a fit without a target of its own is kept, its error stated."""
+    report = fit.report
+    if "uniform" in report:
+        return False
+    if report["as_near_as_noise"]:
+        return True
+    beyond = report["weighted_error_outside"] <= OUTSIDE or goes_on(fit, tables)
+    return bool(report["weighted_error_band"] <= USUAL and beyond)
 
 
-def _as_noise(fit: ExponentialMemory) -> ExponentialMemory:
-    """Return a fit that misses its target by the noise of the tables only, and says so."""
-    error, noise = fit.report["weighted_error_band"], fit.report["noise"]
+def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
+    """Return a fit that misses the usual target, and says so."""
+    report = fit.report
+    cause = "no fit reaches"
+    if report["time_limited"]:
+        cause = "the time limit ended the search before it reached"
     text = (
-        f"the tables carry noise of {noise:.1e} of H in the band (weighted); no fit reaches the "
-        f"usual target {fit.report['target']:g}, this one {error:.1e}"
+        f"the tables carry noise of {report['noise']:.1e} of H in the band (weighted); {cause} "
+        f"the usual target {report['target']:g}, this one {report['weighted_error_band']:.1e}"
     )
-    return replace(fit, report={**fit.report, "noisy": text, "target_met": True})
+    return replace(fit, report={**report, "noisy": text, "target_met": True})
 
 
 def ways_out(
