@@ -214,11 +214,11 @@ def test_a_stop_holds_in_the_equilibrium() -> None:
     ("old", "new", "message"),
     [
         ("lower = -1.0", "upper = -0.5", "the start is beyond stop 'floor': 0 m is not within"),
-        ("lower = -1.0", "", "a stop needs the key 'lower' or 'upper'"),
+        ("lower = -1.0", "", "a stop needs one of the keys 'lower', 'upper'"),
         ("lower = -1.0", "lower_deg = -1.0", "the coordinate is a displacement: write 'lower'"),
         ("lower = -1.0", "lower = 1.0\nupper = 0.5", "the upper bound must be above the lower"),
         ("restitution = 0.8", "restitution = 1.2", "restitution"),
-        ('type = "stop"', 'type = "coordinate"', "a coordinate constraint has no 'lower'"),
+        ('type = "stop"', 'type = "coordinate"', "unknown key 'lower'"),
     ],
 )
 def test_a_stop_that_makes_no_sense_is_refused(old: str, new: str, message: str) -> None:

@@ -293,8 +293,8 @@ def test_what_is_no_fmu_is_told(how: str, tmp_path: Path) -> None:
         ("[1.3, 0.7]", "[1.3]", "'parameter_values' must have as many as 'parameters': 2"),
         ("[1.3, 0.7]", "[-1.3, 0.7]", "fmi.Set.* has ended in status Error: kp is negative"),
         ('"pi.fmu"', '"po.fmu"', "key 'file' in .*po.fmu"),
-        ('file = "pi.fmu"', "", "needs the key 'file'"),
-        ("fmu_outputs", "damping = 1.0\nfmu_outputs", "a fmu controller has no key 'damping'"),
+        ('file = "pi.fmu"', "", "missing key 'file'"),
+        ("fmu_outputs", "damping = 1.0\nfmu_outputs", "unknown key 'damping'"),
     ],
 )
 def test_mistakes_are_told(fmi: int, old: str, new: str, message: str, tmp_path: Path) -> None:

@@ -224,8 +224,10 @@ void add_hydro(const model::Scene& scene, system::System& s) {
                                          : system::HydroAxes::yaw;
   number_coordinates(scene, s);
   set_hydrostatics(scene, s);
-  if (h.n_moving == 0)
+  if (h.n_moving == 0) {
+    h.link();
     return;
+  }
   if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
     h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
     add_memory(scene, *fit, s);
@@ -252,6 +254,7 @@ void add_hydro(const model::Scene& scene, system::System& s) {
     note_uncovered(scene, db.coordinates, s);
   }
   h.added_mass = moving_rows(h, h.added_mass_all);
+  h.link();
   check_mass(s);
   check_radiation(scene, s, largest_damping(scene, h));
 }

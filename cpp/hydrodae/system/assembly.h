@@ -104,10 +104,10 @@ template <class Sink> struct Assembly {
   void body_rows();
   void add(const ElementList& list);
   void add(const HydroData& hydro);
-  void hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum);
+  void hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum);
   void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
-  void memory_columns(const HydroBody& i, const Matrix6& L);
+  void memory_columns(const HydroBody& i, const std::vector<int>& states, const Matrix6& L);
   void memory_rows();
   template <int w, int n>
   void law(const PortGradient<w, n>& port, const std::array<int, 2>& bodies, const double* jacobian,

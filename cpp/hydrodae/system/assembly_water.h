@@ -22,15 +22,6 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
   return block;
 }
 
-/// Whether the water lets the motion of j load i by A, B or a convolution. Constant data: the same
-/// pairs at every call. Far bodies of an array may be uncoupled.
-inline bool is_coupled(const HydroData& h, const HydroBody& i, const HydroBody& j) {
-  if (i.body == j.body || !h.convolution.empty())
-    return true;
-  return !hydro_block(h.added_mass, i, j).isZero(0.0) ||
-         (h.damped && !hydro_block(h.damping, i, j).isZero(0.0));
-}
-
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
@@ -57,15 +48,15 @@ void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Ma
   }
 }
 
-template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, const Matrix6& L) {
+template <class Sink>
+void Assembly<Sink>::memory_columns(const HydroBody& i, const std::vector<int>& states,
+                                    const Matrix6& L) {
   const BodyData& b = s.bodies[i.body];
-  for (int z = 0; z < s.hydro.n_states; ++z) {
+  for (const int z : states) {
     Vector6 column = Vector6::Zero();
     for (int c = 0; c < 6; ++c)
       if (i.moving[c] >= 0)
         column[c] = s.hydro.output(i.moving[c], z);
-    if (column.isZero(0.0))
-      continue; // constant data: the same entries at every call
     const Vector6 load = L * column;
     for (int k = 0; k < b.n_active; ++k)
       sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
@@ -74,18 +65,19 @@ template <class Sink> void Assembly<Sink>::memory_columns(const HydroBody& i, co
 
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
 template <class Sink>
-void Assembly<Sink>::hydro_body(const HydroBody& i, const Vector6& rate, const Vector6& momentum) {
+void Assembly<Sink>::hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum) {
+  const HydroBody& i = s.hydro.bodies[number];
+  const HydroData::Links& links = s.hydro.links[number];
   const HydroLoadGradient d = hydro_load_gradient(s.hydro.axes, i, state(i.body), rate, momentum);
   const BodyData& data = s.bodies[i.body];
   for (int k = 0; k < data.n_active; ++k) {
     rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
     velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
-  for (const HydroBody& j : s.hydro.bodies)
-    if (j.moves && is_coupled(s.hydro, i, j))
-      hydro_pair(i, j, d.L, d.Q);
+  for (const int j : links.partners)
+    hydro_pair(i, s.hydro.bodies[static_cast<std::size_t>(j)], d.L, d.Q);
   if constexpr (memory)
-    memory_columns(i, d.L);
+    memory_columns(i, links.states, d.L);
 }
 
 template <class Sink> void Assembly<Sink>::memory_rows() {
@@ -111,11 +103,9 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
     const int body = hb.body;
     const BodyData& b = s.bodies[body];
     const HydroMotionGradient d = hydro_motion_gradient(h.axes, hb, state(body));
-    for (const HydroData::Input& in : h.inputs) {
-      const HydroData::Coordinate& u = h.coordinates[in.coordinate];
-      if (u.hydro_body != static_cast<int>(i))
-        continue;
-      const int c = u.component;
+    for (const int number : h.links[i].inputs) {
+      const HydroData::Input& in = h.inputs[static_cast<std::size_t>(number)];
+      const int c = h.coordinates[in.coordinate].component;
       const Index row = h.z0 + in.state;
       if (h.axes == HydroAxes::yaw || (c < 3) == (h.axes == HydroAxes::body))
         rotation_columns(row, body, -in.value * d.U_phi.row(c));
@@ -128,10 +118,12 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
 
 /// L A L^T of each pair, all that the accelerations feel of the water at once.
 template <class Sink> void Assembly<Sink>::hydro_masses() {
-  for (const HydroBody& i : s.hydro.bodies)
-    for (const HydroBody& j : s.hydro.bodies) {
-      if (!i.moves || !j.moves || !is_coupled(s.hydro, i, j))
-        continue;
+  for (std::size_t number = 0; number < s.hydro.bodies.size(); ++number) {
+    const HydroBody& i = s.hydro.bodies[number];
+    if (!i.moves)
+      continue;
+    for (const int partner : s.hydro.links[number].partners) {
+      const HydroBody& j = s.hydro.bodies[static_cast<std::size_t>(partner)];
       Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
       if (!s.hydro.convolution.empty() && ws.state.past)
         A += hydro_block(ws.state.past->by_U_dot, i, j);
@@ -141,6 +133,7 @@ template <class Sink> void Assembly<Sink>::hydro_masses() {
       for (int k = 0; k < b.n_active; ++k)
         acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));
     }
+  }
 }
 
 template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
@@ -148,7 +141,8 @@ template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
     return hydro_masses();
   Workspace<double>& w = ws.state;
   hydro_loads<double>(s, w, y + h.z0);
-  for (const HydroBody& i : h.bodies) {
+  for (std::size_t number = 0; number < h.bodies.size(); ++number) {
+    const HydroBody& i = h.bodies[number];
     if (!i.moves)
       continue;
     Vector6 rate = Vector6::Zero(), momentum = Vector6::Zero();
@@ -158,7 +152,7 @@ template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
       rate[c] = w.inertia_force[i.moving[c]];
       momentum[c] = w.momentum[i.moving[c]];
     }
-    hydro_body(i, rate, momentum);
+    hydro_body(number, rate, momentum);
   }
   memory_rows();
 }

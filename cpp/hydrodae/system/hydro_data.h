@@ -70,6 +70,17 @@ struct HydroData {
   std::vector<Run> runs; ///< all of `inputs`
   VectorX run_values;
 
+  /// What a body shares with others, from the tables: all else is zero.
+  struct Links {
+    std::vector<int> partners; ///< bodies whose motion loads it by A, B or a convolution; itself
+    std::vector<int> states;   ///< of the memory, that load it
+    std::vector<int> inputs;   ///< in `inputs`, that it drives
+  };
+  std::vector<Links> links; ///< of each of `bodies`
+
+  /// Finds `links`, once all the rest is there.
+  void link();
+
   /// z += factor B_r U, from U (n_moving,) to z (n_states,).
   template <class S> void add_input(double factor, const S* U, S* z) const {
     for (const Run& run : runs) {

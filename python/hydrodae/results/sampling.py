@@ -10,7 +10,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import stdtrit
 
 from hydrodae import _core
 
@@ -83,6 +82,8 @@ def largest_interval(values: ArrayLike) -> Interval:
     (float, float)
         Least and largest; nan for fewer than `FEWEST` samples.
     """
+    from scipy.special import stdtrit  # takes half a second: only where it is used
+
     x = np.asarray(values, dtype=float)
     if len(x) < FEWEST:
         return NONE
