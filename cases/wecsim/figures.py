@@ -1,0 +1,278 @@
+"""The figure of an example beside the stored value of WEC-Sim or a closed form."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.io import loadmat
+
+import hydrodae
+from hydrodae.case.contents import case_tables
+from hydrodae.results import Results
+
+
+class NoFigure(Exception):
+    """The case is not of the kind that the figure is about."""
+
+
+class FigureError(Exception):
+    """A figure does not exist for this case."""
+
+
+@dataclass
+class Figure:
+    """One quantity.
+
+    Attributes
+    ----------
+    name : str
+        Quantity with its unit.
+    ours : float
+        Of the run.
+    reference : float, optional
+        What it is compared with.
+    source : str
+        Where the reference is from.
+    """
+
+    name: str
+    ours: float
+    reference: float | None = None
+    source: str = ""
+
+    def cells(self) -> list[str]:
+        """Cells of the table: name, ours, reference, difference."""
+        if self.reference is None:
+            return [self.name, f"{self.ours:.5g}", "", ""]
+        difference = f"{100.0 * (self.ours / self.reference - 1.0):+.3f} %"
+        return [self.name, f"{self.ours:.5g}", f"{self.reference:.5g} ({self.source})", difference]
+
+
+def make(example: dict[str, Any], results: Results, case: Path, folder: Path) -> Figure | None:
+    """The figure that `examples.toml` asks for by `figure`.
+
+    Parameters
+    ----------
+    example : dict
+        Table of the example.
+    results : Results
+        Of its run.
+    case : Path
+        Converted case file.
+    folder : Path
+        Folder of the example in the clone.
+    """
+    kind = example.get("figure", "")
+    if kind == "stored":
+        return stored(results, case, folder / example["file"])
+    if kind == "":
+        return None
+    tables = _tables(case)
+    if kind in ("heave", "reactive") and "period" not in tables.get("wave", [{}])[0]:
+        raise NoFigure("there is no regular wave")
+    return {
+        "heave": heave,
+        "reactive": reactive,
+        "decay": decay,
+        "morison": morison,
+        "power": power,
+        "yaw": yaw,
+        "pitch": pitch,
+    }[kind](results, case)
+
+
+def amplitude(time: np.ndarray, value: np.ndarray, omega: float, periods: int = 5) -> float:
+    """Amplitude at a frequency in rad/s, by least squares over the last periods."""
+    last = time >= time[-1] - periods * 2.0 * math.pi / omega
+    t, x = time[last], value[last]
+    base = np.column_stack([np.cos(omega * t), np.sin(omega * t), np.ones_like(t)])
+    found = np.linalg.lstsq(base, x, rcond=None)[0]
+    return float(np.hypot(found[0], found[1]))
+
+
+def stored(results: Results, case: Path, file: Path) -> Figure:
+    """Heave of the first body against the second at the end of the run, and that of WEC-Sim."""
+    bodies = loadmat(file, simplify_cells=True)["output"]["bodies"]
+    time = np.asarray(bodies[0]["time"], dtype=float)
+    theirs = bodies[0]["position"][:, 2] - bodies[1]["position"][:, 2]
+    names = [body["name"] for body in _tables(case)["body"]]
+    ours = _heave(results, names[0]) - _heave(results, names[1])
+    wave = _tables(case)["wave"][0]
+    if wave["type"] == "regular":
+        omega = 2.0 * math.pi / wave["period"]
+        name = "amplitude of the relative heave, m"
+        values = amplitude(_time(results), ours, omega), amplitude(time, theirs, omega)
+    else:
+        name = "standard deviation of the relative heave (other phases of the sea), m"
+        half, mine = time >= 0.5 * time[-1], _time(results) >= 0.5 * time[-1]
+        values = float(np.std(ours[mine])), float(np.std(theirs[half]))
+    return Figure(name, *values, f"stored, {file.name}")
+
+
+def heave(results: Results, case: Path) -> Figure:
+    """Amplitude of the first body in a regular wave, and that of linear theory.
+
+    (-w2 (M + A) + i w (B + D) + C + K) X = F a for the heave of all bodies that move, from the
+    tables of the database at the frequency of the wave: an own solution, without the kernel.
+    """
+    tables, database = _tables(case), _database(case)
+    wave = tables["wave"][0]
+    if wave["type"] != "regular":
+        raise FigureError("no regular wave")
+    omega = 2.0 * math.pi / wave["period"]
+    names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
+    added, damping, force = _heave_tables(database, names, omega)
+    mass = np.diag([b["mass"] for b in tables["body"] if b["name"] in names])
+    water = [database.bodies[n].hydrostatics.waterplane_area for n in names]
+    stiffness = np.diag(np.array(water) * database.rho * database.gravity)
+    joints = {joint["name"]: joint for joint in tables.get("joint", [])}
+    for item in tables.get("force", []):
+        if item["type"] != "pto_linear":
+            raise NoFigure(f"linear theory of {item['type']} is not written here")
+        ends = joints[item["joint"]]
+        across = np.array([float(n == ends["body_b"]) - float(n == ends["body_a"]) for n in names])
+        damping = damping + item.get("damping", 0.0) * np.outer(across, across)
+        stiffness = stiffness + item.get("stiffness", 0.0) * np.outer(across, across)
+    matrix = -(omega**2) * (mass + added) + 1j * omega * damping + stiffness
+    exact = np.abs(np.linalg.solve(matrix, force * 0.5 * wave["height"]))[0]
+    ours = amplitude(_time(results), _heave(results, names[0]), omega)
+    return Figure(f"heave amplitude of {names[0]}, m", ours, float(exact), "linear theory")
+
+
+def reactive(results: Results, case: Path) -> Figure:
+    """Damping of the optimum of a reactive controller: that of the waves at their frequency."""
+    tables, database = _tables(case), _database(case)
+    omega = 2.0 * math.pi / tables["wave"][0]["period"]
+    name = next(b["name"] for b in tables["body"] if b.get("motion") != "fixed")
+    _, damping, _ = _heave_tables(database, [name], omega)
+    return Figure("optimal gain, N s/m", float(damping[0, 0]), 49181.0, "its input file")
+
+
+def decay(results: Results, case: Path) -> Figure:
+    """Period of a heave decay, and the damped natural period of linear theory."""
+    tables, database = _tables(case), _database(case)
+    body = next(b for b in tables["body"] if b.get("motion") != "fixed")
+    water = database.bodies[body["name"]].hydrostatics.waterplane_area
+    stiffness = water * database.rho * database.gravity
+    omega = 1.0
+    for _ in range(60):
+        added, damping, _ = _heave_tables(database, [body["name"]], omega)
+        total = body["mass"] + added[0, 0]
+        omega = math.sqrt(stiffness / total - (0.5 * damping[0, 0] / total) ** 2)
+    time, z = _time(results), _heave(results, body["name"])
+    z = z - z[-1] if tables.get("morison") else z - body["center_of_gravity"][2]
+    down = np.flatnonzero((z[:-1] > 0.0) & (z[1:] <= 0.0))
+    if down.size < 2:
+        return Figure("largest heave, m", float(np.max(np.abs(z))))
+    crossing = time[down] + (time[down + 1] - time[down]) * z[down] / (z[down] - z[down + 1])
+    ours = float(crossing[1] - crossing[0])
+    return Figure("first period, s", ours, 2.0 * math.pi / omega, "linear theory")
+
+
+def morison(results: Results, case: Path) -> Figure:
+    """Force on a monopile of 10 m in 30 m of water in a regular wave of 2 m and 5 s.
+
+    F = 2 rho g pi D2/4 H/2 tanh(k h): the integral of the inertia force over the depth.
+    """
+    rho, gravity, depth, diameter, height, omega = 1025.0, 9.81, 30.0, 10.0, 2.0, 2 * math.pi / 5
+    text = f"""
+[environment]
+gravity = {gravity}
+water_density = {rho}
+water_depth = {depth}
+[[wave]]
+name = "wave"
+type = "regular"
+height = {height}
+period = 5.0
+[[body]]
+name = "pile"
+motion = "fixed"
+mass = 1.0
+center_of_gravity = [0.0, 0.0, -15.0]
+[[morison]]
+name = "pile"
+body = "pile"
+point_a = [0.0, 0.0, {-depth}]
+point_b = [0.0, 0.0, 0.0]
+diameter = {diameter}
+added_mass_coefficient = 1.0
+segments = 300
+[solver]
+end_time = 50.0
+[output]
+step = 0.05
+"""
+    file = case.with_name("monopile.toml")
+    file.write_text(text, encoding="utf-8")
+    run = hydrodae.run(file)
+    force = np.asarray(run["forces/pile/pile/force"])[:, 0]
+    k = omega**2 / gravity
+    for _ in range(50):
+        k = omega**2 / (gravity * math.tanh(k * depth))
+    exact = 0.5 * math.pi * rho * gravity * diameter**2 * 0.5 * height * math.tanh(k * depth)
+    ours = amplitude(_time(run), force, omega)
+    return Figure("force on the pile in a wave of 2 m, 5 s, N", ours, exact, "closed form")
+
+
+def power(results: Results, case: Path) -> Figure:
+    """Mean absorbed power of all take-offs after half of the time."""
+    channels = [name for name in results if name.endswith("/power_absorbed")]
+    if not channels:
+        raise FigureError("no take-off in the case")
+    time = _time(results)
+    last = time >= 0.5 * time[-1]
+    total = sum(float(np.mean(np.asarray(results[name])[last])) for name in channels)
+    return Figure("mean absorbed power after half of the time, W", total)
+
+
+def yaw(results: Results, case: Path) -> Figure:
+    """Largest turn about z of the bodies."""
+    return _turn(results, 2, "largest yaw, deg")
+
+
+def pitch(results: Results, case: Path) -> Figure:
+    """Largest turn about y of the bodies."""
+    return _turn(results, 1, "largest pitch, deg")
+
+
+def _turn(results: Results, axis: int, name: str) -> Figure:
+    turns = [np.asarray(results[n])[:, axis] for n in results if n.endswith("/rotation")]
+    if not turns:
+        raise FigureError("no body moves")
+    return Figure(name, float(np.rad2deg(max(np.max(np.abs(turn)) for turn in turns))))
+
+
+def _heave_tables(
+    database: hydrodae.hdb.HydroDatabase, names: list[str], omega: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Added mass, damping and excitation per metre of the heave of bodies, at one frequency."""
+    index = [database.coordinates.index(f"{name}.heave") for name in names]
+
+    def at(table: np.ndarray) -> Any:
+        return np.interp(omega, database.omega, table)
+
+    added = np.array([[at(database.added_mass[:, i, j]) for j in index] for i in index])
+    damping = np.array([[at(database.radiation_damping[:, i, j]) for j in index] for i in index])
+    force = np.array([at(database.excitation[:, 0, i]) for i in index])
+    return added, damping, force
+
+
+def _tables(case: Path) -> dict[str, Any]:
+    return dict(case_tables(hydrodae.Case.read(case)))
+
+
+def _database(case: Path) -> hydrodae.hdb.HydroDatabase:
+    return hydrodae.hdb.read(case.with_name("hydro.h5"))
+
+
+def _time(results: Results) -> np.ndarray:
+    return np.asarray(results[next(iter(results))]["time"])
+
+
+def _heave(results: Results, name: str) -> np.ndarray:
+    return np.asarray(results[f"bodies/{name}/position"])[:, 2]
