@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -449,3 +451,21 @@ def test_command_wants_one_folder_and_a_known_program(tmp_path: Path, capsys) ->
     assert cli.main(["new", "a", "--from", "other", str(tmp_path)]) == 2
     assert cli.main(["new", str(tmp_path / "a"), "--from", "wecsim", str(tmp_path)]) == 2
     assert "there is no wecSimInputFile.m" in capsys.readouterr().err
+
+
+def test_comparison_of_examples(two_bodies: Path, repository: Path, tmp_path: Path) -> None:
+    """One row that runs, with its figure beside linear theory, and one that is not there."""
+    examples = tmp_path / "examples.toml"
+    examples.write_text(
+        '[[example]]\nfolder = "source"\nfigure = "pitch"\n[[example]]\nfolder = "absent"\n'
+    )
+    output = tmp_path / "table.md"
+    script = repository / "cases" / "wecsim" / "compare.py"
+    command = [sys.executable, str(script), str(two_bodies.parent)]
+    command += ["--examples", str(examples), "--output", str(output)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    rows = output.read_text().splitlines()
+    assert rows[2].startswith("| source | "), done.stderr
+    assert "largest pitch, deg" in rows[2]
+    assert rows[3].startswith("| absent | no: not in these clones |")
+    assert rows[5].startswith("Of 2: ")
