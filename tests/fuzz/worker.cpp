@@ -77,7 +77,8 @@ hydrodae::app::Arguments arguments_of(const std::string& folder, const std::stri
 
 Answer run(hydrodae::model::Scene scene, const std::string& results) {
   for (hydrodae::model::Controller& c : scene.controllers) // nobody is at the other end
-    c.connect_timeout = std::min(c.connect_timeout, patience);
+    if (auto* tcp = c.as<hydrodae::control::Tcp>())
+      tcp->connect_timeout = std::min(tcp->connect_timeout, patience);
   const double start = processor_seconds();
   const auto statistics = hydrodae::simulate(
       scene, results, [&](double, double) { return processor_seconds() - start < run_seconds; });

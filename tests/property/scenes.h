@@ -323,9 +323,8 @@ inline void add_every_force(model::Scene& scene, Random& random, bool late = fal
 }
 
 inline sea::Wave swell() {
-  sea::Wave wave;
+  sea::Regular wave;
   wave.name = "swell";
-  wave.type = "regular";
   wave.height = 1.0;
   wave.period = 5.0;
   wave.heading = 0.2;

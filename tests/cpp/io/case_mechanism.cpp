@@ -83,7 +83,8 @@ std::string message(const std::string& old, const std::string& by) {
 
 const std::vector<BadInput> bad_inputs = {
     {"amplitude = 0.1", "amplitud = 0.1",
-     "case.toml:38:1: unknown key 'amplitud' in drive of [[constraint]] 'crank'; did you mean "
+     "case.toml:38:1: unknown key 'amplitud' in drive of [[constraint]] 'crank' of type "
+     "coordinate; did you mean "
      "'amplitude'? (valid: constant, rate, amplitude, period, phase_deg, ramp, time, values, "
      "python)"},
     {"period = 5", "period = 0",
@@ -143,7 +144,7 @@ const std::vector<BadInput> bad_inputs = {
      "case.toml:32:1: unknown key 'pitch' in [[joint]] 'rope' of type distance; valid: name, type, "
      "body_a, body_b, point, point_b, length, one_sided, restitution, contact_time"},
     {"axis = [0.0, 1.0, 0.0]", "axis = [0.0, 1.0, 0.0]\ninitial = { displacement = 1.0 }",
-     "case.toml:24:13: unknown key 'displacement' in initial of [[joint]] 'hinge' of type "
+     "case.toml:23:13: unknown key 'displacement' in initial of [[joint]] 'hinge' of type "
      "revolute; "
      "valid: angle_deg, angle_rate"},
     {"body = \"weight\"\ncoordinate", "body = \"weight\"\nratio = 2\ncoordinate",

@@ -71,8 +71,9 @@ damping = [[1, 2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0],
 TEST_CASE("a wrong key is told with its place and the nearest name") {
   check_messages({
       {"damping = 5.0", "dampping = 5.0",
-       "case.toml:32:1: unknown key 'dampping' in [[force]] 'pto1'; did you mean 'damping'? "
-       "(valid: type, name, joint, coordinate, damping, stiffness, neutral, delay)"},
+       "case.toml:32:1: unknown key 'dampping' in [[force]] 'pto1' of type pto_linear; did you "
+       "mean 'damping'? "
+       "(valid: name, type, joint, coordinate, damping, stiffness, neutral, delay)"},
       {"gravity = 9.81", "  zzz = 9.81",
        "case.toml:4:3: unknown key 'zzz' in [environment]; valid: gravity, water_density, "
        "water_depth"},
@@ -82,7 +83,8 @@ TEST_CASE("a wrong key is told with its place and the nearest name") {
        "controller, solver, "
        "output)"},
       {"angle_deg", "angle_dg",
-       "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge'; did you mean "
+       "case.toml:26:13: unknown key 'angle_dg' in initial of [[joint]] 'hinge' of type revolute; "
+       "did you mean "
        "'angle_deg'? (valid: angle_deg, angle_rate)"},
       {"mass = 10.0\n", "", "case.toml:12:1: missing key 'mass' in [[body]] 'flap' (Mass [kg])"},
       {"name = \"flap\"\n", "",
@@ -149,7 +151,8 @@ TEST_CASE("a scene that contradicts itself is told with the place of the key") {
        "case.toml:31:1: force 'pto1': joint = 'hing' is no joint; did you mean 'hinge'? (valid: "
        "hinge)"},
       {"angle_deg = 90.0", "displacement = 1.0",
-       "case.toml:26:13: joint 'hinge': initial displacement: a revolute joint does not slide"},
+       "case.toml:26:13: unknown key 'displacement' in initial of [[joint]] 'hinge' of type "
+       "revolute; valid: angle_deg, angle_rate"},
   });
 }
 

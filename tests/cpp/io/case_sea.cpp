@@ -18,15 +18,15 @@ TEST_CASE("a mistake in a wave is told with its place") {
   const auto line = [](const std::string& text) { return text.substr(0, text.find(": ")); };
   CHECK(tests::contains(message(head + "type = \"jonswop\"\n"), "did you mean 'jonswap'?"));
   CHECK(message(head + "type = \"regular\"\nheight = 1.0\n") ==
-        "case.toml:40:1: wave 'w': a regular wave needs the key 'period'");
+        "case.toml:40:1: missing key 'period' in [[wave]] 'w' (Period of a regular wave [s])");
   const std::string gamma =
       message(head + "type = \"bretschneider\"\nsignificant_height = 1.0\npeak_period = 8.0\n"
                      "gamma = 2.0\n");
   CHECK(line(gamma).starts_with("case.toml:45:"));
-  CHECK(tests::contains(gamma, "a bretschneider wave has no 'gamma'"));
+  CHECK(tests::contains(gamma, "unknown key 'gamma' in [[wave]] 'w' of type bretschneider"));
   CHECK(tests::contains(message(head + "type = \"pierson_moskowitz\"\nsignificant_height = 1.0\n"
                                        "peak_period = 8.0\n"),
-                        "has no 'peak_period'"));
+                        "unknown key 'peak_period'"));
   CHECK(tests::contains(message(head + "type = \"table\"\nfrequency = [1.0, 0.5]\n"
                                        "density = [1.0, 1.0]\n"),
                         "the frequencies must ascend"));
