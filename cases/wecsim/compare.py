@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import figures
+import figures  # type: ignore[import-not-found] # stands beside this file
 
 import hydrodae
 from hydrodae.errors import HydrodaeError

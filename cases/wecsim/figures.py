@@ -127,7 +127,7 @@ def heave(results: Results, case: Path) -> Figure:
     names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
     added, damping, force = _heave_tables(database, names, omega)
     mass = np.diag([b["mass"] for b in tables["body"] if b["name"] in names])
-    water = [database.bodies[n].hydrostatics.waterplane_area for n in names]
+    water = [_waterplane(database, n) for n in names]
     stiffness = np.diag(np.array(water) * database.rho * database.gravity)
     joints = {joint["name"]: joint for joint in tables.get("joint", [])}
     for item in tables.get("force", []):
@@ -156,7 +156,7 @@ def decay(results: Results, case: Path) -> Figure:
     """Period of a heave decay, and the damped natural period of linear theory."""
     tables, database = _tables(case), _database(case)
     body = next(b for b in tables["body"] if b.get("motion") != "fixed")
-    water = database.bodies[body["name"]].hydrostatics.waterplane_area
+    water = _waterplane(database, body["name"])
     stiffness = water * database.rho * database.gravity
     omega = 1.0
     for _ in range(60):
@@ -276,3 +276,10 @@ def _time(results: Results) -> np.ndarray:
 
 def _heave(results: Results, name: str) -> np.ndarray:
     return np.asarray(results[f"bodies/{name}/position"])[:, 2]
+
+
+def _waterplane(database: hydrodae.hdb.HydroDatabase, body: str) -> float:
+    statics = database.bodies[body].hydrostatics
+    if statics is None:
+        raise NoFigure(f"the database has no hydrostatics of {body}")
+    return float(statics.waterplane_area)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.surface import read_surface, write_stl
 from hydrodae.wecsim.text import CaseText
 
 Array = NDArray[np.float64]
@@ -28,7 +30,6 @@ IDLE = {
 }
 #: Fields of effects that the kernel has another way, or not at all.
 LACKING = {
-    "nonlinearHydro": "nonlinear hydrodynamics (pressure on the mesh at each instant)",
     "meanDrift": "mean drift forces",
     "QTFs": "second-order forces (QTF)",
     "flex": "generalised body modes",
@@ -49,6 +50,8 @@ class Bodies:
     database : HydroDatabase or None
     rho : float
         Density of the water [kg/m3].
+    target : Path
+        Folder of the case, for surfaces.
     """
 
     def __init__(
@@ -57,8 +60,10 @@ class Bodies:
         names: dict[int, str],
         database: HydroDatabase | None,
         rho: float,
+        target: Path,
     ) -> None:
         self.read, self.names, self.database, self.rho = read, names, database, rho
+        self.target = target
 
     def item(self, number: int) -> Item:
         """Entries of a body."""
@@ -123,6 +128,7 @@ class Bodies:
                 keys["volume"] = volume
                 center = item.vector("centerBuoyancy", [])
                 keys["center_of_buoyancy"] = center if center.size == 3 else None
+        keys |= self._surface(item, number, motion)
         shift, rotation = self.start(number)
         if motion != "fixed" and (shift.any() or rotation.any()):
             initial: dict[str, Any] = {}
@@ -142,6 +148,31 @@ class Bodies:
     def _left_out(self, item: Item, field: str, text: str) -> None:
         item.used.add(field)
         self.read.remarks.left_out(self.read.place(item.line_of(field)), f"{item.title}: {text}")
+
+    def _surface(self, item: Item, number: int, motion: str) -> dict[str, Any]:
+        """Keys for pressure on the mesh at each instant, which nonlinearHydro asks for."""
+        option = int(item.number_of("nonlinearHydro"))
+        if option == 0:
+            return {}
+        effect = "nonlinear hydrodynamics (pressure on the mesh at each instant)"
+        stated = item.text("geometryFile")
+        if motion == "fixed" or not self.is_wet(number) or not stated:
+            what = "it does not move" if motion == "fixed" else "no database or geometryFile"
+            self._left_out(item, "nonlinearHydro", f"{effect}: {what}")
+            return {}
+        file = self.read.path.parent / stated.replace("\\", "/")
+        triangles, fault = read_surface(file, self.center_of_gravity(number))
+        if fault:
+            self._left_out(item, "nonlinearHydro", f"{effect}: {fault}")
+            return {}
+        name = f"{self.names[number]}.stl"
+        write_stl(triangles, self.target / name)
+        if option == 1:
+            place = self.read.place(item.line_of("nonlinearHydro"))
+            self.read.remarks.assumed(
+                place, f"{item.title}.nonlinearHydro = 1 taken as 2: pressure up to the wave"
+            )
+        return {"mesh": name, "hydrostatics": "mesh", "froude_krylov": "mesh"}
 
     def _mass(self, item: Item, number: int) -> tuple[float, str]:
         value = item.get("mass")

@@ -82,8 +82,8 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
         case = target / "case.toml"
         case.write_text(str(text), encoding="utf-8")
     except BaseException:
-        for file in ("case.toml", "hydro.h5"):
-            (target / file).unlink(missing_ok=True)
+        for file in [*target.glob("*.stl"), target / "case.toml", target / "hydro.h5"]:
+            file.unlink(missing_ok=True)
         if made and not any(target.iterdir()):
             target.rmdir()
         raise
@@ -195,7 +195,7 @@ def _write(
     if database is not None:
         text.table("[hydro]", hydro, why)
     add_waves(text, read, target, None if database is None else database.omega)
-    bodies = Bodies(read, topology.names, database, rho)
+    bodies = Bodies(read, topology.names, database, rho, target)
     carriers = _carriers(text, topology, bodies)
     links = Links(read, topology, bodies, carriers)
     for link in topology.links:
