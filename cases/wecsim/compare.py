@@ -95,7 +95,7 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
             row.runs = f"part: without {_short(lacks[0], 60)}{more}"
         row.figure = figures.make(example, results, converted.case, found[0])
     except figures.NoFigure as why:
-        print(f"{folder}: {why}", file=sys.stderr)
+        row.note = str(why)
     except HydrodaeError as error:
         row.runs = f"no: {_short(str(error).replace(str(found[0]), folder), 110)}"
     return row

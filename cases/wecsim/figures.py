@@ -19,10 +19,6 @@ class NoFigure(Exception):
     """The case is not of the kind that the figure is about."""
 
 
-class FigureError(Exception):
-    """A figure does not exist for this case."""
-
-
 @dataclass
 class Figure:
     """One quantity.
@@ -122,7 +118,7 @@ def heave(results: Results, case: Path) -> Figure:
     tables, database = _tables(case), _database(case)
     wave = tables["wave"][0]
     if wave["type"] != "regular":
-        raise FigureError("no regular wave")
+        raise NoFigure("no regular wave")
     omega = 2.0 * math.pi / wave["period"]
     names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
     added, damping, force = _heave_tables(database, names, omega)
@@ -223,7 +219,7 @@ def power(results: Results, case: Path) -> Figure:
     """Mean absorbed power of all take-offs after half of the time."""
     channels = [name for name in results if name.endswith("/power_absorbed")]
     if not channels:
-        raise FigureError("no take-off in the case")
+        raise NoFigure("no take-off in the case")
     time = _time(results)
     last = time >= 0.5 * time[-1]
     total = sum(float(np.mean(np.asarray(results[name])[last])) for name in channels)
@@ -243,7 +239,7 @@ def pitch(results: Results, case: Path) -> Figure:
 def _turn(results: Results, axis: int, name: str) -> Figure:
     turns = [np.asarray(results[n])[:, axis] for n in results if n.endswith("/rotation")]
     if not turns:
-        raise FigureError("no body moves")
+        raise NoFigure("no body moves")
     return Figure(name, float(np.rad2deg(max(np.max(np.abs(turn)) for turn in turns))))
 
 
