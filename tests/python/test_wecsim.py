@@ -31,6 +31,7 @@ LIBRARIES = {
     "Translational PTO Actuation Force": "WECSim_Lib_PTOs/Translational PTO&#xA;Actuation Force",
     "Rotational PTO": "WECSim_Lib_PTOs/Rotational PTO",
     "MooringMatrix": "WECSim_Lib_Moorings/MooringMatrix",
+    "MoorDynConnection": "WECSim_Lib_Moorings/MoorDynConnection",
     "Cable": "WECSim_Lib_Cables/Cable",
 }
 
@@ -521,3 +522,75 @@ def test_a_surface_that_is_not_closed_is_left_out(two_bodies: Path, tmp_path: Pa
     converted = convert(two_bodies, tmp_path / "case")
     assert "hull.stl is not closed: 3 edges lack a neighbour" in left_out(converted)
     assert not list((tmp_path / "case").glob("*.stl"))
+
+
+DECK = """
+---------------------- LINE TYPES ----------------------
+TypeName   Diam    Mass/m     EA     BA/-zeta   EI   Cd   Ca   CdAx  CaAx
+(name)     (m)     (kg/m)     (N)    (N-s/-)    (N-m^2)  (-)  (-)  (-)  (-)
+chain      0.1     100.0      5e8    -0.8       0    1.6  1.0  0.1   0.0
+---------------------- BODIES ----------------------
+ID   Attachment   X0   Y0   Z0   r0   p0   y0   Mass  CG   I   Volume  CdA  Ca
+(#)  (word)       (m)  (m)  (m)  (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)
+1    Coupled      0    0    -9   0    0    0    0     0    0   0       0    0
+---------------------- POINTS ----------------------
+ID   Attachment   X     Y    Z     Mass   Volume   CdA   Ca
+(#)  (word/ID)    (m)   (m)  (m)   (kg)   (m^3)    (m^2) (-)
+1    Body1        3.0   0    1.0   0      0        0     0
+2    Fixed        90.0  0    -50   0      0        0     0
+---------------------- LINES ----------------------
+ID   LineType   AttachA   AttachB   UnstrLen   NumSegs   Outputs
+(#)  (name)     (#)       (#)       (m)        (-)       (-)
+1    chain      1         2         105        20        -
+---------------------- OPTIONS ----------------------
+50   WtrDpth
+--------------------- need this line ------------------
+"""
+
+
+def test_body_of_a_mooring_deck_is_where_the_input_file_says(
+    two_bodies: Path, tmp_path: Path
+) -> None:
+    blocks = [*TWO_BODIES, ("Lines", "MoorDynConnection", "mooring(1)")]
+    write_slx(two_bodies / "model.slx", blocks, ["3r-4l", "4r-2r-5r-6l", "5l-1r"])
+    (two_bodies / "lines.txt").write_text(DECK)
+    append(
+        two_bodies,
+        "mooring(1) = mooringClass('chain'); mooring(1).moorDyn = 1;\n"
+        "mooring(1).moorDynInputFile = 'lines.txt';\n"
+        "mooring(1).initial.displacement = [20 0 -1.5];\n",
+    )
+    converted = convert(two_bodies, tmp_path / "case")
+    assert left_out(converted) == ""
+    (line,) = (f for f in tables(tmp_path / "case")["force"] if f["type"] == "catenary")
+    ends = {line["body_a"]: line["point_a"], line["body_b"]: line["point_b"]}
+    assert ends["spar_plate"] == pytest.approx([23.0, 0.0, -0.5])
+    assert ends["ground"] == pytest.approx([90.0, 0.0, -50.0])
+
+
+@pytest.mark.parametrize("wet", [True, False])
+def test_depth_of_the_waves_is_that_of_a_case_without_a_database(
+    two_bodies: Path, tmp_path: Path, wet: bool
+) -> None:
+    append(two_bodies, "waves.waterDepth = 30;\nwaves.spread = 1;\n")
+    file = two_bodies / "wecSimInputFile.m"
+    if not wet:
+        dry = "bodyClass(''); body({n}).nonHydro = 1; body({n}).centerGravity = [0 0 {n}];"
+        dry += " body({n}).centerBuoyancy = [0 0 {n}];"
+        dry += " body({n}).morisonElement.option = 1; body({n}).morisonElement.cd = [1 1 1];"
+        dry += " body({n}).morisonElement.ca = [1 1 1]; body({n}).morisonElement.area = [2 2 2];"
+        dry += " body({n}).morisonElement.VME = 3; body({n}).morisonElement.rgME = [0 0 -5];"
+        text = file.read_text().replace("'equilibrium'", "1e5")
+        for n in (1, 2):
+            text = text.replace(
+                f"body({n}) = bodyClass('hydroData/device.h5');",
+                f"body({n}) = {dry.format(n=n)}",
+            )
+        file.write_text(text)
+    converted = convert(two_bodies, tmp_path / "case")
+    assert left_out(converted) == ""
+    environment = tables(tmp_path / "case")["environment"]
+    assert environment.get("water_depth") == (None if wet else 30.0)
+    unneeded = str(converted.remarks.of("not needed"))
+    assert ("waterDepth (the database is for 50 m)" in unneeded) == wet
+    assert ("body(1).centerBuoyancy (no volume)" in unneeded) != wet

@@ -128,6 +128,10 @@ class Bodies:
                 keys["volume"] = volume
                 center = item.vector("centerBuoyancy", [])
                 keys["center_of_buoyancy"] = center if center.size == 3 else None
+            elif "centerBuoyancy" in item.entries:
+                item.used.add("centerBuoyancy")
+                place = self.read.place(item.line_of("centerBuoyancy"))
+                self.read.remarks.not_needed(place, f"{item.title}.centerBuoyancy (no volume)")
         keys |= self._surface(item, number, motion)
         shift, rotation = self.start(number)
         if motion != "fixed" and (shift.any() or rotation.any()):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -135,14 +136,16 @@ def _database(
             )
         wet[number] = name
         sources.setdefault(str(stated), []).append(number)
+    simu = read.get("simu")
     if not wet:
+        if simu is not None:
+            simu.used.add("b2b")  # of radiation
         return None, {}, ""
     if len(sources) > 1:
         raise CaseError(
             f"{read.path}: the bodies are in {len(sources)} databases ({', '.join(sources)}); "
             "a case has one, with all bodies: compute them together"
         )
-    simu = read.get("simu")
     rho = 1000.0 if simu is None else simu.number_of("rho", 1000.0)
     gravity = 9.81 if simu is None else simu.number_of("gravity", 9.81)
     database = read_database(find_source(next(iter(sources)), read), wet, rho, gravity, read)
@@ -190,7 +193,11 @@ def _write(
     text.value("title", f"{model.path.stem}, from WEC-Sim")
     text.table(
         "[environment]",
-        {"gravity": gravity, "water_density": None if database is not None else rho},
+        {
+            "gravity": gravity,
+            "water_density": None if database is not None else rho,
+            "water_depth": _water_depth(read, database),
+        },
     )
     if database is not None:
         text.table("[hydro]", hydro, why)
@@ -205,6 +212,23 @@ def _write(
         add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)
     add_solver(text, read)
     return text
+
+
+def _water_depth(read: InputFile, database: HydroDatabase | None) -> float | None:
+    """Depth [m] that the input file states; None where a database has its own."""
+    depth = None
+    for waves in read.of("waves"):
+        waves.used.add("waterDepth")
+        if "waterDepth" not in waves.entries:
+            continue
+        stated = waves.number_of("waterDepth", math.inf)
+        if database is None:
+            depth = stated if math.isfinite(stated) else None
+        else:
+            place = read.place(waves.line_of("waterDepth"))
+            text = f"{waves.title}.waterDepth (the database is for {database.water_depth:g} m)"
+            read.remarks.not_needed(place, text)
+    return depth
 
 
 def _carriers(text: CaseText, topology: Topology, bodies: Bodies) -> dict[int, str]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.mooring import read_moordyn
+from hydrodae.mooring.moordyn_deck import read_deck
 from hydrodae.wecsim.bodies import Bodies, _short, _six
 from hydrodae.wecsim.m_file import InputFile, Item
 from hydrodae.wecsim.slx import Block
@@ -94,7 +95,9 @@ def _moordyn(text: CaseText, item: Item, body: int, bodies: Bodies, read: InputF
     origin = item.vector("location", np.zeros(3)) + item.vector("initial.displacement", np.zeros(3))
     name = bodies.names[body]
     try:
-        made = read_moordyn(path, body=name, at={"": list(origin - shift)}, bodies={"1": name})
+        coupled = [k for k, b in read_deck(path).bodies.items() if b.attachment == "coupled"]
+        at = {key: list(origin - shift) for key in coupled or [""]}
+        made = read_moordyn(path, body=name, at=at, bodies=dict.fromkeys(coupled or ["1"], name))
     except CaseError as error:
         read.remarks.left_out(place, f"{item.title}: {error}")
         return

@@ -95,6 +95,7 @@ def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, 
         return []
     first = {"name": name}
     if kind in ("regular", "regularCIC"):
+        waves.used.add("spread")  # of the energy of a sea
         heading = waves.vector("direction", [0.0])
         _only_one(waves, "direction", heading, read)
         height, period = waves.number_of("height"), waves.number_of("period")
