@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hydrodae.results import Results
 
+#: Endings of files that are no results.
+PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+
 
 def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command to those of `hydrodae`."""
@@ -83,6 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from hydrodae.commands.arguments import given_case
     from hydrodae.commands.machine import of_run, print_json
+    from hydrodae.errors import CaseError
     from hydrodae.simulation import simulate
     from hydrodae.support.progress import ProgressLine
 
@@ -93,6 +97,12 @@ def run(arguments: argparse.Namespace) -> int:
         values["solver.force"] = True
     case = given_case(arguments, values)
     output = Path(arguments.output or Path(arguments.case).with_suffix(".h5"))
+    if output.suffix.lower() in PICTURES:
+        file = output.with_suffix(".h5")
+        raise CaseError(
+            f"-o {output}: the results of a run are HDF5, not a picture; write -o {file}, "
+            f"then hydrodae plot {file} -o {output}"
+        )
     how = {name: getattr(arguments, name) for name in ("verify", "checkpoint", "resume")}
     if arguments.quiet or arguments.json:
         results = simulate.run(case, output, **how)
