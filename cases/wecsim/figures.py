@@ -140,16 +140,28 @@ def heave(results: Results, case: Path) -> Figure:
 
 
 def reactive(results: Results, case: Path) -> Figure:
-    """Damping of the optimum of a reactive controller: that of the waves at their frequency."""
+    """Damping of the optimum of a reactive controller: that of the waves at their frequency.
+
+    From the imported database; the case has no controller.
+    """
     tables, database = _tables(case), _database(case)
     omega = 2.0 * math.pi / tables["wave"][0]["period"]
     name = next(b["name"] for b in tables["body"] if b.get("motion") != "fixed")
     _, damping, _ = _heave_tables(database, [name], omega)
-    return Figure("optimal gain, N s/m", float(damping[0, 0]), 49181.0, "its input file")
+    return Figure(
+        "optimal gain by the imported database, N s/m",
+        float(damping[0, 0]),
+        49181.0,
+        "its input file",
+    )
 
 
 def decay(results: Results, case: Path) -> Figure:
-    """Period of a heave decay, and the damped natural period of linear theory."""
+    """First period of a heave decay, and the damped natural period of the tables.
+
+    The tables are taken at that one frequency: an approximation, since the memory of the waves
+    also bends the first cycle.
+    """
     tables, database = _tables(case), _database(case)
     body = next(b for b in tables["body"] if b.get("motion") != "fixed")
     water = _waterplane(database, body["name"])
@@ -166,13 +178,14 @@ def decay(results: Results, case: Path) -> Figure:
         return Figure("largest heave, m", float(np.max(np.abs(z))))
     crossing = time[down] + (time[down + 1] - time[down]) * z[down] / (z[down] - z[down + 1])
     ours = float(crossing[1] - crossing[0])
-    return Figure("first period, s", ours, 2.0 * math.pi / omega, "linear theory")
+    return Figure("first period, s", ours, 2.0 * math.pi / omega, "tables at one frequency")
 
 
 def morison(results: Results, case: Path) -> Figure:
     """Force on a monopile of 10 m in 30 m of water in a regular wave of 2 m and 5 s.
 
-    F = 2 rho g pi D2/4 H/2 tanh(k h): the integral of the inertia force over the depth.
+    F = 2 rho g pi D2/4 H/2 tanh(k h): the integral of the inertia force over the depth. The case is
+    written here with the sizes of the example, which has an irregular sea.
     """
     rho, gravity, depth, diameter, height, omega = 1025.0, 9.81, 30.0, 10.0, 2.0, 2 * math.pi / 5
     text = f"""
@@ -212,7 +225,9 @@ step = 0.05
         k = omega**2 / (gravity * math.tanh(k * depth))
     exact = 0.5 * math.pi * rho * gravity * diameter**2 * 0.5 * height * math.tanh(k * depth)
     ours = amplitude(_time(run), force, omega)
-    return Figure("force on the pile in a wave of 2 m, 5 s, N", ours, exact, "closed form")
+    return Figure(
+        "force on its pile in a wave of 2 m, 5 s (own case), N", ours, exact, "closed form"
+    )
 
 
 def power(results: Results, case: Path) -> Figure:
@@ -220,6 +235,8 @@ def power(results: Results, case: Path) -> Figure:
     channels = [name for name in results if name.endswith("/power_absorbed")]
     if not channels:
         raise NoFigure("no take-off in the case")
+    if not _tables(case).get("wave"):
+        raise NoFigure("still water")
     time = _time(results)
     last = time >= 0.5 * time[-1]
     total = sum(float(np.mean(np.asarray(results[name])[last])) for name in channels)
