@@ -1,16 +1,16 @@
 """Examples of WEC-Sim, converted and run: python cases/wecsim/compare.py CLONE [CLONE2].
 
-The clones are WEC-Sim/WEC-Sim and WEC-Sim/WEC-Sim_Applications. `examples.toml` lists the folders
+The clones are WEC-Sim/WEC-Sim and WEC-Sim/WEC-Sim_Applications. `examples.json` lists the folders
 and the figure of each. The table is Markdown.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import tempfile
 import time
-import tomllib
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +22,7 @@ import hydrodae
 from hydrodae.errors import HydrodaeError
 from hydrodae.wecsim import convert
 
-EXAMPLES = Path(__file__).with_name("examples.toml")
+EXAMPLES = Path(__file__).with_name("examples.json")
 HEADER = (
     "| folder | runs | figure | hydrodae | reference | difference | convert, s | run, s |\n"
     "|---|---|---|---|---|---|---|---|"
@@ -67,7 +67,7 @@ def row_of(example: dict[str, Any], clones: list[Path], work: Path) -> Row:
     Parameters
     ----------
     example : dict
-        Table of `examples.toml`.
+        Entry of `examples.json`.
     clones : list of Path
         Where to look for its folder.
     work : Path
@@ -107,9 +107,8 @@ def _short(text: str, length: int) -> str:
 
 
 def read_examples(path: Path) -> list[dict[str, Any]]:
-    """The tables `[[example]]` of a file."""
-    with path.open("rb") as file:
-        return list(tomllib.load(file)["example"])
+    """The list of a JSON file."""
+    return list(json.loads(path.read_text(encoding="utf-8")))
 
 
 def main(arguments: list[str]) -> int:

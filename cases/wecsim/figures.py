@@ -49,12 +49,12 @@ class Figure:
 
 
 def make(example: dict[str, Any], results: Results, case: Path, folder: Path) -> Figure | None:
-    """The figure that `examples.toml` asks for by `figure`.
+    """The figure that `examples.json` asks for by `figure`.
 
     Parameters
     ----------
     example : dict
-        Table of the example.
+        Entry of the example.
     results : Results
         Of its run.
     case : Path

@@ -33,7 +33,8 @@ class SolverError(HydrodaeError, RuntimeError):
         Why: start, step, jacobian, not_finite, progress, drift, branch, energy, growth, impact,
         friction, range, labour, controller, output, state or solver.
     subject : str
-        What it is about, as in the results, such as "bodies/float"; "" for the whole scene.
+        What it is about: a path of the results such as "bodies/float", or the name of an unknown or
+        a constraint; "" for the whole scene.
     numbers : dict of str to float
         What was measured, in SI units.
     advice : str

@@ -403,8 +403,10 @@ def test_declutching_frees_from_each_standstill_of_a_joint_that_rested() -> None
     ],
 )
 def test_a_latch_needs_the_friction_of_its_joint(old: str, new: str, message: str) -> None:
-    with pytest.raises(CaseError, match=message):
-        hydrodae.run(Case.from_text(latched().replace(old, new)))
+    wrong = Case.from_text(latched().replace(old, new))
+    for ask in (hydrodae.run, hydrodae.check):
+        with pytest.raises(CaseError, match=message):
+            ask(wrong)
 
 
 def test_inputs_of_controllers_are_not_written_beside_them() -> None:

@@ -458,10 +458,8 @@ def test_command_wants_one_folder_and_a_known_program(tmp_path: Path, capsys) ->
 
 def test_comparison_of_examples(two_bodies: Path, repository: Path, tmp_path: Path) -> None:
     """One row that runs, with its figure beside linear theory, and one that is not there."""
-    examples = tmp_path / "examples.toml"
-    examples.write_text(
-        '[[example]]\nfolder = "source"\nfigure = "pitch"\n[[example]]\nfolder = "absent"\n'
-    )
+    examples = tmp_path / "examples.json"
+    examples.write_text('[{"folder": "source", "figure": "pitch"}, {"folder": "absent"}]')
     output = tmp_path / "table.md"
     script = repository / "cases" / "wecsim" / "compare.py"
     command = [sys.executable, str(script), str(two_bodies.parent)]

@@ -134,6 +134,7 @@ def test_a_tumbling_body_ends_the_run_at_half_a_turn(kind: str) -> None:
     with pytest.raises(SolverError, match=f"{kind} 'spring'.*has no meaning") as found:
         run_text(text + spring(kind, axis), 10.0)
     assert "body 'wheel' has turned" in str(found.value)
+    assert (found.value.reason, found.value.subject) == ("range", "forces/spring")
     angle = 6.0 * math.sin(OMEGA * found.value.time)
     assert math.pi - 0.02 < angle < 3.6
 

@@ -241,8 +241,9 @@ std::vector<bool> never_excited(const System& given, const system::Pattern& patt
 namespace {
 
 /// What controllers read and write, and all that may be written.
-void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Channel> channels,
-                  std::vector<run::Input> inputs) {
+void write_inputs(std::ostream& out, const model::Scene& scene, system::Regime& s,
+                  std::vector<Channel> channels) {
+  std::vector<run::Input> inputs = run::find_inputs(s);
   const std::vector<Channel> held = run::held_channels(scene, inputs);
   channels.insert(channels.end(), held.begin(), held.end());
   const auto listed = [](const std::vector<control::Terminal>& terminals) {
@@ -253,6 +254,8 @@ void write_inputs(std::ostream& out, const model::Scene& scene, std::vector<Chan
   };
   for (const model::Controller& c : scene.controllers) {
     const control::Terminals found = run::find_terminals(c, channels, inputs);
+    if (!c.as<control::Outside>())
+      run::make_law(c, found, s); // or refuses
     std::vector<std::string> units = run::unit_notes(c->name, found);
     if (const auto* fmu = c.as<control::Fmu>())
       for (const std::string& note : cosim::check_fmu(*fmu, found)) // or refuses
@@ -294,7 +297,7 @@ std::string report(const model::Scene& scene) {
   write_costs(out, element_costs(s, pattern));
   advise_bodies(out, s, never_excited(built, pattern));
   advise_joints(out, scene);
-  write_inputs(out, scene, named.channels(), run::find_inputs(s));
+  write_inputs(out, scene, s, named.channels());
   for (const std::string& note : built.notes)
     out << "  note: " << note << "\n";
   write_sanity(out, scene, s);

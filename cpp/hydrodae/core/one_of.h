@@ -36,7 +36,7 @@ public:
                       value_);
   }
 
-  /// The entry as a `T`, which is one of the types or a base of some; null where it is none.
+  /// The entry as a `T` (one of the types, or a base of some), or null if it is no `T`.
   template <class T> const T* as() const {
     return std::visit(
         [](const auto& value) -> const T* {

@@ -51,10 +51,11 @@ public:
       throw control::Stopped("controller " + in_quotes(subject_.controller) + ": " +
                              stopped.what());
     } catch (const Error& error) {
-      const std::string told = "controller " + in_quotes(subject_.controller) + ": " + error.what();
-      leave(told); // and listens on, as `restore` may go on with another connection
+      const std::string reason =
+          "controller " + in_quotes(subject_.controller) + ": " + error.what();
+      leave(reason); // and listens on, as `restore` may go on with another connection
       throw SolverError(
-          t, {Reason::controller, told, "controllers/" + subject_.controller, {}, "", ""});
+          t, {Reason::controller, reason, "controllers/" + subject_.controller, {}, "", ""});
     }
   }
 

@@ -96,7 +96,7 @@ void read_typed(const Table& table, Positions& positions, const ForEach& for_eac
   });
 }
 
-/// The keys that a joint of this type has; what is wrong with the type itself is told later.
+/// Refuses keys that a joint of this type does not have. A wrong type is refused later.
 void check_joint_keys(const Table& entry, Positions& positions) {
   const joint::JointType* type = joint::find_joint_type(entry.type);
   if (!type)

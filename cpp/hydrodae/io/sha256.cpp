@@ -105,9 +105,9 @@ bool has_instructions() {
 
 using TakeBlock = void (*)(State&, const unsigned char*);
 
-TakeBlock best_take_block() {
+TakeBlock best_take_block([[maybe_unused]] bool instructions) {
 #if defined(__x86_64__)
-  if (has_instructions())
+  if (instructions && has_instructions())
     return take_block_by_instructions;
 #endif
   return take_block;
@@ -115,6 +115,8 @@ TakeBlock best_take_block() {
 
 class Sha256 {
 public:
+  explicit Sha256(bool instructions = true) : take_block_(best_take_block(instructions)) {}
+
   void add(std::span<const unsigned char> bytes) {
     length_ += bytes.size();
     for (const unsigned char* at = bytes.data(); !bytes.empty();) {
@@ -149,7 +151,7 @@ public:
   }
 
 private:
-  TakeBlock take_block_ = best_take_block();
+  TakeBlock take_block_;
   State state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                   0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> block_{};
@@ -176,8 +178,8 @@ std::string sha256_of_file(const std::string& path) {
   return digest.finish();
 }
 
-std::string sha256_of_text(const std::string& text) {
-  Sha256 digest;
+std::string sha256_of_text(const std::string& text, bool instructions) {
+  Sha256 digest(instructions);
   digest.add(bytes_of(text.data(), text.size()));
   return digest.finish();
 }

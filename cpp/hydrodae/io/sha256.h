@@ -7,6 +7,7 @@ namespace hydrodae::io {
 std::string sha256_of_file(const std::string& path);
 
 /// Of a text.
-std::string sha256_of_text(const std::string& text);
+/// @param instructions  false: without those of the processor for it
+std::string sha256_of_text(const std::string& text, bool instructions = true);
 
 } // namespace hydrodae::io

@@ -7,6 +7,7 @@
 #include "hydrodae/core/text.h"
 
 namespace hydrodae::model {
+
 std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave& wave,
                                             std::string* note) {
   const Water w = water(scene);
@@ -17,19 +18,14 @@ std::vector<sea::Component> wave_components(const Scene& scene, const sea::Wave&
   sea::Sum sum = wave.visit([&](const auto& one) { return one.components(site); });
   const double usual = wave.visit([](const auto& one) { return one.usual_loss; });
   const double allowed = wave->lost_variance.value_or(usual);
-  const std::string part = number_text(std::round(1e4 * sum.lost) / 1e2) +
-                           " % of the variance lies outside " + sum.range;
   if (sum.lost > std::min(allowed, 0.99))
     throw ModelError("wave." + wave->name + ".lost_variance",
-                     "wave " + in_quotes(wave->name) + ": " + part +
+                     "wave " + in_quotes(wave->name) + ": " + sum.lost_text() +
                          ", more than lost_variance = " + number_text(allowed) +
                          " allows; a database of more frequencies, or another "
                          "'frequency_range' or 'lost_variance'");
-  if (note) {
+  if (note)
     *note = sum.note;
-    if (sum.lost > 0.0)
-      *note += "; " + part + ", and is left out";
-  }
   return std::move(sum.components);
 }
 

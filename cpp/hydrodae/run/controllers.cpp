@@ -129,6 +129,13 @@ std::vector<std::string> unit_notes(const std::string& controller, const control
   return out;
 }
 
+std::unique_ptr<control::Law> make_law(const model::Controller& controller,
+                                       const control::Terminals& terminals,
+                                       const system::Regime& regime) {
+  const control::Place place{terminals, friction_of(controller, regime)};
+  return controller.visit([&](const auto& own) { return own.law(place); });
+}
+
 std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<Input>& inputs) {
   std::vector<Channel> out;
   for (const model::Controller& c : scene.controllers)
@@ -162,8 +169,7 @@ Controllers::Controllers(const model::Scene& scene, const system::Regime& regime
     }
     one.in.resize(one.columns.size());
     one.swings.resize(one.out.size());
-    const control::Place place{terminals, friction_of(c, regime)};
-    one.law = c.visit([&](const auto& own) { return own.law(place); });
+    one.law = make_law(c, terminals, regime);
     if (one.law->hears_crossings())
       one.crossing = std::make_unique<events::Crossing>(regime, terminals.inputs.front().name);
     if (c->lag > 0.0)

@@ -31,6 +31,11 @@ std::vector<Channel> held_channels(const model::Scene& scene, const std::vector<
 control::Terminals find_terminals(const model::Controller& controller,
                                   const std::vector<Channel>& channels, std::vector<Input>& inputs);
 
+/// Its law in this run. Throws ModelError where the controller does not fit what it is joined to.
+std::unique_ptr<control::Law> make_law(const model::Controller& controller,
+                                       const control::Terminals& terminals,
+                                       const system::Regime& regime);
+
 /// In words, which of them are in other units than those of the scene.
 std::vector<std::string> unit_notes(const std::string& controller, const control::Terminals& t);
 

@@ -86,6 +86,7 @@ void MethodChoice::next(const SolverError& error) {
     return;
   }
   Halt halt = error.halt;
+  halt.advice.clear(); // it names other methods
   halt.what = "no method of \"auto\" goes on: ";
   for (std::size_t k = 0; k < left_.size(); ++k)
     halt.what += (k > 0 ? "; " : "") + order_.methods[k] + " at t = " + number_text(left_[k].time) +

@@ -242,10 +242,10 @@ bool Simulation::make_step(double end) {
       t_ = integrator_->step(std::min(end, known), bound_);
     } catch (const SolverError& error) {
       at_(t_, y_, yp_);
-      const SolverError told(error.time, poses_->with_remedy(error.halt, t_, y_, yp_));
+      const SolverError stopped(error.time, poses_->with_remedy(error.halt, t_, y_, yp_));
       if (!methods_.chosen())
-        throw told;
-      fall_back(told);
+        throw stopped;
+      fall_back(stopped);
       continue;
     }
     const std::optional<double> event = locate();

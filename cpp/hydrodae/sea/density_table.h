@@ -29,13 +29,14 @@ struct DensityTable : Irregular {
   }
 
   template <class W = DensityTable> static Fields<W> fields() {
-    return irregular_fields<W>() +
+    return system_fields<W>() +
            Fields<W>{
                {"frequency", &W::frequency, "rad/s", "Frequencies of a table, ascending.", true,
                 more_than(0)},
                {"density", &W::density, "m2 s/rad", "Spectral density S at these frequencies.",
                 true, at_least(0)},
-           };
+           } +
+           irregular_fields<W>();
   }
 };
 

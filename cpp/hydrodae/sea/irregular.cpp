@@ -70,6 +70,10 @@ Cut cut_to(const Irregular& wave, Cut cut, const Spectrum& s, const Band& covere
 
 } // namespace
 
+std::string Sum::lost_text() const {
+  return number_text(std::round(1e4 * lost) / 1e2) + " % of the variance lies outside " + range;
+}
+
 Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
   Sum sum;
   sum.range = "the database, " + number_text(site.covered.low) + " to " +
@@ -111,6 +115,8 @@ Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
   sum.note = "wave " + in_quotes(name) + ": " + std::to_string(sum.components.size()) +
              " components from " + number_text(w_low) + " to " + number_text(w_high) +
              " rad/s hold " + number_text(100.0 * (high - low) / s.m0) + " % of the energy";
+  if (sum.lost > 0.0)
+    sum.note += "; " + sum.lost_text() + ", and is left out";
   return sum;
 }
 

@@ -17,8 +17,10 @@ struct Jonswap : Peaked {
   Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }
 
   template <class W = Jonswap> static Fields<W> fields() {
-    return peaked_fields<W>() + Fields<W>{{"gamma", &W::gamma, "-", "Peak enhancement of JONSWAP.",
-                                           false, between(1, 20)}};
+    return peaked_fields<W>() +
+           Fields<W>{
+               {"gamma", &W::gamma, "-", "Peak enhancement of JONSWAP.", false, between(1, 20)}} +
+           irregular_fields<W>();
   }
 };
 
@@ -32,7 +34,9 @@ struct Bretschneider : Peaked {
   }
   Sum components(const Site& site) const { return drawn(spectrum(site.gravity), site); }
 
-  template <class W = Bretschneider> static Fields<W> fields() { return peaked_fields<W>(); }
+  template <class W = Bretschneider> static Fields<W> fields() {
+    return peaked_fields<W>() + irregular_fields<W>();
+  }
 };
 
 } // namespace hydrodae::sea

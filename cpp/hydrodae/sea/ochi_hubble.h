@@ -22,7 +22,9 @@ struct OchiHubble : Peaked {
 
   template <class W = OchiHubble> static Fields<W> fields() {
     return peaked_fields<W>() +
-           Fields<W>{{"shape", &W::shape, "-", "Shape l of Ochi-Hubble.", false, between(0.5, 20)}};
+           Fields<W>{
+               {"shape", &W::shape, "-", "Shape l of Ochi-Hubble.", false, between(0.5, 20)}} +
+           irregular_fields<W>();
   }
 };
 

@@ -27,7 +27,7 @@ struct PiersonMoskowitz : Irregular {
   std::optional<Fault> fault() const { return range_fault(frequency_range); }
 
   template <class W = PiersonMoskowitz> static Fields<W> fields() {
-    return irregular_fields<W>() + height_field<W>();
+    return system_fields<W>() + height_field<W>() + irregular_fields<W>();
   }
 };
 

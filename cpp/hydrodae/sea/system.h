@@ -26,6 +26,8 @@ struct Sum {
   double lost = 0.0; ///< part of the variance outside the range, beyond what is usual [-]
   std::string range; ///< that range, in words
   std::string note;  ///< how they were made, in words; "" where there is nothing to say
+
+  std::string lost_text() const; ///< "2.1 % of the variance lies outside 0.2 to 1.5 rad/s"
 };
 
 /// One wave system. A type is a struct that derives from this one (spectra from `Irregular`), with
@@ -92,8 +94,7 @@ struct Irregular : WaveSystem {
 };
 
 template <class W> Fields<W> irregular_fields() {
-  return system_fields<W>() +
-         Fields<W>{
+  return Fields<W>{
              {"spreading", &W::spreading, "-",
               "Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90 "
               "deg; without it all waves travel along the heading.",
@@ -129,7 +130,7 @@ template <class W> Fields<W> height_field() {
   return {{"significant_height", &W::height, "m", "Hs = 4 sqrt(m0).", true, at_least(0, 1e6)}};
 }
 template <class W> Fields<W> peaked_fields() {
-  return irregular_fields<W>() + height_field<W>() +
+  return system_fields<W>() + height_field<W>() +
          Fields<W>{{"peak_period", &W::period, "s", "Period at which the spectrum is highest.",
                     true, more_than(0, 1e6)}};
 }

@@ -229,13 +229,13 @@ class WaveTypes(TypedList):
         significant_height: float,
         peak_period: float,
         heading_deg: float = ...,
+        gamma: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
         seed: int = ...,
         lost_variance: float = ...,
         frequency_range: _Numbers = ...,
-        gamma: float = ...,
     ) -> str:
         """Add `[[wave]]` with the type "jonswap".
 
@@ -247,6 +247,12 @@ class WaveTypes(TypedList):
             Name of the wave system.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        gamma : number, default 3.3
+            Peak enhancement of JONSWAP. Allowed: 1 to 20.
         spreading : number, optional
             Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
             deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
@@ -265,12 +271,6 @@ class WaveTypes(TypedList):
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
-        gamma : number, default 3.3
-            Peak enhancement of JONSWAP. Allowed: 1 to 20.
 
         Returns
         -------
@@ -306,6 +306,10 @@ class WaveTypes(TypedList):
             Name of the wave system.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
         spreading : number, optional
             Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
             deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
@@ -324,10 +328,6 @@ class WaveTypes(TypedList):
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
 
         Returns
         -------
@@ -362,6 +362,8 @@ class WaveTypes(TypedList):
             Name of the wave system.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
         spreading : number, optional
             Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
             deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
@@ -380,8 +382,6 @@ class WaveTypes(TypedList):
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
 
         Returns
         -------
@@ -400,13 +400,13 @@ class WaveTypes(TypedList):
         significant_height: float,
         peak_period: float,
         heading_deg: float = ...,
+        shape: float = ...,
         spreading: float = ...,
         components: int = ...,
         spacing: _JonswapSpacing = ...,
         seed: int = ...,
         lost_variance: float = ...,
         frequency_range: _Numbers = ...,
-        shape: float = ...,
     ) -> str:
         """Add `[[wave]]` with the type "ochi_hubble".
 
@@ -419,6 +419,12 @@ class WaveTypes(TypedList):
             Name of the wave system.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        significant_height : number, m
+            Hs = 4 sqrt(m0). Allowed: >= 0.
+        peak_period : number, s
+            Period at which the spectrum is highest. Allowed: > 0.
+        shape : number, default 1
+            Shape l of Ochi-Hubble. Allowed: 0.5 to 20.
         spreading : number, optional
             Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
             deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
@@ -437,12 +443,6 @@ class WaveTypes(TypedList):
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        significant_height : number, m
-            Hs = 4 sqrt(m0). Allowed: >= 0.
-        peak_period : number, s
-            Period at which the spectrum is highest. Allowed: > 0.
-        shape : number, default 1
-            Shape l of Ochi-Hubble. Allowed: 0.5 to 20.
 
         Returns
         -------
@@ -478,6 +478,10 @@ class WaveTypes(TypedList):
             Name of the wave system.
         heading_deg : number, deg, default 0
             Mean direction of travel; 0 = +x, 90 = +y. Allowed: -360 to 360.
+        frequency : list of numbers, rad/s
+            Frequencies of a table, ascending. Allowed: > 0.
+        density : list of numbers, m2 s/rad
+            Spectral density S at these frequencies. Allowed: >= 0.
         spreading : number, optional
             Exponent s of the directional spreading cos^2s((theta - heading)/2), cut at +-90
             deg; without it all waves travel along the heading. Allowed: 0.5 to 1000.
@@ -496,10 +500,6 @@ class WaveTypes(TypedList):
         frequency_range : list of numbers, rad/s, optional
             Lowest and highest frequency; default: all but 0.1 % of the energy below and 0.5 %
             above, as far as the database reaches. Allowed: > 0.
-        frequency : list of numbers, rad/s
-            Frequencies of a table, ascending. Allowed: > 0.
-        density : list of numbers, m2 s/rad
-            Spectral density S at these frequencies. Allowed: >= 0.
 
         Returns
         -------

@@ -87,7 +87,7 @@ TEST_CASE("where no method is left, the error tells of all") {
   choice.next(error(1.6, "second reason"));
   std::string told;
   try {
-    choice.next(error(1.7, "third reason", "\n  worst equations"));
+    choice.next(error(1.7, "third reason", "\n  worst equations", "take radau"));
   } catch (const SolverError& error) {
     told = error.what();
     CHECK(error.time == 1.7);

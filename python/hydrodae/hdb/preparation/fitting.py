@@ -154,19 +154,19 @@ def fit(
         progress(text)
     if bad.any():
         options |= {"band": judged, "target_outside": OUTSIDE}
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always", MemoryFitWarning)
         made = fit_memory(at(tables, ~bad), inputs=moving, name=name, **options)
     if left_out:
         made = replace(made, report={**made.report, "left_out": left_out})
     refused = {key: why for key, why in missed(made.report).items() if key not in allowed}
     if list(refused) == ["target"] and target is None and _near_enough(made, tables):
-        made, refused, told = _as_near(made), {}, []
+        made, refused, warned = _as_near(made), {}, []
     if bad.any() and not goes_on(made, tables):
         refused["limit"] = "goes to another added mass, or rings, beyond the frequencies it matches"
     if refused:
         raise DatabaseError(f"fit '{name}' {_refusal(refused, cure(database, moving, judged))}")
-    for warning in told:
+    for warning in warned:
         warnings.warn(warning.message, stacklevel=2)
     return replace(database, memory={**database.memory, name: made})
 
