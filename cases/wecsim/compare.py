@@ -1,4 +1,6 @@
-"""Examples of WEC-Sim, converted and run: python cases/wecsim/compare.py CLONE [CLONE2].
+"""Convert and run the examples of WEC-Sim.
+
+    python cases/wecsim/compare.py WEC-Sim WEC-Sim_Applications
 
 The clones are WEC-Sim/WEC-Sim and WEC-Sim/WEC-Sim_Applications. `examples.json` lists the folders
 and the figure of each. The table is Markdown.
