@@ -71,10 +71,7 @@ private:
       failure_ = std::current_exception();
       throw SolverError(t, {Reason::controller,
                             "the Python controller " + in_quotes(name_) + " has failed",
-                            "controllers/" + name_,
-                            {},
-                            "",
-                            ""});
+                            "controllers/" + name_});
     }
   }
 

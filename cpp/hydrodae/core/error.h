@@ -53,11 +53,12 @@ std::string_view name_of(Reason reason);
 /// What a SolverError says, apart. Its message is made of these by `message_of`.
 struct Halt {
   Reason reason = Reason::solver;
-  std::string what;    ///< what happened: "the Jacobian is singular"
-  std::string subject; ///< what it is about, as in the results: "bodies/float"; "" for the scene
-  std::vector<std::pair<std::string, double>> numbers; ///< measured, by name (SI units)
-  std::string advice;                                  ///< what may help
-  std::string details;                                 ///< further lines, each with "\n" in front
+  std::string what = {};    ///< what happened: "the Jacobian is singular"
+  std::string subject = {}; ///< "bodies/float", or an unknown or a row; "" for the scene
+  std::vector<std::pair<std::string, double>> numbers = {}; ///< measured, by name (SI units)
+  std::string advice = {};                                  ///< what may help
+  /// Further lines, each with "\n" in front.
+  std::string details = {};
 };
 
 /// "stopped at t = 1.2 s: what; advice", then the details.

@@ -139,10 +139,7 @@ public:
       throw SolverError(
           t, {Reason::controller,
               "controller " + in_quotes(name_) + ": " + map_.fmu.path + ": " + error.what(),
-              "controllers/" + name_,
-              {},
-              "",
-              ""});
+              "controllers/" + name_});
     }
   }
 

@@ -54,8 +54,7 @@ public:
       const std::string reason =
           "controller " + in_quotes(subject_.controller) + ": " + error.what();
       leave(reason); // and listens on, as `restore` may go on with another connection
-      throw SolverError(
-          t, {Reason::controller, reason, "controllers/" + subject_.controller, {}, "", ""});
+      throw SolverError(t, {Reason::controller, reason, "controllers/" + subject_.controller});
     }
   }
 

@@ -48,10 +48,7 @@ bool Slips::settle(double t, const VectorX& y) {
       throw SolverError(t, {Reason::friction,
                             "rope " + in_quotes(laws.names[law]) +
                                 " neither sticks nor slips on the places of its 'friction'",
-                            "forces/" + laws.names[law],
-                            {},
-                            "",
-                            ""});
+                            "forces/" + laws.names[law]});
   });
   return changed;
 }

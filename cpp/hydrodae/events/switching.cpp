@@ -58,12 +58,8 @@ void Switching::fail(double t, Reason reason, const std::string& what) const {
   for (const Data& element : s_.switches)
     if (s_.mode(element) != State::open)
       names.push_back(s_.couplers[static_cast<std::size_t>(element.coupler)].name);
-  throw SolverError(t, {reason,
-                        what + (names.empty() ? "" : " (now acting: " + joined(names) + ")"),
-                        "",
-                        {},
-                        "",
-                        ""});
+  throw SolverError(t,
+                    {reason, what + (names.empty() ? "" : " (now acting: " + joined(names) + ")")});
 }
 
 /// Infinitely many events in a finite time (a ball that comes to rest ends in a captured contact

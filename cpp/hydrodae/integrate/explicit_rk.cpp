@@ -89,8 +89,7 @@ public:
     h_ = fixed_ ? options.step
                 : std::min(max_step_, e_.first_step(y, yp) * std::pow(options.rtol, 0.2 - 0.5));
     if (!find_rates())
-      throw SolverError(
-          t_, {Reason::not_finite, "no finite accelerations at the start", "", {}, "", ""});
+      throw SolverError(t_, {Reason::not_finite, "no finite accelerations at the start"});
   }
 
   double step(double end, double bound) override;

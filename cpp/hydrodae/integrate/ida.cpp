@@ -32,15 +32,12 @@ std::string flag_name(int flag) {
 
 void check(int flag, const char* call) {
   if (flag < 0)
-    throw SolverError(
-        0.0,
-        {Reason::solver, std::string(call) + " failed with " + flag_name(flag), "", {}, "", ""});
+    throw SolverError(0.0, {Reason::solver, std::string(call) + " failed with " + flag_name(flag)});
 }
 
 template <class T> T* made(T* pointer, const char* call) {
   if (!pointer)
-    throw SolverError(
-        0.0, {Reason::solver, std::string(call) + " failed (out of memory?)", "", {}, "", ""});
+    throw SolverError(0.0, {Reason::solver, std::string(call) + " failed (out of memory?)"});
   return pointer;
 }
 
@@ -65,7 +62,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Deleter>;
 SUNContext make_context() {
   SUNContext context = nullptr;
   if (SUNContext_Create(nullptr, &context) < 0)
-    throw SolverError(0.0, {Reason::solver, "SUNContext_Create failed", "", {}, "", ""});
+    throw SolverError(0.0, {Reason::solver, "SUNContext_Create failed"});
   return context;
 }
 

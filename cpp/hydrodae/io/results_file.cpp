@@ -192,11 +192,7 @@ void ResultsFile::Impl::require_written() const {
       {Reason::output,
        what() + ": " + disk.failure() + "; it keeps " +
            (committed == 0 ? "no sample"
-                           : "the samples up to t = " + number_text(committed_time) + " s"),
-       "",
-       {},
-       "",
-       ""});
+                           : "the samples up to t = " + number_text(committed_time) + " s")});
 }
 
 void ResultsFile::Impl::write_end(const std::string& status, const std::string& message,

@@ -189,11 +189,7 @@ SparseLu<Scalar>::SparseLu(const std::vector<Index>& column_start, const std::ve
   if (!m.symbolic)
     throw SolverError(0.0, {Reason::jacobian,
                             "KLU cannot order the unknowns: the equations are structurally "
-                            "singular or too large for the memory",
-                            "",
-                            {},
-                            "",
-                            ""});
+                            "singular or too large for the memory"});
 }
 
 template <class Scalar> Elimination SparseLu<Scalar>::elimination() const {

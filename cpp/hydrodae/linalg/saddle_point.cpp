@@ -335,8 +335,7 @@ double SaddlePoint::mismatch() {
 
 SaddlePoint::Strike SaddlePoint::strike(double t, VectorX& y, const VectorX& rates) {
   if (!e_.residual(t, y, yp0_, residual_))
-    throw SolverError(t,
-                      {Reason::not_finite, "no finite velocities at the impact", "", {}, "", ""});
+    throw SolverError(t, {Reason::not_finite, "no finite velocities at the impact"});
   Strike out;
   out.before = residual_.segment(s_.lambda0, s_.n_lambda);
   rhs_.setZero();

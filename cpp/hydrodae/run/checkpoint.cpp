@@ -75,7 +75,7 @@ void write_checkpoint(const std::string& results, const model::Scene& scene,
   try {
     io::write_memory(checkpoint_name(results), file);
   } catch (const CaseError& error) {
-    throw SolverError(checkpoint.state.time, {Reason::output, error.what(), "", {}, "", ""});
+    throw SolverError(checkpoint.state.time, {Reason::output, error.what()});
   }
 }
 

@@ -241,12 +241,9 @@ void Controllers::One::sample(double t, std::span<const double> row) {
       answer.push_back(terminals.outputs[k].to_own.of(out[k]));
       check_value(*inputs[k], answer[k]);
     } catch (const CaseError& error) {
-      throw SolverError(t, {Reason::controller,
-                            "controller " + in_quotes(name) + ": " + error.what(),
-                            "controllers/" + name,
-                            {},
-                            "",
-                            ""});
+      throw SolverError(t,
+                        {Reason::controller, "controller " + in_quotes(name) + ": " + error.what(),
+                         "controllers/" + name});
     }
   for (std::size_t k = 0; k < answer.size(); ++k)
     swings[k].add(answer[k]);

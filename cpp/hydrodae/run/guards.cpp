@@ -102,9 +102,7 @@ public:
                        ", a hundred times what solver.rtol allows (is the scene unstable, or "
                        "fed without a loss?)",
                    name,
-                   {{"value", reached}},
-                   "",
-                   ""});
+                   {{"value", reached}}});
   }
 
 private:
@@ -126,7 +124,7 @@ public:
     yp_ = step.yp;
     saddle_->accelerations(step.end, y_, yp_);
     if (!saddle_->jam().empty())
-      throw SolverError(step.end, {Reason::friction, saddle_->jam(), "", {}, "", ""});
+      throw SolverError(step.end, {Reason::friction, saddle_->jam()});
   }
   void restart(const Step&) override { begin(); }
 

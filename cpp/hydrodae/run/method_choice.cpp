@@ -105,13 +105,8 @@ bool MethodChoice::labours() const {
 
 SolverError MethodChoice::labour(double t) const {
   return {t,
-          {Reason::labour,
-           number_text(many) + " steps in a row were shorter than " + number_text(short_step) +
-               " rad of the motion",
-           "",
-           {},
-           "",
-           ""}};
+          {Reason::labour, number_text(many) + " steps in a row were shorter than " +
+                               number_text(short_step) + " rad of the motion"}};
 }
 
 std::vector<MethodChoice::Part> MethodChoice::parts() const {

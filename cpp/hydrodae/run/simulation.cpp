@@ -164,12 +164,8 @@ void Simulation::advance(double limit, const Inside& inside) {
 
 void Simulation::require_going() const {
   if (failed_)
-    throw SolverError(t_, {Reason::state,
-                           "the run has stopped; it goes on from a state that is restored only",
-                           "",
-                           {},
-                           "",
-                           ""});
+    throw SolverError(
+        t_, {Reason::state, "the run has stopped; it goes on from a state that is restored only"});
 }
 
 /// One step that no guard proves wrong, and what it adds to the sums. Under "auto" the next

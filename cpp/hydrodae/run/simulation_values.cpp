@@ -90,7 +90,7 @@ void Simulation::take_control() {
   constexpr double far = 100.0; // levers or rad: no device is meant to go there
   if (const VectorX& reached = scale_->reached(); reached.size() > 0 && reached.maxCoeff() > far)
     if (const std::string why = controllers_->runaway(); !why.empty())
-      throw SolverError(t_, {Reason::growth, why, "", {}, "", ""});
+      throw SolverError(t_, {Reason::growth, why});
   event_here_ = false;
   failed_ = false;
 }

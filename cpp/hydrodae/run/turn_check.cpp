@@ -84,10 +84,7 @@ private:
                 std::string(list.laws->type) + " " + in_quotes(list.laws->names[law]) +
                 " follows has no meaning; it counts turns about an axis of its own only (a hinge, "
                 "or one free rotation)",
-            "forces/" + list.laws->names[law],
-            {},
-            "",
-            ""});
+            "forces/" + list.laws->names[law]});
   }
 
   const system::Regime& s_;

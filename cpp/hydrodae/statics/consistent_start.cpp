@@ -79,8 +79,7 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
   if (strike.before.cwiseQuotient(scale).cwiseAbs().maxCoeff() <= least_jump)
     return std::nullopt;
   if (!strike.balanced)
-    throw SolverError(
-        t, {Reason::friction, std::string(linalg::SaddlePoint::no_friction_fits), "", {}, "", ""});
+    throw SolverError(t, {Reason::friction, std::string(linalg::SaddlePoint::no_friction_fits)});
   y = struck;
   double work = 0.5 * strike.impulses.dot(strike.before) + strike.rubbed;
   for (const system::CouplerData& c : s.couplers)
@@ -111,8 +110,7 @@ std::optional<double> jump(const Regime& s, double t, linalg::SaddlePoint& saddl
                          (turns ? "rotation about its axis " : "translation along ") + along +
                          ": give it one, or lock this direction by 'motion' or a joint");
   }
-  throw SolverError(
-      0.0, {Reason::start, "a direction without inertia is held by nothing", "", {}, "", ""});
+  throw SolverError(0.0, {Reason::start, "a direction without inertia is held by nothing"});
 }
 
 /// The stabilised equations, as long as this object is there.
@@ -139,8 +137,7 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   VectorX r(s.n);
   system::residual<double>(s, ws, 0.0, y.data(), yp.data(), r.data());
   if (const std::string why = system::unknown_load(s, ws); !why.empty())
-    throw SolverError(0.0,
-                      {Reason::start, "no accelerations at the start: " + why, "", {}, "", ""});
+    throw SolverError(0.0, {Reason::start, "no accelerations at the start: " + why});
   check_constraints(s, y, r);
   linalg::Equations equations(s, pattern, 1.0);
   linalg::SaddlePoint saddle(equations);
@@ -148,15 +145,11 @@ void consistent_start(const Regime& s, const system::Pattern& pattern, VectorX& 
   if (const VectorX free = saddle.undetermined(); free.size() > 0)
     refuse_massless(s, free);
   if (!saddle.jam().empty())
-    throw SolverError(0.0, {Reason::friction, saddle.jam(), "", {}, "", ""});
+    throw SolverError(0.0, {Reason::friction, saddle.jam()});
   if (!found || saddle.mismatch() > start_balanced)
-    throw SolverError(0.0, {Reason::start,
-                            "no accelerations satisfy the constraints at the start: they "
-                            "contradict each other, or a body that moves has no mass",
-                            "",
-                            {},
-                            "",
-                            ""});
+    throw SolverError(0.0,
+                      {Reason::start, "no accelerations satisfy the constraints at the start: they "
+                                      "contradict each other, or a body that moves has no mass"});
 }
 
 struct Consistency::Parts {
@@ -188,11 +181,7 @@ std::optional<double> Consistency::restore(double t, VectorX& y, VectorX& yp) {
   if (!good)
     throw SolverError(
         t, {saddle.jam().empty() ? Reason::not_finite : Reason::friction,
-            "no finite accelerations" + (saddle.jam().empty() ? "" : ": " + saddle.jam()),
-            "",
-            {},
-            "",
-            ""});
+            "no finite accelerations" + (saddle.jam().empty() ? "" : ": " + saddle.jam())});
   return work;
 }
 
