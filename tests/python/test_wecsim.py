@@ -182,7 +182,7 @@ def test_statements_that_are_not_understood_are_listed_with_their_lines(tmp_path
         "simu = simulationClass();\n"
         "load('data.mat')\n"
         "if simu.rho == 1000\n  simu.dt = 0.2;\nelse\n  simu.dt = 0.3;\nend\n"
-        "for i = 1:3\n  simu.dt = i;\nend\n"
+        "while simu.dt < 3\n  simu.dt = 3;\nend\n"
         "body(1).mass = someFunction(3);\n"
         "s = 'it''s % no comment';\n"
     )

@@ -14,8 +14,9 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
-from hydrodae.wecsim.m_file import InputFile, read_input
+from hydrodae.wecsim.m_file import read_input
 from hydrodae.wecsim.moorings import add_mooring
+from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.slx import Model, read_slx

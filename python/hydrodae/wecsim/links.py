@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.wecsim.bodies import Bodies
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
 
