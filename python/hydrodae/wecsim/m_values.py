@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.wecsim.m_text import NotEvaluated, Token
+from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token
 
 #: A number or an array of them (two axes), a string, or a list (of a cell array).
 Value: TypeAlias = "float | str | NDArray[np.float64] | list[Any]"
@@ -251,6 +251,8 @@ class Expression:
 
 
 def _matrix(rows: list[list[Any]]) -> Any:
+    if rows and all(isinstance(value, Quoted) for row in rows for value in row):
+        return [value for row in rows for value in row]
     if any(isinstance(value, str) for row in rows for value in row):
         if len(rows) == 1 and all(isinstance(value, str) for value in rows[0]):
             return "".join(rows[0])
@@ -337,6 +339,8 @@ def _function(name: str, values: list[Any]) -> Any:
         return "/".join(values)
     if name in ("strcat", "append") and all(isinstance(value, str) for value in values):
         return "".join(values)
+    if name == "struct" and not values:
+        return []
     if name == "struct" and len(values) % 2 == 0:
         raise NotEvaluated("a struct of pairs")
     raise NotEvaluated(f"{name} is not known here")

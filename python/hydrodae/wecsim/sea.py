@@ -331,8 +331,3 @@ def add_solver(text: CaseText, read: InputFile) -> None:
         if field in simu.entries:
             simu.used.add(field)
             read.remarks.not_needed(read.place(simu.line_of(field)), f"simu.{field}")
-    for field in ("mcrMatFile", "mcrExcelFile", "mcrCaseFile"):
-        if simu.get(field):
-            read.remarks.left_out(
-                read.place(simu.line_of(field)), f"simu.{field}: runs of many cases; hydrodae sweep"
-            )
