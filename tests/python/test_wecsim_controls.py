@@ -205,6 +205,27 @@ def test_a_table_of_conditions_that_is_missing_is_left_out(tmp_path: Path) -> No
     assert not (tmp_path / "case" / "conditions.toml").exists()
 
 
+@pytest.mark.parametrize(
+    ("header", "cases", "why"),
+    [
+        (["extra", "waves.period"], [[1.0, 5.0], [2.0, 6.0]], "nothing in the case depends on ext"),
+        (["waves.period"], [[[5.0, 6.0]], [[6.0, 7.0]]], "its cases hold arrays"),
+    ],
+)
+def test_conditions_that_the_case_cannot_have_are_left_out(
+    tmp_path: Path, header: list[str], cases: list, why: str
+) -> None:
+    source = tmp_path / "source"
+    write_one_body(source, WAVES, "pto(1).damping = 1e5;")
+    append(source, "simu.mcrMatFile = 'mcr.mat';\n")
+    cells = np.empty((2, len(header)), dtype=object)
+    for row, values in enumerate(cases):
+        for column, value in enumerate(values):
+            cells[row, column] = np.array(value)
+    savemat(source / "mcr.mat", {"mcr": {"header": np.array(header, dtype=object), "cases": cells}})
+    assert why in left_out(convert(source, tmp_path / "case"))
+
+
 def test_markers_become_gauges_with_the_elevation_there(tmp_path: Path) -> None:
     source, case = tmp_path / "source", tmp_path / "case"
     write_one_body(

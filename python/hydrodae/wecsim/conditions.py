@@ -20,6 +20,7 @@ from hydrodae.wecsim.m_file import assign, read_input
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
+from hydrodae.wecsim.sea import IDLE
 from hydrodae.wecsim.text import CaseText
 
 #: Name of the study beside the case.
@@ -152,6 +153,8 @@ def _table(path: Path, read: InputFile) -> tuple[list[str], list[list[Any]]]:
         table = table.reshape(-1, 1)
     if table.shape[1] != len(names):
         raise ValueError(f"{len(names)} names for {table.shape[1]} columns")
+    if any(np.size(v) != 1 for row in table for v in row):
+        raise ValueError("its cases hold arrays")
     return names, [[v if isinstance(v, str) else float(v) for v in row] for row in table.tolist()]
 
 
@@ -202,33 +205,53 @@ def write_study(
     target : Path
         Folder of the case.
     """
-    first = _keys(tomllib.loads(base))
-    points: list[dict[str, Any]] = []
-    for number, row in enumerate(conditions.rows, 1):
+
+    def keys_of(values: dict[str, Any]) -> dict[str, Any]:
         other = copy.deepcopy(read)
         other.remarks = Remarks()
-        try:
-            for name, value in zip(conditions.header, row, strict=True):
-                assign(other, name, value)
-            keys = _keys(tomllib.loads(str(again(other))))
-        except NotEvaluated as error:
-            read.remarks.left_out(conditions.place, f"conditions: {error}")
-            return
-        if set(keys) != set(first):
-            names = ", ".join(sorted(set(keys) ^ set(first))[:3])
-            text = f"condition {number} has other keys than the case: {names}"
+        for name, value in values.items():
+            assign(other, name, value)
+        return _keys(tomllib.loads(str(again(other))))
+
+    first = _keys(tomllib.loads(base))
+    header, rows = conditions.header, conditions.rows
+    points: list[dict[str, Any]] = []
+    try:
+        for name in _without_effect(header, rows, keys_of):
+            text = f"conditions: nothing in the case depends on {name}"
             read.remarks.left_out(conditions.place, text)
-            return
-        points.append(keys)
+        for number, row in enumerate(rows, 1):
+            points.append(keys_of(dict(zip(header, row, strict=True))))
+            if different := sorted(set(points[-1]) ^ set(first)):
+                names = ", ".join(different[:3])
+                text = f"condition {number} has other keys than the case: {names}"
+                read.remarks.left_out(conditions.place, text)
+                return
+    except (NotEvaluated, CaseError) as error:
+        read.remarks.left_out(conditions.place, f"conditions: {error}")
+        return
     varied = [k for k in first if any(point[k] != first[k] for point in points)]
     if not varied:
-        text = f"conditions: nothing in the case depends on {', '.join(conditions.header)}"
-        read.remarks.left_out(conditions.place, text)
         return
     lines = [f"# The conditions of {conditions.place}.", 'case = "case.toml"', "", "[list]"]
     for key in varied:
         lines.append(f'"{key}" = {to_toml([point[key] for point in points], key)}')
     (target / STUDY).write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _without_effect(
+    header: list[str], rows: list[list[Any]], keys_of: Callable[[dict[str, Any]], dict[str, Any]]
+) -> Iterator[str]:
+    """Names whose values differ between the rows without a change of the case."""
+    for column, name in enumerate(header):
+        values = list(dict.fromkeys(row[column] for row in rows))
+        idle = name.partition(".")[0] == "simu" and name.partition(".")[2] in IDLE
+        if (
+            len(values) > 1
+            and not idle
+            and keys_of({name: values[0]}) == keys_of({name: values[1]})
+        ):
+            yield name
 
 
 def _keys(tables: dict[str, Any], path: str = "") -> dict[str, Any]:
