@@ -193,7 +193,7 @@ def conditions(results: Results, case: Path) -> Figure:
 def reactive(results: Results, case: Path) -> Figure:
     """Damping of the optimum of a reactive controller: that of the waves at their frequency.
 
-    From the imported database; the case has no controller.
+    From the imported database, not from the run.
     """
     tables, database = _tables(case), _database(case)
     omega = 2.0 * math.pi / tables["wave"][0]["period"]
