@@ -134,7 +134,7 @@ def test_latching_holds_the_joint(tmp_path: Path) -> None:
 
 
 def study(case: Path) -> dict:
-    return tomllib.loads((case / "conditions.toml").read_text())["list"]
+    return dict(tomllib.loads((case / "conditions.toml").read_text())["list"])
 
 
 def test_several_values_are_conditions_of_a_study(tmp_path: Path) -> None:

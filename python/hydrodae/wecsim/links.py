@@ -207,7 +207,7 @@ class Links:
             keys |= {"outputs": [f"forces/{name}/damping"], "engaged": own + law.damping}
             keys |= {"free": own, "free_time": law.time}
         else:
-            latch = {"type": "dry_friction", "name": f"{name}_latch", "joint": name}
+            latch: dict[str, Any] = {"type": "dry_friction", "name": f"{name}_latch", "joint": name}
             latch |= {"static": law.hold, "kinetic": 0.0}
             comment = "A latch, where WEC-Sim has a damper of so many N s/m."
             text.table("[[force]]", latch, comment)

@@ -300,13 +300,13 @@ def _combine(operator: str, left: Any, right: Any) -> Any:
 
 def _reshaped(array: Any, sizes: list[Any]) -> Any:
     """Values column by column in another shape; one size may be ``[]``, and follows."""
-    shape = [int(s) for s in np.ravel(sizes[0])] if len(sizes) == 1 else []
+    sides = [int(s) for s in np.ravel(sizes[0])] if len(sizes) == 1 else []
     for size in sizes if len(sizes) == 2 else ():
-        shape.append(-1 if np.size(size) == 0 else int(_number(size)))
-    if len(shape) != 2:
+        sides.append(-1 if np.size(size) == 0 else int(_number(size)))
+    if len(sides) != 2:
         raise NotEvaluated("reshape to two axes is known here")
     try:
-        return np.reshape(array, shape, order="F")
+        return np.reshape(array, sides, order="F")
     except ValueError as error:
         raise NotEvaluated(f"reshape ({error})") from None
 
@@ -331,8 +331,8 @@ def _function(name: str, values: list[Any]) -> Any:
         function = np.max if name == "max" else np.min
         return function(np.hstack([np.ravel(_number(value)) for value in values]))
     if name in ("length", "numel") and len(values) == 1:
-        shape = np.shape(np.atleast_2d(_number(values[0])))
-        return float(np.prod(shape) if name == "numel" or 0 in shape else max(shape))
+        extent = np.shape(np.atleast_2d(_number(values[0])))
+        return float(np.prod(extent) if name == "numel" or 0 in extent else max(extent))
     if name == "reshape" and len(values) in (2, 3):
         return _reshaped(_number(values[0]), values[1:])
     if name == "fullfile" and values and all(isinstance(value, str) for value in values):
