@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -76,6 +77,9 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         "decay": decay,
         "morison": morison,
         "power": power,
+        "control": control,
+        "conditions": conditions,
+        "gauges": gauges,
         "yaw": yaw,
         "pitch": pitch,
     }[kind](results, case)
@@ -115,10 +119,22 @@ def heave(results: Results, case: Path) -> Figure:
     (-w2 (M + A) + i w (B + D) + C + K) X = F a for the heave of all bodies that move, from the
     tables of the database at the frequency of the wave: an own solution, without the kernel.
     """
-    tables, database = _tables(case), _database(case)
+    tables = _tables(case)
     wave = tables["wave"][0]
     if wave["type"] != "regular":
         raise NoFigure("no regular wave")
+    names, response, _ = _linear(tables, _database(case))
+    omega = 2.0 * math.pi / wave["period"]
+    ours = amplitude(_time(results), _heave(results, names[0]), omega)
+    exact = float(abs(response[0]))
+    return Figure(f"heave amplitude of {names[0]}, m", ours, exact, "linear theory")
+
+
+def _linear(
+    tables: dict[str, Any], database: hydrodae.hdb.HydroDatabase
+) -> tuple[list[str], np.ndarray, float]:
+    """Bodies that heave, their complex amplitudes [m], and the mean absorbed power [W]."""
+    wave = tables["wave"][0]
     omega = 2.0 * math.pi / wave["period"]
     names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
     added, damping, force = _heave_tables(database, names, omega)
@@ -126,23 +142,59 @@ def heave(results: Results, case: Path) -> Figure:
     water = [_waterplane(database, n) for n in names]
     stiffness = np.diag(np.array(water) * database.rho * database.gravity)
     joints = {joint["name"]: joint for joint in tables.get("joint", [])}
+    absorbing = np.zeros_like(damping)
     for item in tables.get("force", []):
-        if item["type"] != "pto_linear":
+        if item["type"] not in ("pto_linear", "pto_general") or item.get("exponent", 1) != 1:
             raise NoFigure(f"linear theory of {item['type']} is not written here")
         ends = joints[item["joint"]]
         across = np.array([float(n == ends["body_b"]) - float(n == ends["body_a"]) for n in names])
-        damping = damping + item.get("damping", 0.0) * np.outer(across, across)
+        absorbing = absorbing + item.get("damping", 0.0) * np.outer(across, across)
         stiffness = stiffness + item.get("stiffness", 0.0) * np.outer(across, across)
-    matrix = -(omega**2) * (mass + added) + 1j * omega * damping + stiffness
-    exact = np.abs(np.linalg.solve(matrix, force * 0.5 * wave["height"]))[0]
-    ours = amplitude(_time(results), _heave(results, names[0]), omega)
-    return Figure(f"heave amplitude of {names[0]}, m", ours, float(exact), "linear theory")
+    matrix = -(omega**2) * (mass + added) + 1j * omega * (damping + absorbing) + stiffness
+    response = np.linalg.solve(matrix, force * 0.5 * wave["height"])
+    taken = 0.5 * omega**2 * float(np.real(response.conj() @ absorbing @ response))
+    return names, response, taken
+
+
+def control(results: Results, case: Path) -> Figure:
+    """Mean absorbed power of a linear controller over five periods, and that of linear theory."""
+    tables = _tables(case)
+    omega = 2.0 * math.pi / tables["wave"][0]["period"]
+    time = _time(results)
+    last = time >= time[-1] - 10.0 * math.pi / omega
+    channels = [name for name in results if name.endswith("/power_absorbed")]
+    if not channels:
+        raise NoFigure("no take-off in the case")
+    t = 2.0 * omega * time[last]  # a power swings at twice the frequency, by far more than its mean
+    base = np.column_stack([np.ones_like(t), np.cos(t), np.sin(t)])
+    power = sum(np.asarray(results[name])[last] for name in channels)
+    ours = float(np.linalg.lstsq(base, power, rcond=None)[0][0])
+    exact = _linear(tables, _database(case))[2]
+    return Figure("mean absorbed power of five periods, W", ours, exact, "linear theory")
+
+
+def conditions(results: Results, case: Path) -> Figure:
+    """Mean powers of all conditions of the study beside the case, added; linear theory of each."""
+    file = case.with_name("conditions.toml")
+    if not file.is_file():
+        raise NoFigure("no conditions were written")
+    study = tomllib.loads(file.read_text(encoding="utf-8"))["list"]
+    table = hydrodae.sweep(file, case.with_name("conditions.nc"), jobs=1)
+    if (table["status"] != "completed").any():
+        raise NoFigure("a condition does not run to its end")
+    count = len(next(iter(study.values())))
+    given = hydrodae.Case.read(case)
+    ours, exact = float(table["mean_power_absorbed"].sum()), 0.0
+    for number in range(count):
+        point = given.with_values({key: values[number] for key, values in study.items()})
+        exact += _linear(dict(case_tables(point)), _database(case))[2]
+    return Figure(f"sum of the mean powers of {count} conditions, W", ours, exact, "linear theory")
 
 
 def reactive(results: Results, case: Path) -> Figure:
     """Damping of the optimum of a reactive controller: that of the waves at their frequency.
 
-    From the imported database; the case has no controller.
+    From the imported database, not from the run.
     """
     tables, database = _tables(case), _database(case)
     omega = 2.0 * math.pi / tables["wave"][0]["period"]
@@ -241,6 +293,33 @@ def power(results: Results, case: Path) -> Figure:
     last = time >= 0.5 * time[-1]
     total = sum(float(np.mean(np.asarray(results[name])[last])) for name in channels)
     return Figure("mean absorbed power after half of the time, W", total)
+
+
+def gauges(results: Results, case: Path) -> Figure:
+    """Elevation at the last gauge over the last ten periods, and that of the Airy wave there."""
+    tables = _tables(case)
+    wave, gauge = tables["wave"][0], tables["gauge"][-1]
+    if wave["type"] != "regular" or len(tables["wave"]) > 1:
+        raise NoFigure("no regular wave alone")
+    omega = 2.0 * math.pi / wave["period"]
+    depth = _database(case).water_depth
+    gravity = _database(case).gravity
+    k = omega**2 / gravity
+    for _ in range(200 if math.isfinite(depth) else 0):
+        k = 0.5 * (k + omega**2 / (gravity * math.tanh(k * depth)))
+    heading = math.radians(wave.get("heading_deg", 0.0))
+    x, y = gauge["point"]
+    time = _time(results)
+    last = time >= time[-1] - 20.0 * math.pi / omega
+    phase = omega * time[last] - k * (x * math.cos(heading) + y * math.sin(heading))
+    airy = 0.5 * wave["height"] * np.cos(phase)
+    ours = np.asarray(results[f"gauges/{gauge['name']}/elevation"])[last]
+    return Figure(
+        f"elevation at {gauge['name']}, square mean against the Airy wave there, m2",
+        float(np.mean(ours * airy)),
+        float(np.mean(airy**2)),
+        "closed form",
+    )
 
 
 def yaw(results: Results, case: Path) -> Figure:

@@ -13,9 +13,12 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from tests.python.wecsim_files import cylinders, two_bodies
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
+
+__all__ = ["cylinders", "two_bodies"]
 
 PERIOD = 14.0  # s
 DECAY = 0.01  # 1/s

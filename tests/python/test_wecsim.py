@@ -6,205 +6,26 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import pytest
+from tests.python.wecsim_files import (
+    TWO_BODIES,
+    TWO_BODY_INPUT,
+    append,
+    left_out,
+    tables,
+    write_database,
+    write_one_body,
+    write_slx,
+)
 
 import hydrodae
 from hydrodae import hdb
 from hydrodae.commands import cli
 from hydrodae.errors import CaseError
-from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.wecsim import convert
-from hydrodae.wecsim.m_file import read_input
 from hydrodae.wecsim.slx import read_slx
-from hydrodae.wecsim.surface import write_stl
-
-LIBRARIES = {
-    "Rigid Body": "WECSim_Lib_Body_Elements/Rigid Body",
-    "Global Reference Frame": "WECSim_Lib_Frames/Global Reference Frame",
-    "Fixed": "WECSim_Lib_Constraints/Fixed",
-    "Floating (3DOF)": "WECSim_Lib_Constraints/Floating (3DOF)",
-    "Translational": "WECSim_Lib_Constraints/Translational",
-    "Translational PTO": "WECSim_Lib_PTOs/Translational PTO",
-    "Translational PTO Actuation Force": "WECSim_Lib_PTOs/Translational PTO&#xA;Actuation Force",
-    "Rotational PTO": "WECSim_Lib_PTOs/Rotational PTO",
-    "MooringMatrix": "WECSim_Lib_Moorings/MooringMatrix",
-    "MoorDynConnection": "WECSim_Lib_Moorings/MoorDynConnection",
-    "Cable": "WECSim_Lib_Cables/Cable",
-}
-
-
-def write_slx(path: Path, blocks: list[tuple[str, str, str]], lines: list[str]) -> None:
-    """A model of blocks (name, kind, mask parameter such as body(1)) and lines "1r-2l-3r".
-
-    An end of a line is the number of a block from 1 on, and its left or right port.
-    """
-    text = "<System>"
-    for number, (name, kind, parameter) in enumerate(blocks, 1):
-        mask = parameter.partition("(")[0]
-        text += f'<Block BlockType="Reference" Name={quoteattr(name)} SID="{number}">'
-        text += f'<P Name="SourceBlock">{LIBRARIES[kind]}</P><InstanceData>'
-        text += f'<P Name="{mask}">{parameter}</P></InstanceData></Block>'
-    for line in lines:
-        ends = [f"{end[:-1]}#{end[-1]}conn:1" for end in line.split("-")]
-        text += f'<Line LineType="Connection"><P Name="Dst">{ends[-1]}</P>'
-        text += "".join(f'<Branch><P Name="Src">{end}</P></Branch>' for end in ends[:-1])
-        text += "</Line>"
-    with zipfile.ZipFile(path, "w") as archive:
-        root = '<ModelInformation><Model><System Ref="system_root"/></Model></ModelInformation>'
-        archive.writestr("simulink/blockdiagram.xml", root)
-        archive.writestr("simulink/systems/system_root.xml", text + "</System>")
-
-
-def write_database(folder: Path, kind: str) -> hdb.HydroDatabase:
-    """Database of a starter, in the place of that of BEMIO (it has some coordinates only)."""
-    source = Path(hydrodae.__file__).parent / "starters" / kind / "hydro.h5"
-    database = hdb.read(source)
-    (folder / "hydroData").mkdir(parents=True)
-    database.write(folder / "hydroData" / "device.h5")
-    return database
-
-
-@pytest.fixture(scope="module")
-def cylinders(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two cylinders of radius 5 m and draught 4 m as BEMIO writes them."""
-    water = hdb.Water(omega=np.linspace(0.2, 2.6, 20), depth=50.0)
-    places = {"one": (0.0, 0.0), "two": (20.0, 0.0)}
-    database, _ = hdb.cylinders(places, hdb.Cylinder(5.0, 4.0, -1.5), water, orders=2, modes=6)
-    path = tmp_path_factory.mktemp("bemio") / "device.h5"
-    hdb.export(database, path)
-    return path
-
-
-TWO_BODIES = [
-    ("Float", "Rigid Body", "body(1)"),
-    ("Spar/Plate", "Rigid Body", "body(2)"),
-    ("Global Reference Frame", "Global Reference Frame", "simu"),
-    ("Floating (3DOF)", "Floating (3DOF)", "constraint(1)"),
-    ("Translational PTO", "Translational PTO", "pto(1)"),
-]
-# ground - constraint - spar - power take-off, whose follower is on its left, - float
-TWO_BODY_LINES = ["3r-4l", "4r-2r-5r", "5l-1r"]
-TWO_BODY_INPUT = """
-%% Simulation
-simu = simulationClass();
-simu.simMechanicsFile = 'model.slx';
-simu.rho = 1025;  simu.rampTime = 20;
-simu.endTime = 60; simu.dt = 0.1;
-simu.b2b = 1;
-waves = waveClass('regular');      % waves = waveClass('irregular');
-waves.height = 2.5; waves.period = 8;
-body(1) = bodyClass('hydroData/device.h5');
-body(1).mass = 'equilibrium';
-body(1).inertia = [1 2 3]*1e6;
-body(2) = bodyClass('hydroData/device.h5');
-body(2).mass = 450000;
-body(2).inertia = [4e6, 5e6, ...
-                   6e6];
-body(2).quadDrag.drag(3,3) = 1e5;
-constraint(1) = constraintClass('Constraint1');
-constraint(1).location = [0 0 0];
-pto(1) = ptoClass('PTO1');
-pto(1).stiffness = 1e4;
-pto(1).pretension = 5e3;
-pto(1).damping = 1.2e6;
-pto(1).location = [0 0 -2];
-"""
-
-
-@pytest.fixture
-def two_bodies(tmp_path: Path, cylinders: Path) -> Path:
-    folder = tmp_path / "source"
-    (folder / "hydroData").mkdir(parents=True)
-    (folder / "hydroData" / "device.h5").write_bytes(cylinders.read_bytes())
-    write_slx(folder / "model.slx", TWO_BODIES, TWO_BODY_LINES)
-    (folder / "wecSimInputFile.m").write_text(TWO_BODY_INPUT)
-    return folder
-
-
-def append(folder: Path, text: str) -> None:
-    with (folder / "wecSimInputFile.m").open("a") as file:
-        file.write(text)
-
-
-def tables(folder: Path) -> dict:
-    from hydrodae.case.contents import case_tables
-
-    return case_tables(hydrodae.Case.read(folder / "case.toml"))
-
-
-def left_out(converted) -> str:
-    return "\n".join(map(str, converted.remarks.of("left out")))
-
-
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("2*pi/8", np.pi / 4),
-        ("[1 -2]", [1, -2]),
-        ("[1 - 2]", [-1]),
-        ("[1, 2; 3 4]", [1, 2, 3, 4]),
-        ("[1 2\n 3 4]'", [1, 3, 2, 4]),
-        ("-2^2", -4),
-        ("30*pi/180 % degrees", np.pi / 6),
-        ("sind(30)", 0.5),
-        ("0:0.5:1", [0, 0.5, 1]),
-        ("diag([1 2])", [1, 0, 0, 2]),
-        ("2*eye(2)", [2, 0, 0, 2]),
-        ("1e3*[1;2]", [1000, 2000]),
-        ("zeros(1,2)", [0, 0]),
-        ("a(2) + a(end_)", None),
-        ("b.c/2", 3.5),
-        ("a(1,2)", 20),
-        ("5.", 5),
-        ("-[1 2]+[3 4]", [2, 2]),
-    ],
-)
-def test_expressions_have_the_values_of_matlab(text: str, value, tmp_path: Path) -> None:
-    file = tmp_path / "wecSimInputFile.m"
-    file.write_text(f"a = [10 20 30]; b.c = 7;\nsimu = simulationClass();\nsimu.x = {text};\n")
-    read = read_input(file)
-    simu = read.get("simu")
-    assert simu is not None
-    if value is None:
-        assert [r.place for r in read.remarks.of("left out")] == ["wecSimInputFile.m:3"]
-    else:
-        assert read.remarks.items == []
-        np.testing.assert_allclose(np.ravel(simu.get("x")), np.ravel(value), atol=1e-14)
-
-
-def test_statements_that_are_not_understood_are_listed_with_their_lines(tmp_path: Path) -> None:
-    file = tmp_path / "wecSimInputFile.m"
-    file.write_text(
-        "%{\nsimu = broken\n%}\n"
-        "simu = simulationClass();\n"
-        "load('data.mat')\n"
-        "if simu.rho == 1000\n  simu.dt = 0.2;\nelse\n  simu.dt = 0.3;\nend\n"
-        "for i = 1:3\n  simu.dt = i;\nend\n"
-        "body(1).mass = someFunction(3);\n"
-        "s = 'it''s % no comment';\n"
-    )
-    read = read_input(file)
-    simu = read.get("simu")
-    assert simu is not None
-    assert simu.get("dt") == 0.2
-    assert read.variables["s"].value == "it's % no comment"
-    lines = [r.place.partition(":")[2] for r in read.remarks.of("left out")]
-    assert lines == ["5", "11", "14"]
-
-
-def test_names_of_version_4_are_read(tmp_path: Path) -> None:
-    file = tmp_path / "wecSimInputFile.m"
-    file.write_text(
-        "pto(1) = ptoClass('PTO1');\npto(1).k = 3; pto(1).c = 4; pto(1).loc = [1 2 3];\n"
-    )
-    pto = read_input(file).get("pto")
-    assert pto is not None
-    assert pto.get("stiffness") == 3.0
-    assert pto.get("damping") == 4.0
-    assert pto.vector("location", []).tolist() == [1.0, 2.0, 3.0]
 
 
 def test_lines_of_a_model_join_ports_through_subsystems(tmp_path: Path) -> None:
@@ -262,27 +83,6 @@ def test_two_bodies_become_a_case(two_bodies: Path, tmp_path: Path) -> None:
     assert found["solver"]["end_time"] == 60.0
     results = hydrodae.run(tmp_path / "case" / "case.toml", set={"solver.end_time": 20.0})
     assert results.status == "completed"
-
-
-def write_one_body(source: Path, waves: str, pto: str) -> hdb.HydroDatabase:
-    """A buoy on a power take-off against the ground."""
-    database = write_database(source, "point_absorber")
-    blocks = [
-        ("Buoy", "Rigid Body", "body(1)"),
-        ("World", "Global Reference Frame", "simu"),
-        ("PTO", "Translational PTO", "pto(1)"),
-    ]
-    write_slx(source / "one.slx", blocks, ["2r-3r", "3l-1r"])
-    (source / "wecSimInputFile.m").write_text(f"""
-simu = simulationClass(); simu.simMechanicsFile = 'one.slx'; simu.rho = 1025;
-simu.endTime = 200; simu.rampTime = 60;
-{waves}
-body(1) = bodyClass('hydroData\\device.h5');
-body(1).mass = 'equilibrium'; body(1).inertia = [1e6 1e6 1e6];
-pto(1) = ptoClass('PTO1'); pto(1).location = [0 0 0];
-{pto}
-""")
-    return database
 
 
 def test_heave_of_one_body_is_that_of_its_tables(tmp_path: Path) -> None:
@@ -470,56 +270,6 @@ def test_comparison_of_examples(two_bodies: Path, repository: Path, tmp_path: Pa
     assert "largest pitch, deg" in rows[2]
     assert rows[3].startswith("| absent | no: not in these clones |")
     assert rows[5].startswith("Of 2: ")
-
-
-def box(half: tuple[float, float, float], top: float) -> np.ndarray:
-    """Triangles of a box about the vertical axis, normals outwards."""
-    x, y, z = half
-    corners = np.array([[a, b, c] for a in (-x, x) for b in (-y, y) for c in (top - 2 * z, top)])
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return np.array([corners[[a, *pair]] for a, b, c, d in faces for pair in ((b, c), (c, d))])
-
-
-def nonlinear(folder: Path, triangles: np.ndarray, option: int = 2) -> None:
-    write_stl(triangles, folder / "hull.stl")
-    append(folder, f"body(1).nonlinearHydro = {option};\nbody(1).geometryFile = 'hull.stl';\n")
-
-
-def test_nonlinear_hydrodynamics_takes_the_surface(two_bodies: Path, tmp_path: Path) -> None:
-    """The surface is about the centre of gravity there, and in the world here."""
-    nonlinear(two_bodies, box((4.0, 5.0, 4.0), 5.5))
-    converted = convert(two_bodies, tmp_path / "case")
-    assert left_out(converted) == ""
-    body, other = tables(tmp_path / "case")["body"]
-    assert (body["mesh"], body["hydrostatics"], body["froude_krylov"]) == (
-        "float.stl",
-        "mesh",
-        "mesh",
-    )
-    assert "mesh" not in other
-    found = read_mesh(tmp_path / "case" / "float.stl")
-    lowest, highest = found.reshape(-1, 3).min(axis=0), found.reshape(-1, 3).max(axis=0)
-    np.testing.assert_allclose(lowest, [-4.0, -5.0, -2.5 - 1.5])
-    np.testing.assert_allclose(highest, [4.0, 5.0, 5.5 - 1.5])
-    scene = hydrodae.Case.read(tmp_path / "case" / "case.toml")
-    results = hydrodae.run(scene.path or "", set={"solver.end_time": 5.0})
-    assert results.status == "completed"
-
-
-def test_a_surface_that_faces_inwards_is_turned(two_bodies: Path, tmp_path: Path) -> None:
-    nonlinear(two_bodies, box((4.0, 5.0, 4.0), 5.5)[:, ::-1], option=1)
-    converted = convert(two_bodies, tmp_path / "case")
-    assert "nonlinearHydro = 1 taken as 2" in str(converted.remarks.of("assumed")[-1])
-    first, second, third = np.moveaxis(read_mesh(tmp_path / "case" / "float.stl")[:, :3], 1, 0)
-    volume = np.einsum("ij,ij->", first, np.cross(second, third)) / 6.0
-    assert volume == pytest.approx(8.0 * 10.0 * 8.0)
-
-
-def test_a_surface_that_is_not_closed_is_left_out(two_bodies: Path, tmp_path: Path) -> None:
-    nonlinear(two_bodies, box((4.0, 5.0, 4.0), 5.5)[:-1])
-    converted = convert(two_bodies, tmp_path / "case")
-    assert "hull.stl is not closed: 3 edges lack a neighbour" in left_out(converted)
-    assert not list((tmp_path / "case").glob("*.stl"))
 
 
 DECK = """

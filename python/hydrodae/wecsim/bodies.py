@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,8 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.morison import members
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.surface import read_surface, write_stl
 from hydrodae.wecsim.text import CaseText
 
@@ -246,20 +246,19 @@ class Bodies:
         center = self.center_of_gravity(number)
         for index in range(max(len(value) for value in rows.values())):
             element = {f: v[min(index, len(v) - 1)].ravel() for f, v in rows.items()}
-            keys = _member(option, element, center)
-            if keys is None:
+            found = members(option, element, center)
+            if not found:
                 self._left_out(
                     item,
                     "morisonElement.option",
-                    f"Morison element {index + 1}: drag areas or added masses differ along the "
-                    "axes in a way that neither a sphere nor a cylinder has",
+                    f"Morison element {index + 1}: neither a drag area nor a volume of a cylinder",
                 )
-                continue
-            text.table(
-                "[[morison]]",
-                {"name": f"{name}_morison{index + 1}", "body": name} | keys,
-                f"Morison element {index + 1} of {item.title}",
-            )
+            for suffix, keys in found.items():
+                text.table(
+                    "[[morison]]",
+                    {"name": f"{name}_morison{index + 1}{suffix}", "body": name} | keys,
+                    f"Morison element {index + 1} of {item.title}",
+                )
 
 
 def _six(value: Any) -> Array:
@@ -280,40 +279,3 @@ def _short(matrix: Array) -> Array:
     """A diagonal matrix by its six numbers."""
     diagonal = np.diag(matrix)
     return diagonal if not (matrix - np.diag(diagonal)).any() else matrix
-
-
-def _member(option: int, element: dict[str, Array], center: Array) -> dict[str, Any] | None:
-    """Keys of a [[morison]] table: a point with the same drag all round, or a cylinder."""
-    padded = {f: np.pad(v, (0, max(3 - v.size, 0))) for f, v in element.items()}
-    drag, added = padded["cd"] * padded["area"], padded["ca"]
-    volume = float(element["VME"][0])
-    point = center + padded["rgME"]
-    axis = padded["z"] if padded["z"].any() else np.array([0.0, 0.0, 1.0])
-    axis = axis / np.linalg.norm(axis)
-    normal, along, added_along = drag[0], drag[1], added[1]
-    area = float(padded["area"][0])
-    if option == 1:
-        if np.ptp(drag) <= 1e-9 * max(drag.max(), 1e-30) and np.ptp(added) <= 1e-9:
-            keys = {"point": point, "area": float(padded["area"].max()), "volume": volume}
-            keys["drag_coefficient"] = float(drag.max() / (padded["area"].max() or 1.0))
-            return keys | ({"added_mass_coefficient": float(added[0])} if volume else {})
-        if abs(drag[0] - drag[1]) > 1e-9 * drag.max() or abs(added[0] - added[1]) > 1e-9:
-            return None
-        axis, along, added_along = np.array([0.0, 0.0, 1.0]), drag[2], added[2]
-    if not area > 0.0:
-        return None
-    diameter = 4.0 * volume / (math.pi * area) or 1.0  # a slender one where only drag counts
-    length = area / diameter
-    ends = point - 0.5 * length * axis, point + 0.5 * length * axis
-    keys = {
-        "point_a": ends[0],
-        "point_b": ends[1],
-        "diameter": diameter,
-        "drag_coefficient": float(normal / area),
-        "drag_axial": float(along / (math.pi * area)),
-        "segments": 1,
-    }
-    if volume > 0.0:
-        keys["added_mass_coefficient"] = float(added[0])
-        keys["added_mass_axial"] = float(added_along)
-    return keys

@@ -12,10 +12,12 @@ from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.wecsim.bodies import Bodies
+from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
 from hydrodae.wecsim.links import Links
-from hydrodae.wecsim.m_file import InputFile, read_input
+from hydrodae.wecsim.m_file import read_input
 from hydrodae.wecsim.moorings import add_mooring
+from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.slx import Model, read_slx
@@ -73,6 +75,7 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
     read = read_input(_input_file(Path(source)))
     model = read_slx(_model_file(read))
     topology = find_topology(model, read)
+    conditions = find_conditions(read)
     database, radiation, why = _database(read, topology)
     made = not target.exists()
     target.mkdir(parents=True, exist_ok=True)
@@ -82,8 +85,24 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
             database.write(target / "hydro.h5")
         case = target / "case.toml"
         case.write_text(str(text), encoding="utf-8")
+        if conditions is not None:
+
+            def again(other: InputFile) -> CaseText:
+                frequency = radiation_of(other)[1]
+                keys = dict(radiation)
+                if frequency is not None and "frequency" in keys:
+                    keys["frequency"] = frequency
+                found = find_topology(model, other)
+                return _write(other, model, found, database, keys, why, target)
+
+            write_study(conditions, read, str(text), again, target)
     except BaseException:
-        for file in [*target.glob("*.stl"), target / "case.toml", target / "hydro.h5"]:
+        for file in [
+            *target.glob("*.stl"),
+            target / "case.toml",
+            target / "hydro.h5",
+            target / STUDY,
+        ]:
             file.unlink(missing_ok=True)
         if made and not any(target.iterdir()):
             target.rmdir()

@@ -14,7 +14,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.preparation.fitting import fit, kernel
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.reading import read
-from hydrodae.wecsim.m_file import InputFile
+from hydrodae.wecsim.objects import InputFile
 
 #: A file below this size is no database; repositories keep a pointer of Git LFS in its place.
 SMALLEST = 1000

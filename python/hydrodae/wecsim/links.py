@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.wecsim.bodies import Bodies
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.m_text import NotEvaluated
+from hydrodae.wecsim.objects import InputFile, Item
+from hydrodae.wecsim.signals import Law, find_law
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
 
@@ -24,6 +26,10 @@ _TYPES = {
 }
 #: Springs and stops of hinges are by the degree in WEC-Sim, angles in degrees.
 _PER_DEGREE = 180.0 / math.pi
+#: Rate of a joint by the kind of its constraint.
+_RATES = {"Rotational": "angle_rate", "Translational": "displacement_rate"}
+#: Time from the end of a switch on in which the controllers of WEC-Sim hear no standstill [s].
+_DEAF = 0.2
 
 
 class Links:
@@ -43,6 +49,7 @@ class Links:
     ) -> None:
         self.read, self.topology, self.bodies, self.carriers = read, topology, bodies, carriers
         self.taken: set[str] = set()
+        self.kinds: dict[str, str] = {}
 
     def add(self, text: CaseText, link: Link, place: str) -> None:
         """Add the joint of a link, with its take-off and stops."""
@@ -59,6 +66,7 @@ class Links:
                 item.used.add(field)
             return
         keys: dict[str, Any] = {"name": name, "type": _TYPES[link.kind]}
+        self.kinds[name] = link.kind
         keys["body_a"], keys["body_b"] = self.carriers[link.base], self.carriers[link.follower]
         keys["point"] = self._point(link)
         axis = self._axis(link)
@@ -72,18 +80,24 @@ class Links:
             kind = "displacement" if link.kind == "Translational" else "angle_deg"
             keys["initial"] = {kind: start if kind == "displacement" else math.degrees(start)}
         text.table("[[joint]]", keys, f"{item.title}, block {link.block.name!r}")
+        law = self._law(link, place) if link.actuated else None
         if link.is_pto:
-            self._take_off(text, link, name, start)
+            self._take_off(text, link, name, start, law or Law())
         self._stops(text, link, name, start)
-        if link.actuated:
-            sources = ", ".join(dict.fromkeys(link.block.feeds))
-            motion = "Motion" in link.block.kind
-            self.read.remarks.left_out(
-                place,
-                f"{'motion' if motion else 'force'} of {item.title} from Simulink"
-                + (f" ({sources})" if sources else "")
-                + (": see [[constraint]]" if motion else ": see [[controller]] and python_load"),
-            )
+
+    def _law(self, link: Link, place: str) -> Law | None:
+        """The law of an actuator; one that is not understood is left out."""
+        title = link.item.title
+        if "Motion" in link.block.kind:
+            text = f"motion of {title} from Simulink: see [[constraint]]"
+            self.read.remarks.left_out(place, text)
+            return None
+        try:
+            return find_law(link.block, link.kind, self.read)
+        except NotEvaluated as error:
+            text = f"force of {title} from Simulink: {error}; see [[controller]] and python_load"
+            self.read.remarks.left_out(place, text)
+        return None
 
     def _name(self, item: Item) -> str:
         name = item.arguments[0] if item.arguments else None
@@ -142,7 +156,7 @@ class Links:
             return 0.0
         return math.radians(value) if link.kind == "Rotational" else value
 
-    def _take_off(self, text: CaseText, link: Link, name: str, start: float) -> None:
+    def _take_off(self, text: CaseText, link: Link, name: str, start: float, law: Law) -> None:
         item = link.item
         stiffness = item.vector("stiffness", [0.0])
         damping = item.vector("damping", [0.0])
@@ -155,7 +169,7 @@ class Links:
                     f"{item.title}.{field} has {values.size} values; the first is taken, and "
                     "`hydrodae sweep` runs them all",
                 )
-        k, c = float(stiffness[0]), float(damping[0])
+        k, c = float(stiffness[0]) + law.stiffness, float(damping[0]) + law.damping
         if link.kind == "Rotational":  # about -y in Simscape's joint
             neutral = -math.radians(neutral)
         if not neutral and pretension and k:
@@ -166,7 +180,8 @@ class Links:
                 f"{item.title}.pretension without stiffness, which WEC-Sim ignores too",
             )
         if link.kind in ("Rotational", "Translational"):
-            keys: dict[str, Any] = {"type": "pto_linear", "name": name, "joint": name}
+            kind = "pto_linear" if k >= 0.0 else "pto_general"
+            keys: dict[str, Any] = {"type": kind, "name": name, "joint": name}
             keys |= {"damping": c, "stiffness": k or None}
             keys["neutral"] = (neutral + start) if k and neutral + start else None
         elif link.kind == "Spherical":
@@ -181,6 +196,24 @@ class Links:
             )
         if c or k:
             text.table("[[force]]", keys, f"Take-off {item.title}")
+        if law.kind != "linear":
+            self._switching(text, name, law, float(damping[0]))
+
+    def _switching(self, text: CaseText, name: str, law: Law, own: float) -> None:
+        """A controller that switches at each standstill, with what it acts on."""
+        keys: dict[str, Any] = {"type": law.kind, "name": f"{name}_{law.kind}"}
+        keys["inputs"] = [f"joints/{name}/{_RATES[self.kinds[name]]}"]
+        if law.kind == "declutching":
+            keys |= {"outputs": [f"forces/{name}/damping"], "engaged": own + law.damping}
+            keys |= {"free": own, "free_time": law.time}
+        else:
+            latch: dict[str, Any] = {"type": "dry_friction", "name": f"{name}_latch", "joint": name}
+            latch |= {"static": law.hold, "kinetic": 0.0}
+            comment = "A latch, where WEC-Sim has a damper of so many N s/m."
+            text.table("[[force]]", latch, comment)
+            keys |= {"outputs": [f"forces/{name}_latch/static"], "hold_load": law.hold}
+            keys["hold_time"] = law.time
+        text.table("[[controller]]", keys | {"period": _DEAF})
 
     def _stops(self, text: CaseText, link: Link, name: str, start: float) -> None:
         item = link.item

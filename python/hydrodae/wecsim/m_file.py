@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from hydrodae.errors import CaseError
+from hydrodae.wecsim.m_arrays import elements, meshgrid, with_elements
 from hydrodae.wecsim.m_text import NotEvaluated, Statement, Token, statements
-from hydrodae.wecsim.m_values import Expression, plain
+from hydrodae.wecsim.m_values import Expression
+from hydrodae.wecsim.objects import Entry, InputFile, Item
 from hydrodae.wecsim.old_names import new_name
-from hydrodae.wecsim.remarks import Remarks
 
 #: Constructors of WEC-Sim, and the kind of object that each makes.
 CONSTRUCTORS = {
@@ -30,109 +30,11 @@ CONSTRUCTORS = {
 }
 #: Values of simulationClass that input files read before they set them.
 DEFAULTS = {"rho": 1000.0, "gravity": 9.81, "rampTime": 100.0, "dt": 0.1}
+#: Most rounds of a loop.
+_MOST_LOOPS = 10_000
 _OPENERS = ("if", "for", "while", "switch", "function", "try", "parfor")
 #: Statements without an effect on the model.
-_IDLE = ("clear", "clc", "close", "format", "hold", "warning", "disp", "fprintf", "addpath", "end")
-
-
-@dataclass
-class Entry:
-    """A value and the line that gave it."""
-
-    value: Any
-    line: int
-
-
-@dataclass
-class Item:
-    """An object of the input file, such as body(1).
-
-    Attributes
-    ----------
-    kind, number : str, int
-        ``body`` and 1 of ``body(1)``.
-    line : int
-        Of its constructor.
-    arguments : list
-        Of its constructor; None where one could not be evaluated.
-    entries : dict of Entry
-        By dotted field, such as ``quadDrag.cd``.
-    used : set of str
-        Fields that an import asked for.
-    """
-
-    kind: str
-    number: int
-    line: int = 0
-    arguments: list[Any] = field(default_factory=list)
-    entries: dict[str, Entry] = field(default_factory=dict)
-    used: set[str] = field(default_factory=set)
-
-    @property
-    def title(self) -> str:
-        """As it stands in the file: ``body(1)``, ``simu``."""
-        return self.kind if self.kind == "simu" else f"{self.kind}({self.number})"
-
-    def get(self, name: str, default: Any = None) -> Any:
-        """Value of a field, which counts as used."""
-        self.used.add(name)
-        entry = self.entries.get(name)
-        return default if entry is None else entry.value
-
-    def text(self, name: str, default: str = "") -> str:
-        """A field that is text."""
-        value = self.get(name, default)
-        return value if isinstance(value, str) else default
-
-    def number_of(self, name: str, default: float = 0.0) -> float:
-        """A field that is one number; of several the first."""
-        value = self.get(name)
-        array = np.ravel(value) if isinstance(value, float | np.ndarray) else np.zeros(0)
-        return float(array[0]) if array.size else default
-
-    def vector(self, name: str, default: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """A field that is numbers, as one axis."""
-        value = self.get(name)
-        if not isinstance(value, float | np.ndarray) or np.size(value) == 0:
-            value = default
-        return np.array(value, dtype=float).ravel()
-
-    def line_of(self, name: str) -> int:
-        """Line of a field, or of the constructor."""
-        entry = self.entries.get(name)
-        return self.line if entry is None else entry.line
-
-
-@dataclass
-class InputFile:
-    """What an input file says.
-
-    Attributes
-    ----------
-    path : Path
-    items : dict of Item
-        By kind and number; ``simu`` and single ``waves`` have number 1.
-    variables : dict of Entry
-    remarks : Remarks
-        Statements that could not be evaluated, with their lines.
-    """
-
-    path: Path
-    items: dict[tuple[str, int], Item] = field(default_factory=dict)
-    variables: dict[str, Entry] = field(default_factory=dict)
-    remarks: Remarks = field(default_factory=Remarks)
-
-    def of(self, kind: str) -> list[Item]:
-        """Objects of one kind, by number."""
-        return [item for (k, _), item in sorted(self.items.items()) if k == kind]
-
-    def get(self, kind: str, number: int = 1) -> Item | None:
-        """One object, or None."""
-        return self.items.get((kind, number))
-
-    def place(self, line: int) -> str:
-        """File and line, as remarks have it."""
-        return f"{self.path.name}:{line}"
+_IDLE = ("clear clearvars clc close format hold warning disp fprintf addpath end save").split()
 
 
 def read_input(path: Path) -> InputFile:
@@ -170,6 +72,8 @@ class _Run:
                 return at
             if word == "if":
                 at = self._choice(parts, at, live)
+            elif word == "for" and live:
+                at = self._loop(parts, at)
             elif word in _OPENERS:
                 if live:
                     self._skipped(parts[at], f"the {word} block is not carried out")
@@ -178,6 +82,25 @@ class _Run:
                 self._statement(parts[at])
             at += 1
         return at
+
+    def _loop(self, parts: list[Statement], at: int) -> int:
+        """Carry out a loop over the columns of a row of numbers; returns its end."""
+        end = _end_of(parts, at)
+        tokens = _condition(parts[at].tokens[1:])
+        equals = _assignment(tokens)
+        try:
+            if equals != 1:
+                raise NotEvaluated("the head is not understood")
+            values = np.atleast_2d(self._value(tokens[2:]))
+            if values.shape[0] != 1 or values.size > _MOST_LOOPS:
+                raise NotEvaluated(f"at most {_MOST_LOOPS} numbers in a row")
+        except (NotEvaluated, TypeError) as error:
+            self._skipped(parts[at], f"the for block is not carried out ({error})")
+            return end
+        for value in values[0]:
+            self._variable(tokens[0].text, [], float(value), parts[at].line)
+            self.block(parts[:end], at + 1, True)
+        return end
 
     def _choice(self, parts: list[Statement], at: int, live: bool) -> int:
         taken = False
@@ -204,6 +127,11 @@ class _Run:
             return
         left, right = statement.tokens[:equals], statement.tokens[equals + 1 :]
         try:
+            if (names := _several(left)) and [t.text for t in right[:2]] == ["meshgrid", "("]:
+                made = meshgrid([self._value(tokens) for tokens in _split(right[2:-1])])
+                for name, value in zip(names, made, strict=False):
+                    self._variable(name, [], value, statement.line)
+                return
             name, path = _target(left)
             constructor = right[0].text if right and right[0].kind == "name" else ""
             if constructor in CONSTRUCTORS:
@@ -237,17 +165,18 @@ class _Run:
         name = new_name(kind, ".".join(fields))
         if rest[-1][0] == "(":
             old = item.entries.get(name)
-            value = _indexed(None if old is None else old.value, rest[-1], value)
+            value = with_elements(None if old is None else old.value, rest[-1], value)
         elif len(fields) < len(rest):
             name = ".".join(p if p[0] != "(" else p.strip("()") for p in rest)
         item.entries[name] = Entry(value, line)
 
     def _variable(self, name: str, path: list[str], value: Any, line: int) -> None:
+        path = _without_first(path)
         if path and path[-1][0] == "(":
             name, old = ".".join([name, *path[:-1]]), None
             if name in self.read.variables:
                 old = self.read.variables[name].value
-            self.read.variables[name] = Entry(_indexed(old, path[-1], value), line)
+            self.read.variables[name] = Entry(with_elements(old, path[-1], value), line)
         else:
             self.read.variables[".".join([name, *path])] = Entry(value, line)
 
@@ -266,12 +195,13 @@ class _Run:
                 entry = Entry(DEFAULTS[".".join(parts)], 0)
             missing = f"{item.title}.{'.'.join(parts)} has no value yet"
         else:
+            parts = _without_first(parts)
             index = parts.pop() if parts and parts[-1][0] == "(" else None
             entry = self.read.variables.get(".".join([name, *parts]))
             missing = f"{name} has no value"
         if entry is None:
             raise NotEvaluated(missing)
-        return entry.value if index is None else _element(entry.value, index)
+        return entry.value if index is None else elements(entry.value, index)
 
     def _skipped(self, statement: Statement, why: str) -> None:
         text = statement.text if len(statement.text) < 70 else statement.text[:67] + "..."
@@ -306,6 +236,14 @@ def _assignment(tokens: tuple[Token, ...]) -> int | None:
     return None
 
 
+def _several(tokens: tuple[Token, ...]) -> list[str]:
+    """Names of ``[X, Y]`` on the left; empty where it is something else."""
+    if len(tokens) < 3 or tokens[0].text != "[" or tokens[-1].text != "]":
+        return []
+    inside = [token for token in tokens[1:-1] if token.text != ","]
+    return [t.text for t in inside] if all(t.kind == "name" for t in inside) else []
+
+
 def _target(tokens: tuple[Token, ...]) -> tuple[str, list[str]]:
     """Name on the left, and its indices ("(1)") and fields."""
     if not tokens or tokens[0].kind != "name":
@@ -325,6 +263,11 @@ def _target(tokens: tuple[Token, ...]) -> tuple[str, list[str]]:
         else:
             raise NotEvaluated("the left side is not understood")
     return tokens[0].text, path
+
+
+def _without_first(path: list[str]) -> list[str]:
+    """``controller(1).x`` is ``controller.x``: a struct of one element."""
+    return path[1:] if len(path) > 1 and path[0] == "(1)" else path
 
 
 def _number_in(path: list[str]) -> int:
@@ -354,48 +297,35 @@ def _split(tokens: tuple[Token, ...]) -> Iterator[tuple[Token, ...]]:
         yield tuple(current)
 
 
-def _places(index: str, shape: tuple[int, int]) -> tuple[list[int], list[int]]:
-    """Rows and columns that an index means; one index runs over a row (or a column)."""
-    parts = index.strip("()").split(",")
-    if len(parts) == 1:
-        parts = [parts[0], "1"] if shape[1] == 1 and shape[0] > 1 else ["1", parts[0]]
-    if len(parts) != 2:
-        raise NotEvaluated(f"the index {index}")
-    ranges = []
-    for part, size in zip(parts, shape, strict=True):
-        ends = part.split(":")
-        if part == ":":
-            ranges.append(list(range(size)))
-        elif all(end.isdigit() for end in ends) and len(ends) <= 3:
-            step = int(ends[1]) if len(ends) == 3 else 1
-            ranges.append(list(range(int(ends[0]) - 1, int(ends[-1]), step)))
-        else:
-            raise NotEvaluated(f"the index {index}")
-    return ranges[0], ranges[1]
+def assign(read: InputFile, target: str, value: Any) -> None:
+    """Set what a name with indices and fields means, such as ``pto(1).damping``.
+
+    Raises
+    ------
+    NotEvaluated
+        The name is not understood.
+    """
+    parts = statements(f"{target} = 0;")
+    equals = _assignment(parts[0].tokens) if len(parts) == 1 else None
+    if equals is None:
+        raise NotEvaluated(f"{target!r} is no name")
+    name, path = _target(parts[0].tokens[:equals])
+    run = _Run(read)
+    if name in CONSTRUCTORS.values():
+        run._set(name, path, value, 0)
+    else:
+        run._variable(name, path, value, 0)
 
 
-def _indexed(old: Any, index: str, value: Any) -> Any:
-    """An array with some of its elements replaced, larger where need be."""
-    if isinstance(value, str | list):
-        raise NotEvaluated("a number is needed")
-    array = np.atleast_2d(np.zeros((0, 0)) if old is None else np.array(old, dtype=float))
-    rows, columns = _places(index, (array.shape[0], array.shape[1]))
-    shape = (
-        max([array.shape[0], *(row + 1 for row in rows)]),
-        max([array.shape[1], *(column + 1 for column in columns)]),
-    )
-    grown = np.zeros(shape)
-    grown[: array.shape[0], : array.shape[1]] = array
-    grown[np.ix_(rows, columns)] = np.broadcast_to(np.atleast_2d(value), (len(rows), len(columns)))
-    return plain(grown)
+def evaluate(read: InputFile, text: str) -> Any:
+    """Value of an expression, with the variables and objects of an input file.
 
-
-def _element(value: Any, index: str) -> Any:
-    if isinstance(value, str | list):
-        raise NotEvaluated(f"the index {index} of text")
-    array = np.atleast_2d(value)
-    rows, columns = _places(index, (array.shape[0], array.shape[1]))
-    try:
-        return plain(array[np.ix_(rows, columns)])
-    except IndexError:
-        raise NotEvaluated(f"the index {index} is out of range") from None
+    Raises
+    ------
+    NotEvaluated
+        It is not understood.
+    """
+    parts = statements(text)
+    if len(parts) != 1:
+        raise NotEvaluated(f"{text!r} is no expression")
+    return _Run(read)._value(parts[0].tokens)

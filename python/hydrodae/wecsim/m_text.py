@@ -20,6 +20,12 @@ class NotEvaluated(HydrodaeError):
     """An expression that is not understood here."""
 
 
+class Quoted(str):
+    """A string in double quotes: several in brackets are an array, not one string."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class Token:
     """A piece of a statement; `spaced`: white space stands before it."""
@@ -96,8 +102,10 @@ def _tokens(text: str) -> list[Token]:
             at = end
             continue
         if character in "'\"" and not (character == "'" and _transposes(tokens, spaced, brackets)):
+            begin = at
             string, at = _string(text, at, line)
-            tokens.append(Token("string", string, line, spaced))
+            double = text[begin] == '"'
+            tokens.append(Token("string", Quoted(string) if double else string, line, spaced))
             spaced = False
             continue
         if character == "'":

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.wecsim.m_text import NotEvaluated, Token
+from hydrodae.wecsim.m_text import NotEvaluated, Quoted, Token
 
 #: A number or an array of them (two axes), a string, or a list (of a cell array).
 Value: TypeAlias = "float | str | NDArray[np.float64] | list[Any]"
@@ -251,12 +251,16 @@ class Expression:
 
 
 def _matrix(rows: list[list[Any]]) -> Any:
+    if rows and all(isinstance(value, Quoted) for row in rows for value in row):
+        return [value for row in rows for value in row]
     if any(isinstance(value, str) for row in rows for value in row):
         if len(rows) == 1 and all(isinstance(value, str) for value in rows[0]):
             return "".join(rows[0])
         raise NotEvaluated("strings and numbers in one array")
     try:
-        blocks = [np.hstack([np.atleast_2d(_number(value)) for value in row]) for row in rows]
+        parts = [[np.atleast_2d(_number(value)) for value in row] for row in rows]
+        parts = [[part for part in row if part.size] for row in parts]
+        blocks = [np.hstack(row) for row in parts if row]
         return np.vstack(blocks).astype(float) if blocks else np.zeros((0, 0))
     except ValueError:
         raise NotEvaluated("the rows of an array differ in length") from None
@@ -294,6 +298,19 @@ def _combine(operator: str, left: Any, right: Any) -> Any:
         raise NotEvaluated(f"{operator!r} of these values ({error})") from None
 
 
+def _reshaped(array: Any, sizes: list[Any]) -> Any:
+    """Values column by column in another shape; one size may be ``[]``, and follows."""
+    sides = [int(s) for s in np.ravel(sizes[0])] if len(sizes) == 1 else []
+    for size in sizes if len(sizes) == 2 else ():
+        sides.append(-1 if np.size(size) == 0 else int(_number(size)))
+    if len(sides) != 2:
+        raise NotEvaluated("reshape to two axes is known here")
+    try:
+        return np.reshape(array, sides, order="F")
+    except ValueError as error:
+        raise NotEvaluated(f"reshape ({error})") from None
+
+
 def _function(name: str, values: list[Any]) -> Any:
     """Value of a function of MATLAB that is known here."""
     if name in ("zeros", "ones") and len(values) <= 2:
@@ -313,10 +330,17 @@ def _function(name: str, values: list[Any]) -> Any:
     if name in ("max", "min") and len(values) in (1, 2):
         function = np.max if name == "max" else np.min
         return function(np.hstack([np.ravel(_number(value)) for value in values]))
+    if name in ("length", "numel") and len(values) == 1:
+        extent = np.shape(np.atleast_2d(_number(values[0])))
+        return float(np.prod(extent) if name == "numel" or 0 in extent else max(extent))
+    if name == "reshape" and len(values) in (2, 3):
+        return _reshaped(_number(values[0]), values[1:])
     if name == "fullfile" and values and all(isinstance(value, str) for value in values):
         return "/".join(values)
     if name in ("strcat", "append") and all(isinstance(value, str) for value in values):
         return "".join(values)
+    if name == "struct" and not values:
+        return []
     if name == "struct" and len(values) % 2 == 0:
         raise NotEvaluated("a struct of pairs")
     raise NotEvaluated(f"{name} is not known here")

@@ -12,7 +12,7 @@ from hydrodae.errors import CaseError
 from hydrodae.mooring import read_moordyn
 from hydrodae.mooring.moordyn_deck import read_deck
 from hydrodae.wecsim.bodies import Bodies, _short, _six
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.slx import Block
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import plain_name

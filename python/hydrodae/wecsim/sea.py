@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.gauges import add_gauges
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.old_names import WAVES
 from hydrodae.wecsim.text import CaseText
 
@@ -75,6 +76,7 @@ def add_waves(text: CaseText, read: InputFile, folder: Path, omega: Array | None
         )
     for keys, comment in tables:
         text.table("[[wave]]", keys, *([comment] if comment else []))
+    add_gauges(text, read, len(tables))
 
 
 def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, Any], str]]:
@@ -85,10 +87,6 @@ def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, 
         waves.used.add(field)
     for field in ("viz.numPointsX", "viz.numPointsY"):
         waves.used.add(field)
-    if "marker.location" in waves.entries:
-        read.remarks.left_out(
-            read.place(waves.line_of("marker.location")), "wave markers: see [[gauge]]"
-        )
     if kind in ("noWave", "noWaveCIC"):
         for field in ("period", "height", "direction", "spectrumType"):
             waves.used.add(field)
@@ -333,8 +331,3 @@ def add_solver(text: CaseText, read: InputFile) -> None:
         if field in simu.entries:
             simu.used.add(field)
             read.remarks.not_needed(read.place(simu.line_of(field)), f"simu.{field}")
-    for field in ("mcrMatFile", "mcrExcelFile", "mcrCaseFile"):
-        if simu.get(field):
-            read.remarks.left_out(
-                read.place(simu.line_of(field)), f"simu.{field}: runs of many cases; hydrodae sweep"
-            )

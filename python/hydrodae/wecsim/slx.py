@@ -49,6 +49,9 @@ class Block:
         Names of the blocks whose signals enter it.
     ports : dict
         Physical ports by the names that a copy of a library block gives them, such as B and F.
+    drivers : dict
+        For each signal input (in:1), the block that drives it and its output (out:1), through the
+        ports of subsystems.
     """
 
     name: str
@@ -59,6 +62,7 @@ class Block:
     nets: dict[str, int] = field(default_factory=dict)
     feeds: list[str] = field(default_factory=list)
     ports: dict[str, str] = field(default_factory=dict)
+    drivers: dict[str, tuple[Block, str]] = field(default_factory=dict)
 
 
 @dataclass
@@ -162,6 +166,11 @@ class _Reader:
             for p in element.findall("Mask/MaskParameter")
         }
         source = " ".join(values.get("SourceBlock", "").split())
+        if child is not None and values.get("SFBlockType") == "MATLAB Function":
+            names = ",".join(self._inputs(child, folder))
+            function = Block(name, own, "", "MATLAB Function", values | {"inputs": names})
+            self.blocks[path, sid] = function
+            return
         if child is not None and not source and not _is_wecsim(mask):
             self._system(child, f"{path}/{sid}", f"{name}/", folder)
             return
@@ -173,6 +182,18 @@ class _Reader:
         if child is not None and not source:  # a copy of a library block whose link was broken
             block.library = "WECSim_Lib"
             self._copy(block, child, folder)
+
+    def _inputs(self, system: ElementTree.Element, folder: str) -> list[str]:
+        """Names of the inputs of a subsystem, in their order."""
+        if (reference := system.get("Ref")) is not None:
+            home = folder if folder.endswith("systems") else f"{folder}/systems"
+            system = self._xml(f"{home}/{reference}.xml")
+        found = [
+            (int(_values(e).get("Port", "1")), " ".join((e.get("Name") or "").split()))
+            for e in system.findall("Block")
+            if e.get("BlockType") == "Inport"
+        ]
+        return [name for _, name in sorted(found)]
 
     def _copy(self, block: Block, system: ElementTree.Element, folder: str) -> None:
         """Find what a copy of a block of WEC-Sim is by its joint, and where its ports are."""
@@ -242,6 +263,43 @@ class _Reader:
             feeding, fed = self.blocks.get(source[:2]), self.blocks.get(target[:2])
             if feeding is not None and fed is not None:
                 fed.feeds.append(feeding.name)
+        sources = {target: source for source, target in self.signals}
+        outputs = {
+            (key[0], block.parameters.get("Port", "1")): key
+            for key, block in self.blocks.items()
+            if block.kind == "Outport"
+        }
+        for target in sources:
+            if (fed := self.blocks.get(target[:2])) is None:
+                continue
+            driver = self._driver(target, sources, outputs)
+            if driver is not None:
+                fed.drivers[target[2]] = driver
+
+    def _driver(
+        self,
+        target: Port,
+        sources: dict[Port, Port],
+        outputs: dict[tuple[str, str], tuple[str, str]],
+    ) -> tuple[Block, str] | None:
+        """The block that drives an input, through the ports of the subsystems between them."""
+        for _ in range(100):
+            source = sources.get(target)
+            if source is None:
+                return None
+            path, sid, port = source
+            block = self.blocks.get((path, sid))
+            inside = (f"{path}/{sid}", port.rpartition(":")[2])
+            if block is not None and block.kind == "Inport":
+                outer, _, number = path.rpartition("/")
+                target = (outer, number, f"in:{block.parameters.get('Port', '1')}")
+            elif block is not None:
+                return block, port
+            elif inside in outputs:
+                target = (*outputs[inside], "in:1")
+            else:
+                return None
+        return None
 
 
 def _is_wecsim(mask: dict[str, str]) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hydrodae.errors import CaseError
-from hydrodae.wecsim.m_file import InputFile, Item
+from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.slx import Block, Model
 
 #: Ports of base and follower of library blocks; that of one block has them the other way round.

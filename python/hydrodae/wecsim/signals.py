@@ -1,0 +1,167 @@
+"""What drives an actuator in a Simulink model: laws of the position and velocity of its joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydrodae.wecsim.m_file import evaluate
+from hydrodae.wecsim.m_text import NotEvaluated
+from hydrodae.wecsim.objects import InputFile
+from hydrodae.wecsim.slx import Block
+
+#: Element of a response that is the motion of the joint: z of six, or the turn about y.
+_ELEMENT = {"Translational": 3.0, "Rotational": 5.0}
+_DEEPEST = 100
+
+
+@dataclass
+class Law:
+    """Load of an actuator, -stiffness s - damping s'.
+
+    Attributes
+    ----------
+    stiffness, damping : float
+        In SI units, of the joint.
+    kind : str
+        "linear"; "declutching" (free for `time` from each standstill on) or "latching" (held).
+    time : float
+        Of the switching laws [s].
+    hold : float
+        Damping that holds a latched joint.
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    kind: str = "linear"
+    time: float = 0.0
+    hold: float = 0.0
+
+
+def find_law(actuator: Block, core: str, read: InputFile) -> Law:
+    """The law that drives an actuator.
+
+    Parameters
+    ----------
+    actuator : Block
+        An actuated power take-off.
+    core : str
+        Translational or Rotational.
+    read : InputFile
+        For the values of gains.
+
+    Raises
+    ------
+    NotEvaluated
+        A block on the way is not known here, or the law is not linear.
+    """
+    if core not in _ELEMENT:
+        raise NotEvaluated(f"a law for a joint of type {core}")
+    driver = actuator.drivers.get("in:1")
+    if driver is None:
+        raise NotEvaluated("nothing drives it that could be followed")
+    tracer = _Tracer(actuator, _ELEMENT[core], read)
+    block, port = driver
+    if block.kind == "MATLAB Function":
+        return tracer.function(block, port)
+    form = tracer.form(block, port, 0)
+    if set(form) - {"position", "velocity"}:
+        raise NotEvaluated(f"its law has the terms {', '.join(sorted(form))}")
+    damping = -form.get("velocity", 0.0)
+    if damping < 0.0:
+        raise NotEvaluated("its law has a negative damping")
+    return Law(-form.get("position", 0.0), damping)
+
+
+class _Tracer:
+    """Follows signals upstream; a form maps signals to their factors, "1" being the constant."""
+
+    def __init__(self, actuator: Block, element: float, read: InputFile) -> None:
+        self.actuator, self.element, self.read = actuator, element, read
+
+    def form(self, block: Block, port: str, depth: int) -> dict[str, float]:
+        if depth > _DEEPEST:
+            raise NotEvaluated("its signals run in a loop")
+        kind = block.kind
+        if kind == "Constant":
+            return {"1": self.number(block, "Value", "1")}
+        if kind == "Gain":
+            gain = self.number(block, "Gain", "1")
+            return {k: gain * v for k, v in self.input(block, 1, depth).items()}
+        if kind == "Sum":
+            return self.sum(block, depth)
+        if kind == "Product":
+            return self.product(block, depth)
+        if kind == "BusSelector":
+            return self.bus(block, port)
+        if kind == "Selector":
+            if self.number(block, "Indices", "1") != self.element:
+                raise NotEvaluated(f"block {block.name!r} takes another component of the motion")
+            found = self.input(block, 1, depth)
+            return {name.removesuffix(" of six"): value for name, value in found.items()}
+        raise NotEvaluated(f"block {block.name!r} ({kind}) is not known here")
+
+    def input(self, block: Block, number: int, depth: int) -> dict[str, float]:
+        driver = block.drivers.get(f"in:{number}")
+        if driver is None:
+            raise NotEvaluated(f"nothing drives input {number} of block {block.name!r}")
+        return self.form(*driver, depth + 1)
+
+    def number(self, block: Block, name: str, default: str) -> float:
+        value = evaluate(self.read, block.parameters.get(name, default))
+        if not isinstance(value, float | bool | np.generic):
+            raise NotEvaluated(f"{name} of block {block.name!r} is not one number")
+        return float(value)
+
+    def sum(self, block: Block, depth: int) -> dict[str, float]:
+        signs = block.parameters.get("Inputs", "++").replace("|", "")
+        if signs.isdigit():
+            signs = "+" * int(signs)
+        total: dict[str, float] = {}
+        for number, sign in enumerate(signs, 1):
+            for name, value in self.input(block, number, depth).items():
+                total[name] = total.get(name, 0.0) + (value if sign == "+" else -value)
+        return total
+
+    def product(self, block: Block, depth: int) -> dict[str, float]:
+        signs = block.parameters.get("Inputs", "2")
+        if signs not in ("2", "**"):
+            raise NotEvaluated(f"block {block.name!r} divides, or has more than two factors")
+        first, second = (self.input(block, number, depth) for number in (1, 2))
+        if set(second) != {"1"}:
+            first, second = second, first
+        if set(second) != {"1"}:
+            raise NotEvaluated(f"block {block.name!r} multiplies two motions")
+        return {name: value * second["1"] for name, value in first.items()}
+
+    def bus(self, block: Block, port: str) -> dict[str, float]:
+        driver = block.drivers.get("in:1")
+        if driver is None or driver[0] is not self.actuator:
+            raise NotEvaluated(f"block {block.name!r} reads something else than the response")
+        names = block.parameters.get("OutputSignals", "").split(",")
+        name = names[int(port.rpartition(":")[2]) - 1].strip()
+        if name not in ("position", "velocity"):
+            raise NotEvaluated(f"block {block.name!r} reads {name!r}")
+        return {f"{name} of six": 1.0}
+
+    def function(self, block: Block, port: str) -> Law:
+        """A law of WEC-Sim's examples of controllers, known by the names of its inputs."""
+        names = block.parameters["inputs"].split(",")
+        numbers = {name: number for number, name in enumerate(names, 1)}
+        if port != "out:1" or not {"vel", "velPrev", "Kp"} <= set(numbers):
+            raise NotEvaluated(f"the MATLAB function of block {block.name!r}")
+        if self.input(block, numbers["vel"], 0) != {"velocity": 1.0}:
+            raise NotEvaluated(f"block {block.name!r} reads something else than the velocity")
+
+        def value(name: str) -> float:
+            form = self.input(block, numbers[name], 0)
+            if set(form) != {"1"}:
+                raise NotEvaluated(f"{name} of block {block.name!r} is not constant")
+            return form["1"]
+
+        if "declutchTime" in numbers:
+            return Law(0.0, value("Kp"), "declutching", value("declutchTime"))
+        if {"latchTime", "forceCoeff"} <= set(numbers):
+            return Law(0.0, value("Kp"), "latching", value("latchTime"), value("forceCoeff"))
+        raise NotEvaluated(f"the MATLAB function of block {block.name!r}")
