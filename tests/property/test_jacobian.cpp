@@ -123,7 +123,20 @@ TEST_CASE("the Jacobian is exact in all blocks") {
           .sum();
     };
     REQUIRE(difference(small_yp, by_yp, s.u0, s.u0, s.n_u, s.n_u) < 1e-12);
-    REQUIRE(difference(small_y, by_y, s.lambda0, 0, s.n_lambda, s.n) < 1e-12);
+    REQUIRE(difference(small_y, by_y, s.lambda0, s.u0, s.n_lambda, s.n_u) < 1e-12);
+    // (dG/dt) u by the derivatives of the velocity rows, with q' = E u.
+    VectorX free = y, residual(s.n);
+    free.tail(s.n - s.lambda0).setZero();
+    system::Workspace<double> workspace(s);
+    system::residual<double>(s, workspace, instant, free.data(), VectorX::Zero(s.n).eval().data(),
+                             residual.data());
+    const MatrixX by_q = by_y.block(s.lambda0, 0, s.n_lambda, s.n_q);
+    const VectorX rates = by_q * -residual.head(s.n_q);
+    REQUIRE((rates - small.row_rates).norm() <= 1e-12 * (1.0 + rates.norm() + by_q.norm()));
+    VectorX rest = VectorX::Zero(s.n);
+    system::free_residual<double>(s, workspace, instant, free.data(),
+                                  VectorX::Zero(s.n).eval().data(), rest.data());
+    REQUIRE((rest - residual).head(s.lambda0).norm() <= 1e-12 * residual.norm());
     // Friction that a reaction presses is beside the gradients there.
     const bool pressed = std::any_of(s.elements.begin(), s.elements.end(), [](const auto& list) {
       return list.laws->shape.n_reaction > 0;

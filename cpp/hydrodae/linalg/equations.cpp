@@ -84,6 +84,12 @@ bool Equations::residual(double t, const VectorX& y, const VectorX& yp, VectorX&
   return std::isfinite(r.sum());
 }
 
+bool Equations::free_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r) {
+  ++statistics.residual_calls;
+  system::free_residual<double>(system, workspace_, t, y.data(), yp.data(), r.data());
+  return std::isfinite(r.head(system.lambda0).sum());
+}
+
 bool Equations::constraint_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r) {
   system::constraint_residual<double>(system, workspace_, t, y.data(), yp.data(), r.data());
   return std::isfinite(r.segment(system.lambda0, system.sigma0 - system.lambda0).sum());

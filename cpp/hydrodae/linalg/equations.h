@@ -22,6 +22,9 @@ public:
   /// F(t, y, y'); false when a value is not finite.
   bool residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 
+  /// The rows of q, u and z alone, where lambda, mu and sigma are zero.
+  bool free_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
+
   /// The rows of the constraints alone, those of lambda and mu.
   bool constraint_residual(double t, const VectorX& y, const VectorX& yp, VectorX& r);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/linalg/dense_cholesky.h"
 #include "hydrodae/linalg/pressed_friction.h"
 #include "hydrodae/system/retract.h"
 
@@ -53,8 +54,6 @@ SaddlePoint::SaddlePoint(Equations& equations)
   for (Index column = 0; column < s_.n; ++column)
     for (Index k = p.column_start[column]; k < p.column_start[column + 1]; ++k) {
       const Index row = place(p.row[k]), c = place(column);
-      if (row >= s_.n_u && column < s_.n_q)
-        rates_.push_back({k, row, column});
       if (row < 0 || c < 0 || (row >= s_.n_u && c >= s_.n_u))
         continue;
       const bool mass = row < s_.n_u && c < s_.n_u;
@@ -93,11 +92,24 @@ SaddlePoint::SaddlePoint(Equations& equations)
           b.mechanism < 0 ? heaviest_.size() - 1 : static_cast<std::size_t>(b.mechanism);
       turns_[b.u0 - s_.u0 + k] = k >= b.n_translations;
     }
-  lu_ = std::make_unique<SparseLu<double>>(start_, row_);
+  find_blocks();
   pressed_ = Pressed::find(s_);
 }
 
 SaddlePoint::~SaddlePoint() = default;
+
+/// Coordinates of a body stay together.
+void SaddlePoint::find_blocks() {
+  std::vector<Index> together(static_cast<std::size_t>(s_.n_u));
+  Index count = 0;
+  for (Index& number : together)
+    number = count++;
+  for (const system::BodyData& b : s_.bodies)
+    for (int k = 0; k < b.n_active; ++k)
+      together[static_cast<std::size_t>(b.u0 - s_.u0 + k)] = b.u0 - s_.u0;
+  blocks_ = std::make_unique<BlockFactor>(start_, row_, s_.n_u, together);
+  chosen_ = blocks_->work() <= dense::lanes * blocks_->least_work();
+}
 
 /// The heaviest mass of each mechanism and its largest moment of inertia, that of the mass at the
 /// longest lever of a row included.
@@ -136,8 +148,6 @@ SaddlePoint::RowSums SaddlePoint::sums_of(Index i) const {
 /// at its end: the smallest eigenvalues of G M^-1 G^T are of that size, however light the others
 /// are.
 bool SaddlePoint::factorise() {
-  std::vector<double>& values = lu_->values();
-  std::copy(plain_.begin(), plain_.end(), values.begin());
   find_heaviest();
   for (Index i = s_.n_u; i < n_; ++i) {
     const RowSums row = sums_of(i);
@@ -148,8 +158,27 @@ bool SaddlePoint::factorise() {
       d /= most;
     d = std::max(d, least_metric * row.yields);
     metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
-    values[diagonal_[i - s_.n_u]] = -regularisation * metric_[i - s_.n_u];
   }
+  if (!chosen_) { // dense blocks do so many multiply-adds at once
+    chosen_ = true;
+    if (!factorise_sparse())
+      return false;
+    if (blocks_->work() > dense::lanes * lu_->work().factorise)
+      blocks_.reset();
+    return true;
+  }
+  in_blocks_ = blocks_ && blocks_->factorise(plain_, regularisation * metric_);
+  return in_blocks_ || factorise_sparse();
+}
+
+bool SaddlePoint::factorise_sparse() {
+  in_blocks_ = false;
+  if (!lu_)
+    lu_ = std::make_unique<SparseLu<double>>(start_, row_);
+  std::vector<double>& values = lu_->values();
+  std::copy(plain_.begin(), plain_.end(), values.begin());
+  for (Index i = 0; i < s_.n_lambda; ++i)
+    values[diagonal_[i]] = -regularisation * metric_[i];
   old_pivots_ = lu_->refactorise();
   return old_pivots_ || lu_->factorise();
 }
@@ -165,7 +194,7 @@ void SaddlePoint::multiply(const VectorX& x, VectorX& out) const {
 /// much of it is left the pivots may have gone bad, and are looked at.
 void SaddlePoint::solve(VectorX& x, double accuracy) {
   x = rhs_;
-  lu_->solve(x.data());
+  solve_factored(x.data());
   double before = HUGE_VAL;
   for (int i = 0; i < refinements; ++i) {
     multiply(x, r_);
@@ -179,9 +208,11 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
         load = std::max(load, std::abs(plain_[mass_[k]] * x[k]));
     if (forces <= accuracy * load && gaps <= accuracy * motion)
       return;
-    if (old_pivots_ && !(forces <= much_left * load && gaps <= much_left * motion)) {
-      old_pivots_ = false;
-      if (!lu_->factorise()) {
+    if ((old_pivots_ || in_blocks_) &&
+        !(forces <= much_left * load && gaps <= much_left * motion)) {
+      const bool renewed = in_blocks_ ? factorise_sparse() : lu_->factorise();
+      old_pivots_ = old_pivots_ && in_blocks_;
+      if (!renewed) {
         x.setConstant(NAN);
         return;
       }
@@ -192,7 +223,7 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
     if (i >= usual_refinements && left > stalled * before)
       return;
     before = left;
-    lu_->solve(r_.data());
+    solve_factored(r_.data());
     x += r_;
   }
 }
@@ -214,7 +245,7 @@ bool SaddlePoint::linearise(double t, VectorX& y) {
 
 bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
   y.tail(s_.n - s_.lambda0).setZero();
-  if (!e_.solve_algebraic(t, y) || !e_.residual(t, y, yp0_, residual_))
+  if (!e_.solve_algebraic(t, y) || !e_.free_residual(t, y, yp0_, residual_))
     return false;
   // Rows of q and z are y' = (explicit): with y' = 0 the residual is minus the rate.
   yp.setZero();
@@ -225,9 +256,7 @@ bool SaddlePoint::accelerations(double t, VectorX& y, VectorX& yp) {
       yp[z] = 0.0;
   fill(t, y);
   rhs_.head(s_.n_u) = -residual_.segment(s_.u0, s_.n_u);
-  rhs_.tail(s_.n_lambda).setZero();
-  for (const Rate& rate : rates_)
-    rhs_[rate.row] -= parts_.by_y[rate.from] * yp[rate.column];
+  rhs_.tail(s_.n_lambda) = -parts_.row_rates;
   for (const system::CouplerData& c : s_.couplers)
     if (s_.holds(c)) // the explicit time derivative of the velocity row: -f'' or -f'
       rhs_[s_.lambda(c) - s_.lambda0 + s_.n_u] += s_.drive(c, t)[c.velocity_level ? 1 : 2];
@@ -309,7 +338,7 @@ VectorX SaddlePoint::independence(const std::vector<int>& part, int parts) {
       x[i] /= sizes[part[static_cast<std::size_t>(i)]];
     r_.head(s_.n_u).setZero();
     r_.tail(s_.n_lambda) = metric_.cwiseProduct(x);
-    lu_->solve(r_.data());
+    solve_factored(r_.data());
     const VectorX next = -r_.tail(s_.n_lambda), gains = products(x, next);
     for (Index m = 0; m < parts; ++m)
       if (sizes[m] > 0.0)

@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 
+#include "hydrodae/linalg/block_factor.h"
 #include "hydrodae/linalg/equations.h"
 #include "hydrodae/linalg/klu.h"
 
@@ -94,6 +95,9 @@ private:
   bool press(double t, const VectorX& y, VectorX& yp);
   void fill(double t, const VectorX& y);
   bool factorise();
+  bool factorise_sparse();
+  void find_blocks();
+  void solve_factored(double* v) { in_blocks_ ? blocks_->solve(v) : lu_->solve(v); }
   double gaps();
   void solve(VectorX& x, double accuracy = converged);
   void multiply(const VectorX& x, VectorX& out) const;
@@ -103,10 +107,6 @@ private:
     Index slot = 0;                    ///< in the matrix
     bool rate = false, turned = false; ///< from dF/dy'; with the sign changed
   };
-  struct Rate { ///< d(velocity row)/dq, for gamma
-    Index from = 0, row = 0, column = 0;
-  };
-
   Equations& e_;
   const system::Regime& s_;
   system::Pattern pattern_;     ///< of what accelerations need
@@ -114,16 +114,18 @@ private:
   Index n_ = 0;                 ///< n_u + n_lambda
   std::vector<Index> start_, row_;
   std::vector<Entry> entries_;
-  std::vector<Rate> rates_;
-  std::vector<Index> diagonal_;        ///< slots of eD
-  std::vector<Index> mass_;            ///< slots of the diagonal of M
-  std::vector<double> plain_;          ///< values with e = 0
-  VectorX metric_;                     ///< (n_lambda,) D
-  std::vector<std::size_t> mechanism_; ///< (n_u,)
-  std::vector<bool> turns_;            ///< (n_u,) angular velocities
-  std::vector<Heaviest> heaviest_;     ///< by mechanism
-  std::unique_ptr<SparseLu<double>> lu_;
-  bool old_pivots_ = false; ///< those of a matrix before, which nobody has looked at
+  std::vector<Index> diagonal_;          ///< slots of eD
+  std::vector<Index> mass_;              ///< slots of the diagonal of M
+  std::vector<double> plain_;            ///< values with e = 0
+  VectorX metric_;                       ///< (n_lambda,) D
+  std::vector<std::size_t> mechanism_;   ///< (n_u,)
+  std::vector<bool> turns_;              ///< (n_u,) angular velocities
+  std::vector<Heaviest> heaviest_;       ///< by mechanism
+  std::unique_ptr<SparseLu<double>> lu_; ///< made when first needed
+  std::unique_ptr<BlockFactor> blocks_;  ///< null: `lu_` is cheaper
+  bool in_blocks_ = false;               ///< the last factors
+  bool chosen_ = false;                  ///< between the two
+  bool old_pivots_ = false;              ///< those of a matrix before, which nobody has looked at
   VectorX residual_, rhs_, x_, r_, yp0_;
   std::unique_ptr<Pressed> pressed_; ///< null: no friction is pressed by its joint
   std::string jam_;

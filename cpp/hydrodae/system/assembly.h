@@ -2,6 +2,7 @@
 /// The assembly of the Jacobian: constraint rows and rigid bodies; laws and the water are in
 /// assembly_elements.h and assembly_water.h.
 
+#include "hydrodae/math/dual.h"
 #include "hydrodae/system/jacobian.h"
 #include "hydrodae/system/port_gradient.h"
 
@@ -101,6 +102,10 @@ template <class Sink> struct Assembly {
   void constraint_curvature(const JointData& j, const Matrix12& by_lambda, const Matrix12& by_mu);
   void joints();
   void couplers();
+  void velocity_row(const JointData& j, Index lambda, double factor, const joint::Row<Dual>& row,
+                    const Vector12& u);
+  void joint_accelerations();
+  void coupler_accelerations();
   void body_rows();
   void add(const ElementList& list);
   void add(const HydroData& hydro);
@@ -122,8 +127,13 @@ template <class Sink> struct Assembly {
   void law_in_water(int body, const double* jacobian, bool feels_rates);
 
   void run() {
-    joints();
-    couplers();
+    if constexpr (whole) {
+      joints();
+      couplers();
+    } else {
+      joint_accelerations();
+      coupler_accelerations();
+    }
     for_each_list(s, [&](const auto& list) { add(list); });
     body_rows();
   }
@@ -136,8 +146,8 @@ template <class Sink>
 void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
                                     const Vector12& gradient, const Matrix12& curvature,
                                     const Vector12& u) {
-  const bool level_1 = whole && s.formulation == Formulation::index_1;
-  const bool level_3 = whole && s.formulation == Formulation::index_3 && mu >= 0;
+  const bool level_1 = s.formulation == Formulation::index_1;
+  const bool level_3 = s.formulation == Formulation::index_3 && mu >= 0;
   Vector12 by_pose = level_3 ? gradient : Vector12(curvature.transpose() * u);
   Vector12 by_velocity = gradient;
   if (level_1) {
@@ -147,7 +157,7 @@ void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
     by_velocity = curvature * u + by_pose + rate * gradient;
     by_pose = (curvature.transpose() * u_dot + rate * by_pose + gap * gradient).eval();
   }
-  if (whole && mu >= 0 && s.formulation != Formulation::stabilised)
+  if (mu >= 0 && s.formulation != Formulation::stabilised)
     sink.by_y(mu, mu, 1.0);
   for (int side = 0; side < 2; ++side) {
     const int b = side == 0 ? j.A.body : j.B.body;
@@ -161,7 +171,7 @@ void Assembly<Sink>::constraint_row(const JointData& j, Index lambda, Index mu,
     displacement_columns(lambda, b, by_pose.segment<6>(6 * side).transpose());
     for (int k = 0; k < s.bodies[b].n_active; ++k)
       sink.by_y(s.bodies[b].u0 + k, lambda, -G[s.bodies[b].active[k]]);
-    if (!whole || mu < 0)
+    if (mu < 0)
       continue;
     if (s.formulation == Formulation::stabilised)
       displacement_columns(mu, b, G);
@@ -198,14 +208,12 @@ template <class Sink> void Assembly<Sink>::joints() {
       const Vector12 gradient =
           joint::basic_row<double>(row.kind, j.A, j.B, j.parameters, g).gradient;
       const Matrix12 curvature = joint::basic_curvature(row.kind, j.A, j.B, j.parameters, g);
-      if constexpr (whole) {
-        by_lambda += y[s.lambda(row)] * curvature;
-        by_mu += y[s.mu(row)] * curvature;
-        shift += y[s.mu(row)] * gradient;
-      }
+      by_lambda += y[s.lambda(row)] * curvature;
+      by_mu += y[s.mu(row)] * curvature;
+      shift += y[s.mu(row)] * gradient;
       constraint_row(j, s.lambda(row), s.mu(row), gradient, curvature, u);
     }
-    if (!whole || j.rows.empty())
+    if (j.rows.empty())
       continue;
     constraint_curvature(j, by_lambda, by_mu);
     add_to_bodies<double>(j, shift, ws.state.shifts);
@@ -226,10 +234,80 @@ template <class Sink> void Assembly<Sink>::couplers() {
       const Matrix12 curvature = term.factor * joint::motion_curvature(motion.motion, j.A, j.B, g);
       constraint_row(j, s.lambda(coupler), coupler.velocity_level ? -1 : s.mu(coupler), gradient,
                      curvature, joint_velocity<double>(j, ws.state.bodies));
-      if (!whole)
-        continue;
       constraint_curvature(j, y[s.lambda(coupler)] * curvature, mu * curvature);
       add_to_bodies<double>(j, mu * gradient, ws.state.shifts);
+    }
+  }
+}
+
+/// The poses of a joint with their rates as dual parts.
+inline joint::Geometry<Dual> moving_geometry(const JointData& j,
+                                             const std::vector<BodyState<double>>& bodies) {
+  Vec3<Dual> r[2];
+  Mat3<Dual> R[2];
+  const int body[2] = {j.A.body, j.B.body};
+  for (int side = 0; side < 2; ++side) {
+    if (body[side] < 0) {
+      r[side].setZero();
+      R[side].setIdentity();
+      continue;
+    }
+    const BodyState<double>& state = bodies[static_cast<std::size_t>(body[side])];
+    const Matrix3 rate = state.R * skew<double>(state.w);
+    for (int k = 0; k < 3; ++k)
+      r[side][k] = {state.r[k], state.v[k]};
+    for (int k = 0; k < 9; ++k)
+      R[side].data()[k] = {state.R.data()[k], rate.data()[k]};
+  }
+  return joint::geometry<Dual>(j.B, r[0], R[0], r[1], R[1]);
+}
+
+/// G of one velocity row, and (dG/dt) u.
+template <class Sink>
+void Assembly<Sink>::velocity_row(const JointData& j, Index lambda, double factor,
+                                  const joint::Row<Dual>& row, const Vector12& u) {
+  double rate = 0.0;
+  for (int k = 0; k < 12; ++k)
+    rate += row.gradient[k].b * u[k];
+  sink.row_rate(lambda - s.lambda0, factor * rate);
+  for (int side = 0; side < 2; ++side) {
+    const int b = side == 0 ? j.A.body : j.B.body;
+    if (b < 0)
+      continue;
+    const BodyData& data = s.bodies[b];
+    for (int k = 0; k < data.n_active; ++k) {
+      const double G = factor * row.gradient[6 * side + data.active[k]].a;
+      sink.by_y(lambda, data.u0 + k, G);
+      sink.by_y(data.u0 + k, lambda, -G);
+    }
+  }
+}
+
+template <class Sink> void Assembly<Sink>::joint_accelerations() {
+  for (const JointData& j : s.joints) {
+    if (std::none_of(j.rows.begin(), j.rows.end(),
+                     [this](const RowData& row) { return s.holds(row); }))
+      continue;
+    const joint::Geometry<Dual> g = moving_geometry(j, ws.state.bodies);
+    const Vector12 u = joint_velocity<double>(j, ws.state.bodies);
+    for (const RowData& row : j.rows)
+      if (s.holds(row))
+        velocity_row(j, s.lambda(row), 1.0,
+                     joint::basic_row<Dual>(row.kind, j.A, j.B, j.parameters, g), u);
+  }
+}
+
+template <class Sink> void Assembly<Sink>::coupler_accelerations() {
+  for (const CouplerData& coupler : s.couplers) {
+    if (!s.holds(coupler))
+      continue;
+    for (const CouplerData::Term& term : coupler.terms) {
+      const MotionData& motion = s.motions[term.motion];
+      const JointData& j = s.joints[motion.joint];
+      velocity_row(
+          j, s.lambda(coupler), term.factor,
+          joint::motion_row<Dual>(motion.motion, j.A, j.B, moving_geometry(j, ws.state.bodies)),
+          joint_velocity<double>(j, ws.state.bodies));
     }
   }
 }

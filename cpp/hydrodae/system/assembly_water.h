@@ -116,19 +116,34 @@ template <class Sink> void Assembly<Sink>::memory_rows() {
   }
 }
 
-/// L A L^T of each pair, all that the accelerations feel of the water at once.
+/// L A L^T of each pair, all that the accelerations feel of the water at once. L turns forces and
+/// moments, each by a matrix of its own; that of forces is the identity in mean axes.
 template <class Sink> void Assembly<Sink>::hydro_masses() {
-  for (std::size_t number = 0; number < s.hydro.bodies.size(); ++number) {
-    const HydroBody& i = s.hydro.bodies[number];
+  const std::vector<HydroBody>& bodies = s.hydro.bodies;
+  const auto turns_forces = [this](const HydroBody& hb) {
+    return s.hydro.axes != HydroAxes::mean || hb.turned;
+  };
+  for (std::size_t number = 0; number < bodies.size(); ++number)
+    if (const HydroBody& hb = bodies[number]; hb.moves)
+      ws.hydro_axes[number] = hydro_axes(s.hydro.axes, hb, state(hb.body));
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    const HydroBody& i = bodies[number];
     if (!i.moves)
       continue;
+    const Matrix6& L_i = ws.hydro_axes[number];
     for (const int partner : s.hydro.links[number].partners) {
-      const HydroBody& j = s.hydro.bodies[static_cast<std::size_t>(partner)];
-      Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
+      const auto other = static_cast<std::size_t>(partner);
+      const HydroBody& j = bodies[other];
+      const Matrix6& L_j = ws.hydro_axes[other];
+      Matrix6 mass = hydro_block(s.hydro.added_mass, i, j);
       if (!s.hydro.convolution.empty() && ws.state.past)
-        A += hydro_block(ws.state.past->by_U_dot, i, j);
-      const Matrix6 mass = hydro_axes(s.hydro.axes, i, state(i.body)) * A *
-                           hydro_axes(s.hydro.axes, j, state(j.body)).transpose();
+        mass += hydro_block(ws.state.past->by_U_dot, i, j);
+      mass.rightCols<3>() *= L_j.bottomRightCorner<3, 3>().transpose();
+      if (turns_forces(j))
+        mass.leftCols<3>() *= L_j.topLeftCorner<3, 3>().transpose();
+      mass.bottomRows<3>().applyOnTheLeft(L_i.bottomRightCorner<3, 3>());
+      if (turns_forces(i))
+        mass.topRows<3>().applyOnTheLeft(L_i.topLeftCorner<3, 3>());
       const BodyData& b = s.bodies[i.body];
       for (int k = 0; k < b.n_active; ++k)
         acceleration_columns(b.u0 + k, j.body, mass.row(b.active[k]));

@@ -19,6 +19,7 @@ template <Part made> struct PatternSink {
     visits.emplace_back(column, row);
     rates.emplace_back(column, row);
   }
+  void row_rate(Index, double) {}
 };
 
 /// Adds the values into the slots found before.
@@ -28,6 +29,7 @@ template <Part made> struct ValueSink {
   JacobianParts& out;
   void by_y(Index, Index, double value) { out.by_y[*slot++] += value; }
   void by_yp(Index, Index, double value) { out.by_yp[*slot++] += value; }
+  void row_rate(Index row, double value) { out.row_rates[row] += value; }
 };
 
 /// Kinematics, past and tangent maps at (t, y, y'): d phi = 2 L(p)^T dp / |p|^2.
@@ -87,7 +89,8 @@ void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& ou
 } // namespace
 
 JacobianWorkspace::JacobianWorkspace(const Regime& system)
-    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()) {
+    : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
+      hydro_axes(system.hydro.bodies.size(), Matrix6::Identity()) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
     most = std::max(most, list.laws->size() * list.laws->jacobian_size());
@@ -118,6 +121,7 @@ void jacobian(const Regime& system, const Pattern& pattern, JacobianWorkspace& w
     fill<Part::condensed>(system, pattern, ws, t, y, yp, out);
     return fill_memory(system, ws, out);
   case Part::accelerations:
+    out.row_rates.setZero(system.n_lambda);
     break;
   }
   fill<Part::accelerations>(system, pattern, ws, t, y, yp, out);

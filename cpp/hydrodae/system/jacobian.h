@@ -9,9 +9,9 @@
 namespace hydrodae::system {
 
 /// What of the Jacobian is made: all of it; all but the radiation memory, whose rows are those of
-/// the identity (solve/newton_matrix.h puts in their place what JacobianParts::memory tells); or
-/// what accelerations follow from: the mass matrix, and the velocity rows of the constraints with
-/// their derivatives by positions and multipliers.
+/// the identity (linalg/newton_matrix.h puts in their place what JacobianParts::memory has); or
+/// what accelerations follow from: the mass matrix, the velocity rows of the constraints and their
+/// derivatives by multipliers.
 enum class Part { whole, condensed, accelerations };
 
 /// Compressed columns of the Jacobian. The assembly always visits the same entries in the same
@@ -46,6 +46,7 @@ struct MemoryPort {
 struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
   std::vector<MemoryPort> memory;  ///< of each hydrodynamic body; with Part::condensed
+  VectorX row_rates;               ///< (n_lambda,) (dG/dt) u; with Part::accelerations
   explicit JacobianParts(const Pattern& pattern)
       : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
 };
@@ -56,6 +57,7 @@ struct JacobianWorkspace {
   Workspace<double> state;
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
   std::vector<double> element_jacobian;              ///< of the laws of one list
+  std::vector<Matrix6> hydro_axes;                   ///< L of each hydrodynamic body
 };
 
 /// dF/dy and dF/dy' at (t, y, y'), the part that the pattern is of; accelerations take the rows as

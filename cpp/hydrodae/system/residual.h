@@ -138,10 +138,9 @@ void body_rows(const Regime& s, const Workspace<S>& ws, const S* y, const S* yp,
   }
 }
 
-/// The rows of lambda and mu alone; the loads of the reactions, and the weights, into `ws`.
+/// Poses at (t, y, y'), and the weights as the only loads, into `ws`.
 template <class S>
-void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
-                         S* residual) {
+void begin_loads(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp) {
   unpack<S>(s, y, yp, ws.bodies);
   ws.time = t;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -149,8 +148,25 @@ void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y
     ws.loads[i][2] = S(-s.bodies[i].mass * s.gravity);
     ws.shifts[i].setZero();
   }
+}
+
+/// The rows of lambda and mu alone; the loads of the reactions, and the weights, into `ws`.
+template <class S>
+void constraint_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
+                         S* residual) {
+  begin_loads<S>(s, ws, t, y, yp);
   add_joints<S>(s, ws, y, residual);
   add_couplers<S>(s, ws, t, y, residual);
+}
+
+/// The rows of q, u and z without constraints: where lambda and mu are zero, as in F(t, y, y').
+template <class S>
+void free_residual(const Regime& s, Workspace<S>& ws, double t, const S* y, const S* yp,
+                   S* residual) {
+  begin_loads<S>(s, ws, t, y, yp);
+  ws.past = past_at(s, t);
+  for_each_list(s, [&](const auto& list) { add_loads<S>(s, list, ws, y, yp, residual); });
+  body_rows<S>(s, ws, y, yp, residual);
 }
 
 /// F(t, y, y') into `residual`; arrays of length system.n. No allocation.

@@ -118,17 +118,12 @@ void JointSpace::find_masses() {
 }
 
 void JointSpace::find_gradient() {
-  rates_.clear();
   std::map<std::pair<Index, std::size_t>, Part> parts;
-  for (Index column = 0; column < s_.z0; ++column)
+  for (Index column = s_.u0; column < s_.z0; ++column)
     for (Index k = pattern_.column_start[column]; k < pattern_.column_start[column + 1]; ++k) {
       const Index row = pattern_.row[k] - cut_.lambda0;
       if (row < 0 || row >= m_)
         continue;
-      if (column < s_.n_q) {
-        rates_.push_back({k, row, column});
-        continue;
-      }
       const auto u = static_cast<std::size_t>(column - s_.u0);
       Part& part = parts[{row, body_of_[u]}];
       part.row = row;

@@ -110,7 +110,6 @@ private:
   std::vector<Entry> coupled_masses_; ///< in `coupled_`
   std::vector<std::size_t> coupled_bodies_;
   std::vector<Part> gradient_;
-  std::vector<Entry> rates_; ///< d(velocity row)/dq, for gamma
 
   std::vector<Matrix6> composite_; ///< (n_bodies,)
   std::vector<Vector6> wrench_;    ///< (n_bodies,) world axes

@@ -153,9 +153,7 @@ void JointSpace::fill_loads(double t) {
   }
   if (m_ == 0)
     return;
-  rhs_.tail(m_).setZero();
-  for (const Entry& rate : rates_) // q' of the bodies: minus the residual of their rows
-    rhs_[n_ + rate.row] += parts_->by_y[rate.from] * residual_[rate.column];
+  rhs_.tail(m_) = -parts_->row_rates;
   for (const Part& part : gradient_)
     for (const auto& [from, component] : part.entries) {
       const system::BodyData& b = s_.bodies[part.body];

@@ -84,7 +84,7 @@ void JointSpace::solve() {
 bool JointSpace::rates(double t, VectorX& x, VectorX& xp) {
   move_to(x);
   y_.tail(cut_.n - cut_.lambda0).setZero();
-  if (!own_->solve_algebraic(t, y_) || !own_->residual(t, y_, yp0_, residual_))
+  if (!own_->solve_algebraic(t, y_) || !own_->free_residual(t, y_, yp0_, residual_))
     return false;
   x.tail(s_.n_z) = y_.segment(s_.z0, s_.n_z);
   own_->jacobian(t, y_, yp0_, pattern_, *parts_);
