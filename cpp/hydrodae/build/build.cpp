@@ -61,7 +61,7 @@ std::vector<BodyStart> body_starts(const model::Scene& scene) {
 
 system::System build(const model::Scene& scene, bool with_excitation) {
   system::System s;
-  s.gravity = scene.environment.gravity;
+  s.gravity = model::water(scene).gravity;
   const std::vector<Pose> poses = initial_poses(scene);
   for (std::size_t i = 0; i < poses.size(); ++i)
     s.bodies.push_back(make_body(scene.bodies[i], poses[i]));

@@ -136,7 +136,7 @@ template <class F> std::vector<std::vector<F>> alike(const std::vector<F>& force
 element::Surroundings surroundings(const model::Scene& scene) {
   const model::Water w = model::water(scene);
   return {
-      scene.environment.gravity, w.density,
+      w.gravity, w.density,
       sea::WaveField(model::wave_components(scene), w.depth, scene.sea.ramp, scene.sea.current)};
 }
 

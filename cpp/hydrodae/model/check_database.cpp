@@ -116,7 +116,7 @@ void check_kernel(const Scene& scene) {
 
 void check_database(const Scene& scene) {
   const hydro::Database& database = *scene.database;
-  const double gravity = scene.environment.gravity;
+  const double gravity = scene.environment.gravity.value_or(database.gravity);
   if (std::abs(gravity - database.gravity) > 1e-6 * database.gravity)
     throw ModelError("environment.gravity", "gravity is " + number_text(gravity) +
                                                 " m/s2, but the database " + database.path +

@@ -51,7 +51,8 @@ Water water(const Scene& scene) {
   if (scene.database)
     return {scene.database->rho, scene.database->water_depth, scene.database->gravity};
   const Environment& e = scene.environment;
-  return {e.water_density.value_or(0.0), e.water_depth.value_or(INFINITY), e.gravity};
+  return {e.water_density.value_or(0.0), e.water_depth.value_or(INFINITY),
+          e.gravity.value_or(Water{}.gravity)};
 }
 
 std::string located(const Scene& scene, const ModelError& error) {

@@ -44,17 +44,19 @@ namespace hydrodae::model {
 
 /// Table [environment].
 struct Environment {
-  static constexpr std::string_view doc = "Gravity, and the water where no database tells it.";
-  double gravity = 9.81;
-  std::optional<double> water_density, water_depth;
+  static constexpr std::string_view doc =
+      "Gravity and water, where no hydrodynamic database states them.";
+  std::optional<double> gravity, water_density, water_depth;
 
   template <class E = Environment> static Fields<E> fields() {
     return {
-        {"gravity", &E::gravity, "m/s2", "Acceleration of gravity, along -z.", false, at_least(0)},
+        {"gravity", &E::gravity, "m/s2",
+         "Acceleration of gravity, along -z; default: that of the database, without one 9.81.",
+         false, at_least(0)},
         {"water_density", &E::water_density, "kg/m3",
-         "Density of the water, where no hydrodynamic database tells it.", false, more_than(0)},
+         "Density of the water, where there is no hydrodynamic database.", false, more_than(0)},
         {"water_depth", &E::water_depth, "m",
-         "Depth of the water, where no hydrodynamic database tells it; infinite by default.", false,
+         "Depth of the water, where there is no hydrodynamic database; infinite by default.", false,
          more_than(0)},
     };
   }

@@ -72,7 +72,9 @@ void write_hydro(std::ostream& out, const Scene& scene) {
   const hydro::Database& database = *scene.database;
   out << "  hydro: " << database.path << '\n'
       << "    " << database.coordinates.size() << " coordinates, "
-      << moving_coordinates(scene).size() << " move, " << scene.hydro->axes << " axes\n";
+      << moving_coordinates(scene).size() << " move, " << scene.hydro->axes << " axes\n"
+      << "    water: " << number_text(database.rho) << " kg/m3, gravity "
+      << number_text(database.gravity) << " m/s2\n";
   out << "    radiation: " << scene.hydro->radiation;
   if (const hydro::MemoryFit* fit = memory_fit(scene))
     out << ", fit " << in_quotes(fit->name) << " with " << fit->states << " states for "

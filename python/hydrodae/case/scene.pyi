@@ -2949,16 +2949,17 @@ class Scene(SceneBase):
     ) -> None:
         """Add `[environment]`.
 
-        Gravity, and the water where no database tells it.
+        Gravity and water, where no hydrodynamic database states them.
 
         Parameters
         ----------
-        gravity : number, m/s2, default 9.81
-            Acceleration of gravity, along -z. Allowed: >= 0.
+        gravity : number, m/s2, optional
+            Acceleration of gravity, along -z; default: that of the database, without one 9.81.
+            Allowed: >= 0.
         water_density : number, kg/m3, optional
-            Density of the water, where no hydrodynamic database tells it. Allowed: > 0.
+            Density of the water, where there is no hydrodynamic database. Allowed: > 0.
         water_depth : number, m, optional
-            Depth of the water, where no hydrodynamic database tells it; infinite by default.
+            Depth of the water, where there is no hydrodynamic database; infinite by default.
             Allowed: > 0.
 
         Raises

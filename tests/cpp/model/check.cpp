@@ -191,6 +191,14 @@ TEST_CASE("the database covers the scene") {
     CHECK(verdict(w.scene).starts_with("environment.gravity: gravity is 9.80665 m/s2, but"));
   }
   {
+    Wet w; // which states no gravity
+    w.database->gravity = 9.80665;
+    CHECK(verdict(w.scene) == "");
+    CHECK(model::water(w.scene).gravity == 9.80665);
+    w.scene.database.reset();
+    CHECK(model::water(w.scene).gravity == 9.81);
+  }
+  {
     Wet w;
     w.buoy().hydro = "flaot";
     CHECK(verdict(w.scene).starts_with("body.buoy.hydro: "));
