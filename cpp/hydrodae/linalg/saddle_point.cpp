@@ -210,8 +210,9 @@ void SaddlePoint::solve(VectorX& x, double accuracy) {
       return;
     if ((old_pivots_ || in_blocks_) &&
         !(forces <= much_left * load && gaps <= much_left * motion)) {
-      const bool renewed = in_blocks_ ? factorise_sparse() : lu_->factorise();
-      old_pivots_ = old_pivots_ && in_blocks_;
+      const bool sparse = !in_blocks_;
+      const bool renewed = sparse ? lu_->factorise() : factorise_sparse();
+      old_pivots_ = old_pivots_ && !sparse;
       if (!renewed) {
         x.setConstant(NAN);
         return;
