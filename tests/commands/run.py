@@ -38,7 +38,7 @@ LINKS = {
 }
 PLACEHOLDER = re.compile(r"[A-Z]{3,}(\.\w+|\.\.\.)?")
 LACK = re.compile(r"pip install|HYDRODAE_REFERENCE")
-OWN = re.compile("^needs|of one's own")
+OWN = re.compile("^needs|of (?:one's|your) own")
 LONG = re.compile("hour|choices? of the tests")
 CHANGES_FOLDER = re.compile(r"cd (\S+)$")
 
