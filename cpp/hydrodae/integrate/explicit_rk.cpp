@@ -36,8 +36,8 @@ public:
   void follow() {}
   bool rates(double t, VectorX& x, VectorX& xp) { return saddle_.accelerations(t, x, xp); }
   bool project(double t, VectorX& x) { return saddle_.project(t, x); }
-  bool close(double, VectorX& x, const VectorX&) {
-    saddle_.close(x);
+  bool close(double t, VectorX& x, const VectorX&) {
+    saddle_.close(t, x);
     return true;
   }
   void accept(double t, const VectorX& x, const VectorX& xp) { e_.accept(t, x, xp); }

@@ -395,8 +395,8 @@ double SaddlePoint::gaps() {
   return gap;
 }
 
-void SaddlePoint::close(VectorX& y) {
-  if (s_.n_lambda == 0 || gaps() <= closed)
+void SaddlePoint::close(double t, VectorX& y) {
+  if (s_.n_lambda == 0 || !e_.constraint_residual(t, y, yp0_, residual_) || gaps() <= closed)
     return;
   const double gap = largest(rhs_);
   solve(x_, rough);

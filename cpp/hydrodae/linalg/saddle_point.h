@@ -76,7 +76,7 @@ public:
   /// Moves q of the last `accelerations`, which misses the constraints by a little, onto them to
   /// first order and in the same metric; u and reactions stay. In a singular pose, where a small
   /// gap would take a long way, q stays too.
-  void close(VectorX& y);
+  void close(double t, VectorX& y);
 
 private:
   static constexpr double converged = 1e-13; ///< residual, relative to the right-hand side
