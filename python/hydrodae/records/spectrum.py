@@ -77,7 +77,7 @@ class Spectrum:
         if self.heading is None:
             return [_keys(name, heading_deg, self.omega, self.density[0]) | {"seed": seed}]
         share = self.variance / self.variance.sum()
-        tables = []
+        tables: list[dict[str, Any]] = []
         for k in np.flatnonzero(share > _NOTHING):
             degrees = (math.degrees(self.heading[k]) + 180.0) % 360.0 - 180.0
             keys = _keys(f"{name}_{len(tables) + 1}", degrees, self.omega, self.density[k])
