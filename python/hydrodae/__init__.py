@@ -24,6 +24,7 @@ from hydrodae.errors import (
 if TYPE_CHECKING:
     from hydrodae import hdb, mooring
     from hydrodae import linear as frequency  # noqa: F401
+    from hydrodae import records as records
     from hydrodae.case import Case
     from hydrodae.case import arrays as arrays
     from hydrodae.case import schema as schema
@@ -122,6 +123,7 @@ _MODULES = {
     "hdb": "hdb",
     "mooring": "mooring",
     "plot": "pictures.plot",
+    "records": "records",
     "report": "report",
     "results": "results",
     "schema": "case.schema",

@@ -44,6 +44,8 @@ RUN_APART = {
     ("docs/python.md", "python"): 4,  # test_functions.py
     ("docs/calibrate.md", "python"): 2,  # test_calibrate.py
     ("docs/calibrate.md", "sh"): 2,
+    ("docs/records.md", "python"): 3,  # test_records.py
+    ("docs/records.md", "sh"): 3,
     ("docs/spectral.md", "python"): 1,
     ("docs/control.md", "python"): 3,
     ("docs/extending.md", "python"): 1,

@@ -18,6 +18,7 @@ import pytest
 LAYERS = [
     {"errors"},  # what the kernel raises as well
     {"support", "starters"},
+    {"records"},  # measured, from files
     # one database, which needs no kernel
     {"hdb.relations", "hdb.hull"},
     {"hdb.memory"},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         action="append",
         default=[],
-        help="measured channels: CSV with a line of names, or results; several share parameters",
+        help="measured channels: .mat, CSV, text or results; several share parameters",
     )
     parser.add_argument(
         "--channel",
@@ -94,6 +95,9 @@ def run(arguments: argparse.Namespace) -> int:
     """
     case = given_case(arguments)
     records, free = _asked(arguments)
+    for record in records:
+        for note in record.notes:
+            print(f"note: record {record.name}: {note}", file=sys.stderr)
     with StageLine(Path(arguments.case).name) as progress:
         found = calibrate(
             case,

@@ -25,6 +25,7 @@ from hydrodae.commands import (
     keys,
     new,
     plot,
+    record,
     report,
     run,
     schema,
@@ -208,6 +209,7 @@ def _parser(command: list[str]) -> argparse.ArgumentParser:
         mooring_command.add_arguments(mooring)
         mooring.set_defaults(call=mooring_command.run)
 
+    record.add_parser(commands)
     control.add_parser(commands)
     fmu.add_parser(commands)
     plot.add_parser(commands)

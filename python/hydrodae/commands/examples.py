@@ -29,6 +29,11 @@ EXAMPLES = {
         "--channel joints/slide/displacement=heave:mm",
         "hydrodae calibrate case.toml --tests tests.toml --picture fit.png --write fitted.toml",
     ),
+    "record": (
+        "hydrodae record probe.mat -o probe.csv",
+        "hydrodae record gauge.txt --columns 'time [s],eta [mm]' -o gauge.csv --heading 30",
+        "hydrodae record spectrum.csv",
+    ),
     "mooring": (
         "hydrodae mooring linearise case.toml",
         "hydrodae mooring import lines.dat",

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
 import os
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.records.table import read_table
 
 
 @dataclass(frozen=True)
@@ -64,13 +62,14 @@ def parse_curve(spec: str) -> Curve:
 def read_curve(
     path: str | os.PathLike[str], column: str, *, label: str = "", scale: float = 1.0
 ) -> Curve:
-    """Read one column of a CSV file with a header line, over its first column, the time [s].
+    """Read one column of a table over its first column, the time [s].
 
     Parameters
     ----------
     path : path
+        As `hydrodae.records.read_table`: text or MATLAB's .mat.
     column : str
-        Name in the header.
+        Its name, or its number from 1.
     label : str
         Name in the legend; by default that of the column.
     scale : float
@@ -84,26 +83,13 @@ def read_curve(
     Raises
     ------
     CaseError
-        No such file or column, or something is not a number.
+        No such file or column, or the table cannot be read.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise CaseError(f"{path}: no such file")
-    time, values = [], []
-    with path.open(newline="", encoding="utf-8") as stream:
-        rows = csv.reader(stream)
-        header = [name.strip() for name in next(rows, [])]
-        if column not in header[1:]:
-            near = difflib.get_close_matches(column, header[1:], n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(header[1:])}"
-            raise CaseError(f"{path}: no column {column!r}; {hint}")
-        index = header.index(column)
-        for row in rows:
-            if len(row) <= index or not row[index].strip():
-                continue
-            try:
-                time.append(float(row[0]))
-                values.append(float(row[index]))
-            except ValueError as error:
-                raise CaseError(f"{path}:{rows.line_num}: {error}") from None
-    return Curve(label or column, np.array(time), scale * np.array(values))
+    table = read_table(path)
+    if column in table.names[:1]:
+        raise CaseError(f"{table.path}: column {column!r} is the time; name another one")
+    time, values = table.values[:, 0], scale * table.values[:, table.index(column)]
+    keep = np.isfinite(values)
+    if not np.isfinite(time[keep]).all():
+        raise CaseError(f"{table.path}: a time is missing")
+    return Curve(label or column, time[keep], values[keep])

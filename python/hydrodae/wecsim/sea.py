@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hydrodae.errors import CaseError
+from hydrodae.records import Table, read_elevation, read_table
 from hydrodae.wecsim.gauges import add_gauges
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.old_names import WAVES
@@ -176,15 +178,16 @@ def _imported(waves: Item, read: InputFile) -> dict[str, Any] | None:
     table = _data(waves, "spectrumFile", read)
     if table is None:
         return None
-    if table.shape[1] > 2:
+    rows = table.values
+    if rows.shape[1] > 2:
         read.remarks.left_out(
             read.place(waves.line_of("spectrumFile")), "phases of the imported spectrum: a seed"
         )
-    kept = table[:, 0] > 0.0
+    kept = (rows[:, 0] > 0.0) & np.isfinite(rows[:, 1])
     return {
         "type": "table",
-        "frequency": table[kept, 0] * 2.0 * math.pi,
-        "density": np.maximum(table[kept, 1], 0.0) / (2.0 * math.pi),
+        "frequency": rows[kept, 0] * 2.0 * math.pi,
+        "density": np.maximum(rows[kept, 1], 0.0) / (2.0 * math.pi),
     }
 
 
@@ -242,58 +245,39 @@ def _elevation(
     table = _data(waves, "elevationFile", read)
     if table is None:
         return []
-    time = np.linspace(table[0, 0], table[-1, 0], len(table))
-    values = np.interp(time, table[:, 0], table[:, 1])
+    place = read.place(waves.line_of("elevationFile"))
+    try:
+        record = read_elevation(table, time=table.names[0], column=table.names[1])
+    except CaseError as error:
+        read.remarks.left_out(place, str(error))
+        return []
+    for note in record.notes:
+        read.remarks.assumed(place, note)
     file = f"{first['name']}.csv"
-    rows = "\n".join(f"{t:.9g},{z:.9g}" for t, z in zip(time - time[0], values, strict=True))
-    (folder / file).write_text(f"time,elevation\n{rows}\n", encoding="utf-8")
+    record.write(folder / file)
     keys = first | {
         "type": "measured",
         "file": file,
         "heading_deg": _turned(float(waves.vector("direction", [0.0])[0])),
-        "taper": min(30.0, 0.1 * float(time[-1] - time[0])),
+        "taper": min(30.0, 0.1 * record.length),
         "lost_variance": 0.5,
     }
     note = "The record fades at both ends over `taper`: give a longer record, or a shorter run."
     return [(keys, note)]
 
 
-def _data(waves: Item, field: str, read: InputFile) -> Array | None:
-    """Columns of a file of numbers: MATLAB's .mat (to version 7), or text."""
+def _data(waves: Item, field: str, read: InputFile) -> Table | None:
+    """Columns of a file of numbers: MATLAB's .mat, or text."""
     name = waves.text(field)
     place = read.place(waves.line_of(field))
     path = read.path.parent / name.replace("\\", "/")
     try:
-        table = _columns(path)
-    except (OSError, ValueError, NotImplementedError) as error:
+        table = read_table(path)
+        if len(table.names) < 2 or len(table.values) < 4:
+            raise CaseError("expected two columns and four rows, or more")
+    except (OSError, CaseError) as error:
         read.remarks.left_out(place, f"{waves.title}.{field}: {name!r} cannot be read ({error})")
         return None
-    return table
-
-
-def _columns(path: Path) -> Array:
-    if path.suffix.lower() == ".mat":
-        from scipy.io import loadmat
-
-        arrays = [v for k, v in loadmat(path).items() if not k.startswith("__")]
-        arrays = [a for a in arrays if isinstance(a, np.ndarray) and a.ndim == 2 and a.shape[1] > 1]
-        if not arrays:
-            raise ValueError("no table of two columns in it")
-        table = np.asarray(arrays[0], dtype=float)
-    else:
-        lines = path.read_text(encoding="utf-8", errors="replace").replace(",", " ").splitlines()
-        rows = []
-        for line in lines:
-            try:
-                rows.append([float(word) for word in line.split()])
-            except ValueError:
-                continue
-        rows = [row for row in rows if len(row) > 1]
-        if not rows:
-            raise ValueError("no table of two columns in it")
-        table = np.array([row[: len(rows[0])] for row in rows])
-    if len(table) < 4 or not np.isfinite(table).all():
-        raise ValueError("too few rows, or values that are not finite")
     return table
 
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.records import clock
+from hydrodae.records.table import Table, read_table
 from hydrodae.results import Results
-from hydrodae.study.calibrate.units import split_unit
+from hydrodae.support import outputs
 
 Array = NDArray[np.float64]
 
@@ -52,6 +51,8 @@ class Record:
         False: nothing is fitted to it; it is predicted, and its errors are given.
     units : dict
         SI unit by channel, as far as it is given.
+    notes : tuple of str
+        What was done to the file.
     """
 
     name: str
@@ -64,6 +65,7 @@ class Record:
     noise: dict[str, float] = field(default_factory=dict)
     fitted: bool = True
     units: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         where, n = f"record {self.name!r}", len(self.time)
@@ -117,11 +119,11 @@ def read_record(
     Parameters
     ----------
     file : path
-        Text with commas, semicolons or tabs and a line of names, lines with # left out; or a
-        results file.
+        A results file, or what `hydrodae.records.read_table` reads: MATLAB's .mat, text.
     channels : mapping
-        Column by channel of the results: "COLUMN" or "COLUMN:UNIT", the unit by default that of
-        the channel. In a results file a column is a channel.
+        Column by channel of the results: "COLUMN" or "COLUMN:UNIT", the unit by default that in
+        the name of the column ("heave [mm]"), or else that of the channel. A column without a name
+        is its number, from 1. In a results file a column is a channel.
     name : str
         By default that of the file.
     time : str
@@ -139,10 +141,11 @@ def read_record(
     path = Path(file)
     if not path.is_file():
         raise CaseError(f"{path}: no such record")
-    if h5py.is_hdf5(path):
+    notes: list[str] = []
+    if outputs.kind_of(path) == outputs.RESULTS:
         t, columns, units = _from_results(path, channels)
     else:
-        t, columns, units = _from_text(path, channels, time)
+        t, columns, units, notes = _from_table(read_table(path), channels, time)
     t_earliest = -options.get("offset", 0.0)
     if options.get("offset_bounds") is not None:
         t_earliest = -options["offset_bounds"][0]
@@ -150,7 +153,7 @@ def read_record(
     for values in columns.values():
         keep &= np.isfinite(values)
     kept = {channel: values[keep] for channel, values in columns.items()}
-    return Record(name or path.stem, t[keep], kept, units=units, **options)
+    return Record(name or path.stem, t[keep], kept, units=units, notes=tuple(notes), **options)
 
 
 def series_of(results: Results, name: str) -> tuple[Array, str]:
@@ -189,54 +192,26 @@ def _from_results(
     return np.asarray(results.time), columns, units
 
 
-def _from_text(
-    path: Path, channels: Mapping[str, str], time: str
-) -> tuple[Array, dict[str, Array], dict[str, str]]:
-    header, rows = _table(path)
-    wanted = {"time": time or header[0], **channels}
+def _from_table(
+    table: Table, channels: Mapping[str, str], time: str
+) -> tuple[Array, dict[str, Array], dict[str, str], list[str]]:
     columns, units = {}, {}
-    for channel, text in wanted.items():
-        column, factor, unit = split_unit(text, header)
-        if column not in header:
-            near = difflib.get_close_matches(column, header, 1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(header)}"
-            raise CaseError(f"{path}: no column {column!r}; {hint}")
-        columns[channel] = factor * rows[:, header.index(column)]
+    for channel, text in channels.items():
+        columns[channel], unit = table.column(text)
         if unit:
             units[channel] = unit
-    t = columns.pop("time")
-    if units.pop("time", "s") != "s":
-        raise CaseError(f"{path}: the unit of the column of time is none of time")
+    asked = time or table.names[0]
+    t, unit = table.column(asked)
+    if unit not in ("", "s"):
+        raise CaseError(f"{table.path}: column {asked!r}: the unit of a time is s, ms or min")
     if not np.all(np.isfinite(t)):
-        raise CaseError(f"{path}: a time is missing")
-    return t, columns, units
-
-
-def _table(path: Path) -> tuple[list[str], Array]:
-    """Names of the columns, and numbers; what is empty is nan."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise CaseError(f"{path}: a record is a text in UTF-8, or a results file") from None
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if len(lines) < 2:
-        raise CaseError(f"{path}: expected a line of names and lines of numbers")
-    mark = max(",;\t", key=lines[0][1].count)
-    parsed = list(csv.reader((line for _, line in lines), delimiter=mark))
-    header = [name.strip() for name in parsed[0]]
-    if len(set(header)) != len(header):
-        raise CaseError(f"{path}: column {max(header, key=header.count)!r} stands there twice")
-    rows = np.empty((len(parsed) - 1, len(header)))
-    for k, row in enumerate(parsed[1:]):
-        where = f"{path}:{lines[k + 1][0]}"
-        if len(row) != len(header):
-            raise CaseError(f"{where}: {len(row)} values, and {len(header)} names")
-        try:
-            rows[k] = [float(word) if word.strip() else np.nan for word in row]
-        except ValueError as error:
-            raise CaseError(f"{where}: {error}") from None
-    return header, rows
+        raise CaseError(f"{table.path}: a time is missing")
+    notes = list(table.notes)
+    if not np.all(np.diff(t) > 0.0):
+        straight = clock.unrounded(t)
+        if straight is not None:
+            notes.append(
+                f"times that stand there twice are rounded: steps {clock.step_of(straight):g} s"
+            )
+            t = straight
+    return t, columns, units, notes

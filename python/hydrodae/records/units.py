@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from hydrodae.errors import CaseError
 
@@ -34,7 +35,36 @@ UNITS: dict[str, tuple[float, str]] = {
     "Pa": (1.0, "Pa"),
     "kPa": (1e3, "Pa"),
     "bar": (1e5, "Pa"),
+    "Hz": (2.0 * math.pi, "rad/s"),
+    "mHz": (2e-3 * math.pi, "rad/s"),
 }
+#: Other ways to write them.
+_SPELLED = {
+    "°": "deg", "degrees": "deg", "degree": "deg", "radians": "rad", "sec": "s", "seconds": "s",
+    "metres": "m", "meters": "m", "m/s^2": "m/s2", "m/s²": "m/s2", "N*m": "N m", "N.m": "N m",
+    "kN*m": "kN m", "kN.m": "kN m", "hz": "Hz", "msec": "ms",
+}  # fmt: skip
+_BRACKETS = re.compile(r"[\[(]([^\[\]()]*)[\])]\s*$")
+
+
+def bracketed(name: str) -> str:
+    """What stands in brackets at the end of the name of a column: its unit; else nothing."""
+    found = _BRACKETS.search(name)
+    return found[1].strip() if found else ""
+
+
+def bare(name: str) -> str:
+    """Name of a column without its unit, in small letters, words apart by one space."""
+    return " ".join(_BRACKETS.sub("", name).replace("_", " ").lower().split())
+
+
+def stated_unit(name: str) -> tuple[float, str]:
+    """Factor to the SI unit, and that unit, of a column such as "heave [mm]".
+
+    1 and an empty unit where the name states none that is known.
+    """
+    unit = bracketed(name)
+    return UNITS.get(_SPELLED.get(unit, unit), (1.0, ""))
 
 
 def split_unit(text: str, columns: list[str]) -> tuple[str, float, str]:

@@ -1,0 +1,177 @@
+"""The command `hydrodae record`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hydrodae.errors import CaseError
+
+if TYPE_CHECKING:
+    from hydrodae.records import Component, Elevation, Spectrum, Table
+
+KINDS = ("elevation", "spectrum", "components")
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to those of `hydrodae`."""
+    parser = commands.add_parser(
+        "record",
+        help="waves of a case from a measured elevation, a spectrum, or components with phases",
+        description="Read a file of MATLAB (.mat), CSV or text, and print the [[wave]] tables of a "
+        "case. An elevation is written with equal steps of time to the file of -o, which the "
+        "table names. What was done to the record is printed as comments.",
+    )
+    parser.add_argument("file", metavar="FILE", help="record (.mat, .csv, .txt, HDF5)")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="elevation: the record of the case, .csv"
+    )
+    parser.add_argument(
+        "--kind", choices=KINDS, help="what the file holds (default: by the names of its columns)"
+    )
+    parser.add_argument(
+        "--columns",
+        metavar="NAME,...",
+        help="names of all columns, units in brackets: 'time [s],eta [mm]'",
+    )
+    parser.add_argument("--column", metavar="COLUMN[:UNIT]", help="column of the elevation")
+    parser.add_argument("--time", metavar="COLUMN[:UNIT]", help="column of the time")
+    parser.add_argument(
+        "--rate", metavar="HZ", type=float, help="samples a second, where there is no time"
+    )
+    parser.add_argument(
+        "--heading", metavar="DEG", type=float, help="direction of travel, 0 = +x (default 0)"
+    )
+    parser.add_argument("--name", default="sea", help="name of the wave system (default sea)")
+    parser.add_argument(
+        "--list", action="store_true", help="list the columns with their ranges, and do no more"
+    )
+    parser.set_defaults(call=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Read a record and print its [[wave]] tables; returns 0."""
+    from hydrodae.records import read_components, read_elevation, read_spectrum, read_table
+
+    names = None
+    if arguments.columns:
+        names = [name.strip() for name in arguments.columns.split(",")]
+    table = read_table(arguments.file, names)
+    if arguments.list:
+        _list(table)
+        return 0
+    kind = arguments.kind or _kind_of(table)
+    _refuse_idle(arguments, kind)
+    heading = arguments.heading or 0.0
+    if kind == "elevation":
+        record = read_elevation(
+            table, column=arguments.column or "", time=arguments.time or "", rate=arguments.rate
+        )
+        _print(*_of_elevation(arguments, record, heading))
+    elif kind == "spectrum":
+        _print(*_of_spectrum(arguments, read_spectrum(table)))
+    else:
+        found = read_components(table, heading_deg=heading)
+        _print(*_of_components(arguments.name, found, table))
+    return 0
+
+
+def _kind_of(table: Table) -> str:
+    from hydrodae.records.quantities import find
+
+    if find(table, "phase") is not None:
+        return "components"
+    if find(table, "time") is None or find(table, "density") is not None:
+        if find(table, "frequency") is not None or find(table, "omega") is not None:
+            return "spectrum"
+    if not table.named and not (table.values[:, -1] < 0.0).any():
+        raise CaseError(
+            f"{table.path}: names no columns, and its last column is never negative: give --kind "
+            "elevation or --kind spectrum, or names of all columns by --columns"
+        )
+    return "elevation"
+
+
+def _refuse_idle(arguments: argparse.Namespace, kind: str) -> None:
+    """Refuse options that do nothing for what the file holds."""
+    for option in ("column", "time", "rate", "output"):
+        if getattr(arguments, option) is not None and kind != "elevation":
+            name = "-o" if option == "output" else f"--{option}"
+            raise CaseError(f"{name}: is for an elevation, and {arguments.file} holds a {kind}")
+    if kind == "elevation" and arguments.output is None:
+        raise CaseError(f"{arguments.file}: an elevation needs -o FILE.csv, which the case reads")
+
+
+def _of_elevation(
+    arguments: argparse.Namespace, record: Elevation, heading: float
+) -> tuple[list[str], list[dict[str, Any]]]:
+    written = record.write(arguments.output)
+    print(f"written: {written}", file=sys.stderr)
+    told = [
+        f"{len(record.time)} samples over {record.length:g} s; significant height "
+        f"{record.significant_height:.4g} m, mean {record.elevation.mean():.3g} m",
+        *record.notes,
+        "`file` is relative to the folder of the case. The run must end before the record.",
+    ]
+    keys = {
+        "name": arguments.name,
+        "type": "measured",
+        "file": str(written),
+        "heading_deg": heading,
+        "taper": min(30.0, float(f"{0.1 * record.length:.3g}")),
+    }
+    return told, [keys]
+
+
+def _of_spectrum(
+    arguments: argparse.Namespace, found: Spectrum
+) -> tuple[list[str], list[dict[str, Any]]]:
+    if found.heading is not None and arguments.heading is not None:
+        raise CaseError(f"--heading: {arguments.file} has directions of its own")
+    waves = found.waves(arguments.name, arguments.heading or 0.0)
+    told = [
+        f"significant height {found.significant_height:.4g} m, peak period "
+        f"{found.peak_period:.4g} s, {len(waves)} direction{'s' if len(waves) > 1 else ''}",
+        *found.notes,
+    ]
+    return told, waves
+
+
+def _of_components(
+    name: str, found: list[Component], table: Table
+) -> tuple[list[str], list[dict[str, Any]]]:
+    height = 4.0 * (0.5 * sum(one.amplitude**2 for one in found)) ** 0.5
+    told = [f"{len(found)} components; significant height {height:.4g} m", *table.notes]
+    return told, [one.wave(f"{name}_{k}") for k, one in enumerate(found, 1)]
+
+
+def _print(told: list[str], waves: list[dict[str, Any]]) -> None:
+    from hydrodae.case.case import to_toml
+
+    lines = [f"# {line}" for line in told]
+    for keys in waves:
+        lines += ["", "[[wave]]"]
+        for key, value in keys.items():
+            lines.append(f"{key} = {to_toml(_rounded(value), key)}")
+    print("\n".join(lines))
+
+
+def _rounded(value: Any) -> Any:
+    """Ten digits of a number."""
+    if isinstance(value, float):
+        return float(f"{value:.10g}") + 0.0
+    if hasattr(value, "tolist"):
+        return [_rounded(item) for item in value.tolist()]
+    return value
+
+
+def _list(table: Table) -> None:
+    for name, values in zip(table.names, table.values.T, strict=True):
+        known = values[values == values]
+        span = f"{known.min():g} to {known.max():g}" if len(known) else "empty"
+        print(f"{name:44} {span}")
+    for note in table.notes:
+        print(f"note: {note}")
+    print(f"{len(table.values)} rows in {Path(table.path).name}")
