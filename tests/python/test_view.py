@@ -483,6 +483,24 @@ def test_the_command_writes_a_page_and_files(results, tmp_path, capsys):
         assert cli.main(["view", str(results.path), *wrong]) == 2
 
 
+def test_the_page_opens_at_the_time_that_is_asked_for(results, tmp_path, capsys):
+    page = tmp_path / "a.html"
+
+    def begin() -> float:
+        data = re.search(r'<script[^>]*id="data"[^>]*>(.*?)</script>', page.read_text(), re.DOTALL)
+        return json.loads(data[1])["begin"]
+
+    assert cli.main(["view", str(results.path), "-o", str(page), "--time", "1.5"]) == 0
+    assert begin() == 1.5
+    assert cli.main(["view", str(results.path), "-o", str(page)]) == 0
+    assert begin() == results.time[0]
+    assert cli.main(["view", str(results.path), "-o", str(page), "--time", "9"]) == 2
+    assert "samples are from 0 to 2 s" in capsys.readouterr().err
+    folder = str(tmp_path / "p")
+    assert cli.main(["view", str(results.path), "--paraview", folder, "--time", "1"]) == 2
+    assert "--time: is for a page or a picture" in capsys.readouterr().err
+
+
 def test_a_missing_extra_is_named(seen, tmp_path, monkeypatch):
     usual = builtins.__import__
 
