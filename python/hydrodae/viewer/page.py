@@ -110,6 +110,15 @@ def page_data(
             }
             for line in stage.lines
         ],
+        "spots": [
+            {
+                "name": spot.name,
+                "kind": spot.kind,
+                "bodies": spot.bodies,
+                "points": numbers.add(spot.points),
+            }
+            for spot in stage.spots
+        ],
         "curves": [
             {
                 "about": curve.about,
