@@ -297,7 +297,7 @@ end_time = 1.0
     omega = np.linspace(0.4, 2.5, 20001)
     target = density(wave, omega)
     variance = 0.5 * components[:, 2] ** 2
-    whole = np.trapezoid(target, omega)
+    whole = float(np.trapezoid(target, omega))
     assert variance.sum() == pytest.approx(whole, rel=1e-3)
     for low, high in ((0.4, 0.7), (0.7, 0.8), (0.8, 1.0), (1.0, 2.5)):
         inside = (omega >= low) & (omega <= high)
@@ -317,6 +317,7 @@ def test_pictures_of_waves_have_the_pto_force_and_the_target(tmp_path):
     assert line.unit == "kN"
     np.testing.assert_allclose(line.values, force / 1e3)
     elevation = panels["elevation\nspectrum"]
+    assert elevation.target is not None
     omega, target = elevation.target
     height = 4.0 * np.sqrt(np.trapezoid(target, omega))
     assert f"{height:.3g} m" in elevation.note

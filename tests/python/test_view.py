@@ -533,14 +533,16 @@ def test_buoys_clumps_markers_and_gauges_are_where_the_results_say(tmp_path):
     nodes = results["forces/hose/position"].to_numpy().reshape(len(results.time), -1, 3)
     assert spots["hose clump 1"].points == pytest.approx(nodes[:, 5], abs=1e-9)
     assert spots["hose buoy 2"].points == pytest.approx(nodes[:, 10], abs=1e-9)
-    away = seen.stage.body("float").places([1.0, 0.0, -1.0])[0, 0] - [40.0, 0.0, -20.0]
+    carrier = seen.stage.body("float")
+    assert carrier is not None
+    away = carrier.places(np.array([1.0, 0.0, -1.0]))[0, 0] - [40.0, 0.0, -20.0]
     weight, stiffness = [200.0, 200.0], [1e8, 1e8]
     shape = hydrodae.catenary(
         float(np.hypot(*away[:2])), float(away[2]), [14.0, 30.0], weight, stiffness,
         loads=[-1000.0], n=4401,
     )  # fmt: skip
-    height = np.interp(14.0, shape.s, shape.z) - 20.0
-    assert spots["chain buoy 1"].points[0, 2] == pytest.approx(height, abs=0.05)
+    depth = float(np.interp(14.0, shape.s, shape.z)) - 20.0
+    assert spots["chain buoy 1"].points[0, 2] == pytest.approx(depth, abs=0.05)
     assert [spot["name"] for spot in page_data(seen.stage, seen.frame, seen.camera)["spots"]] == [
         *spots
     ]
@@ -551,7 +553,8 @@ def test_the_page_opens_at_the_time_that_is_asked_for(results, tmp_path, capsys)
 
     def begin() -> float:
         data = re.search(r'<script[^>]*id="data"[^>]*>(.*?)</script>', page.read_text(), re.DOTALL)
-        return json.loads(data[1])["begin"]
+        assert data is not None
+        return float(json.loads(data[1])["begin"])
 
     assert cli.main(["view", str(results.path), "-o", str(page), "--time", "1.5"]) == 0
     assert begin() == 1.5

@@ -48,7 +48,7 @@ def density(wave: Mapping[str, Any], omega: Array, gravity: float = _GRAVITY) ->
     Closed forms where there are any: m0 = Hs^2/16. Of JONSWAP the integral is numerical.
     """
     if wave["type"] == "table":
-        return np.interp(omega, wave["frequency"], wave["density"], left=0.0, right=0.0)
+        return np.asarray(np.interp(omega, wave["frequency"], wave["density"], left=0.0, right=0.0))
     height = float(wave["significant_height"])
     if wave["type"] == "pierson_moskowitz":
         # m0 = 0.0081 g^2 / (5 wp^4)
