@@ -6,6 +6,7 @@ import errno
 import io
 import os
 import re
+import warnings
 
 import pytest
 from rich.console import Console
@@ -177,3 +178,18 @@ def test_long_run_in_a_terminal_shows_a_bar(monkeypatch):
         line(55.0, 100.0)
     assert "Flap decay" in stream.getvalue()
     assert "55 of 100 s" in stream.getvalue()
+
+
+def test_warnings_are_one_line_each_without_a_place_in_the_source(capsys):
+    from hydrodae.hdb.memory import MemoryFitWarning
+
+    def work() -> None:
+        warnings.simplefilter("always")
+        for _ in range(2):
+            warnings.warn("the first line\n  and the second", RuntimeWarning, stacklevel=1)
+        warnings.warn("a fit is poor", MemoryFitWarning, stacklevel=1)
+
+    assert cli.guarded(work) == 0
+    assert capsys.readouterr().err == (
+        "hydrodae: warning: the first line and the second\nhydrodae: note: a fit is poor\n"
+    )

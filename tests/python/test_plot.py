@@ -12,10 +12,11 @@ import matplotlib
 import numpy as np
 import pytest
 
+import hydrodae
 from hydrodae import plot
 from hydrodae.errors import CaseError
 from hydrodae.pictures.curve import Curve, parse_curve, read_curve
-from hydrodae.pictures.panels import MOST_LINES, Line, Panel, most_moving, overview, select
+from hydrodae.pictures.panels import MOST_LINES, Line, Panel, most_moving, overview, select, spectra
 from hydrodae.results import Results
 from hydrodae.results.post import turning_points
 
@@ -250,3 +251,74 @@ def test_f3of_figure_with_and_without_reference_data(
     rows = f3of_figure.comparison(results).splitlines()
     assert len(rows) == 1 + len(f3of_figure.PUBLISHED)
     assert "minimum         -9.33 deg at  6.95 s" in rows[1]
+
+
+@pytest.mark.parametrize(
+    "sea",
+    [
+        'type = "jonswap"\nsignificant_height = 2.0\npeak_period = 8.0\ngamma = 2.0',
+        'type = "bretschneider"\nsignificant_height = 2.0\npeak_period = 8.0',
+        'type = "pierson_moskowitz"\nsignificant_height = 2.0',
+        'type = "ochi_hubble"\nsignificant_height = 2.0\npeak_period = 8.0\nshape = 3.0',
+        'type = "table"\nfrequency = [0.5, 0.8, 1.6]\ndensity = [0.0, 0.7, 0.1]',
+    ],
+)
+def test_targets_are_the_seas_that_the_kernel_draws(sea):
+    """Variance of the components in bands, each component one bin of equal energy."""
+    import tomllib
+
+    from hydrodae import _core
+    from hydrodae.pictures.target import density
+
+    text = f"""
+[environment]
+water_density = 1025.0
+[[wave]]
+name = "sea"
+{sea}
+components = 4000
+frequency_range = [0.4, 2.5]
+[[body]]
+name = "stone"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+center_of_gravity = [0.0, 0.0, 0.0]
+[[morison]]
+name = "drag"
+body = "stone"
+point = [0.0, 0.0, -1.0]
+area = 1.0
+drag_coefficient = 1.0
+[solver]
+end_time = 1.0
+"""
+    wave = tomllib.loads(text)["wave"][0]
+    components = _core.wave_components(_core.parse_case(text, ".", {}))
+    omega = np.linspace(0.4, 2.5, 20001)
+    target = density(wave, omega)
+    variance = 0.5 * components[:, 2] ** 2
+    whole = float(np.trapezoid(target, omega))
+    assert variance.sum() == pytest.approx(whole, rel=1e-3)
+    for low, high in ((0.4, 0.7), (0.7, 0.8), (0.8, 1.0), (1.0, 2.5)):
+        inside = (omega >= low) & (omega <= high)
+        mine = variance[(components[:, 0] >= low) & (components[:, 0] < high)].sum()
+        want = np.trapezoid(target[inside], omega[inside])
+        assert mine == pytest.approx(want, abs=2e-3 * whole)
+
+
+def test_pictures_of_waves_have_the_pto_force_and_the_target(tmp_path):
+    from hydrodae.starters import create
+
+    case = create("point_absorber", tmp_path / "buoy")
+    results = hydrodae.run(case, set={"solver.end_time": 300.0})
+    panels = {panel.quantity: panel for panel in [*overview(results), *spectra(results)]}
+    force = results["forces/pto/force"].to_numpy()
+    (line,) = panels["PTO force"].lines
+    assert line.unit == "kN"
+    np.testing.assert_allclose(line.values, force / 1e3)
+    elevation = panels["elevation\nspectrum"]
+    assert elevation.target is not None
+    omega, target = elevation.target
+    height = 4.0 * np.sqrt(np.trapezoid(target, omega))
+    assert f"{height:.3g} m" in elevation.note
+    assert panels["joint displacement\nspectrum"].target is None

@@ -24,8 +24,8 @@ from hydrodae.records import (
 from hydrodae.records.clock import even
 
 NUMBERS = np.array([[0.0, 0.25], [0.1, -0.5], [0.2, 1.5], [0.3, -2e-3]])
-TIME = np.arange(200) * 0.1
-ETA = np.cos(1.3 * TIME)
+TIME = np.asarray(np.arange(200) * 0.1, dtype=np.float64)
+ETA = np.asarray(np.cos(1.3 * TIME), dtype=np.float64)
 
 
 def written(folder: Path, text: str, encoding: str = "utf-8") -> Path:
@@ -266,6 +266,7 @@ def test_spectra_over_directions(tmp_path, form):
                 f"{a:g},{f:.12g},{s:.12g}\n" for f, s in zip(hertz, column, strict=True)
             )
     found = read_spectrum(written(tmp_path, text))
+    assert found.heading is not None
     np.testing.assert_allclose(np.degrees(found.heading), ANGLES)
     np.testing.assert_allclose(found.density.sum(axis=0), bretschneider(OMEGA), rtol=1e-6)
     waves = found.waves()

@@ -170,6 +170,22 @@ def find(name: str, type: str | None = None) -> Table:
     return types[type]
 
 
+def unit_of(key: str) -> str:
+    """Unit of a dotted key of a case, "m" of "wave.sea.significant_height".
+
+    "-" where it has none, or where types of the table have the key in different units; empty where
+    there is no such key.
+    """
+    name, _, rest = key.partition(".")
+    table = next((table for table in tables() if table.name == name), None)
+    last = rest.rpartition(".")[2].partition("[")[0]
+    if table is None:
+        return ""
+    kinds = [table, *table.types]
+    found = {k.unit for kind in kinds for k in kind.all_keys() if k.name.split(".")[-1] == last}
+    return found.pop() if len(found) == 1 else "-" if found else ""
+
+
 def owners_of(type: str) -> list[Table]:
     """Return the lists whose entries may have this type."""
     return [table for table in tables() if any(kind.name == type for kind in table.types)]

@@ -96,9 +96,9 @@ def _give_up_full_output() -> None:
 
 @contextmanager
 def _plain_warnings() -> Iterator[None]:
-    """What `Results` has to tell is a line for people, without a place in the source."""
+    """Each warning is one line for people, once, without a place in the source."""
     with warnings.catch_warnings():
-        usual = warnings.showwarning
+        shown: set[str] = set()
 
         def show(
             message: Warning | str,
@@ -108,10 +108,11 @@ def _plain_warnings() -> Iterator[None]:
             file: TextIO | None = None,
             line: str | None = None,
         ) -> None:
-            if issubclass(category, ResultsWarning):
-                print(f"hydrodae: note: {message}", file=sys.stderr)
-            else:
-                usual(message, category, filename, lineno, file, line)
+            ours = category.__module__.partition(".")[0] == "hydrodae"
+            text = f"hydrodae: {'note' if ours else 'warning'}: {' '.join(str(message).split())}"
+            if text not in shown:
+                shown.add(text)
+                print(text, file=sys.stderr)
 
         warnings.simplefilter("always", ResultsWarning)
         warnings.showwarning = show

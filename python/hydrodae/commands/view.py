@@ -53,7 +53,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="oblique (default), side, front, top, all (with lines that reach far), or "
         "AZIMUTH,ELEVATION[,ZOOM] in degrees",
     )
-    how.add_argument("--time", metavar="T", type=float, help="time of the picture [s]")
+    how.add_argument(
+        "--time", metavar="T", type=float, help="time of the picture, at which the page opens [s]"
+    )
     how.add_argument("--size", metavar="WxH", default="1280x720", help="pixels (1280x720)")
     how.add_argument("--rate", metavar="N", type=float, default=25.0, help="frames a second (25)")
     how.add_argument(
@@ -84,9 +86,12 @@ def run(arguments: argparse.Namespace) -> int:
     for note in seen.stage.notes:
         print(f"note: {note}", file=sys.stderr)
     written: list[Path] = []
-    if arguments.output or not (arguments.picture or arguments.video or arguments.paraview):
+    paged = arguments.output or not (arguments.picture or arguments.video or arguments.paraview)
+    if arguments.time is not None and not (paged or arguments.picture):
+        raise CaseError("--time: is for a page or a picture; give --from and --to for the others")
+    if paged:
         page = arguments.output or Path(arguments.results).with_suffix(".html")
-        written.append(seen.write(page))
+        written.append(seen.write(page, time=arguments.time))
     if arguments.picture:
         written.append(seen.picture(arguments.picture, time=arguments.time, size=size))
     if arguments.video:

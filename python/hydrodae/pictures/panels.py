@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
+from hydrodae.pictures.target import target_of
 from hydrodae.results.series import FEWEST, spectral_density
 from hydrodae.support.units import displayed
 
@@ -49,6 +50,8 @@ class Panel:
     note: str = ""
     omega: NDArray[np.float64] | None = None  #: rad/s, of spectra; else the lines are over time
     decades: bool = False  #: whether the values are drawn on a logarithmic axis
+    target: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+    """Frequencies [rad/s] and densities of the sea that the case asks for."""
 
     @property
     def label(self) -> str:
@@ -127,9 +130,9 @@ def scaled(panel: Panel) -> Panel:
 def overview(results: Results) -> list[Panel]:
     """Panels of the standard picture over time: what of it the file has.
 
-    Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, sizes of
-    what holds bodies that cannot move and of the reactions of the joints, loads of the constraints,
-    tensions, energies, estimated errors.
+    Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, loads of
+    the power take-offs, sizes of what holds bodies that cannot move and of the reactions of the
+    joints, loads of the constraints, tensions, energies, estimated errors.
     """
     if not len(results.time):
         return []
@@ -140,6 +143,7 @@ def overview(results: Results) -> list[Panel]:
         Panel("body displacement\nfrom the start", "m", _from_start(_moving(results, "position"))),
         Panel("body rotation", "deg", _moving(results, "rotation")),
         _power(results),
+        *_drives(results),
         *(
             scaled(Panel(kind, unit, _sizes(results, names)))
             for kind, unit, names in (
@@ -158,7 +162,7 @@ def overview(results: Results) -> list[Panel]:
 
 
 def spectra(results: Results) -> list[Panel]:
-    """Panels of spectral densities after the ramp: elevation and joint coordinates.
+    """Panels of spectral densities after the ramp: elevation, with its target, and coordinates.
 
     None where there are no waves, or too few samples.
     """
@@ -175,8 +179,25 @@ def spectra(results: Results) -> list[Panel]:
                 Line(line.label, panel.quantity, unit, spectrum.density)
                 for line, spectrum in zip(panel.lines, found, strict=True)
             ]
-            panels.append(Panel(panel.quantity + "\nspectrum", unit, lines, "", found[0].omega))
+            made = Panel(panel.quantity + "\nspectrum", unit, lines, "", found[0].omega)
+            panels.append(_beside_target(results, made) if panel.quantity == "elevation" else made)
     return panels
+
+
+def _beside_target(results: Results, panel: Panel) -> Panel:
+    """The spectrum of the elevation with that of the case, and the significant heights of both."""
+    assert panel.omega is not None
+    omega = np.linspace(0.0, 2.0 * float(panel.omega[-1]), 4001)
+    target = target_of(results, omega)
+    if target is None:
+        return panel
+    realised = panel.lines[0]
+    told = 4.0 * np.sqrt(np.trapezoid(realised.values, panel.omega))
+    asked = 4.0 * np.sqrt(np.trapezoid(target, omega))
+    line = replace(realised, label=f"realised, $H_s$ {told:.3g} m")
+    near = omega <= panel.omega[-1]
+    note = f"target, $H_s$ {asked:.3g} m"
+    return replace(panel, lines=[line], note=note, target=(omega[near], target[near]))
 
 
 def highest_frequency(panels: Iterable[Panel]) -> float:
@@ -273,6 +294,19 @@ def _power(results: Results) -> Panel:
         for line in panel.lines
     ]
     return panel
+
+
+def _drives(results: Results) -> list[Panel]:
+    """Loads of the power take-offs along their joints: forces, moments."""
+    panels = []
+    for kind, unit in (("force", "N"), ("moment", "N m")):
+        lines = []
+        for name in results.channels("forces/*/power_absorbed"):
+            channel = f"{name.rpartition('/')[0]}/{kind}"
+            if channel in results and results[channel].ndim == 1:
+                lines += select(results, channel)
+        panels.append(scaled(Panel(f"PTO {kind}", unit, lines)))
+    return panels
 
 
 def _tensions(results: Results) -> list[Line]:

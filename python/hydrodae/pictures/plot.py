@@ -45,8 +45,9 @@ _SAME = 0.005
 def plot_overview(results: Results) -> Figure:
     """Draw the standard set of a run, one panel each, and spectra below where there are waves.
 
-    Elevation, joint coordinates, motions of the bodies, absorbed powers with their means, reactions
-    and tensions, energies.
+    Elevation, joint coordinates, motions of the bodies, absorbed powers with their means, loads of
+    the power take-offs, reactions and tensions, energies. The spectrum of the elevation has the
+    target of the case beside it.
 
     Raises
     ------
@@ -215,13 +216,15 @@ def _draw_panel(axes: Axes, panel: Panel, at: NDArray[np.float64]) -> None:
         (drawn,) = axes.plot(at, line.values, label=line.label, linestyle=style)
         if line.level is not None:
             axes.axhline(line.level, color=drawn.get_color(), linestyle="--", linewidth=1.0)
+    if panel.target is not None:
+        axes.plot(*panel.target, label=panel.note, color="black", linestyle="--", linewidth=1.0)
     axes.set_ylabel(panel.label)
     if panel.decades:
         axes.set_yscale("log")
     if panel.omega is not None:
         axes.set_ylim(bottom=0.0)
     if [line.label for line in panel.lines] != [panel.quantity.partition("\n")[0]]:
-        outside_legend(axes, panel.note)
+        outside_legend(axes, "" if panel.target is not None else panel.note)
 
 
 def _falls_on(line: Line, other: Line) -> bool:

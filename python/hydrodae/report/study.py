@@ -19,7 +19,7 @@ from hydrodae.report import page
 from hydrodae.report.scene import parts, rungs
 from hydrodae.study.sweep import text
 from hydrodae.study.sweep.measures import ENDS
-from hydrodae.study.sweep.table import half_percent
+from hydrodae.study.sweep.table import half_percent, with_unit
 from hydrodae.support.version import version
 
 #: What is drawn first, if it is there.
@@ -105,6 +105,8 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
     axes = figure.subplots()
     image = axes.imshow(numbers / factor, cmap="viridis", aspect="auto", origin="lower")
     axes.grid(visible=False)
+    if half is not None and np.isfinite(half.to_numpy()).any():
+        axes.set_title("\u00b1 half of the 95 % interval", loc="right", fontsize=8)
     middle = 0.4 * np.nanmin(numbers / factor) + 0.6 * np.nanmax(numbers / factor)
     percent = np.full(numbers.shape, np.nan) if half is None else half.to_numpy()
     for (i, j), value in np.ndenumerate(numbers / factor):
@@ -113,8 +115,8 @@ def matrix(values: xr.DataArray, name: str, half: xr.DataArray | None = None) ->
         axes.text(j, i, f"{value:.3g}{near}", ha="center", va="center", fontsize=8, color=color)
     axes.set_xticks(range(numbers.shape[1]), [_short(v) for v in values[across].to_numpy()])
     axes.set_yticks(range(numbers.shape[0]), [_short(v) for v in values[down].to_numpy()])
-    axes.set_xlabel(across.replace("_", " "))
-    axes.set_ylabel(down.replace("_", " "))
+    axes.set_xlabel(with_unit(values, across).replace("_", " "))
+    axes.set_ylabel(with_unit(values, down).replace("_", " "))
     unit = values.attrs.get("units", "-")
     figure.colorbar(image, label=f"{name.replace('_', ' ')} [{prefix}{unit}]")
     return figure

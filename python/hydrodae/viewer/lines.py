@@ -17,6 +17,8 @@ from hydrodae.viewer.stage import Body, Line
 Array = NDArray[np.float64]
 #: Points along a line that hangs.
 POINTS = 33
+#: Segments of a part of a dynamic line that names no number.
+_SEGMENTS = 20
 
 
 def make_lines(
@@ -41,7 +43,7 @@ def make_lines(
 def _rope(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
     carriers = bodies_of_rope(force)
     points = [
-        _places(source, bodies, body, point)
+        places_of(source, bodies, body, point)
         for body, point in zip(carriers, force["points"], strict=True)
     ]
     name = force["name"]
@@ -49,7 +51,7 @@ def _rope(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) 
 
 
 def _spring(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
-    ends = [_places(source, bodies, force[f"body_{e}"], force[f"point_{e}"]) for e in "ab"]
+    ends = [places_of(source, bodies, force[f"body_{e}"], force[f"point_{e}"]) for e in "ab"]
     name = force["name"]
     carriers = _names(force["body_a"], force["body_b"])
     return Line(name, "spring", carriers, np.stack(ends, axis=1), _load(source, name))
@@ -57,8 +59,8 @@ def _spring(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]
 
 def _rod(source: Source, joint: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
     ends = [
-        _places(source, bodies, joint["body_a"], joint["point"]),
-        _places(source, bodies, joint["body_b"], joint["point_b"]),
+        places_of(source, bodies, joint["body_a"], joint["point"]),
+        places_of(source, bodies, joint["body_b"], joint["point_b"]),
     ]
     kind = "rope" if joint.get("one_sided") else "rod"
     kind = "telescope" if joint["type"] == "telescope" else kind
@@ -70,18 +72,20 @@ def _line(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) 
     name = force["name"]
     nodes = source.values(f"forces/{name}/position")
     points = nodes.reshape(len(nodes), -1, 3)
+    arc = _nodes_of(force, points.shape[1])
     load = source.values(f"forces/{name}/tension_along").reshape(len(nodes), -1)
     if points.shape[1] > 2 * POINTS:
         kept = np.unique(np.linspace(0, points.shape[1] - 1, 2 * POINTS).astype(int))
         points, load = points[:, kept], load[:, kept[:-1]]
+        arc = None if arc is None else arc[kept]
     carriers = _names(force.get("body_a", "ground"), force.get("body_b", "ground"))
-    return Line(name, "line", carriers, points, load)
+    return Line(name, "line", carriers, points, load, arc)
 
 
 def _catenary(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Body]) -> Line:
     name, body_a = force["name"], force.get("body_a", "ground")
-    a = _places(source, bodies, body_a, force["point_a"])
-    b = _places(source, bodies, force["body_b"], force["point_b"])
+    a = places_of(source, bodies, body_a, force["point_a"])
+    b = places_of(source, bodies, force["body_b"], force["point_b"])
     tension = _load(source, name)
     length = list(force["length"])
     if "pretension" in force:
@@ -89,21 +93,22 @@ def _catenary(source: Source, force: Mapping[str, Any], bodies: Mapping[str, Bod
         length[0] = _length_of(force, b[0] - a[0], float(tension[0, 0]))
     points = np.empty((len(a), POINTS, 3))
     along = np.empty((len(a), POINTS - 1))
+    arc = np.empty(POINTS)
     for i, (start, end) in enumerate(zip(a, b, strict=True)):
-        points[i], along[i] = _hanging(force, length, start, end)
-    return Line(name, "catenary", _names(body_a, force["body_b"]), points, along)
+        points[i], along[i], arc = _hanging(force, length, start, end)
+    return Line(name, "catenary", _names(body_a, force["body_b"]), points, along, arc)
 
 
 def _hanging(
     force: Mapping[str, Any], length: Sequence[float], start: Array, end: Array
-) -> tuple[Array, Array]:
-    """Places (k, 3) and tensions (k - 1,) of a line at rest between two points."""
+) -> tuple[Array, Array, Array]:
+    """Places (k, 3), tensions (k - 1,), unstretched lengths (k,) of a line between two points."""
     away = end - start
     reach = float(np.hypot(away[0], away[1]))
     towards = away[:2] / reach if reach > 0.0 else np.array([1.0, 0.0])
     shape = _at_rest(force, length, away)
     places = np.column_stack([np.outer(shape.x, towards), shape.z]) + start
-    return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1])
+    return places, 0.5 * (shape.tension_along[1:] + shape.tension_along[:-1]), shape.s
 
 
 def _at_rest(force: Mapping[str, Any], length: Sequence[float], away: Array) -> Catenary:
@@ -132,7 +137,27 @@ def _length_of(force: Mapping[str, Any], away: Array, tension: float) -> float:
     return float(0.5 * (low + high))
 
 
-def _places(source: Source, bodies: Mapping[str, Body], body: str, point: Any) -> Array:
+def _nodes_of(force: Mapping[str, Any], count: int) -> Array | None:
+    """Unstretched lengths from A of the nodes of a dynamic line: (count,) array [m].
+
+    None where a pretension gives the length of its first part.
+    """
+    if "pretension" in force:
+        return None
+    lengths = force["length"]
+    segments = [int(n) for n in each(force.get("segments", [_SEGMENTS]), len(lengths))]
+    steps = np.concatenate([np.full(n, x / n) for x, n in zip(lengths, segments, strict=True)])
+    nodes = np.concatenate([[0.0], np.cumsum(steps)])
+    assert len(nodes) == count
+    return np.asarray(nodes)
+
+
+def each(values: Sequence[float], count: int) -> Sequence[float]:
+    """One value for each, where one is given for all."""
+    return list(values) * count if len(values) == 1 else values
+
+
+def places_of(source: Source, bodies: Mapping[str, Body], body: str, point: Any) -> Array:
     """World places (n, 3) over time of a point of a body, or of the ground."""
     at = np.asarray(point, dtype=float)
     if body not in bodies:

@@ -43,7 +43,9 @@ class Numbers:
         return base64.b64encode(b"".join(self._parts)).decode("ascii")
 
 
-def page_text(stage: Stage, frame: Frame, camera: tuple[float, float, float]) -> str:
+def page_text(
+    stage: Stage, frame: Frame, camera: tuple[float, float, float], begin: float | None = None
+) -> str:
     """Return the HTML of a stage.
 
     Parameters
@@ -53,10 +55,14 @@ def page_text(stage: Stage, frame: Frame, camera: tuple[float, float, float]) ->
         What is shown.
     camera : (azimuth, elevation, zoom)
         From where, first [deg].
+    begin : float, optional
+        Time at which it opens [s]; by default the first sample.
     """
     folder = files("hydrodae.viewer") / "page"
     # "<" does not stand in the data, so that nothing in it ends the script that holds it
-    data = json.dumps(page_data(stage, frame, camera), allow_nan=False).replace("<", "\\u003c")
+    data = json.dumps(page_data(stage, frame, camera, begin), allow_nan=False).replace(
+        "<", "\\u003c"
+    )
     program = sorted(f.name for f in folder.iterdir() if f.name[0].isdigit())
     parts = {
         "version": html.escape(version()),
@@ -70,7 +76,9 @@ def page_text(stage: Stage, frame: Frame, camera: tuple[float, float, float]) ->
     return _filled(_read(folder, "page.html"), parts)
 
 
-def page_data(stage: Stage, frame: Frame, camera: tuple[float, float, float]) -> dict[str, Any]:
+def page_data(
+    stage: Stage, frame: Frame, camera: tuple[float, float, float], begin: float | None = None
+) -> dict[str, Any]:
     """Return what the program of the page reads: plain values, and places of numbers."""
     numbers = Numbers()
     data = {
@@ -102,6 +110,15 @@ def page_data(stage: Stage, frame: Frame, camera: tuple[float, float, float]) ->
             }
             for line in stage.lines
         ],
+        "spots": [
+            {
+                "name": spot.name,
+                "kind": spot.kind,
+                "bodies": spot.bodies,
+                "points": numbers.add(spot.points),
+            }
+            for spot in stage.spots
+        ],
         "curves": [
             {
                 "about": curve.about,
@@ -125,6 +142,7 @@ def page_data(stage: Stage, frame: Frame, camera: tuple[float, float, float]) ->
         },
         "views": frame.views,
         "camera": camera,
+        "begin": float(stage.time[0]) if begin is None else begin,
     }
     data["numbers"] = numbers.text()
     return data

@@ -88,6 +88,8 @@ class Line:
         Its shape over time, world [m].
     load : (n, 1) or (n, k - 1) array, or None
         Tension, or load, of all of it or of each piece [N]; None if the results do not tell.
+    arc : (k,) array or None
+        Unstretched lengths from end A of the points of a mooring line [m], where they are known.
     """
 
     name: str
@@ -95,6 +97,28 @@ class Line:
     bodies: tuple[str, ...]
     points: Array
     load: Array | None
+    arc: Array | None = None
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A point with a symbol.
+
+    Attributes
+    ----------
+    name : str
+    kind : str
+        buoy, clump, marker, gauge or mooring matrix.
+    bodies : tuple of str
+        What it belongs to.
+    points : (n, 3) array
+        Where it is over time, world [m].
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[str, ...]
+    points: Array
 
 
 @dataclass(frozen=True)
@@ -178,7 +202,7 @@ class Stage:
         Title of the case; how the run ended.
     time : (n,) array
         Samples [s].
-    bodies, joints, lines, curves : list
+    bodies, joints, lines, curves, spots : list
     sea : Sea or None
         None without water.
     bed : float or None
@@ -197,6 +221,7 @@ class Stage:
     sea: Sea | None
     bed: float | None
     notes: list[str] = field(default_factory=list)
+    spots: list[Spot] = field(default_factory=list)
 
     def body(self, name: str) -> Body | None:
         """The body of this name; None for the ground."""

@@ -13,6 +13,7 @@ from hydrodae.viewer.curves import make_curves
 from hydrodae.viewer.lines import make_lines
 from hydrodae.viewer.sea import make_sea, seabed
 from hydrodae.viewer.source import Run, Source
+from hydrodae.viewer.spots import make_spots
 from hydrodae.viewer.stage import Joint, Stage
 
 #: How the types of forces that take power begin: their joint is marked.
@@ -52,6 +53,7 @@ def make_stage(
     notes = _thin_out(source, step)
     bodies = make_bodies(source, tables, shapes or {}, height)
     lines, missing = make_lines(source, tables, bodies)
+    spots, hidden = make_spots(source, tables, bodies, lines)
     sea, left_out = make_sea(source, tables)
     if sea is not None and len(sea.waves):
         notes.append("the sea is that of the waves as they come, without what bodies make in it")
@@ -65,7 +67,8 @@ def make_stage(
         curves=make_curves(source, tables, bodies, channels),
         sea=sea,
         bed=seabed(sea, tables, lines),
-        notes=[*notes, *missing, *left_out],
+        notes=[*notes, *missing, *hidden, *left_out],
+        spots=spots,
     )
 
 

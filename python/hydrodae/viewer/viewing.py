@@ -41,22 +41,41 @@ class View:
     frame: Frame
     camera: tuple[float, float, float]
 
-    def html(self) -> str:
-        """Return the page: one HTML file that needs neither network nor server."""
-        return page_text(self.stage, self.frame, self.camera)
+    def html(self, time: float | None = None) -> str:
+        """Return the page: one HTML file that needs neither network nor server.
 
-    def write(self, path: PathLike) -> Path:
-        """Write the page.
+        Parameters
+        ----------
+        time : float, optional
+            At which it opens [s]; by default the first sample.
 
         Raises
         ------
         CaseError
-            The name does not end in .html.
+            The time is outside of the samples.
+        """
+        begin = float(self.stage.time[0]) if time is None else self._inside(time)
+        return page_text(self.stage, self.frame, self.camera, begin)
+
+    def write(self, path: PathLike, *, time: float | None = None) -> Path:
+        """Write the page.
+
+        Parameters
+        ----------
+        path : path
+            Ends in .html.
+        time : float, optional
+            At which it opens [s]; by default the first sample.
+
+        Raises
+        ------
+        CaseError
+            The name does not end in .html, or the time is outside of the samples.
         """
         target = Path(path)
         if target.suffix.lower() not in (".html", ".htm"):
             raise CaseError(f"{target}: a page needs a name that ends in .html")
-        return write_page(self.html(), target)
+        return write_page(self.html(time), target)
 
     def picture(
         self, path: PathLike, *, time: float | None = None, size: tuple[int, int] = (1280, 720)
@@ -80,10 +99,14 @@ class View:
             Playwright (extra `view`) or a browser is missing.
         """
         start, end = float(self.stage.time[0]), float(self.stage.time[-1])
-        at = 0.5 * (start + end) if time is None else time
-        if not start <= at <= end:
-            raise CaseError(f"time {at:g} s: the samples are from {start:g} to {end:g} s")
+        at = 0.5 * (start + end) if time is None else self._inside(time)
         return browser.picture(self.html(), Path(path), at, size)
+
+    def _inside(self, time: float) -> float:
+        start, end = float(self.stage.time[0]), float(self.stage.time[-1])
+        if not start <= time <= end:
+            raise CaseError(f"time {time:g} s: the samples are from {start:g} to {end:g} s")
+        return time
 
     def video(
         self,

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from hydrodae.case import Case
+from hydrodae.case.tables import unit_of
 from hydrodae.errors import CaseError
 from hydrodae.study.sweep.journal import Row
 from hydrodae.study.sweep.measures import ENDS
@@ -55,7 +56,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
     if not study.dimensions:
         for key in study.points[0]:
             values = [point[key] for point in study.points]
-            variables[study.column(key)] = ("point", _column(values), {"key": key})
+            variables[study.column(key)] = ("point", _column(values), _attributes(key))
     out = xr.Dataset(variables, coordinates, dict(attributes))
     _add_means(out, study)
     _add_energy(out, study)
@@ -73,9 +74,21 @@ def _axes(study: Study) -> tuple[tuple[int, ...], dict[str, Any]]:
         return (len(study.points),), {}
     names = {key: study.column(key) for key in study.dimensions}
     return tuple(map(len, study.dimensions.values())), {
-        names[key]: (names[key], _column(values), {"key": key})
+        names[key]: (names[key], _column(values), _attributes(key))
         for key, values in study.dimensions.items()
     }
+
+
+def _attributes(key: str) -> dict[str, str]:
+    """Of a column of a key: the key, and its unit where it has one."""
+    unit = unit_of(key)
+    return {"key": key} | ({"units": unit} if unit not in ("", "-") else {})
+
+
+def with_unit(values: xr.DataArray, dimension: str) -> str:
+    """Name of a dimension, its unit in brackets where it has one."""
+    unit = values[dimension].attrs.get("units", "")
+    return f"{dimension} [{unit}]" if unit else dimension
 
 
 def _column(values: list[Any]) -> Any:
@@ -217,12 +230,15 @@ def _rows(power: xr.DataArray, half: xr.DataArray | None) -> list[str]:
     down, across = (power[d].to_numpy() for d in power.dims)
     percent = np.full(power.shape, np.nan) if half is None else half.to_numpy()
     width = 11 if half is None else 18
-    head = f"{power.dims[0]} | {power.dims[1]}".rjust(28)
+    first, second = (with_unit(power, str(dimension)) for dimension in power.dims)
+    head = f"{first} | {second}".rjust(28)
     lines = ["  " + head + "".join(f"{x!s:>{width}.10}" for x in across)]
     for value, row, near in zip(down, power.to_numpy(), percent, strict=True):
         cells = [
             f"{x:.4g}" + f" +-{p:.2g} %" * bool(np.isfinite(p))
             for x, p in zip(row, near, strict=True)
         ]
-        lines.append("  " + f"{value!s:>28}" + "".join(f"{cell:>{width}}" for cell in cells))
+        lines.append(
+            "  " + str(value).rjust(len(head)) + "".join(f"{cell:>{width}}" for cell in cells)
+        )
     return lines

@@ -4,7 +4,7 @@ const SPEEDS = [0.001, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50];
 
 class Player {
   constructor(changed) {
-    this.time = FIRST, this.playing = false, this.changed = changed;
+    this.time = Math.min(Math.max(DATA.begin, FIRST), LAST), this.playing = false, this.changed = changed;
     this.slider = byId("slider"), this.button = byId("play");
     if (TIME.length < 2) byId("player").hidden = true;
     this.slider.min = FIRST, this.slider.max = LAST;

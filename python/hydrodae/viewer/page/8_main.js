@@ -34,6 +34,7 @@ const bodies = DATA.bodies.map(makeBody);
 bodies.forEach((body) => scene.add(body.group));
 const joints = DATA.joints.map((joint) => makeJoint(joint, bodies, scene));
 const lines = makeLines(scene);
+const spots = DATA.spots.map((spot) => makeSpot(spot, scene));
 const water = DATA.sea ? makeWater() : null;
 if (water) scene.add(water.mesh);
 const bed = DATA.bed !== null ? makeBed() : null;
@@ -102,6 +103,7 @@ function draw(level = player.playing ? bare : 0) {
   bodies.forEach((body) => body.place(sample));
   const pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / window.innerHeight;
   lines.place(sample, camera, pixel);
+  spots.forEach((spot) => spot.place(sample, camera, pixel));
   water?.place(player.time);
   lights.aim(camera, controls.target);
   renderer.render(scene, camera);
@@ -155,14 +157,14 @@ let picked = null;
 function thingAt(event) {
   const at = new L.Vector2((2 * event.clientX) / innerWidth - 1, 1 - (2 * event.clientY) / innerHeight);
   caster.setFromCamera(at, camera);
-  const solid = [...bodies, ...joints].flatMap((b) => b.group.children.filter((c) => c.isMesh));
+  const solid = [...bodies, ...joints, ...spots].flatMap((b) => b.group.children.filter((c) => c.isMesh));
   const hit = caster.intersectObjects([...solid, lines.mesh], false)[0];
   if (!hit) return null;
   return thing(hit.object.userData.name ?? lines.mesh.userData.names[hit.instanceId]);
 }
 
 function thing(name) {
-  const found = [...bodies, ...joints].find((b) => b.name === name);
+  const found = [...bodies, ...joints, ...spots].find((b) => b.name === name);
   if (found) return found;
   const line = DATA.lines.find((l) => l.name === name);
   return line ? { name, paints: [], origin: `${line.kind} of ${line.bodies.join(" and ")}` } : null;
