@@ -349,6 +349,23 @@ def test_the_command_writes_waves_that_run_as_the_record(tmp_path, monkeypatch, 
     assert np.abs(results["sea/elevation"].to_numpy()[keep] - want).max() < 0.03
 
 
+def test_components_run_with_their_phases(tmp_path, monkeypatch, capsys):
+    import hydrodae
+
+    monkeypatch.chdir(tmp_path)
+    path = written(tmp_path, "height;T;dir;phase [deg]\n0,8;9;0;0\n0,4;7;0;120\n")
+    assert cli.main(["new", "point_absorber", "buoy"]) == 0
+    capsys.readouterr()
+    assert cli.main(["record", str(path)]) == 0
+    case = Path("buoy/case.toml")
+    case.write_text(_without_waves(case.read_text()) + "\n" + capsys.readouterr().out)
+    results = hydrodae.run(case, set={"solver.end_time": 60.0})
+    late = results.time > 35.0  # after the ramp
+    t = results.time[late]
+    want = 0.4 * np.cos(2 * np.pi / 9 * t) + 0.2 * np.cos(2 * np.pi / 7 * t + 2 * np.pi / 3)
+    np.testing.assert_allclose(results["sea/elevation"].to_numpy()[late], want, atol=1e-8)
+
+
 def _without_waves(text: str) -> str:
     head, _, rest = text.partition("[[wave]]")
     return head + "[[body]]" + rest.partition("[[body]]")[2]
