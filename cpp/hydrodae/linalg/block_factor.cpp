@@ -8,7 +8,8 @@ namespace hydrodae::linalg {
 namespace {
 
 constexpr double least_pivot = 1e-15; ///< at most this part of its entry is rounding
-/// Likewise of S without eD: less has lost so many digits that eD has to keep S regular.
+/// Likewise of S without eD. More keeps ten of sixteen digits, so that one refinement of a solution
+/// restores them all; less may be rows that follow from each other, which eD has to keep apart.
 constexpr double regular = 1e-6;
 
 /// Sets of numbers, joined one by one.

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "hydrodae/core/error.h"
 #include "hydrodae/linalg/dense_cholesky.h"
@@ -82,6 +83,7 @@ SaddlePoint::SaddlePoint(Equations& equations)
     start_[c + 1] += start_[c];
   plain_.resize(row_.size());
   metric_.resize(s_.n_lambda);
+  damping_.resize(s_.n_lambda);
   heaviest_.resize(static_cast<std::size_t>(s_.n_mechanisms) +
                    1); // the last: of what is not a body
   mechanism_.assign(s_.n_u, heaviest_.size() - 1);
@@ -98,12 +100,16 @@ SaddlePoint::SaddlePoint(Equations& equations)
 
 SaddlePoint::~SaddlePoint() = default;
 
-/// Coordinates of a body stay together.
+/// Coordinates of a body stay together. Tables whose added mass is not symmetric have no Cholesky
+/// factors that a refinement could use.
 void SaddlePoint::find_blocks() {
+  const MatrixX& A = s_.hydro.added_mass;
+  if (A.size() > 0 && (A - A.transpose()).cwiseAbs().maxCoeff() > much_left * largest(A)) {
+    chosen_ = true;
+    return;
+  }
   std::vector<Index> together(static_cast<std::size_t>(s_.n_u));
-  Index count = 0;
-  for (Index& number : together)
-    number = count++;
+  std::iota(together.begin(), together.end(), Index{0});
   for (const system::BodyData& b : s_.bodies)
     for (int k = 0; k < b.n_active; ++k)
       together[static_cast<std::size_t>(b.u0 - s_.u0 + k)] = b.u0 - s_.u0;
@@ -158,6 +164,7 @@ bool SaddlePoint::factorise() {
       d /= most;
     d = std::max(d, least_metric * row.yields);
     metric_[i - s_.n_u] = d > 0.0 ? d : 1.0;
+    damping_[i - s_.n_u] = regularisation * metric_[i - s_.n_u];
   }
   if (!chosen_) { // dense blocks do so many multiply-adds at once
     chosen_ = true;
@@ -167,7 +174,7 @@ bool SaddlePoint::factorise() {
       blocks_.reset();
     return true;
   }
-  in_blocks_ = blocks_ && blocks_->factorise(plain_, regularisation * metric_);
+  in_blocks_ = blocks_ && blocks_->factorise(plain_, damping_);
   return in_blocks_ || factorise_sparse();
 }
 
@@ -178,7 +185,7 @@ bool SaddlePoint::factorise_sparse() {
   std::vector<double>& values = lu_->values();
   std::copy(plain_.begin(), plain_.end(), values.begin());
   for (Index i = 0; i < s_.n_lambda; ++i)
-    values[diagonal_[i]] = -regularisation * metric_[i];
+    values[diagonal_[i]] = -damping_[i];
   old_pivots_ = lu_->refactorise();
   return old_pivots_ || lu_->factorise();
 }

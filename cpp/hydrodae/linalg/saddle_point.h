@@ -107,6 +107,7 @@ private:
     Index slot = 0;                    ///< in the matrix
     bool rate = false, turned = false; ///< from dF/dy'; with the sign changed
   };
+
   Equations& e_;
   const system::Regime& s_;
   system::Pattern pattern_;     ///< of what accelerations need
@@ -117,7 +118,7 @@ private:
   std::vector<Index> diagonal_;          ///< slots of eD
   std::vector<Index> mass_;              ///< slots of the diagonal of M
   std::vector<double> plain_;            ///< values with e = 0
-  VectorX metric_;                       ///< (n_lambda,) D
+  VectorX metric_, damping_;             ///< (n_lambda,) D, eD
   std::vector<std::size_t> mechanism_;   ///< (n_u,)
   std::vector<bool> turns_;              ///< (n_u,) angular velocities
   std::vector<Heaviest> heaviest_;       ///< by mechanism

@@ -109,7 +109,7 @@ def _of_elevation(
 ) -> tuple[list[str], list[dict[str, Any]]]:
     written = record.write(arguments.output)
     print(f"written: {written}", file=sys.stderr)
-    told = [
+    notes = [
         f"{len(record.time)} samples over {record.length:g} s; significant height "
         f"{record.significant_height:.4g} m, mean {record.elevation.mean():.3g} m",
         *record.notes,
@@ -122,7 +122,7 @@ def _of_elevation(
         "heading_deg": heading,
         "taper": min(30.0, float(f"{0.1 * record.length:.3g}")),
     }
-    return told, [keys]
+    return notes, [keys]
 
 
 def _of_spectrum(
@@ -131,26 +131,26 @@ def _of_spectrum(
     if found.heading is not None and arguments.heading is not None:
         raise CaseError(f"--heading: {arguments.file} has directions of its own")
     waves = found.waves(arguments.name, arguments.heading or 0.0)
-    told = [
+    notes = [
         f"significant height {found.significant_height:.4g} m, peak period "
         f"{found.peak_period:.4g} s, {len(waves)} direction{'s' if len(waves) > 1 else ''}",
         *found.notes,
     ]
-    return told, waves
+    return notes, waves
 
 
 def _of_components(
     name: str, found: list[Component], table: Table
 ) -> tuple[list[str], list[dict[str, Any]]]:
     height = 4.0 * (0.5 * sum(one.amplitude**2 for one in found)) ** 0.5
-    told = [f"{len(found)} components; significant height {height:.4g} m", *table.notes]
-    return told, [one.wave(f"{name}_{k}") for k, one in enumerate(found, 1)]
+    notes = [f"{len(found)} components; significant height {height:.4g} m", *table.notes]
+    return notes, [one.wave(f"{name}_{k}") for k, one in enumerate(found, 1)]
 
 
-def _print(told: list[str], waves: list[dict[str, Any]]) -> None:
+def _print(notes: list[str], waves: list[dict[str, Any]]) -> None:
     from hydrodae.case.case import to_toml
 
-    lines = [f"# {line}" for line in told]
+    lines = [f"# {line}" for line in notes]
     for keys in waves:
         lines += ["", "[[wave]]"]
         for key, value in keys.items():
