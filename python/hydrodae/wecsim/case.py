@@ -21,15 +21,15 @@ from hydrodae.wecsim.objects import InputFile
 from hydrodae.wecsim.remarks import Remarks
 from hydrodae.wecsim.sea import add_solver, add_waves, radiation_of
 from hydrodae.wecsim.slx import Model, read_slx
+from hydrodae.wecsim.stages import POWERS
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Topology, find_topology
 
 INPUT = "wecSimInputFile.m"
 #: Coordinates of the database that move with each motion of a body.
 _KEEP = {"rigid": "all", "planar": "planar", "heave": "heave"}
-#: What PTO-Sim and its peers become by hand.
+#: What these become by hand.
 _OTHERS = {
-    "ptoSim": "PTO-Sim; see the forces pto_hydraulic, pto_general, pto_lagged",
     "cable": "a cable; see the force rope",
     "wind": "wind",
     "windTurbine": "a wind turbine",
@@ -102,6 +102,7 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
             target / "case.toml",
             target / "hydro.h5",
             target / STUDY,
+            target / POWERS,
         ]:
             file.unlink(missing_ok=True)
         if made and not any(target.iterdir()):
@@ -226,6 +227,9 @@ def _write(
     links = Links(read, topology, bodies, carriers)
     for link in topology.links:
         links.add(text, link, model.place(link.block))
+    if links.stages is not None:
+        simu = read.get("simu")
+        links.stages.write(target, 100.0 if simu is None else simu.number_of("endTime", 100.0))
     for block, group in topology.moorings:
         held = topology.groups[group].bodies
         add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)
@@ -290,6 +294,12 @@ def _unused(read: InputFile) -> None:
         if item.kind in ("body", "constraint", "pto") and "" not in item.used:
             read.remarks.left_out(
                 read.place(item.line), f"{item.title} has no block in the Simulink model"
+            )
+            continue
+        if item.kind == "ptoSim" and "" not in item.used:
+            read.remarks.left_out(
+                read.place(item.line),
+                f"{item.title}: drives no take-off of the model",
             )
             continue
         for field, entry in item.entries.items():

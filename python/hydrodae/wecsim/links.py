@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.m_text import NotEvaluated
 from hydrodae.wecsim.objects import InputFile, Item
+from hydrodae.wecsim.ptosim import Mount, write
+from hydrodae.wecsim.ptosim_trace import find_chain
 from hydrodae.wecsim.signals import Law, find_law
+from hydrodae.wecsim.stages import Stages
 from hydrodae.wecsim.text import CaseText
 from hydrodae.wecsim.topology import Link, Topology, plain_name, unique
 
@@ -50,6 +53,7 @@ class Links:
         self.read, self.topology, self.bodies, self.carriers = read, topology, bodies, carriers
         self.taken: set[str] = set()
         self.kinds: dict[str, str] = {}
+        self.stages: Stages | None = None
 
     def add(self, text: CaseText, link: Link, place: str) -> None:
         """Add the joint of a link, with its take-off and stops."""
@@ -80,10 +84,37 @@ class Links:
             kind = "displacement" if link.kind == "Translational" else "angle_deg"
             keys["initial"] = {kind: start if kind == "displacement" else math.degrees(start)}
         text.table("[[joint]]", keys, f"{item.title}, block {link.block.name!r}")
-        law = self._law(link, place) if link.actuated else None
+        chained = link.is_pto and self._chain(text, link, place, name, start)
+        law = self._law(link, place) if link.actuated and not chained else None
         if link.is_pto:
             self._take_off(text, link, name, start, law or Law())
         self._stops(text, link, name, start)
+
+    def _chain(self, text: CaseText, link: Link, place: str, name: str, start: float) -> bool:
+        """Write what blocks of PTO-Sim drive an actuator; whether they do."""
+        before = len(text.lines)
+        forward = -link.axis("x") if link.kind == "Rotational" else link.axis("z")
+        mount = Mount(
+            name,
+            self.carriers[link.base],
+            self.carriers[link.follower],
+            self._point(link),
+            np.asarray(forward),
+            np.asarray(link.axis("z")),
+            start,
+        )
+        try:
+            chain = find_chain(link.block, link.kind, self.read)
+            if chain is None:
+                return False
+            if link.kind not in _RATES:
+                raise NotEvaluated(f"a joint of type {link.kind}")
+            found = write(text, chain, mount, self.read)
+            self.stages = found if self.stages is None else self.stages + found
+        except NotEvaluated as error:
+            del text.lines[before:]
+            self.read.remarks.left_out(place, f"PTO-Sim at {link.item.title}: {error}")
+        return True
 
     def _law(self, link: Link, place: str) -> Law | None:
         """The law of an actuator; one that is not understood is left out."""

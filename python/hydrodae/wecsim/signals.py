@@ -61,11 +61,21 @@ def find_law(actuator: Block, core: str, read: InputFile) -> Law:
     driver = actuator.drivers.get("in:1")
     if driver is None:
         raise NotEvaluated("nothing drives it that could be followed")
-    tracer = _Tracer(actuator, _ELEMENT[core], read)
     block, port = driver
     if block.kind == "MATLAB Function":
-        return tracer.function(block, port)
-    form = tracer.form(block, port, 0)
+        return _Tracer(actuator, _ELEMENT[core], read).function(block, port)
+    return linear_law(actuator, actuator, core, read)
+
+
+def linear_law(fed: Block, actuator: Block, core: str, read: InputFile) -> Law:
+    """The law behind the first input of a block, of the response of an actuator.
+
+    Raises
+    ------
+    NotEvaluated
+        A block on the way is not known here, or the law is not linear.
+    """
+    form = _Tracer(actuator, _ELEMENT[core], read).input(fed, 1, 0)
     if set(form) - {"position", "velocity"}:
         raise NotEvaluated(f"its law has the terms {', '.join(sorted(form))}")
     damping = -form.get("velocity", 0.0)

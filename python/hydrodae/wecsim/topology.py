@@ -168,6 +168,8 @@ class _Finder:
             else:
                 self.topology.moorings.append((block, self._group_number(net)))
             return
+        if block.library == "WECSim_Lib_PTOSim":
+            return  # what its items are for, the links find out
         core = kind.partition(" PTO")[0]
         if core not in (*JOINTS, "Universal"):
             self._left_out(block, f"{block.library.replace('WECSim_Lib_', '')} {kind}")

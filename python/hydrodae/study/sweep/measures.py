@@ -62,6 +62,15 @@ class MeasureError(CaseError):
 
 
 @dataclass(frozen=True)
+class Term:
+    """factor x^power of a channel x, or the factor alone."""
+
+    channel: str = ""
+    factor: float = 1.0
+    power: int = 1
+
+
+@dataclass(frozen=True)
 class Measure:
     """A statistic of a channel over the samples from a time on."""
 
@@ -72,6 +81,9 @@ class Measure:
     start: float | None = None  #: s; None: the end of the ramp
     exponent: float = 0.0  #: of fatigue
     frequency: float = 1.0  #: of fatigue, Hz
+    terms: tuple[Term, ...] = ()  #: in place of the channel
+    unit: str = ""  #: of the sum of the terms
+    over: str = ""  #: another result, by which the value is divided
 
     def __call__(self, results: Results) -> tuple[float, str]:
         """Return the value and its unit.
@@ -104,21 +116,34 @@ class Measure:
 
     def _samples(self, results: Results) -> tuple[Array, str]:
         """Samples from the start on, and their unit."""
-        if self.channel not in results:
-            told = str(results.missing(self.channel)).partition(" has no channel ")[2]
+        if not self.terms:
+            return self._channel(results, self.channel)
+        total, units = np.zeros(1), [self.unit] if self.unit else []
+        for term in self.terms:
+            values = np.ones(1)
+            if term.channel:
+                values, unit = self._channel(results, term.channel)
+                units.append(unit)
+            total = total + term.factor * values**term.power
+        return total, units[0]
+
+    def _channel(self, results: Results, channel: str) -> tuple[Array, str]:
+        """Samples of one channel from the start on, and their unit."""
+        if channel not in results:
+            told = str(results.missing(channel)).partition(" has no channel ")[2]
             raise MeasureError(f"result.{self.name}: the runs have no channel {told}")
-        series = results[self.channel]
+        series = results[channel]
         if self.component is not None:
             known = [*map(str, series["component"].values)] if series.ndim > 1 else []
             if self.component not in known:
                 told = f"the components {', '.join(known)}" if known else "no components"
                 raise MeasureError(
-                    f"result.{self.name}: {self.channel} has {told}; got {self.component!r}"
+                    f"result.{self.name}: {channel} has {told}; got {self.component!r}"
                 )
             series = series.sel(component=self.component)
         elif series.ndim > 1:
             raise MeasureError(
-                f"result.{self.name}: {self.channel} has components "
+                f"result.{self.name}: {channel} has components "
                 f"{', '.join(map(str, series['component'].values))}: name one with 'component'"
             )
         values = series.to_numpy()[results.time >= self._start(results)]
@@ -139,9 +164,10 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         A key is missing or wrong.
     """
     where = f"{file}: [result.{name}]"
-    keys = ("channel", "statistic", "component", "from", "exponent", "frequency")
-    if not isinstance(table, dict) or "channel" not in table:
-        raise CaseError(f"{where}: expected a table with the name of a 'channel'")
+    keys = ["channel", "terms", "unit", "over", "statistic", "component", "from"]
+    keys += ["exponent", "frequency"]
+    if not isinstance(table, dict) or ("channel" in table) == ("terms" in table):
+        raise CaseError(f"{where}: expected a table with a 'channel', or with 'terms' of several")
     for key in table:
         if key not in keys:
             near = difflib.get_close_matches(key, keys, 1)
@@ -149,7 +175,7 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
                 f"{where}: unknown key {key!r}"
                 + (f"; did you mean {near[0]!r}?" if near else f"; valid: {', '.join(keys)}")
             )
-    for key in ("channel", "statistic", "component"):
+    for key in ("channel", "statistic", "component", "unit", "over"):
         if not isinstance(table.get(key, ""), str):
             raise CaseError(f"{where}: key {key!r}: expected a text, got {table[key]!r}")
     start = table.get("from")
@@ -169,12 +195,43 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
         raise CaseError(f"{where}: every run tells {name!r}; take another name")
     return Measure(
         name,
-        table["channel"],
+        table.get("channel", ""),
         statistic,
         table.get("component"),
         None if start is None else float(start),
         **_fatigue(where, statistic, table),
+        terms=tuple(_term(where, entry) for entry in _entries(where, table)),
+        unit=table.get("unit", ""),
+        over=table.get("over", ""),
     )
+
+
+def _entries(where: str, table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Entries of the key 'terms'."""
+    entries = table.get("terms", [])
+    fits = isinstance(entries, list) and all(isinstance(entry, dict) for entry in entries)
+    if "terms" in table and not (fits and any("channel" in entry for entry in entries)):
+        raise CaseError(
+            f"{where}: key 'terms': expected a list such as "
+            '[{ channel = "forces/pto/power_absorbed", factor = 0.9 }]'
+        )
+    if "unit" in table and not entries:
+        raise CaseError(f"{where}: key 'unit' belongs to 'terms'; a channel has its own")
+    return list(entries)
+
+
+def _term(where: str, entry: dict[str, Any]) -> Term:
+    kinds: dict[str, Any] = {"channel": str, "factor": int | float, "power": int}
+    for key, value in entry.items():
+        if isinstance(value, bool) or not isinstance(value, kinds.get(key, ())):
+            raise CaseError(
+                f"{where}: key 'terms': a term has the keys channel (a text), factor (a number) "
+                f"and power (a whole number); got {entry!r}"
+            )
+    term = Term(**entry)
+    if term.power < 1 or not math.isfinite(term.factor):
+        raise CaseError(f"{where}: key 'terms': expected a finite factor and a power >= 1")
+    return term
 
 
 def _is_time(value: Any) -> bool:
@@ -215,9 +272,28 @@ def measure(results: Results, measures: tuple[Measure, ...]) -> dict[str, tuple[
             out |= _ends(name, low, high, "W")
     for m in measures:
         out[m.name] = value, unit = m(results)
-        if pair := m.interval(results):
+        if not m.over and (pair := m.interval(results)):
             out |= _ends(m.name, *pair, unit)
+    for m in measures:
+        if m.over:
+            value, unit = _base(m, out, measures)
+            out[m.name] = (
+                out[m.name][0] / value if value else math.nan,
+                "-" if unit == out[m.name][1] else f"{out[m.name][1]}/({unit})",
+            )
     return out
+
+
+def _base(
+    m: Measure, out: dict[str, tuple[float, str]], measures: tuple[Measure, ...]
+) -> tuple[float, str]:
+    """What a measure is divided by: another result that is no ratio itself."""
+    known = [name for name in out if name not in {x.name for x in measures if x.over}]
+    if m.over not in known:
+        raise MeasureError(
+            f"result.{m.name}: key 'over': {m.over!r} is no result; known: {', '.join(known)}"
+        )
+    return out[m.over]
 
 
 def _ends(name: str, low: float, high: float, unit: str) -> dict[str, tuple[float, str]]:

@@ -122,7 +122,13 @@ def _quantity(file: Path, given: Mapping[str, Any], name: Any) -> Quantity:
     """A mean power, or the [result.NAME] of that name."""
     results = given.get("result", {})
     if isinstance(name, str) and isinstance(results, dict) and name in results:
-        return Quantity(name, make_measure(file, name, results[name]))
+        measure = make_measure(file, name, results[name])
+        if measure.terms or measure.over:
+            raise CaseError(
+                f"{file}: [optimise]: [result.{name}] has 'terms' or 'over', which have no "
+                f"gradient; expected a result of one 'channel', or {POWER!r}"
+            )
+        return Quantity(name, measure)
     if isinstance(name, str) and (name == POWER or name.startswith(POWER + ".")):
         return Quantity(name)
     raise CaseError(

@@ -117,7 +117,7 @@ def _linear(
         found |= {f"mean_power_absorbed.{name}": (value, "W") for name, value in each.items()}
     for wanted in measures:
         value = deviation.get(linear_name(wanted))
-        if wanted.statistic == "std" and value is not None:
+        if wanted.statistic == "std" and value is not None and not wanted.over:
             found[wanted.name] = (value, unit_of(wanted))
     return found
 
