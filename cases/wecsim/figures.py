@@ -9,15 +9,23 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import ptosim  # type: ignore[import-not-found] # stands beside this file
+from of_case import (  # type: ignore[import-not-found] # stands beside this file
+    NoFigure,
+    amplitude,
+    database_of,
+    heave_of,
+    heave_tables,
+    tables_of,
+    time_of,
+    waterplane_of,
+)
 from scipy.io import loadmat
 
 import hydrodae
 from hydrodae.case.contents import case_tables
 from hydrodae.results import Results
-
-
-class NoFigure(Exception):
-    """The case is not of the kind that the figure is about."""
+from hydrodae.study.sweep.measures import make_measure, measure
 
 
 @dataclass
@@ -66,9 +74,11 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
     kind = example.get("figure", "")
     if kind == "stored":
         return stored(results, case, folder / example["file"])
+    if kind == "stages":
+        return stages(results, case, folder, example["stage"])
     if kind == "":
         return None
-    tables = _tables(case)
+    tables = tables_of(case)
     if kind in ("heave", "reactive") and "period" not in tables.get("wave", [{}])[0]:
         raise NoFigure("there is no regular wave")
     return {
@@ -85,30 +95,21 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
     }[kind](results, case)
 
 
-def amplitude(time: np.ndarray, value: np.ndarray, omega: float, periods: int = 5) -> float:
-    """Amplitude at a frequency in rad/s, by least squares over the last periods."""
-    last = time >= time[-1] - periods * 2.0 * math.pi / omega
-    t, x = time[last], value[last]
-    base = np.column_stack([np.cos(omega * t), np.sin(omega * t), np.ones_like(t)])
-    found = np.linalg.lstsq(base, x, rcond=None)[0]
-    return float(np.hypot(found[0], found[1]))
-
-
 def stored(results: Results, case: Path, file: Path) -> Figure:
     """Heave of the first body against the second at the end of the run, and that of WEC-Sim."""
     bodies = loadmat(file, simplify_cells=True)["output"]["bodies"]
     time = np.asarray(bodies[0]["time"], dtype=float)
     theirs = bodies[0]["position"][:, 2] - bodies[1]["position"][:, 2]
-    names = [body["name"] for body in _tables(case)["body"]]
-    ours = _heave(results, names[0]) - _heave(results, names[1])
-    wave = _tables(case)["wave"][0]
+    names = [body["name"] for body in tables_of(case)["body"]]
+    ours = heave_of(results, names[0]) - heave_of(results, names[1])
+    wave = tables_of(case)["wave"][0]
     if wave["type"] == "regular":
         omega = 2.0 * math.pi / wave["period"]
         name = "amplitude of the relative heave, m"
-        values = amplitude(_time(results), ours, omega), amplitude(time, theirs, omega)
+        values = amplitude(time_of(results), ours, omega), amplitude(time, theirs, omega)
     else:
         name = "standard deviation of the relative heave (other phases of the sea), m"
-        half, mine = time >= 0.5 * time[-1], _time(results) >= 0.5 * time[-1]
+        half, mine = time >= 0.5 * time[-1], time_of(results) >= 0.5 * time[-1]
         values = float(np.std(ours[mine])), float(np.std(theirs[half]))
     return Figure(name, *values, f"stored, {file.name}")
 
@@ -119,13 +120,13 @@ def heave(results: Results, case: Path) -> Figure:
     (-w2 (M + A) + i w (B + D) + C + K) X = F a for the heave of all bodies that move, from the
     tables of the database at the frequency of the wave: an own solution, without the kernel.
     """
-    tables = _tables(case)
+    tables = tables_of(case)
     wave = tables["wave"][0]
     if wave["type"] != "regular":
         raise NoFigure("no regular wave")
-    names, response, _ = _linear(tables, _database(case))
+    names, response, _ = _linear(tables, database_of(case))
     omega = 2.0 * math.pi / wave["period"]
-    ours = amplitude(_time(results), _heave(results, names[0]), omega)
+    ours = amplitude(time_of(results), heave_of(results, names[0]), omega)
     exact = float(abs(response[0]))
     return Figure(f"heave amplitude of {names[0]}, m", ours, exact, "linear theory")
 
@@ -137,9 +138,9 @@ def _linear(
     wave = tables["wave"][0]
     omega = 2.0 * math.pi / wave["period"]
     names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
-    added, damping, force = _heave_tables(database, names, omega)
+    added, damping, force = heave_tables(database, names, omega)
     mass = np.diag([b["mass"] for b in tables["body"] if b["name"] in names])
-    water = [_waterplane(database, n) for n in names]
+    water = [waterplane_of(database, n) for n in names]
     stiffness = np.diag(np.array(water) * database.rho * database.gravity)
     joints = {joint["name"]: joint for joint in tables.get("joint", [])}
     absorbing = np.zeros_like(damping)
@@ -158,9 +159,9 @@ def _linear(
 
 def control(results: Results, case: Path) -> Figure:
     """Mean absorbed power of a linear controller over five periods, and that of linear theory."""
-    tables = _tables(case)
+    tables = tables_of(case)
     omega = 2.0 * math.pi / tables["wave"][0]["period"]
-    time = _time(results)
+    time = time_of(results)
     last = time >= time[-1] - 10.0 * math.pi / omega
     channels = [name for name in results if name.endswith("/power_absorbed")]
     if not channels:
@@ -169,7 +170,7 @@ def control(results: Results, case: Path) -> Figure:
     base = np.column_stack([np.ones_like(t), np.cos(t), np.sin(t)])
     power = sum(np.asarray(results[name])[last] for name in channels)
     ours = float(np.linalg.lstsq(base, power, rcond=None)[0][0])
-    exact = _linear(tables, _database(case))[2]
+    exact = _linear(tables, database_of(case))[2]
     return Figure("mean absorbed power of five periods, W", ours, exact, "linear theory")
 
 
@@ -187,7 +188,7 @@ def conditions(results: Results, case: Path) -> Figure:
     ours, exact = float(table["mean_power_absorbed"].sum()), 0.0
     for number in range(count):
         point = given.with_values({key: values[number] for key, values in study.items()})
-        exact += _linear(dict(case_tables(point)), _database(case))[2]
+        exact += _linear(dict(case_tables(point)), database_of(case))[2]
     return Figure(f"sum of the mean powers of {count} conditions, W", ours, exact, "linear theory")
 
 
@@ -196,10 +197,10 @@ def reactive(results: Results, case: Path) -> Figure:
 
     From the imported database, not from the run.
     """
-    tables, database = _tables(case), _database(case)
+    tables, database = tables_of(case), database_of(case)
     omega = 2.0 * math.pi / tables["wave"][0]["period"]
     name = next(b["name"] for b in tables["body"] if b.get("motion") != "fixed")
-    _, damping, _ = _heave_tables(database, [name], omega)
+    _, damping, _ = heave_tables(database, [name], omega)
     return Figure(
         "optimal gain by the imported database, N s/m",
         float(damping[0, 0]),
@@ -214,16 +215,16 @@ def decay(results: Results, case: Path) -> Figure:
     The tables are taken at that one frequency: an approximation, since the memory of the waves
     also bends the first cycle.
     """
-    tables, database = _tables(case), _database(case)
+    tables, database = tables_of(case), database_of(case)
     body = next(b for b in tables["body"] if b.get("motion") != "fixed")
-    water = _waterplane(database, body["name"])
+    water = waterplane_of(database, body["name"])
     stiffness = water * database.rho * database.gravity
     omega = 1.0
     for _ in range(60):
-        added, damping, _ = _heave_tables(database, [body["name"]], omega)
+        added, damping, _ = heave_tables(database, [body["name"]], omega)
         total = body["mass"] + added[0, 0]
         omega = math.sqrt(stiffness / total - (0.5 * damping[0, 0] / total) ** 2)
-    time, z = _time(results), _heave(results, body["name"])
+    time, z = time_of(results), heave_of(results, body["name"])
     z = z - z[-1] if tables.get("morison") else z - body["center_of_gravity"][2]
     down = np.flatnonzero((z[:-1] > 0.0) & (z[1:] <= 0.0))
     if down.size < 2:
@@ -276,7 +277,7 @@ step = 0.05
     for _ in range(50):
         k = omega**2 / (gravity * math.tanh(k * depth))
     exact = 0.5 * math.pi * rho * gravity * diameter**2 * 0.5 * height * math.tanh(k * depth)
-    ours = amplitude(_time(run), force, omega)
+    ours = amplitude(time_of(run), force, omega)
     return Figure(
         "force on its pile in a wave of 2 m, 5 s (own case), N", ours, exact, "closed form"
     )
@@ -287,29 +288,58 @@ def power(results: Results, case: Path) -> Figure:
     channels = [name for name in results if name.endswith("/power_absorbed")]
     if not channels:
         raise NoFigure("no take-off in the case")
-    if not _tables(case).get("wave"):
+    if not tables_of(case).get("wave"):
         raise NoFigure("still water")
-    time = _time(results)
+    time = time_of(results)
     last = time >= 0.5 * time[-1]
     total = sum(float(np.mean(np.asarray(results[name])[last])) for name in channels)
     return Figure("mean absorbed power after half of the time, W", total)
 
 
+def stages(results: Results, case: Path, folder: Path, stage: str) -> Figure:
+    """Mean power of a stage after the ramp, and that of the equations of PTO-Sim."""
+    file = case.with_name("powers.toml")
+    if not file.is_file():
+        raise NoFigure("no powers were written")
+    name = f"power_{stage}"
+    wanted = tomllib.loads(file.read_text(encoding="utf-8"))["result"][name]
+    ours = measure(results, (make_measure(file, name, wanted),))[name][0]
+    chain = ptosim.chain_of(folder)
+    source = "PTO-Sim's equations at this motion"
+    if chain.kind == "simpleDDPTO":
+        exact, source = _direct_drive(chain, case), "linear theory"
+    else:
+        law = ptosim.hydraulic if chain.kind == "hydraulicCyl" else ptosim.linear_generator
+        exact = law(chain, results, "pto1")
+    return Figure(f"mean {stage} power after the ramp, W", ours, exact[stage], source)
+
+
+def _direct_drive(chain: Any, case: Path) -> dict[str, float]:
+    tables, database = tables_of(case), database_of(case)
+    wave = tables["wave"][0]
+    omega = 2.0 * math.pi / wave["period"]
+    body = next(b for b in tables["body"] if "hydro" in b)
+    added, damping, force = heave_tables(database, [body["name"]], omega)
+    stiffness = waterplane_of(database, body["name"]) * database.rho * database.gravity
+    rest = 1j * omega * (body["mass"] + added[0, 0]) + damping[0, 0] + stiffness / (1j * omega)
+    return dict(ptosim.direct_drive(chain, omega, rest, force[0] * 0.5 * wave["height"]))
+
+
 def gauges(results: Results, case: Path) -> Figure:
     """Elevation at the last gauge over the last ten periods, and that of the Airy wave there."""
-    tables = _tables(case)
+    tables = tables_of(case)
     wave, gauge = tables["wave"][0], tables["gauge"][-1]
     if wave["type"] != "regular" or len(tables["wave"]) > 1:
         raise NoFigure("no regular wave alone")
     omega = 2.0 * math.pi / wave["period"]
-    depth = _database(case).water_depth
-    gravity = _database(case).gravity
+    depth = database_of(case).water_depth
+    gravity = database_of(case).gravity
     k = omega**2 / gravity
     for _ in range(200 if math.isfinite(depth) else 0):
         k = 0.5 * (k + omega**2 / (gravity * math.tanh(k * depth)))
     heading = math.radians(wave.get("heading_deg", 0.0))
     x, y = gauge["point"]
-    time = _time(results)
+    time = time_of(results)
     last = time >= time[-1] - 20.0 * math.pi / omega
     phase = omega * time[last] - k * (x * math.cos(heading) + y * math.sin(heading))
     airy = 0.5 * wave["height"] * np.cos(phase)
@@ -337,41 +367,3 @@ def _turn(results: Results, axis: int, name: str) -> Figure:
     if not turns:
         raise NoFigure("no body moves")
     return Figure(name, float(np.rad2deg(max(np.max(np.abs(turn)) for turn in turns))))
-
-
-def _heave_tables(
-    database: hydrodae.hdb.HydroDatabase, names: list[str], omega: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Added mass, damping and excitation per metre of the heave of bodies, at one frequency."""
-    index = [database.coordinates.index(f"{name}.heave") for name in names]
-
-    def at(table: np.ndarray) -> Any:
-        return np.interp(omega, database.omega, table)
-
-    added = np.array([[at(database.added_mass[:, i, j]) for j in index] for i in index])
-    damping = np.array([[at(database.radiation_damping[:, i, j]) for j in index] for i in index])
-    force = np.array([at(database.excitation[:, 0, i]) for i in index])
-    return added, damping, force
-
-
-def _tables(case: Path) -> dict[str, Any]:
-    return dict(case_tables(hydrodae.Case.read(case)))
-
-
-def _database(case: Path) -> hydrodae.hdb.HydroDatabase:
-    return hydrodae.hdb.read(case.with_name("hydro.h5"))
-
-
-def _time(results: Results) -> np.ndarray:
-    return np.asarray(results[next(iter(results))]["time"])
-
-
-def _heave(results: Results, name: str) -> np.ndarray:
-    return np.asarray(results[f"bodies/{name}/position"])[:, 2]
-
-
-def _waterplane(database: hydrodae.hdb.HydroDatabase, body: str) -> float:
-    statics = database.bodies[body].hydrostatics
-    if statics is None:
-        raise NoFigure(f"the database has no hydrostatics of {body}")
-    return float(statics.waterplane_area)

@@ -20,7 +20,7 @@ from hydrodae.wecsim.text import CaseText
 Array = NDArray[np.float64]
 
 #: Rate at which a rectifier changes over [m/s]: below it the piston creeps in place of resting.
-VALVE_RATE = 0.01
+VALVE_RATE = 0.001
 #: Distance of the reference point of a stroke [m]; only its change matters.
 _FAR = 100.0
 #: Rate [m/s] and stroke [m] that the load of a generator allows for.

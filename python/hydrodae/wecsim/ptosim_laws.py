@@ -45,7 +45,7 @@ def valve_curve(
     drop = np.geomspace(1.0, 1e9, 4000)
     flow = discharge * (least + half * (1.0 + np.tanh(steep * (drop - middle))))
     flow = flow * np.sqrt(2.0 * drop / density)
-    rates = np.concatenate([[first, 2.0 * first, 5.0 * first], np.arange(0.1, _FASTEST, 0.1)])
+    rates = np.concatenate([np.geomspace(first, 0.1, 7)[:-1], np.arange(0.1, _FASTEST, 0.2)])
     loads = 2.0 * area * np.interp(rates * area, flow, drop)
     both = [np.concatenate([-x[::-1], [0.0], x]).tolist() for x in (rates, loads)]
     return both[0], both[1]
