@@ -222,6 +222,8 @@ def test_a_motor_without_a_set_speed_takes_no_flow(tmp_path: Path) -> None:
     signals = circuit(speed=False) + wire("3#out:1", "40#in:3") + wire("40#out:1", "3#in:1")
     write_one_body(tmp_path / "w", WAVES, "rpm = 1500;" + HYDRAULIC, signals, ACTUATED)
     converted = convert(tmp_path / "w", tmp_path / "c")
-    assert "ptoSim(5): no generator with a constant set speed" in left_out(converted)
+    assert "ptoSim(5): no generator whose controller has a constant set speed" in left_out(
+        converted
+    )
     force = next(f for f in tables(tmp_path / "c")["force"] if f["type"] == "pto_hydraulic")
     assert force["motor_conductance"] == 0.0

@@ -299,7 +299,7 @@ def _unused(read: InputFile) -> None:
         if item.kind == "ptoSim" and "" not in item.used:
             read.remarks.left_out(
                 read.place(item.line),
-                f"{item.title}: drives no take-off of the model",
+                f"{item.title}: PTO-Sim, drives no take-off of the model",
             )
             continue
         for field, entry in item.entries.items():

@@ -266,7 +266,7 @@ def _circuit(
     stages = Stages(absorbed, [term(f"forces/{name}_fluid/motor_power")], [], [])
     note = "accumulators and motor"
     controller: dict[str, Any] = {}
-    if "hydraulicMotor" in items and "electricGen" in items and chain.speed:
+    if "hydraulicMotor" in items and "electricGen" in items and chain.speed and any(chain.gains):
         motor = Motor.of(items["hydraulicMotor"], items["electricGen"], chain.speed, drop, read)
         hydraulic["motor_conductance"] = motor.conductance(drop)
         controller = motor.controller(name, chain.gains, drop)
@@ -281,7 +281,8 @@ def _circuit(
     elif "hydraulicMotor" in items:
         item = items["hydraulicMotor"]
         read.remarks.left_out(
-            read.place(item.line), f"{item.title}: no generator with a constant set speed; no flow"
+            read.place(item.line),
+            f"{item.title}: no generator whose controller has a constant set speed; no flow",
         )
     text.table("[[force]]", hydraulic, f"{sides['high'].title}, {sides['low'].title}: {note}")
     if controller:

@@ -131,6 +131,7 @@ class Motor:
             "gain_i": gains[1] * slope,
             "lower": 0.0,
             "upper": most / self.friction if self.friction > 0.0 else None,
+            "tracking_time": None if gains[0] else shaft_lag(self, drop),
             "lag": shaft_lag(self, drop),
         }
 
