@@ -117,26 +117,6 @@ def test_means_over_repetitions_and_annual_energy(folder: Path) -> None:
     assert float(found["annual_energy"]) == pytest.approx(joules)
 
 
-def test_terms_add_up_and_over_divides(folder: Path) -> None:
-    study = write_study(
-        folder,
-        '[grid]\n"force.pto.damping" = [1.0, 2.0]\n'
-        '[result.s]\nchannel = "joints/guide/displacement_rate"\nstatistic = "rms"\n'
-        '[result.sum]\nunit = "W"\nterms = [{ factor = 3.0 }, '
-        '{ channel = "joints/guide/displacement_rate", factor = -0.5, power = 2 }, '
-        '{ channel = "forces/pto/power_absorbed" }]\n'
-        '[result.ratio]\nchannel = "forces/pto/power_absorbed"\nover = "sum"\n'
-        '[result.each]\nchannel = "forces/pto/power_absorbed"\nover = "s"\n',
-    )
-    found = hydrodae.sweep(study, folder / "study.nc", jobs=1)
-    square = found["s"].values ** 2
-    power = np.array([1.0, 2.0]) * square
-    np.testing.assert_allclose(found["sum"].values, 3.0 - 0.5 * square + power, rtol=1e-9)
-    np.testing.assert_allclose(found["ratio"].values, power / found["sum"].values, rtol=1e-9)
-    units = [found[name].attrs["units"] for name in ("sum", "ratio", "each")]
-    assert units == ["W", "-", "W/(m/s)"]
-
-
 @pytest.mark.parametrize(
     ("text", "told"),
     [
