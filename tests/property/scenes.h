@@ -377,6 +377,19 @@ inline void add_hydro(model::Scene& scene, const std::string& axes, const std::s
     body.hydro = body.name;
 }
 
+/// Tables of both bodies over one coordinate of the pose of each.
+inline void add_pose_tables(model::Scene& scene, const std::string& coordinate, Random& random) {
+  for (const model::Body& body : scene.bodies) {
+    model::PoseTable table;
+    table.name = table.body = body.name;
+    table.coordinate = coordinate;
+    (table.turns() ? table.values_deg : table.values) = {-1.1, -0.2, 0.3, 1.4};
+    for (int k = 0; k < 4; ++k)
+      table.loaded.push_back(random_database(random));
+    scene.pose_tables.push_back(table);
+  }
+}
+
 struct NamedScene {
   std::string name;
   model::Scene scene;
@@ -388,10 +401,13 @@ inline std::vector<NamedScene> all_scenes() {
   Random random;
   const std::vector<std::vector<std::string>> motions = {
       {"rigid"}, {"planar"}, {"surge", "sway", "heave", "yaw"}};
+  const std::vector<std::string> poses = {"heave", "roll", "pitch", "yaw"};
+  std::size_t next_pose = 0;
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
       for (const std::string hydro :
-           {"dry", "body", "mean", "yaw", "round", "constant", "convolution"}) {
+           {"dry", "body", "mean", "yaw", "round", "constant", "convolution", "poses",
+            "poses, constant"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
@@ -401,11 +417,18 @@ inline std::vector<NamedScene> all_scenes() {
                     hydro == "round"                    ? "yaw"
                     : hydro == "mean" || hydro == "yaw" ? hydro
                                                         : "body",
-                    hydro == "constant" || hydro == "convolution" ? hydro : "exponential", random);
+                    hydro.ends_with("constant")     ? "constant"
+                    : hydro == "convolution" ? hydro
+                                             : "exponential",
+                    random);
         if (hydro == "round")
           scene.database = all_round(*scene.database);
-        if (hydro == "mean" || hydro == "constant" || hydro == "round")
+        if (hydro == "mean" || hydro == "constant" || hydro == "round" || hydro == "poses")
           scene.sea.phase = "moving";
+        if (hydro.starts_with("poses")) {
+          scene.hydro->axes = std::vector{"mean", "body", "yaw"}[next_pose % 3];
+          add_pose_tables(scene, poses[next_pose++ % 4], random);
+        }
         add_every_force(scene, random, hydro == "convolution");
         add_morison(scene);
         scenes.push_back({std::string(type.name) + ", " + motion[0] +

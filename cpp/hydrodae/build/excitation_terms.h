@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "hydrodae/hull/wet_surface.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/model/scene.h"
 #include "hydrodae/sea/component.h"
@@ -50,11 +51,11 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
                                   const Meeting& body, const YawSamples& samples,
                                   const std::vector<sea::Component>& components);
 
-/// The same for the linear Froude-Krylov load on the mesh of a body in its reference pose: what
-/// leaves the diffraction when it is taken from the excitation of a database, so that in small
-/// waves the loads are those of the database (hulls.cpp).
-Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const model::Body& body,
-                                   const Meeting& meeting, const YawSamples& samples,
+/// The same for the linear Froude-Krylov load on the mesh of a body in a pose: what leaves the
+/// diffraction when it is taken from the excitation of a database, so that in small waves the loads
+/// are those of the database (hulls.cpp).
+Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& mesh,
+                                   const hull::Pose& body, const Meeting& meeting, const YawSamples& samples,
                                    const std::vector<sea::Component>& components);
 
 /// Which rows of `yaw_coefficients` are more than a tenth of the noise that the tables have from

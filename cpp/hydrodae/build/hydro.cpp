@@ -38,22 +38,38 @@ void number_coordinates(const model::Scene& scene, system::System& s) {
   }
 }
 
+/// Does the database of `scene` load this body? Else its columns and rows are zero.
+bool is_wet(const model::Scene& scene, const system::HydroBody& hb) {
+  return scene.bodies[static_cast<std::size_t>(hb.body)].hydro.has_value();
+}
+
+/// Where each coordinate of U stands among `labels`, -1: nowhere.
+std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
+                        const std::vector<std::string>& labels) {
+  std::vector<int> out;
+  for (const system::HydroData::Coordinate& k : h.coordinates) {
+    const system::HydroBody& hb = h.bodies[static_cast<std::size_t>(k.hydro_body)];
+    out.push_back(is_wet(scene, hb) ? label_index(labels, hydro_label(scene, hb, k.component))
+                                    : -1);
+  }
+  return out;
+}
+
 /// Rows for all six coordinates of all bodies (zero where the source gives none) and columns for U.
 MatrixX cut(const model::Scene& scene, const system::HydroData& h,
             const std::vector<std::string>& rows, const std::vector<std::string>& columns,
             const MatrixX& source) {
   MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
+  const std::vector<int> column = places(scene, h, columns);
   for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6; ++c) {
+    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
       const int row = label_index(rows, hydro_label(scene, h.bodies[i], c));
       if (row < 0)
         continue;
-      for (int u = 0; u < h.n_moving; ++u) {
-        const system::HydroData::Coordinate& k = h.coordinates[u];
-        const int column =
-            label_index(columns, hydro_label(scene, h.bodies[k.hydro_body], k.component));
-        out(6 * static_cast<Eigen::Index>(i) + c, u) = source(row, column);
-      }
+      for (int u = 0; u < h.n_moving; ++u)
+        if (column[static_cast<std::size_t>(u)] >= 0)
+          out(6 * static_cast<Eigen::Index>(i) + c, u) =
+              source(row, column[static_cast<std::size_t>(u)]);
     }
   return out;
 }
@@ -70,7 +86,7 @@ MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
 void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
                     system::System& s) {
   for (const system::HydroBody& hb : s.hydro.bodies)
-    for (int c = 0; c < 6; ++c)
+    for (int c = 0; c < 6 && is_wet(scene, hb); ++c)
       if (label_index(outputs, hydro_label(scene, hb, c)) < 0)
         s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
 }
@@ -101,18 +117,16 @@ void find_runs(system::HydroData& h) {
 /// that nothing drives are left out.
 void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::System& s) {
   system::HydroData& h = s.hydro;
-  std::vector<int> input(h.n_moving);
-  for (int u = 0; u < h.n_moving; ++u) {
-    const system::HydroData::Coordinate& k = h.coordinates[u];
-    input[u] = label_index(fit.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component));
-  }
+  const std::vector<int> input = places(scene, h, fit.inputs);
   std::vector<int> column; // of `output_all`: block of the fit, twice for a pair
   for (int k = 0; k < fit.poles.size(); ++k) {
     const bool pair = fit.poles[k].imag() != 0.0;
     const int state = h.n_states;
     bool driven = false;
     for (int u = 0; u < h.n_moving; ++u) {
-      const std::complex<double> b = fit.input_matrix(k, input[u]);
+      if (input[static_cast<std::size_t>(u)] < 0)
+        continue;
+      const std::complex<double> b = fit.input_matrix(k, input[static_cast<std::size_t>(u)]);
       if (b.real() != 0.0)
         h.inputs.push_back({state, u, b.real()});
       if (pair && b.imag() != 0.0)
@@ -129,7 +143,7 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
   find_runs(h);
   h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
   for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6; ++c) {
+    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
       const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
       if (row < 0)
         continue;
@@ -149,10 +163,9 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
 VectorX largest_damping(const model::Scene& scene, const system::HydroData& h) {
   VectorX out = VectorX::Zero(h.n_moving);
   const hydro::Database& db = *scene.database;
+  const std::vector<int> place = places(scene, h, db.coordinates);
   for (int u = 0; u < h.n_moving; ++u) {
-    const system::HydroData::Coordinate& k = h.coordinates[u];
-    const int i =
-        label_index(db.coordinates, hydro_label(scene, h.bodies[k.hydro_body], k.component));
+    const int i = place[static_cast<std::size_t>(u)];
     for (const MatrixX& B : db.damping)
       out[u] = i < 0 ? 0.0 : std::max(out[u], std::abs(B(i, i)));
   }
@@ -182,7 +195,7 @@ std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, 
   return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
 }
 
-/// Mass and added mass together must be positive: else a push moves the body towards the hand.
+// Else a push moves the body towards the hand.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
   MatrixX mass = 0.5 * (h.added_mass + h.added_mass.transpose());
@@ -214,20 +227,9 @@ void check_mass(const system::System& s) {
                                        "bodies towards the hand");
 }
 
-void add_hydro(const model::Scene& scene, system::System& s) {
-  if (!scene.hydro || !scene.database)
-    return;
+void add_radiation(const model::Scene& scene, system::System& s) {
   const hydro::Database& db = *scene.database;
   system::HydroData& h = s.hydro;
-  h.axes = scene.hydro->axes == "body"   ? system::HydroAxes::body
-           : scene.hydro->axes == "mean" ? system::HydroAxes::mean
-                                         : system::HydroAxes::yaw;
-  number_coordinates(scene, s);
-  set_hydrostatics(scene, s);
-  if (h.n_moving == 0) {
-    h.link();
-    return;
-  }
   if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
     h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
     add_memory(scene, *fit, s);
@@ -255,8 +257,26 @@ void add_hydro(const model::Scene& scene, system::System& s) {
   }
   h.added_mass = moving_rows(h, h.added_mass_all);
   h.link();
-  check_mass(s);
   check_radiation(scene, s, largest_damping(scene, h));
+}
+
+void add_hydro(const model::Scene& scene, system::System& s) {
+  if (!scene.hydro || !scene.database)
+    return;
+  system::HydroData& h = s.hydro;
+  h.axes = scene.hydro->axes == "body"   ? system::HydroAxes::body
+           : scene.hydro->axes == "mean" ? system::HydroAxes::mean
+                                         : system::HydroAxes::yaw;
+  number_coordinates(scene, s);
+  set_hydrostatics(scene, s);
+  if (h.n_moving == 0) {
+    h.link();
+    return;
+  }
+  if (!scene.pose_tables.empty())
+    return add_pose_tables(scene, s);
+  add_radiation(scene, s);
+  check_mass(s);
 }
 
 } // namespace hydrodae::build

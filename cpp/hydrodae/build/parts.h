@@ -15,6 +15,16 @@ void set_scale_masses(system::System& system);
 /// Hydrostatics, added mass and radiation memory (build_hydro.cpp). Throws ModelError.
 void add_hydro(const model::Scene& scene, system::System& system);
 
+/// Added mass and radiation of the bodies that are wet in `scene`, by its database, into `s.hydro`
+/// (hydro.cpp). Throws ModelError.
+void add_radiation(const model::Scene& scene, system::System& s);
+
+/// Mass and added mass together must be positive (hydro.cpp). Throws ModelError.
+void check_mass(const system::System& s);
+
+/// The same where tables follow the poses of bodies (pose_tables.cpp). Throws ModelError.
+void add_pose_tables(const model::Scene& scene, system::System& s);
+
 /// "float.heave" of coordinate c of a body in the water, as in databases; and where a label stands,
 /// -1: nowhere (build_hydro.cpp).
 std::string hydro_label(const model::Scene& scene, const system::HydroBody& body, int c);

@@ -1,7 +1,9 @@
 /// Wave excitation of all hydrodynamic bodies as functions of time, computed ahead of the run.
 
 #include <algorithm>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "hydrodae/build/excitation_terms.h"
 #include "hydrodae/build/parts.h"
@@ -61,30 +63,48 @@ void check_coverage(const hydro::Database& db, const sea::Wave& wave,
 
 using Terms = water::Excitation::Terms;
 
+/// The load of the waves on one body, from one database.
+struct BodyLoad {
+  Eigen::MatrixXcd total, froude_krylov; ///< coefficients of the functions of yaw
+};
+
 /// Functions of time of all terms, their rows in the order of the list.
 struct Functions {
   Eigen::MatrixXcd rows;
   VectorX whole; ///< root of sum |C|^2 of the coordinate that each row is a part of
   Index count = 0;
 
-  /// Takes the rows of some terms of one body, `coefficients` those of all of its functions.
-  void add(const Eigen::MatrixXcd& coefficients, Terms& terms) {
+  /// Takes the rows of some terms of one body, from its loads by pose.
+  void add(const std::vector<BodyLoad>& loads, Eigen::MatrixXcd BodyLoad::* part, Terms& terms) {
     terms.first = count;
-    const Index functions = coefficients.rows() / 6;
+    if (terms.list.empty())
+      return;
+    const Index functions = (loads[0].*part).rows() / 6;
     if (rows.rows() < count + terms.count() + 1) {
-      rows.conservativeResize(2 * (count + terms.count()) + 1, coefficients.cols());
+      rows.conservativeResize(2 * (count + terms.count()) + 1, (loads[0].*part).cols());
       whole.conservativeResize(rows.rows());
     }
     for (const water::Excitation::Term& term : terms.list) {
+      const Eigen::MatrixXcd& coefficients = loads[static_cast<std::size_t>(term.pose)].*part;
       rows.row(count) = coefficients.row(term.coordinate * functions + term.m);
       whole[count++] = coefficients.middleRows(term.coordinate * functions, functions).norm();
     }
   }
 };
 
-/// The load of the waves on one body.
-struct BodyLoad {
-  Eigen::MatrixXcd total, froude_krylov; ///< coefficients of the functions of yaw
+/// The tables of one database as functions of frequency and heading.
+struct Source {
+  hydro::Database db;
+  hydro::Excitation total;
+  std::optional<hydro::Excitation> froude_krylov;
+
+  Source(hydro::Database tables, const std::vector<std::string>& labels)
+      : db(std::move(tables)), total(db, db.excitation, labels) {
+    if (!db.froude_krylov.empty())
+      froude_krylov.emplace(db, db.froude_krylov, labels);
+  }
+  Source(const Source&) = delete; // the tables are referred to
+  Source& operator=(const Source&) = delete;
 };
 
 std::vector<std::string> labels_of(const model::Scene& scene, const system::System& s) {
@@ -96,50 +116,114 @@ std::vector<std::string> labels_of(const model::Scene& scene, const system::Syst
   return labels;
 }
 
+/// The databases of the excitation: of the scene, then those of each table over poses.
+struct Sources {
+  std::unique_ptr<Source> main;
+  std::vector<std::vector<std::unique_ptr<Source>>> of_body; ///< by pose; empty: the main one
+  bool split = true; ///< do all know their Froude-Krylov part?
+  std::string symmetry;
+
+  Sources(const model::Scene& scene, const system::System& s) : of_body(s.hydro.bodies.size()) {
+    const std::vector<std::string> labels = labels_of(scene, s);
+    const auto make = [&](const model::Scene& of) {
+      auto source = std::make_unique<Source>(wave_tables(of, s, symmetry), labels);
+      split = split && source->froude_krylov;
+      return source;
+    };
+    main = make(scene);
+    for (std::size_t i = 0; i < of_body.size(); ++i) {
+      const std::string& name = s.bodies[static_cast<std::size_t>(s.hydro.bodies[i].body)].name;
+      const model::PoseTable* table = model::pose_table(scene, name);
+      for (std::size_t k = 0; table && k < table->loaded.size(); ++k) {
+        of_body[i].push_back(make(model::scene_at_pose(scene, *table, k)));
+        const VectorX &own = of_body[i].back()->db.heading, &first = of_body[i][0]->db.heading;
+        if (own.size() != first.size() || !own.isApprox(first, 1e-9))
+          throw ModelError("pose_table." + table->name + ".databases",
+                           "the headings of " + table->loaded[k]->path + " are not those of " +
+                               table->loaded[0]->path + "; compute all poses for the same headings");
+      }
+    }
+  }
+
+  /// Those of body i, by pose.
+  std::vector<const Source*> of(std::size_t i) const {
+    std::vector<const Source*> out;
+    for (const std::unique_ptr<Source>& source : of_body[i])
+      out.push_back(source.get());
+    return out.empty() ? std::vector<const Source*>{main.get()} : out;
+  }
+};
+
+/// Where a body is for the tables of pose k.
+hull::Pose pose_of_table(const model::Scene& scene, const model::Body& body, int k) {
+  hull::Pose out{body.center_of_gravity, Matrix3::Identity()};
+  if (const model::PoseTable* table = model::pose_table(scene, body.name)) {
+    const double value = table->poses()[static_cast<std::size_t>(k)];
+    if (table->turns())
+      out.rotation = rotation_about_axis<double>(table->component() - 3, value);
+    else
+      out.position[table->component()] += value;
+  }
+  return out;
+}
+
+/// The load of one source on a body; its terms go to those of the body.
+BodyLoad add_load(const model::Scene& scene, const Source& source, std::size_t i, int pose,
+                  const Meeting& meeting, const YawSamples& samples,
+                  const std::vector<sea::Component>& all, bool split,
+                  water::Excitation::Body& body) {
+  const model::Body& entry = scene.bodies[static_cast<std::size_t>(body.wet.body)];
+  BodyLoad load{yaw_coefficients(source.total, 6 * i, meeting, samples, all), {}};
+  if (split)
+    load.froude_krylov = yaw_coefficients(*source.froude_krylov, 6 * i, meeting, samples, all);
+  if (entry.froude_krylov == "mesh") { // that load is the mesh's: the diffraction is left
+    load.total -= mesh_coefficients(scene, *entry.hull, pose_of_table(scene, entry, pose), meeting,
+                                    samples, all);
+    load.froude_krylov.setZero();
+  }
+  const auto take = [&](const Eigen::MatrixXcd& coefficients, auto&& list_of) {
+    for (water::Excitation::Term term :
+         terms_that_matter(coefficients, samples.functions, body.length)) {
+      term.pose = pose;
+      list_of(term).push_back(term);
+    }
+  };
+  take(load.total, [&](const water::Excitation::Term& term) -> auto& {
+    return (body.wet.moving[static_cast<std::size_t>(term.coordinate)] >= 0 ? body.moving
+                                                                            : body.still)
+        .list;
+  });
+  if (split)
+    take(load.froude_krylov, [&](const auto&) -> auto& { return body.froude_krylov.list; });
+  return load;
+}
+
 /// The bodies with their terms, and the functions of time of these, the elevation last.
 std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const system::System& s,
-                                                const hydro::Database& db,
+                                                const Sources& sources,
                                                 const std::vector<Meeting>& meetings,
                                                 const std::vector<sea::Component>& all,
                                                 Functions& functions) {
-  const std::vector<std::string> labels = labels_of(scene, s);
-  const hydro::Excitation excitation(db, db.excitation, labels);
-  std::optional<hydro::Excitation> froude_krylov;
-  if (!db.froude_krylov.empty())
-    froude_krylov.emplace(db, db.froude_krylov, labels);
   std::vector<water::Excitation::Body> out;
-  std::vector<BodyLoad> loads;
+  std::vector<std::vector<BodyLoad>> loads(meetings.size());
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     const system::HydroBody& hb = s.hydro.bodies[i];
     const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
-    const YawSamples samples = yaw_samples(excitation, 6 * i, meetings[i], all);
-    water::Excitation::Body body{b.name, hb, b.reference, b.length_scale, samples.functions,
-                                 {},     {}, {}};
-    BodyLoad load;
-    load.total = yaw_coefficients(excitation, 6 * i, meetings[i], samples, all);
-    if (froude_krylov)
-      load.froude_krylov = yaw_coefficients(*froude_krylov, 6 * i, meetings[i], samples, all);
-    const model::Body& entry = scene.bodies[static_cast<std::size_t>(hb.body)];
-    if (entry.froude_krylov == "mesh") { // that load is the mesh's: the diffraction is left
-      load.total -= mesh_coefficients(scene, entry, meetings[i], samples, all);
-      load.froude_krylov.setZero();
-    }
-    for (const water::Excitation::Term& term :
-         terms_that_matter(load.total, samples.functions, b.length_scale))
-      (hb.moving[static_cast<std::size_t>(term.coordinate)] >= 0 ? body.moving : body.still)
-          .list.push_back(term);
-    if (froude_krylov)
-      body.froude_krylov.list =
-          terms_that_matter(load.froude_krylov, samples.functions, b.length_scale);
-    out.push_back(std::move(body));
-    loads.push_back(std::move(load));
+    const std::vector<const Source*> own = sources.of(i);
+    const YawSamples samples = yaw_samples(own[0]->total, 6 * i, meetings[i], all);
+    out.push_back(
+        {b.name, hb, b.reference, b.length_scale, samples.functions, {}, {}, {}, {}});
+    if (hb.table >= 0)
+      out[i].poses = s.hydro.tables[static_cast<std::size_t>(hb.table)].axis;
+    for (std::size_t pose = 0; pose < own.size(); ++pose)
+      loads[i].push_back(add_load(scene, *own[pose], i, static_cast<int>(pose), meetings[i],
+                                  samples, all, sources.split, out[i]));
   }
   for (std::size_t i = 0; i < out.size(); ++i)
-    functions.add(loads[i].total, out[i].moving);
+    functions.add(loads[i], &BodyLoad::total, out[i].moving);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    functions.add(loads[i].total, out[i].still);
-    if (froude_krylov)
-      functions.add(loads[i].froude_krylov, out[i].froude_krylov);
+    functions.add(loads[i], &BodyLoad::total, out[i].still);
+    functions.add(loads[i], &BodyLoad::froude_krylov, out[i].froude_krylov);
   }
   functions.rows.conservativeResize(functions.count + 1, std::ssize(all));
   functions.whole.conservativeResize(functions.count + 1);
@@ -155,28 +239,30 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
 void add_sea(const model::Scene& scene, system::System& s) {
   if (scene.waves.empty() || !scene.database)
     return; // Morison elements feel the waves by themselves
-  std::string symmetry;
-  const hydro::Database db = wave_tables(scene, s, symmetry);
+  const Sources sources(scene, s);
+  const hydro::Database& db = sources.main->db;
   const system::HydroData& h = s.hydro;
   const std::vector<Meeting> bodies = meetings(scene, s);
   std::vector<sea::Component> all;
   for (const sea::Wave& wave : scene.waves) {
     std::string note;
     const std::vector<sea::Component> own = model::wave_components(scene, wave, &note);
-    check_coverage(db, wave, own, bodies);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (const Source* source : sources.of(i))
+        check_coverage(source->db, wave, own, {bodies[i]});
     all.insert(all.end(), own.begin(), own.end());
     if (!note.empty())
       s.notes.push_back(note);
   }
-  if (!symmetry.empty())
+  if (!sources.symmetry.empty())
     s.notes.push_back("axes = \"yaw\": headings that the database lacks follow from its symmetry "
                       "about " +
-                      symmetry + "; with them there are " + degrees(db.heading[0]) + " to " +
+                      sources.symmetry + "; with them there are " + degrees(db.heading[0]) + " to " +
                       degrees(db.heading[db.heading.size() - 1]));
   Functions functions;
-  std::vector<water::Excitation::Body> loaded = wave_loads(scene, s, db, bodies, all, functions);
+  std::vector<water::Excitation::Body> loaded = wave_loads(scene, s, sources, bodies, all, functions);
   auto list =
-      std::make_shared<water::Excitation>(h.axes, std::move(loaded), !db.froude_krylov.empty());
+      std::make_shared<water::Excitation>(h.axes, std::move(loaded), sources.split);
   if (scene.sea.phase == "fixed") {
     VectorX omega(std::ssize(all));
     for (std::size_t i = 0; i < all.size(); ++i)

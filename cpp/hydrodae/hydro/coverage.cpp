@@ -55,4 +55,34 @@ const MemoryFit* smallest_covering_fit(const Database& database,
   return best;
 }
 
+bool are_coupled(const Database& database, const std::string& body, const std::string& other) {
+  const auto coupled = [&](const std::vector<std::string>& rows,
+                           const std::vector<std::string>& columns, const auto& is_zero) {
+    const auto of = [](const std::string& label, const std::string& name) {
+      return label.substr(0, label.rfind('.')) == name;
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        const bool pair = (of(rows[i], body) && of(columns[j], other)) ||
+                          (of(rows[i], other) && of(columns[j], body));
+        if (pair && !is_zero(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)))
+          return true;
+      }
+    return false;
+  };
+  const auto& labels = database.coordinates;
+  if (coupled(labels, labels, [&](auto i, auto j) {
+        return database.added_mass_inf(i, j) == 0.0 &&
+               std::all_of(database.damping.begin(), database.damping.end(),
+                           [&](const MatrixX& B) { return B(i, j) == 0.0; });
+      }))
+    return true;
+  return std::any_of(database.fits.begin(), database.fits.end(), [&](const MemoryFit& fit) {
+    return coupled(fit.outputs, fit.inputs, [&](auto i, auto j) {
+      return (fit.output_matrix.row(i).transpose().array() * fit.input_matrix.col(j).array())
+          .isZero(0.0);
+    });
+  });
+}
+
 } // namespace hydrodae::hydro

@@ -25,4 +25,8 @@ std::vector<std::string> missing_inputs(const MemoryFit& fit,
 const MemoryFit* smallest_covering_fit(const Database& database,
                                        const std::vector<std::string>& labels);
 
+/// Does the motion of one body load the other: by added mass, damping, a fit or a kernel that has
+/// been read?
+bool are_coupled(const Database& database, const std::string& body, const std::string& other);
+
 } // namespace hydrodae::hydro

@@ -168,20 +168,35 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
   return scene;
 }
 
+/// `path` is relative to the case; `place` is the key that has it.
 std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
-                                                     const std::string& directory) {
-  const std::filesystem::path path = std::filesystem::path(directory) / scene.hydro->database;
+                                                     const std::string& directory,
+                                                     const std::string& path,
+                                                     const std::string& key,
+                                                     const std::string& what) {
+  const std::filesystem::path whole = std::filesystem::path(directory) / path;
   // Axes that turn with the bodies may need any heading; symmetry is judged by the damping, too.
   const bool turns = scene.hydro->axes == "yaw" && !scene.waves.empty();
   try {
     return std::make_shared<const hydro::Database>(
-        read_hydro_file(path.lexically_normal().string(),
+        read_hydro_file(whole.lexically_normal().string(),
                         {!scene.waves.empty(), turns || scene.hydro->radiation == "constant",
                          scene.hydro->radiation == "convolution"}));
   } catch (const CaseError& error) {
-    throw CaseError(scene.positions.at("hydro.database") +
-                    ": key 'database' in [hydro]: " + error.what());
+    throw CaseError(scene.positions.at(key) + ": " + what + ": " + error.what());
   }
+}
+
+void read_databases(model::Scene& scene, const std::string& directory) {
+  if (!scene.hydro)
+    return;
+  scene.database = read_database(scene, directory, scene.hydro->database, "hydro.database",
+                                 "key 'database' in [hydro]");
+  for (model::PoseTable& table : scene.pose_tables)
+    for (const std::string& path : table.databases)
+      table.loaded.push_back(
+          read_database(scene, directory, path, "pose_table." + table.name + ".databases",
+                        "key 'databases' in [[pose_table]] " + in_quotes(table.name)));
 }
 
 /// Measured elevations that stand in files of their own.
@@ -251,8 +266,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
     scene.text += "\n# values given on the command line:\n";
   for (const std::string& line : scene.overrides)
     scene.text += "# " + line + "\n";
-  if (scene.hydro)
-    scene.database = read_database(scene, directory);
+  read_databases(scene, directory);
   read_records(scene, directory);
   read_meshes(scene, directory);
   find_fmus(scene, directory);

@@ -89,12 +89,15 @@ template <class Scalar> void NewtonMatrix<Scalar>::invert() {
 }
 
 template <class Scalar> void NewtonMatrix<Scalar>::find_transfer(Scalar alpha) {
-  if (known_ && alpha == alpha_)
+  const bool blended = parts_->memory_weights.size() > 0;
+  if (known_ && alpha == alpha_ && !blended)
     return;
   alpha_ = alpha;
   invert();
   driven_ = input_.template cast<Scalar>();
   divide(driven_);
+  if (blended)
+    driven_.array().colwise() *= parts_->memory_weights.template cast<Scalar>().array();
   if constexpr (std::is_same_v<Scalar, double>) {
     transfer_.noalias() = s_.hydro.output * driven_;
   } else { // two real products: C is real
@@ -146,8 +149,10 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const A
 }
 
 template <class Scalar>
-void NewtonMatrix<Scalar>::subtract_memory_loads(const VectorS& z, Scalar* b) {
+void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS& z, Scalar* b) {
   const HydroData& h = s_.hydro;
+  if (parts_->memory_weights.size() > 0)
+    z.array() *= parts_->memory_weights.template cast<Scalar>().array();
   if constexpr (std::is_same_v<Scalar, double>) {
     U_.noalias() = h.output * z;
   } else { // two real products: C is real

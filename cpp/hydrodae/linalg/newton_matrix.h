@@ -38,7 +38,7 @@ public:
   void solve(Scalar* b);
 
   /// b -= L C z for memory states z (n_states,), with the parts of the last `factorise`.
-  void subtract_memory_loads(const VecX<Scalar>& z, Scalar* b);
+  void subtract_memory_loads(VecX<Scalar>& z, Scalar* b);
 
   /// See SparseLu.
   Elimination elimination() const { return lu_.elimination(); }

@@ -103,11 +103,14 @@ SaddlePoint::~SaddlePoint() = default;
 /// Coordinates of a body stay together. Tables whose added mass is not symmetric have no Cholesky
 /// factors that a refinement could use.
 void SaddlePoint::find_blocks() {
-  const MatrixX& A = s_.hydro.added_mass;
-  if (A.size() > 0 && (A - A.transpose()).cwiseAbs().maxCoeff() > much_left * largest(A)) {
-    chosen_ = true;
+  const auto crooked = [](const auto& A) {
+    return A.size() > 0 && (A - A.transpose()).cwiseAbs().maxCoeff() > much_left * largest(A);
+  };
+  chosen_ = crooked(s_.hydro.added_mass);
+  for (const water::PoseTable& table : s_.hydro.tables)
+    chosen_ = chosen_ || std::any_of(table.added_mass.begin(), table.added_mass.end(), crooked);
+  if (chosen_)
     return;
-  }
   std::vector<Index> together(static_cast<std::size_t>(s_.n_u));
   std::iota(together.begin(), together.end(), Index{0});
   for (const system::BodyData& b : s_.bodies)

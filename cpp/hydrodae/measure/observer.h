@@ -73,6 +73,7 @@ private:
   void observe_ports(const ElementList& list, const ElementScratch<double>& scratch);
   double power_absorbed(const element::Shape& shape, const PortData& port, const double* in,
                         const double* load, const joint::Vec12<double>* rows) const;
+  void observe_tables(const HydroData& hydro);
   void observe_memory(const HydroData& hydro, const double* y);
   void observe_joints(const double* y);
   Vector6 row_reaction(const JointData& j, const RowData& row, const joint::Geometry<double>& g,

@@ -1,6 +1,11 @@
 /// Of the observer: added mass and radiation.
 
+#include <algorithm>
+
+#include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/measure/observer.h"
+#include "hydrodae/model/motion.h"
 #include "hydrodae/system/hydrodynamics.h"
 
 namespace hydrodae::measure {
@@ -9,9 +14,15 @@ using namespace system;
 
 /// What the radiation takes on all coordinates, locked ones too; needs U and U'.
 void Observer::observe_memory(const HydroData& h, const double* y) {
-  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(y + h.z0, h.n_states);
+  const double* z = weighted_states<double>(h, ws_, y + h.z0);
+  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(z, h.n_states);
   if (h.damped)
     memory_.noalias() += h.damping_all * ws_.U;
+  for (const water::PoseTable& table : h.tables) {
+    const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
+    memory_.segment<6>(6 * table.hydro_body) += water::blend<double>(
+        table.damping, ws_.weights.data() + table.first_weight, hb.gather<double>(ws_.U));
+  }
   if (h.convolution.empty() || !ws_.past)
     return;
   const Past& past = *ws_.past;
@@ -26,10 +37,54 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
   }
 }
 
+/// A table that ends before the pose that its body has taken.
+[[noreturn]] void refuse_pose(double t, const System& s, const water::PoseTable& table, double pose) {
+  const std::string& body =
+      s.bodies[static_cast<std::size_t>(
+                   s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)].body)]
+          .name;
+  const bool turns = table.axis.component >= 3;
+  const auto text = [&](double x) { return rounded_text(turns ? x * 180.0 / pi : x, 4); };
+  throw SolverError(
+      t, {Reason::range,
+          "body " + in_quotes(body) + " is at a " +
+              std::string(model::coordinate_names[static_cast<std::size_t>(table.axis.component)]) +
+              " of " + text(pose) + (turns ? " deg" : " m") + "; its [[pose_table]] covers " +
+              text(table.axis.weights.front()) + " to " + text(table.axis.weights.back()) + " alone",
+          "bodies/" + body,
+          {{turns ? "pose_deg" : "pose_m", turns ? pose * 180.0 / pi : pose}},
+          "add databases for poses beyond its ends",
+          ""});
+}
+
+/// A(s) U and d/dt (A(s) U) of bodies with tables, for all six coordinates of each.
+void Observer::observe_tables(const HydroData& h) {
+  constexpr double slack = 1e-9; ///< of the table's range
+  for (std::size_t k = 0; k < h.tables.size(); ++k) {
+    const water::PoseTable& table = h.tables[k];
+    const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
+    const water::PoseCoordinate<double> pose = read_pose(s_, ws_, table);
+    const double first = table.axis.weights.front(), last = table.axis.weights.back();
+    if (std::max(first - pose.value, pose.value - last) > slack * (last - first))
+      refuse_pose(ws_.time, s_, table, pose.value);
+    const double* w = ws_.weights.data() + table.first_weight;
+    const Vector6 U = hb.gather<double>(ws_.U);
+    const Vector6 slope =
+        water::blend<double>(table.added_mass, ws_.weight_slopes.data() + table.first_weight, U);
+    const Index row = 6 * table.hydro_body;
+    momentum_.segment<6>(row) += water::blend<double>(table.added_mass, w, U);
+    rate_.segment<6>(row) +=
+        water::blend<double>(table.added_mass, w, hb.gather<double>(ws_.U_dot)) +
+        pose.rate(ws_.bodies[hb.body]) * slope;
+    ws_.table_loads[k] = 0.5 * U.dot(slope) * pose.gradient;
+  }
+}
+
 void Observer::observe(const HydroData& h, const double* y) {
   hydro_motion(s_, ws_);
   momentum_.noalias() = h.added_mass_all * ws_.U;
   rate_.noalias() = h.added_mass_all * ws_.U_dot;
+  observe_tables(h);
   observe_memory(h, y);
   for (int u = 0; u < h.n_moving; ++u) {
     const HydroData::Coordinate& k = h.coordinates[u];
@@ -39,8 +94,10 @@ void Observer::observe(const HydroData& h, const double* y) {
     const HydroBody& hb = h.bodies[i];
     const BodyState<double>& state = ws_.bodies[hb.body];
     const auto row = 6 * static_cast<Eigen::Index>(i);
-    const Vector6 added =
+    Vector6 added =
         hydro_load<double>(h.axes, hb, state, rate_.segment<6>(row), momentum_.segment<6>(row));
+    if (hb.table >= 0)
+      added -= ws_.table_loads[static_cast<std::size_t>(hb.table)];
     add_load(-to_world(state, added));
     if (!h.radiates())
       continue;

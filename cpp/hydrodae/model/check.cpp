@@ -92,6 +92,7 @@ void check(const Scene& scene) {
   check_names(names_of(scene.waves), "wave");
   check_names(names_of(scene.gauges), "gauge");
   check_names(names_of(scene.controllers), "controller");
+  check_names(names_of(scene.pose_tables), "pose_table");
 
   for (const Body& body : scene.bodies) {
     if (body.name == ground)
@@ -114,6 +115,8 @@ void check(const Scene& scene) {
     check_gauge(scene, gauge);
   if (scene.hydro && scene.database)
     check_database(scene);
+  for (const PoseTable& table : scene.pose_tables)
+    check_pose_table(scene, table);
 }
 
 } // namespace hydrodae::model

@@ -34,6 +34,7 @@
 #include "hydrodae/line/rope.h"
 #include "hydrodae/model/constraint.h"
 #include "hydrodae/model/controller.h"
+#include "hydrodae/model/pose_table.h"
 #include "hydrodae/model/solver_options.h"
 #include "hydrodae/sea/gauge.h"
 #include "hydrodae/sea/wave.h"
@@ -313,6 +314,7 @@ struct Scene {
   std::vector<sea::Wave> waves;
   SolverOptions solver;
   OutputOptions output;
+  std::vector<PoseTable> pose_tables;
   std::shared_ptr<const hydro::Database> database; ///< null without [hydro]
 
   std::string text; ///< the case file as read, with the overrides that were applied noted below

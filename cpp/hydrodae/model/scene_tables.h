@@ -15,6 +15,7 @@ namespace hydrodae::model {
 template <class Visit> void for_each_table(const Visit& visit) {
   visit("environment", &Scene::environment);
   visit("hydro", &Scene::hydro);
+  visit("pose_table", &Scene::pose_tables);
   visit("sea", &Scene::sea);
   visit("wave", &Scene::waves);
   visit("body", &Scene::bodies);

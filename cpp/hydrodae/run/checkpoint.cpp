@@ -27,7 +27,7 @@ io::Texts identity(const model::Scene& scene) {
           {"version", HYDRODAE_VERSION},
           {"case_text", scene.text},
           {"case_overrides", joined(scene.overrides, "\n")},
-          {"hydro_sha256", scene.database ? scene.database->sha256 : ""}};
+          {"hydro_sha256", model::fingerprint_of_databases(scene)}};
 }
 
 bool is_checkpoint(const std::string& path) {

@@ -11,7 +11,7 @@ const std::string& Simulation::fingerprint() {
   if (fingerprint_.empty()) {
     std::string text = std::string(HYDRODAE_VERSION) + '\n' + scene_.text + '\n' +
                        joined(scene_.overrides, "\n") + '\n' +
-                       (scene_.database ? scene_.database->sha256 : "");
+                       model::fingerprint_of_databases(scene_);
     for (const model::Controller& c : scene_.controllers)
       if (const auto* fmu = c.as<control::Fmu>())
         text += fmu->sha256;

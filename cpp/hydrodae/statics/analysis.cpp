@@ -229,6 +229,7 @@ void note_nonlinear(const Regime& s, LinearModel& out) {
 LinearModel linearize(const model::Scene& scene) {
   model::Scene still = scene;
   still.waves.clear();
+  still.pose_tables.clear();
   if (still.hydro) {
     still.hydro->radiation = "none";
     still.hydro->frequency.reset();

@@ -5,6 +5,7 @@
 #include "hydrodae/math/dual.h"
 #include "hydrodae/system/jacobian.h"
 #include "hydrodae/system/port_gradient.h"
+#include "hydrodae/water/hydro_axes_gradient.h"
 
 namespace hydrodae::system {
 
@@ -110,6 +111,7 @@ template <class Sink> struct Assembly {
   void add(const ElementList& list);
   void add(const HydroData& hydro);
   void hydro_body(std::size_t number, const Vector6& rate, const Vector6& momentum);
+  void table_columns(std::size_t number, const water::HydroLoadGradient& load);
   void hydro_masses();
   void hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L, const Matrix6& Q);
   void memory_columns(const HydroBody& i, const std::vector<int>& states, const Matrix6& L);

@@ -22,11 +22,44 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
   return block;
 }
 
+/// A table at the pose of its body.
+struct TableHere {
+  water::PoseCoordinate<double> pose;
+  double rate = 0.0;        ///< s'
+  Matrix6 A, A_slope, damping; ///< A, dA/ds, B; rows and columns that do not move are zero
+};
+
+/// The rows of coordinates that move.
+inline Matrix6 moving_rows(const HydroBody& hb, Matrix6 matrix) {
+  for (int c = 0; c < 6; ++c)
+    if (hb.moving[c] < 0)
+      matrix.row(c).setZero();
+  return matrix;
+}
+
+inline TableHere table_here(const Regime& s, Workspace<double>& ws, const HydroBody& hb) {
+  const water::PoseTable& table = s.hydro.tables[static_cast<std::size_t>(hb.table)];
+  TableHere out;
+  out.pose = read_pose(s, ws, table);
+  out.rate = out.pose.rate(ws.bodies[hb.body]);
+  const double *w = ws.weights.data() + table.first_weight,
+               *slopes = ws.weight_slopes.data() + table.first_weight;
+  out.A = moving_rows(hb, water::blend(table.added_mass, w));
+  out.A_slope = moving_rows(hb, water::blend(table.added_mass, slopes));
+  out.damping = moving_rows(hb, water::blend(table.damping, w));
+  return out;
+}
+
 template <class Sink>
 void Assembly<Sink>::hydro_pair(const HydroBody& i, const HydroBody& j, const Matrix6& L,
                                 const Matrix6& Q) {
-  const Matrix6 A = hydro_block(s.hydro.added_mass, i, j);
-  Matrix6 LA = L * A, QA = Q * A; // what multiplies dU' and dU
+  Matrix6 A = hydro_block(s.hydro.added_mass, i, j), by_U = Matrix6::Zero();
+  if (&i == &j && i.table >= 0) {
+    const TableHere table = table_here(s, ws.state, i);
+    A += table.A;
+    by_U = table.rate * table.A_slope + table.damping;
+  }
+  Matrix6 LA = L * A, QA = Q * A + L * by_U; // what multiplies dU' and dU
   if (s.hydro.damped)
     QA += L * hydro_block(s.hydro.damping, i, j);
   if (!s.hydro.convolution.empty() && ws.state.past) {
@@ -57,10 +90,55 @@ void Assembly<Sink>::memory_columns(const HydroBody& i, const std::vector<int>& 
     for (int c = 0; c < 6; ++c)
       if (i.moving[c] >= 0)
         column[c] = s.hydro.output(i.moving[c], z);
+    if (i.table >= 0)
+      column *= ws.state.weights[s.hydro.weight_of_state[static_cast<std::size_t>(z)]];
     const Vector6 load = L * column;
     for (int k = 0; k < b.n_active; ++k)
       sink.by_y(b.u0 + k, s.hydro.z0 + z, load[b.active[k]]);
   }
+}
+
+/// What the pose s of a body with a table adds:
+///   d load = (L (A' U' + s' A'' U + B' U + C W' z) + Q A' U - 1/2 (U.A'' U) g) ds + L A' U ds'
+///            - g U.A' dU - 1/2 (U.A' U) dg,     ds = g.dx, ds' = g.d(v, w) + w.dg
+template <class Sink>
+void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& load) {
+  const HydroBody& hb = s.hydro.bodies[number];
+  const water::PoseTable& table = s.hydro.tables[static_cast<std::size_t>(hb.table)];
+  const BodyState<double>& body = state(hb.body);
+  const TableHere here = table_here(s, ws.state, hb);
+  std::vector<double>& curvatures = ws.table_curvatures;
+  table.axis.weights.curvatures(here.pose.value, curvatures.data());
+  const double* slopes = ws.state.weight_slopes.data() + table.first_weight;
+  const Vector6 U = hydro_velocity<double>(s.hydro.axes, hb, body),
+                U_dot = hydro_acceleration<double>(s.hydro.axes, hb, body), &g = here.pose.gradient;
+  const Vector6 momentum = here.A_slope * U,
+                bend = moving_rows(hb, water::blend(table.added_mass, curvatures.data())) * U;
+  Vector6 force = here.A_slope * U_dot + here.rate * bend +
+                  moving_rows(hb, water::blend(table.damping, slopes)) * U;
+  for (const int z : s.hydro.links[number].states) {
+    const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)];
+    for (int c = 0; c < 6; ++c)
+      if (hb.moving[c] >= 0)
+        force[c] += s.hydro.output(hb.moving[c], z) * ws.state.weight_slopes[weight] *
+                    y[s.hydro.z0 + z];
+  }
+  const Vector6 by_pose = load.L * force + load.Q * momentum - 0.5 * U.dot(bend) * g,
+                by_rate = load.L * momentum;
+  const Vector6 along = 0.5 * (here.A_slope + here.A_slope.transpose()) * U;
+  const HydroMotionGradient d = hydro_motion_gradient(s.hydro.axes, hb, body);
+  Matrix6 dg = Matrix6::Zero();
+  dg.bottomRightCorner<3, 3>() = water::pose_gradient_by_rotation(table.axis.component, body.R);
+  Vector6 U_by_phi = Vector6::Zero(), U_by_velocity;
+  U_by_phi.tail<3>() = d.U_phi.transpose() * along;
+  U_by_velocity << d.U_v.transpose() * along, d.U_w.transpose() * along;
+  Vector6 rate_by_phi = Vector6::Zero();
+  rate_by_phi.tail<3>() = dg.bottomRightCorner<3, 3>().transpose() * body.w;
+  const Matrix6 by_displacement = by_pose * g.transpose() + by_rate * rate_by_phi.transpose() -
+                                  g * U_by_phi.transpose() - 0.5 * U.dot(momentum) * dg,
+                by_velocity = by_rate * g.transpose() - g * U_by_velocity.transpose();
+  load_by_displacement(hb.body, hb.body, -by_displacement);
+  load_by_velocity(hb.body, hb.body, -by_velocity);
 }
 
 // load_i = L (A U' + C z) + Q A U with the poses inside L and Q differentiated as well.
@@ -74,6 +152,8 @@ void Assembly<Sink>::hydro_body(std::size_t number, const Vector6& rate, const V
     rotation_columns(data.u0 + k, i.body, d.by_rotation.row(data.active[k]));
     velocity_columns(data.u0 + k, i.body, d.by_velocity.row(data.active[k]));
   }
+  if (i.table >= 0)
+    table_columns(number, d);
   for (const int j : links.partners)
     hydro_pair(i, s.hydro.bodies[static_cast<std::size_t>(j)], d.L, d.Q);
   if constexpr (memory)
@@ -136,6 +216,8 @@ template <class Sink> void Assembly<Sink>::hydro_masses() {
       const HydroBody& j = bodies[other];
       const Matrix6& L_j = ws.hydro_axes[other];
       Matrix6 mass = hydro_block(s.hydro.added_mass, i, j);
+      if (number == other && i.table >= 0)
+        mass += table_here(s, ws.state, i).A;
       if (!s.hydro.convolution.empty() && ws.state.past)
         mass += hydro_block(ws.state.past->by_U_dot, i, j);
       mass.rightCols<3>() *= L_j.bottomRightCorner<3, 3>().transpose();
@@ -160,14 +242,7 @@ template <class Sink> void Assembly<Sink>::add(const HydroData& h) {
     const HydroBody& i = h.bodies[number];
     if (!i.moves)
       continue;
-    Vector6 rate = Vector6::Zero(), momentum = Vector6::Zero();
-    for (int c = 0; c < 6; ++c) {
-      if (i.moving[c] < 0)
-        continue;
-      rate[c] = w.inertia_force[i.moving[c]];
-      momentum[c] = w.momentum[i.moving[c]];
-    }
-    hydro_body(number, rate, momentum);
+    hydro_body(number, i.gather<double>(w.inertia_force), i.gather<double>(w.momentum));
   }
   memory_rows();
 }

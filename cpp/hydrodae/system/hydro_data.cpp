@@ -35,4 +35,13 @@ void HydroData::link() {
   }
 }
 
+double HydroData::own_added_mass(int u) const {
+  double out = added_mass(u, u);
+  const Coordinate& k = coordinates[static_cast<std::size_t>(u)];
+  if (const int t = bodies[static_cast<std::size_t>(k.hydro_body)].table; t >= 0)
+    for (const Matrix6& table : tables[static_cast<std::size_t>(t)].added_mass)
+      out = std::max(out, table(k.component, k.component));
+  return out;
+}
+
 } // namespace hydrodae::system

@@ -1,12 +1,14 @@
 #pragma once
 /// Added mass and radiation of all bodies in the water, on all rungs.
 
+#include <algorithm>
 #include <complex>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "hydrodae/water/hydro_axes.h"
+#include "hydrodae/water/pose_table.h"
 
 namespace hydrodae::system {
 
@@ -78,6 +80,11 @@ struct HydroData {
   };
   std::vector<Links> links; ///< of each of `bodies`
 
+  // Of bodies whose added mass and radiation follow their pose; all else of theirs is zero above.
+  std::vector<water::PoseTable> tables;
+  int n_weights = 0;                ///< of all tables
+  std::vector<int> weight_of_state; ///< (n_states,) what its load is multiplied by; -1: 1
+
   /// Finds `links`, once all the rest is there.
   void link();
 
@@ -98,7 +105,14 @@ struct HydroData {
     }
   }
 
-  bool radiates() const { return n_states > 0 || damped || !convolution.empty(); }
+  /// Added mass of coordinate u on itself; of a body with a table the largest [kg, kg m2].
+  double own_added_mass(int u) const;
+
+  bool radiates() const {
+    const auto damps = [](const water::PoseTable& table) { return !table.damping.empty(); };
+    return n_states > 0 || damped || !convolution.empty() ||
+           std::any_of(tables.begin(), tables.end(), damps);
+  }
 };
 
 } // namespace hydrodae::system

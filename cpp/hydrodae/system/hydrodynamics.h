@@ -1,6 +1,6 @@
 #pragma once
 /// Added mass at infinite frequency and radiation memory as loads on the bodies, along the axes of
-/// element/hydro_axes.h: A_inf U' + C z, with the momentum A_inf U.
+/// water/hydro_axes.h: A_inf U' + C z, with the momentum A_inf U.
 
 #include "hydrodae/system/history.h"
 #include "hydrodae/water/hydro_axes.h"
@@ -50,15 +50,62 @@ template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
     ws.inertia_force[u] += S(ws.past->memory[u]);
 }
 
+/// A table at the pose of its body: weights, pose and its rate.
+template <class S>
+water::PoseCoordinate<S> read_pose(const Regime& s, Workspace<S>& ws, const water::PoseTable& table) {
+  const HydroBody& hb = s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)];
+  const water::PoseCoordinate<S> pose =
+      table.axis.at(ws.bodies[hb.body]);
+  table.axis.weights.values(pose.value, ws.weights.data() + table.first_weight,
+                       ws.weight_slopes.data() + table.first_weight);
+  return pose;
+}
+
+/// A(s) U into `ws.momentum`, A(s) U' + s' A'(s) U + B(s) U into `ws.inertia_force`.
+template <class S> void add_tables(const Regime& s, Workspace<S>& ws) {
+  for (std::size_t k = 0; k < s.hydro.tables.size(); ++k) {
+    const water::PoseTable& table = s.hydro.tables[k];
+    const HydroBody& hb = s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)];
+    const water::PoseCoordinate<S> pose = read_pose(s, ws, table);
+    const S* w = ws.weights.data() + table.first_weight;
+    const Vec6<S> U = hb.gather<S>(ws.U);
+    const Vec6<S> momentum = water::blend<S>(table.added_mass, w, U);
+    const Vec6<S> slope =
+        water::blend<S>(table.added_mass, ws.weight_slopes.data() + table.first_weight, U);
+    const S rate = pose.rate(ws.bodies[hb.body]);
+    const Vec6<S> force = water::blend<S>(table.added_mass, w, hb.gather<S>(ws.U_dot)) +
+                          rate * slope + water::blend<S>(table.damping, w, U);
+    for (int c = 0; c < 6; ++c) {
+      if (hb.moving[c] < 0)
+        continue;
+      ws.momentum[hb.moving[c]] += momentum[c];
+      ws.inertia_force[hb.moving[c]] += force[c];
+    }
+    ws.table_loads[k] = S(0.5) * U.cwiseProduct(slope).sum() * pose.gradient;
+  }
+}
+
+/// The memory states as they load the bodies: times the weights of their tables.
+template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws, const S* z) {
+  if (h.tables.empty())
+    return z;
+  for (int k = 0; k < h.n_states; ++k) {
+    const int weight = h.weight_of_state[static_cast<std::size_t>(k)];
+    ws.weighted[k] = weight < 0 ? z[k] : ws.weights[weight] * z[k];
+  }
+  return ws.weighted.data();
+}
+
 /// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`.
 template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
   hydro_motion(s, ws);
   multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
   multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
+  add_tables<S>(s, ws);
   add_convolution<S>(h, ws);
   if (h.n_states > 0) {
-    multiply<S>(h.output, z, ws.U_dot); // U' is no longer needed
+    multiply<S>(h.output, weighted_states<S>(h, ws, z), ws.U_dot); // U' is no longer needed
     ws.inertia_force += ws.U_dot;
   }
   if (h.damped) {
@@ -77,14 +124,10 @@ void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y
   for (const HydroBody& hb : h.bodies) {
     if (!hb.moves)
       continue;
-    Vec6<S> rate = Vec6<S>::Zero(), momentum = Vec6<S>::Zero();
-    for (int c = 0; c < 6; ++c) {
-      if (hb.moving[c] < 0)
-        continue;
-      rate[c] = ws.inertia_force[hb.moving[c]];
-      momentum[c] = ws.momentum[hb.moving[c]];
-    }
-    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body], rate, momentum);
+    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body], hb.gather<S>(ws.inertia_force),
+                                       hb.gather<S>(ws.momentum));
+    if (hb.table >= 0)
+      ws.loads[hb.body] += ws.table_loads[static_cast<std::size_t>(hb.table)];
   }
   const S* z_dot = yp + h.z0;
   S* r = residual + h.z0;

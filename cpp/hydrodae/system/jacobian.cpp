@@ -66,6 +66,12 @@ void fill(const Regime& system, const Pattern& pattern, JacobianWorkspace& ws, d
 void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& out) {
   const HydroData& h = s.hydro;
   out.memory.resize(h.bodies.size()); // once
+  if (!h.tables.empty()) {
+    out.memory_weights.setOnes(h.n_states);
+    for (int z = 0; z < h.n_states; ++z)
+      if (const int weight = h.weight_of_state[static_cast<std::size_t>(z)]; weight >= 0)
+        out.memory_weights[z] = ws.state.weights[weight];
+  }
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const auto body = static_cast<std::size_t>(hb.body);
@@ -90,7 +96,8 @@ void fill_memory(const Regime& s, const JacobianWorkspace& ws, JacobianParts& ou
 
 JacobianWorkspace::JacobianWorkspace(const Regime& system)
     : state(system), rotation(system.bodies.size(), Eigen::Matrix<double, 3, 4>::Zero()),
-      hydro_axes(system.hydro.bodies.size(), Matrix6::Identity()) {
+      hydro_axes(system.hydro.bodies.size(), Matrix6::Identity()),
+      table_curvatures(static_cast<std::size_t>(system.hydro.n_weights)) {
   std::size_t most = 0;
   for (const ElementList& list : system.elements)
     most = std::max(most, list.laws->size() * list.laws->jacobian_size());

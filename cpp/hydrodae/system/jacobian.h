@@ -46,6 +46,7 @@ struct MemoryPort {
 struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
   std::vector<MemoryPort> memory;  ///< of each hydrodynamic body; with Part::condensed
+  VectorX memory_weights; ///< (n_states,) of C z, where tables follow poses; with Part::condensed
   VectorX row_rates;               ///< (n_lambda,) (dG/dt) u; with Part::accelerations
   explicit JacobianParts(const Pattern& pattern)
       : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
@@ -58,6 +59,7 @@ struct JacobianWorkspace {
   std::vector<Eigen::Matrix<double, 3, 4>> rotation; ///< d phi / d p of each body
   std::vector<double> element_jacobian;              ///< of the laws of one list
   std::vector<Matrix6> hydro_axes;                   ///< L of each hydrodynamic body
+  std::vector<double> table_curvatures;              ///< of the weights of one table
 };
 
 /// dF/dy and dF/dy' at (t, y, y'), the part that the pattern is of; accelerations take the rows as

@@ -51,6 +51,9 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
   VecX<S> memory;             ///< scratch of the convolution
+  VecX<S> weights, weight_slopes; ///< of the tables over poses
+  VecX<S> weighted;               ///< memory states times their weights
+  std::vector<Vec6<S>> table_loads; ///< 1/2 U.A' U grad s of each table, on its body
   const Past* past = nullptr; ///< at the time of this evaluation (history.h)
   std::vector<ElementScratch<S>> elements;
   double time = 0.0; ///< of this evaluation [s]
@@ -63,6 +66,9 @@ template <class S> struct Workspace {
       : bodies(s.bodies.size()), loads(s.bodies.size()), shifts(s.bodies.size()),
         U(VecX<S>::Zero(s.hydro.n_moving)), U_dot(U), momentum(U), inertia_force(U),
         memory(VecX<S>::Zero(s.hydro.convolution.empty() ? 0 : s.hydro.n_moving)),
+        weights(VecX<S>::Zero(s.hydro.n_weights)), weight_slopes(weights),
+        weighted(VecX<S>::Zero(s.hydro.tables.empty() ? 0 : s.hydro.n_states)),
+        table_loads(s.hydro.tables.size(), Vec6<S>::Zero()),
         elements(s.elements.begin(), s.elements.end()) {
     turns.value = start_turns(s);
     turns.rate.assign(turns.value.size(), 0.0);

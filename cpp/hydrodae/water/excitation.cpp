@@ -64,26 +64,27 @@ void Excitation::turn(const std::vector<HydroBody>& bodies) {
     bodies_[k].wet = bodies[k];
 }
 
-/// b_m at the yaw of the body.
-template <class S>
-void Excitation::yaw_values(const Body& body, const S* in, YawFunctions::Values<S>& b) const {
-  if (body.yaw.count == 1) {
-    b[0] = S(1);
-    return;
+/// b_m and w_m at the pose of the body.
+template <class S> void Excitation::factors(const Body& body, const S* in, Factors<S>& b) const {
+  b.yaw[0] = b.pose[0] = S(1);
+  if (body.yaw.count > 1) {
+    const Mat3<S> H = yaw<S>(element::read_body(in)).H;
+    body.yaw.values(H(0, 0), H(1, 0), b.yaw);
   }
-  const Mat3<S> H = yaw<S>(element::read_body(in)).H;
-  body.yaw.values(H(0, 0), H(1, 0), b);
+  if (body.poses.weights.size() > 0)
+    body.poses.weights.values(body.poses.at(element::read_body(in)).value, b.pose.data(),
+                              b.pose_slopes.data());
 }
 
 /// What some terms make along the hydrodynamic axes; `f`: the functions of time, where these are
 /// fixed.
 template <class S>
 Vec6<S> Excitation::force(double t, const Body& body, const Terms& terms, const S* in,
-                          const YawFunctions::Values<S>& b, const double* f) const {
+                          const Factors<S>& b, const double* f) const {
   Vec6<S> out = Vec6<S>::Zero();
   const auto add = [&](const auto* functions) {
     for (const Term& term : terms.list)
-      out[term.coordinate] += b[static_cast<std::size_t>(term.m)] * S(*functions++);
+      out[term.coordinate] += b(term) * S(*functions++);
   };
   if (drifting_.empty()) {
     add(f + terms.first);
@@ -100,12 +101,12 @@ template <class S> void Excitation::loads(double t, const S* in, S* out) const {
   VectorX& f = functions_memory(n_moving_);
   if (!fixed_.empty())
     fixed_(t, f.head(n_moving_));
-  YawFunctions::Values<S> b;
+  Factors<S> b;
   for (const Body& body : bodies_) {
     Eigen::Map<Vec6<S>> load(out);
     load.setZero();
     if (body.wet.moves && count() > 0) {
-      yaw_values(body, in, b);
+      factors(body, in, b);
       load = on_body<S>(axes_, body.wet, in, force<S>(t, body, body.moving, in, b, f.data()));
     }
     in += element::body_numbers;
@@ -123,7 +124,7 @@ void Excitation::evaluate(double t, const Dual* in, const double*, Dual* out) co
 
 /// d load / d place of a body whose waves move with it, by x and y, along the hydrodynamic axes.
 Eigen::Matrix<double, 6, 2> Excitation::by_place(double t, const Body& body, const double* in,
-                                                 const YawFunctions::Values<double>& b) const {
+                                                 const Factors<double>& b) const {
   const Index n = body.moving.count();
   double* by_x = drifting_memory<double>(2 * n);
   double* by_y = by_x + n;
@@ -131,7 +132,7 @@ Eigen::Matrix<double, 6, 2> Excitation::by_place(double t, const Body& body, con
                    by_x, by_y);
   Eigen::Matrix<double, 6, 2> out = Eigen::Matrix<double, 6, 2>::Zero();
   for (const Term& term : body.moving.list) {
-    const double factor = b[static_cast<std::size_t>(term.m)];
+    const double factor = b(term);
     out(term.coordinate, 0) += factor * *by_x++;
     out(term.coordinate, 1) += factor * *by_y++;
   }
@@ -142,25 +143,32 @@ void Excitation::jacobian(double t, const double* in, const double*, double* jac
   VectorX& f = functions_memory(n_moving_);
   if (!fixed_.empty())
     fixed_(t, f.head(n_moving_));
-  YawFunctions::Values<double> b, slopes;
+  Factors<double> b;
   for (const Body& body : bodies_) {
     Eigen::Map<Eigen::Matrix<double, 6, 18>> J(jacobian);
     J.setZero();
     if (body.wet.moves && count() > 0) {
       const element::BodyState<double> state = element::read_body(in);
-      yaw_values(body, in, b);
+      factors(body, in, b);
       const Vector6 along = force<double>(t, body, body.moving, in, b, f.data()),
                     still = Vector6::Zero();
       const HydroLoadGradient d = hydro_load_gradient(axes_, body.wet, state, along, still);
       J.middleCols<3>(3) = d.by_rotation;
       if (body.yaw.count > 1) {
         const Yaw<double> psi = yaw<double>(state);
-        body.yaw.slopes(psi.H(0, 0), psi.H(1, 0), slopes);
+        Factors<double> by_yaw = b;
+        body.yaw.slopes(psi.H(0, 0), psi.H(1, 0), by_yaw.yaw);
         J.middleCols<3>(3) +=
-            d.L * force<double>(t, body, body.moving, in, slopes, f.data()) * psi.s.transpose();
+            d.L * force<double>(t, body, body.moving, in, by_yaw, f.data()) * psi.s.transpose();
+      }
+      if (body.poses.weights.size() > 0) {
+        Factors<double> by_pose = b;
+        by_pose.pose = b.pose_slopes;
+        J.leftCols<6>() += d.L * force<double>(t, body, body.moving, in, by_pose, f.data()) *
+                           body.poses.at(state).gradient.transpose();
       }
       if (!drifting_.empty())
-        J.leftCols<2>() = d.L * by_place(t, body, in, b);
+        J.leftCols<2>() += d.L * by_place(t, body, in, b);
     }
     in += element::body_numbers;
     jacobian += J.size();
@@ -202,10 +210,10 @@ void Excitation::report(double t, const double* in, const double*, double* loads
     std::fill_n(loads, 6 * bodies_.size() * (1 + parts.size()), 0.0);
     return;
   }
-  YawFunctions::Values<double> b;
+  Factors<double> b;
   for (const Body& body : bodies_) {
     check_yaw(t, body, in);
-    yaw_values(body, in, b);
+    factors(body, in, b);
     const auto sum = [&](const Terms& terms) {
       return force<double>(t, body, terms, in, b, f.data());
     };
@@ -237,14 +245,17 @@ element::WavesFelt Excitation::waves() const {
       out.omega[i] = drifting_.waves()[static_cast<std::size_t>(i)].omega;
   }
   out.amplitude = C.row(C.rows() - 1).cwiseAbs2().cwiseSqrt().transpose();
-  YawFunctions::Values<double> b;
+  Factors<double> b;
   for (const Body& body : bodies_) {
-    body.yaw.values(body.wet.cos_yaw, body.wet.sin_yaw, b);
+    body.yaw.values(body.wet.cos_yaw, body.wet.sin_yaw, b.yaw);
+    b.pose[0] = 1.0;
+    if (body.poses.weights.size() > 0) // in the reference pose
+      body.poses.weights.values(0.0, b.pose.data(), b.pose_slopes.data());
     Eigen::MatrixXcd load = Eigen::MatrixXcd::Zero(6, C.cols());
     for (const Terms* terms : {&body.moving, &body.still})
       for (Index k = 0; k < terms->count(); ++k) {
         const Term& term = terms->list[static_cast<std::size_t>(k)];
-        load.row(term.coordinate) += b[static_cast<std::size_t>(term.m)] * C.row(terms->first + k);
+        load.row(term.coordinate) += b(term) * C.row(terms->first + k);
       }
     out.loads.emplace_back(load.cwiseAbs());
   }

@@ -1,26 +1,30 @@
 #pragma once
 /// Wave excitation of all hydrodynamic bodies, by the tables of the database.
 ///
-///   load = L sum_m b_m(psi) f_m(t)      along the hydrodynamic axes of each body (hydro_axes.h)
+///   load = L sum_m b_m(psi) w_m(s) f_m(t)      along the hydrodynamic axes of each body
+///                                              (hydro_axes.h)
 ///
 /// f_m are functions of time; or, where the phase of the waves moves with the bodies, of time and
 /// the horizontal displacement of each body as well. b_m are functions of the yaw of the body
 /// (yaw_functions.h): in axes that follow it, waves act with the force of their heading relative to
-/// the body. In the others b is 1 alone.
+/// the body. In the others b is 1 alone. w_m are the weights of tables for several poses s
+/// (pose_table.h); of a body with one table w is 1.
 
 #include "hydrodae/element/elements.h"
 #include "hydrodae/sea/drifting.h"
 #include "hydrodae/sea/signals.h"
 #include "hydrodae/water/hydro_axes.h"
+#include "hydrodae/water/pose_table.h"
 #include "hydrodae/water/yaw_functions.h"
 
 namespace hydrodae::water {
 
 class Excitation final : public element::Elements {
 public:
-  /// A function of time that acts along a coordinate (0..5) as often as b_m says.
+  /// A function of time that acts along a coordinate (0..5) as often as b_m, and the weight of its
+  /// pose, say.
   struct Term {
-    int coordinate = 0, m = 0;
+    int coordinate = 0, m = 0, pose = 0;
   };
   /// Successive functions of time, from `first` on.
   struct Terms {
@@ -34,6 +38,7 @@ public:
     Vector3 reference = Vector3::Zero(); ///< centre of gravity in the reference pose [m]
     double length = 1.0;                 ///< that tells noise of moments from that of forces [m]
     YawFunctions yaw;
+    PoseAxis poses;
     Terms moving;        ///< loads along the coordinates that move
     Terms still;         ///< along the others, which are reported
     Terms froude_krylov; ///< the Froude-Krylov part of all; empty where only the sum is known
@@ -64,13 +69,20 @@ public:
 
 private:
   template <class S> void loads(double t, const S* in, S* out) const;
+  /// What the terms of a body are multiplied by.
+  template <class S> struct Factors {
+    YawFunctions::Values<S> yaw;
+    std::array<S, PoseAxis::most> pose, pose_slopes;
+    S operator()(const Term& term) const {
+      return yaw[static_cast<std::size_t>(term.m)] * pose[static_cast<std::size_t>(term.pose)];
+    }
+  };
   template <class S>
-  Vec6<S> force(double t, const Body& body, const Terms& terms, const S* in,
-                const YawFunctions::Values<S>& b, const double* f) const;
-  template <class S>
-  void yaw_values(const Body& body, const S* in, YawFunctions::Values<S>& b) const;
+  Vec6<S> force(double t, const Body& body, const Terms& terms, const S* in, const Factors<S>& b,
+                const double* f) const;
+  template <class S> void factors(const Body& body, const S* in, Factors<S>& b) const;
   Eigen::Matrix<double, 6, 2> by_place(double t, const Body& body, const double* in,
-                                       const YawFunctions::Values<double>& b) const;
+                                       const Factors<double>& b) const;
   void check_yaw(double t, const Body& body, const double* in) const;
   Index count() const { return fixed_.size() + drifting_.size(); }
   VectorX least(const VectorX& largest) const;

@@ -32,8 +32,17 @@ struct HydroBody {
   bool turned = false;                            ///< yaw != 0
   std::array<int, 6> moving{}; ///< index into U of each of the six coordinates, -1: does not move
   bool moves = false;
+  int table = -1; ///< in HydroData::tables, -1: its added mass does not depend on its pose
   int n_moving() const {
     return 6 - static_cast<int>(std::count(moving.begin(), moving.end(), -1));
+  }
+  /// The six components of a body from those that move of all bodies, zero of the others.
+  template <class S> Vec6<S> gather(const VecX<S>& moving_of_all) const {
+    Vec6<S> out = Vec6<S>::Zero();
+    for (int c = 0; c < 6; ++c)
+      if (const int u = moving[static_cast<std::size_t>(c)]; u >= 0)
+        out[c] = moving_of_all[u];
+    return out;
   }
   int first_moving() const {
     return *std::find_if(moving.begin(), moving.end(), [](int u) { return u >= 0; });

@@ -130,18 +130,22 @@ def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
     """Files that the case reads, by their name in the FMU, and the keys that name them as TOML."""
     root = tables_of(case.text)
     keys = {"hydro.database": root.get("hydro", {}).get("database")}
-    for wave in root.get("wave", []):
-        keys[f"wave.{wave['name']}.file"] = wave.get("file")
+    for kind, key in (("wave", "file"), ("body", "mesh"), ("pose_table", "databases")):
+        for entry in root.get(kind, []):
+            keys[f"{kind}.{entry['name']}.{key}"] = entry.get(key)
     folder = case.directory if case.path is None else case.path.parent
     files: dict[str, Path] = {}
     values: dict[str, str] = {}
     for key, found in keys.items():
         if key in case.overrides:
             found = tomllib.loads(f"value = {case.overrides[key]}")["value"]
-        if found is not None:
-            name = f"{len(files)}_{Path(found).name}"
-            files[name] = folder / found
-            values[key] = to_toml(name)
+        if found is None:
+            continue
+        names = []
+        for path in found if isinstance(found, list) else [found]:
+            names.append(f"{len(files)}_{Path(path).name}")
+            files[names[-1]] = folder / path
+        values[key] = to_toml(names if isinstance(found, list) else names[0])
     return files, values
 
 

@@ -16,6 +16,7 @@ from hydrodae.case.case import CaseLike
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.relations.poses import blended
 from hydrodae.linear.kinematics import water_motion
 from hydrodae.linear.modes import Mode, find_modes
 from hydrodae.linear.reading import without_memory
@@ -79,7 +80,20 @@ class LinearModel:
         if self._given_database is not None:
             return self._given_database
         path = self.case.scene.database_path
-        return HydroDatabase.read(path) if path else None
+        return self._at_pose(HydroDatabase.read(path)) if path else None
+
+    def _at_pose(self, database: HydroDatabase) -> HydroDatabase:
+        """Return the database with the tables of bodies over their poses, blended at equilibrium."""
+        for table in case_tables(self.case).get("pose_table", []):
+            body, turns = table["body"], table["coordinate"] != "heave"
+            values = np.radians(table["values_deg"]) if turns else np.array(table["values"])
+            place = (self.rotations if turns else self.offsets)[body]
+            pose = float(place[("roll", "pitch", "yaw").index(table["coordinate"]) if turns else 2])
+            folder = self.case.directory if self.case.path is None else self.case.path.parent
+            sources = [HydroDatabase.read(folder / path) for path in table["databases"]]
+            wet = next(b["hydro"] for b in case_tables(self.case)["body"] if b["name"] == body)
+            database = blended(database, wet, values, sources, pose)
+        return database
 
     def with_database(self, database: HydroDatabase) -> LinearModel:
         """Return the same linearised case with the tables of another database of the same bodies.

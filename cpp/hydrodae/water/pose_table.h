@@ -1,0 +1,127 @@
+#pragma once
+/// Added mass and radiation of a body that change with one coordinate s of its pose, from tables
+/// for several poses.
+///
+///   A(s) = sum_m w_m(s) A_m,   B(s) and C(s) z alike
+///
+/// The kinetic energy 1/2 U.A(s) U of the fluid takes from the body
+///   d/dt (A(s) U) - 1/2 U.A'(s) U grad s
+/// (Lagrange; Lamb, Hydrodynamics, art. 137). w_m: cardinal splines on the poses of the tables.
+
+#include <vector>
+
+#include "hydrodae/element/body_state.h"
+#include "hydrodae/math/cardinal_splines.h"
+#include "hydrodae/water/hydro_axes.h"
+
+namespace hydrodae::water {
+
+/// A coordinate of the pose with its gradient: ds = gradient . (dr, dphi), dr in world axes, the
+/// virtual rotation dphi in body axes.
+template <class S> struct PoseCoordinate {
+  S value;
+  Vec6<S> gradient;
+  S rate(const element::BodyState<S>& b) const {
+    return gradient.template head<3>().cwiseProduct(b.v).sum() +
+           gradient.template tail<3>().cwiseProduct(b.w).sum();
+  }
+};
+
+/// Gradient of roll, pitch or yaw (component 3, 4, 5) by the virtual rotation of the body, from the
+/// vertical in its axes g = R^T e_z. Roll = atan2(g_y, g_z) and pitch = -asin(g_x) do not change
+/// with yaw, the angle of the body's x axis seen from above.
+template <class S> Vec3<S> turn_gradient(int component, const Vec3<S>& g) {
+  using std::sqrt;
+  const S square = g[1] * g[1] + g[2] * g[2];
+  if (component == 3)
+    return {S(1), -g[0] * g[1] / square, -g[0] * g[2] / square};
+  if (component == 4) {
+    const S n = sqrt(square);
+    return {S(0), g[2] / n, -g[1] / n};
+  }
+  return {S(0), g[1] / square, g[2] / square};
+}
+
+/// Of a component: 0..2 the displacement from `reference` along a world axis [m]; 3..5 roll, pitch,
+/// yaw [rad].
+template <class S>
+PoseCoordinate<S> pose_coordinate(int component, double reference,
+                                  const element::BodyState<S>& b) {
+  using std::atan2;
+  using std::sqrt;
+  PoseCoordinate<S> out;
+  out.gradient.setZero();
+  if (component < 3) {
+    out.value = b.r[component] - S(reference);
+    out.gradient[component] = S(1);
+    return out;
+  }
+  const Vec3<S> g = b.R.row(2).transpose();
+  out.gradient.template tail<3>() = turn_gradient<S>(component, g);
+  if (component == 3)
+    out.value = atan2(g[1], g[2]);
+  else if (component == 4)
+    out.value = atan2(-g[0], sqrt(g[1] * g[1] + g[2] * g[2]));
+  else
+    out.value = atan2(b.R(1, 0), b.R(0, 0));
+  return out;
+}
+
+/// d gradient / dphi, with dg = [g] dphi; zero of a displacement.
+inline Matrix3 pose_gradient_by_rotation(int component, const Matrix3& R) {
+  Matrix3 out = Matrix3::Zero();
+  if (component < 3)
+    return out;
+  const Vector3 g = R.row(2).transpose();
+  const Matrix3 turn = skew<double>(g);
+  for (int c = 0; c < 3; ++c) {
+    const Vec3<Dual> turned{{g[0], turn(0, c)}, {g[1], turn(1, c)}, {g[2], turn(2, c)}};
+    const Vec3<Dual> gradient = turn_gradient<Dual>(component, turned);
+    for (int k = 0; k < 3; ++k)
+      out(k, c) = gradient[k].b;
+  }
+  return out;
+}
+
+/// What blends the tables of a body: functions of a coordinate of its pose.
+struct PoseAxis {
+  static constexpr std::size_t most = 100; ///< poses
+  int component = 0;                       ///< 0..5
+  double reference = 0.0;                  ///< of a displacement [m]
+  CardinalSplines weights;                 ///< without places: one table for all poses
+
+  template <class S> PoseCoordinate<S> at(const element::BodyState<S>& b) const {
+    return pose_coordinate<S>(component, reference, b);
+  }
+};
+
+/// The tables of one body. Rows are all six loads; columns of coordinates that do not move are
+/// zero.
+struct PoseTable {
+  int hydro_body = 0;
+  PoseAxis axis;
+  std::vector<Matrix6> added_mass; ///< of each pose
+  std::vector<Matrix6> damping;    ///< likewise; empty: there is none
+  int first_weight = 0;            ///< in the weights of all tables
+};
+
+/// sum_m w_m M_m; zero of no matrices.
+inline Matrix6 blend(const std::vector<Matrix6>& tables, const double* weights) {
+  Matrix6 out = Matrix6::Zero();
+  for (const Matrix6& table : tables)
+    out += *weights++ * table;
+  return out;
+}
+
+/// sum_m w_m M_m x.
+template <class S>
+Vec6<S> blend(const std::vector<Matrix6>& tables, const S* weights, const Vec6<S>& x) {
+  Vec6<S> out = Vec6<S>::Zero();
+  for (const Matrix6& table : tables) {
+    const Vec6<S> part = table.template cast<S>() * x;
+    out += *weights++ * part;
+  }
+  return out;
+}
+
+} // namespace hydrodae::water

@@ -1,0 +1,81 @@
+"""Tables of one body for several poses, blended at a pose between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from hydrodae.errors import DatabaseError
+from hydrodae.hdb.database import HydroDatabase
+
+
+def blended(
+    database: HydroDatabase,
+    body: str,
+    values: ArrayLike,
+    tables: Sequence[HydroDatabase],
+    pose: float,
+) -> HydroDatabase:
+    """Return a database whose tables of one body are those at a pose between given ones.
+
+    Added mass, damping and excitation follow cubic splines over the pose (not-a-knot; of two poses
+    a straight line, of three a parabola), as in `[[pose_table]]` of a case. The memory fit and the
+    radiation kernel are left out.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+        What all else is taken from.
+    body : str
+        Name of the body in all databases.
+    values : array_like (n,)
+        Poses of the tables, ascending [m] or [rad].
+    tables : sequence of HydroDatabase (n,)
+        For the same frequencies and headings as `database`.
+    pose : float
+        Within `values` [m] or [rad].
+
+    Raises
+    ------
+    DatabaseError
+        The pose is outside `values`, or a table has other frequencies or headings.
+    """
+    x = np.asarray(values, dtype=float)
+    if not x[0] <= pose <= x[-1]:
+        raise DatabaseError(f"the pose {pose:g} is outside the tables, {x[0]:g} to {x[-1]:g}")
+    for table in tables:
+        for name in ("omega", "heading"):
+            own, common = getattr(table, name), getattr(database, name)
+            if own.shape != common.shape or not np.allclose(own, common):
+                raise DatabaseError(
+                    f"{table.source}: its {name} is not that of {database.source}; "
+                    f"compute all poses for the same frequencies and headings"
+                )
+    labels = [label for label in database.coordinates if label.rpartition(".")[0] == body]
+    mine = database.index(labels)
+
+    def blend(name: str, axes: int) -> np.ndarray:
+        def own(of: HydroDatabase) -> np.ndarray:
+            table, i = getattr(of, name), of.index(labels)
+            return table[..., i[:, None], i] if axes == 2 else table[..., i]
+
+        between = CubicSpline(x, [own(table) for table in tables])(pose)
+        out = getattr(database, name).copy()
+        if axes == 2:
+            out[..., mine[:, None], mine] = between
+        else:
+            out[..., mine] = between
+        return out
+
+    matrices = ("added_mass", "radiation_damping", "added_mass_inf", "added_mass_inf_std")
+    return replace(
+        database,
+        **{name: blend(name, 2) for name in matrices},
+        **{name: blend(name, 1) for name in ("froude_krylov", "diffraction")},
+        memory={},
+        kernel=None,
+    )

@@ -1,0 +1,247 @@
+"""Added mass, radiation and excitation by the pose of a body, in whole runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+from tests.verification import hulls
+
+import hydrodae
+from hydrodae.errors import CaseError, SolverError
+from hydrodae.hdb import HydroDatabase
+from hydrodae.linear import LinearModel
+
+Array = NDArray[np.float64]
+ROOT = Path(__file__).resolve().parents[2]
+RADIUS, MASS, CENTER, RHO, GRAVITY = 5.0, 261.8e3, -2.0, 1000.0, 9.81
+
+
+def growth(rise: Array | float) -> Array:
+    """Return how the tables grow with the depth of a sphere: smooth, 1 at rest."""
+    return np.asarray(np.exp(-np.asarray(rise) / 6.0) * (1.0 + 0.1 * np.sin(rise)))
+
+
+def write_tables(folder: Path, poses: Array, *, turns: bool = False) -> None:
+    """Write the database of the sphere, scaled for each pose, and that of rest."""
+    rest = HydroDatabase.read(ROOT / "cases" / "sphere" / "hydro.h5")
+    rest.write(folder / "hydro.h5")
+    for k, pose in enumerate(poses):
+        factor = float(growth(pose))
+        body = rest.bodies["sphere"]
+        point = body.reference_point + np.array([0.0, 0.0, 0.0 if turns else pose])
+        fits = {
+            name: replace(
+                fit,
+                output_matrix=factor * fit.output_matrix,
+                added_mass_inf=factor * fit.added_mass_inf,
+            )
+            for name, fit in rest.memory.items()
+        }
+        replace(
+            rest,
+            added_mass=factor * rest.added_mass,
+            radiation_damping=factor * rest.radiation_damping,
+            added_mass_inf=factor * rest.added_mass_inf,
+            froude_krylov=np.sqrt(factor) * rest.froude_krylov,
+            diffraction=np.sqrt(factor) * rest.diffraction,
+            bodies={"sphere": replace(body, reference_point=point)},
+            memory=fits,
+            kernel=None,
+        ).write(folder / f"pose{k}.h5")
+
+
+CASE = """
+[hydro]
+database = "hydro.h5"
+radiation = "{radiation}"
+{more}
+[[body]]
+name = "float"
+hydro = "sphere"
+motion = "{motion}"
+mass = 261.8e3
+center_of_gravity = [0.0, 0.0, -2.0]
+inertia = [1.69e6, 1.69e6, 2.6e6]
+mesh = "sphere.obj"
+hydrostatics = "mesh"
+initial = {{ displacement = [0.0, 0.0, {rise!r}] }}
+[solver]
+end_time = {end!r}
+rtol = {rtol!r}
+[output]
+step = 0.05
+"""
+
+
+def write_case(folder: Path, poses: Array, **more: object) -> Path:
+    """Write a case of the sphere with a table over heave."""
+    mesh = hulls.sphere(RADIUS, 12)
+    hulls.write_obj(folder / "sphere.obj", mesh)
+    values = dict(radiation="none", motion="heave", rise=3.0, end=20.0, rtol=1e-9, more="")
+    text = CASE.format(**(values | more))
+    if poses.size:
+        files = ", ".join(f'"pose{k}.h5"' for k in range(poses.size))
+        text += f"""
+[[pose_table]]
+name = "depth"
+body = "float"
+coordinate = "heave"
+values = {poses.tolist()}
+databases = [{files}]
+"""
+    path = folder / "case.toml"
+    path.write_text(text)
+    return path
+
+
+def heave(results: hydrodae.Results) -> Array:
+    """Return the heave about rest [m]."""
+    return np.asarray(results["bodies/float/position"].values[:, 2] - CENTER)
+
+
+POSES = np.linspace(-4.8, 4.8, 9)
+
+
+@pytest.mark.parametrize("method", ["auto", "radau", "ida"])
+def test_energy_is_conserved_without_radiation(tmp_path: Path, method: str) -> None:
+    write_tables(tmp_path, POSES)
+    path = write_case(tmp_path, POSES, end=60.0, rtol=1e-11 if method != "ida" else 1e-9)
+    results = hydrodae.run(path, set={"solver.method": method})
+    total, kinetic = results["energy/total"].values, results["energy/kinetic"].values
+    bound = 1e-8 if method != "ida" else 1e-5
+    assert np.ptp(heave(results)) > 5.0
+    assert np.abs(total - total[0]).max() < bound * kinetic.max()
+
+
+def reference_decay(folder: Path, poses: Array, times: Array) -> Array:
+    """Return the heave by an own program: (m + A(z)) z'' + A'(z) z'^2 / 2 = F(z) - C(z) x [m]."""
+    bases = [HydroDatabase.read(folder / f"pose{k}.h5").memory["heave"] for k in range(poses.size)]
+    added = CubicSpline(poses, [float(fit.added_mass_inf[0, 0]) for fit in bases])
+    outputs = CubicSpline(poses, [fit.output_matrix[0] for fit in bases])
+    poles, inputs = bases[0].poles, bases[0].input_matrix[:, 0]
+    vertices, triangles = hulls.sphere(RADIUS, 12)
+
+    def buoyancy(rise: float) -> float:
+        # The mesh holds the exact volume of the sphere when it is under water; between, its own.
+        return RHO * GRAVITY * float(_volume(vertices, triangles, rise + CENTER))
+
+    def rates(_: float, y: Array) -> Array:
+        z, v = y[0], y[1]
+        x = y[2 : 2 + len(poles)] + 1j * y[2 + len(poles) :]
+        force = buoyancy(z) - MASS * GRAVITY - float((outputs(z) * x).sum().real)
+        a = (force - 0.5 * float(added(z, 1)) * v * v) / (MASS + float(added(z)))
+        change = poles * x + inputs * v
+        return np.asarray(np.r_[v, a, change.real, change.imag])
+
+    start = np.r_[3.0, np.zeros(1 + 2 * len(poles))]
+    found = solve_ivp(rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-9, atol=1e-9)
+    return np.asarray(found.y[0])
+
+
+def _volume(vertices: Array, triangles: NDArray[np.int64], height: float) -> Array:
+    """Return the volume of a mesh beneath z = 0 when its origin is at `height` [m3]."""
+    corners = vertices[triangles] + np.array([0.0, 0.0, height])
+    total = 0.0
+    for triangle in corners:
+        polygon: list[Array] = []
+        for a, b in zip(triangle, np.roll(triangle, -1, axis=0), strict=True):
+            if a[2] <= 0.0:
+                polygon.append(a)
+            if (a[2] < 0.0 < b[2]) or (b[2] < 0.0 < a[2]):
+                polygon.append(a + (b - a) * (a[2] / (a[2] - b[2])))
+        for k in range(1, len(polygon) - 1):
+            p, q, r = polygon[0], polygon[k], polygon[k + 1]
+            total -= (p[2] + q[2] + r[2]) / 3.0 * -0.5 * float(np.cross(q - p, r - p)[2])
+    return np.asarray(total)
+
+
+def test_a_decay_with_memory_follows_an_own_program(tmp_path: Path) -> None:
+    write_tables(tmp_path, POSES)
+    path = write_case(tmp_path, POSES, radiation="exponential", end=6.0)
+    results = hydrodae.run(path)
+    exact = reference_decay(tmp_path, POSES, results.time)
+    np.testing.assert_allclose(heave(results), exact, atol=2e-6)
+    # and differs from constant tables by much more
+    fixed = hydrodae.run(write_case(tmp_path, np.array([]), radiation="exponential", end=6.0))
+    assert np.abs(heave(fixed) - exact).max() > 0.1
+
+
+@pytest.mark.parametrize("radiation", ["none", "exponential", "constant"])
+def test_equal_tables_are_one_database(tmp_path: Path, radiation: str) -> None:
+    poses = np.array([-4.0, -1.0, 2.0, 5.0])
+    write_tables(tmp_path, poses)
+    rest = HydroDatabase.read(tmp_path / "hydro.h5")
+    for k, pose in enumerate(poses):
+        body = rest.bodies["sphere"]
+        moved = replace(body, reference_point=body.reference_point + np.array([0.0, 0.0, pose]))
+        replace(rest, bodies={"sphere": moved}).write(tmp_path / f"pose{k}.h5")
+    more = dict(
+        radiation=radiation,
+        motion="planar",
+        more=("frequency = 1.3\n" if radiation == "constant" else "")
+        + '[[wave]]\nname = "swell"\ntype = "regular"\nperiod = 7.0\nheight = 1.0\n',
+    )
+    if radiation == "exponential":
+        more["motion"] = "heave"
+    one = hydrodae.run(write_case(tmp_path, np.array([]), **more))
+    several = hydrodae.run(write_case(tmp_path, poses, **more))
+    np.testing.assert_allclose(heave(several), heave(one), atol=1e-7)
+
+
+def test_a_finer_table_converges(tmp_path: Path) -> None:
+    found = []
+    for n in (4, 7, 13, 25):
+        poses = np.linspace(-4.8, 4.8, n)
+        write_tables(tmp_path, poses)
+        found.append(heave(hydrodae.run(write_case(tmp_path, poses, end=5.0))))
+    errors = [float(np.abs(series - found[-1]).max()) for series in found[:-1]]
+    assert errors[1] < 0.3 * errors[0]
+    assert errors[2] < 0.1 * errors[1]  # fourth order: a sixteenth
+
+
+def test_a_pose_beyond_the_table_ends_the_run(tmp_path: Path) -> None:
+    poses = np.array([-1.0, 0.0, 1.0, 3.2])
+    write_tables(tmp_path, poses)
+    with pytest.raises(SolverError, match="covers -1 to 3.2 alone"):
+        hydrodae.run(write_case(tmp_path, poses))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (('coordinate = "heave"', 'coordinate = "pitch"'), "values_deg"),
+        (("values = [-1.0,", "values = [2.0,"), "two or more ascending"),
+        (("values = [-1.0, 0.0, 1.0]", "values = [-1.0, 0.0]"), "give one for each"),
+        (("values = [-1.0, 0.0,", "values = [-1.0, 0.5,"), "center_of_gravity"),
+        (('body = "float"\n', 'body = "flaot"\n'), "did you mean"),
+        (('"none"', '"convolution"'), "no tables over poses"),
+    ],
+)
+def test_a_wrong_table_is_refused(tmp_path: Path, change: tuple[str, str], message: str) -> None:
+    poses = np.array([-1.0, 0.0, 1.0])
+    write_tables(tmp_path, poses)
+    path = write_case(tmp_path, poses)
+    path.write_text(path.read_text().replace(*change))
+    with pytest.raises(CaseError, match=message):
+        hydrodae.run(path)
+
+
+def test_the_frequency_domain_takes_the_tables_at_equilibrium(tmp_path: Path) -> None:
+    poses = np.linspace(-4.0, 4.0, 9)
+    write_tables(tmp_path, poses)
+    path = write_case(tmp_path, poses, more="")
+    # heavier: it floats 1 m deeper
+    deeper = RHO * float(_volume(*hulls.sphere(RADIUS, 12), CENTER - 1.0))
+    path.write_text(path.read_text().replace("mass = 261.8e3", f"mass = {deeper!r}"))
+    model = LinearModel(path)
+    rest = HydroDatabase.read(tmp_path / "hydro.h5")
+    added, _ = model.added(np.array([1.2]))
+    i = list(rest.coordinates).index("sphere.heave")
+    at_rest = CubicSpline(rest.omega, rest.added_mass[:, i, i], bc_type="natural")(1.2)
+    assert added[0, 0, 0] == pytest.approx(float(growth(-1.0)) * float(at_rest), rel=1e-4)
