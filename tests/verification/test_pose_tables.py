@@ -208,7 +208,7 @@ def test_a_finer_table_converges(tmp_path: Path) -> None:
 def test_a_pose_beyond_the_table_ends_the_run(tmp_path: Path) -> None:
     poses = np.array([-1.0, 0.0, 1.0, 3.2])
     write_tables(tmp_path, poses)
-    with pytest.raises(SolverError, match="covers -1 to 3.2 alone"):
+    with pytest.raises(SolverError, match=r"covers -1 to 3\.2 alone"):
         hydrodae.run(write_case(tmp_path, poses))
 
 

@@ -83,7 +83,7 @@ class LinearModel:
         return self._at_pose(HydroDatabase.read(path)) if path else None
 
     def _at_pose(self, database: HydroDatabase) -> HydroDatabase:
-        """Return the database with the tables of bodies over their poses, blended at equilibrium."""
+        """Return the database with tables over poses blended at the equilibrium."""
         for table in case_tables(self.case).get("pose_table", []):
             body, turns = table["body"], table["coordinate"] != "heave"
             values = np.radians(table["values_deg"]) if turns else np.array(table["values"])

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from hydrodae.commands.arguments import parse_headings, parse_numbers, parse_point
 from hydrodae.errors import CaseError, DatabaseError
@@ -21,6 +24,8 @@ from hydrodae.hdb.hull.meshes import mirrored, read_mesh
 from hydrodae.hdb.preparation.computing import hydrostatics_of
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.relations.dispersion import wavenumber
+
+Array = NDArray[np.float64]
 
 DONE, BAD_DATA = 0, 2
 #: Wall time between two lines of progress [s].
@@ -75,6 +80,13 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     compute.add_argument(
         "--no-lid", action="store_true", help="leave irregular frequencies in (faster)"
     )
+    compute.add_argument(
+        "--poses",
+        metavar="COORDINATE=A,B,...",
+        help="several poses of one body, for [[pose_table]] of a case: heave=A,B,... [m], or "
+        "roll_deg, pitch_deg, yaw_deg about --cog. Writes FILE with the number of the pose in its "
+        "name for each, and prints the table",
+    )
     compute.add_argument("-o", "--output", metavar="FILE", default="hydro.h5")
     compute.add_argument(
         "--work", metavar="FOLDER", help="where finished frequencies are kept (default: FILE.bem)"
@@ -122,9 +134,81 @@ def run(args: argparse.Namespace) -> int:
         kochin=args.kochin,
     )
     points = dict(parse_point("--cog", text) for text in args.cog)
-    bodies = [_body(text, points, args.panel, settings) for text in args.body]
+    for text in args.body:
+        _name_of(text)
     for name in points:
-        check_body(name, [b.name for b in bodies])
+        check_body(name, [_name_of(text) for text in args.body])
+    if args.poses is None:
+        still = Pose("heave", 0.0)
+        return _compute_one(args, settings, points, still, args.output)
+    poses = _poses(args)
+    files = [str(_numbered(args.output, k + 1)) for k in range(len(poses))]
+    for pose, file in zip(poses, files, strict=True):
+        print(f"{pose.coordinate} of {pose.value:g}:")
+        code = _compute_one(args, settings, points, pose, file)
+        if code != DONE:
+            return code
+    print(_pose_table(_name_of(args.body[0]), poses, files))
+    return DONE
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A displacement [m] or rotation [deg] of a body about its reference point."""
+
+    coordinate: str
+    value: float
+
+    def moved(self, panels: Array, point: Array) -> tuple[Array, Array]:
+        """Return panels and reference point in the pose."""
+        if self.coordinate == "heave":
+            rise = np.array([0.0, 0.0, self.value])
+            return panels + rise, point + rise
+        axis = ("roll_deg", "pitch_deg", "yaw_deg").index(self.coordinate)
+        turn = Rotation.from_rotvec(np.radians(self.value) * np.eye(3)[axis]).as_matrix()
+        return (panels - point) @ turn.T + point, point
+
+
+def _poses(args: argparse.Namespace) -> list[Pose]:
+    coordinate, equals, values = args.poses.partition("=")
+    if not equals or coordinate not in ("heave", "roll_deg", "pitch_deg", "yaw_deg"):
+        raise CaseError(
+            f"--poses {args.poses!r}: expected heave=A,B,..., or roll_deg, pitch_deg, yaw_deg"
+        )
+    numbers = parse_numbers("--poses", values, values.count(",") + 1)
+    if len(numbers) < 2 or any(b <= a for a, b in pairwise(numbers)):
+        raise CaseError(f"--poses {args.poses!r}: expected two or more ascending numbers")
+    if len(args.body) != 1:
+        raise CaseError("--poses: a table of poses has one --body")
+    return [Pose(coordinate, number) for number in numbers]
+
+
+def _numbered(output: str, number: int) -> Path:
+    path = Path(output)
+    return path.with_name(f"{path.stem}_{number}{path.suffix}")
+
+
+def _pose_table(body: str, poses: list[Pose], files: list[str]) -> str:
+    coordinate = poses[0].coordinate
+    key = "values" if coordinate == "heave" else "values_deg"
+    return (
+        "fit the memory of each file (hydrodae hdb fit), and put into the case:\n\n"
+        f'[[pose_table]]\nname = "{body}"\nbody = "{body}"\n'
+        f'coordinate = "{coordinate.removesuffix("_deg")}"\n'
+        f"{key} = [{', '.join(f'{pose.value:g}' for pose in poses)}]\n"
+        f"databases = [{', '.join(f'"{Path(file).name}"' for file in files)}]"
+    )
+
+
+def _compute_one(
+    args: argparse.Namespace,
+    settings: bem.Settings,
+    points: dict[str, list[float]],
+    pose: Pose,
+    output: str,
+) -> int:
+    """Compute the database of one pose and write it; the exit code."""
+    bodies = [_body(text, points, args.panel, settings, pose) for text in args.body]
     statics = hydrostatics_of(bodies)
     for body in bodies:
         volume = statics[body.name].displaced_volume
@@ -133,6 +217,8 @@ def run(args: argparse.Namespace) -> int:
     if warning:
         print(f"warning: {warning}")
     work = Path(args.work or f"{args.output}.bem")
+    if output != args.output:
+        work = work / Path(output).stem
     progress = None if args.quiet else _Progress()
     netcdf = bem.compute(bodies, settings, work, progress=progress)
     nan = bem.count_nan(netcdf)
@@ -149,25 +235,36 @@ def run(args: argparse.Namespace) -> int:
         )
     if left := report.left(args.accept):
         words = " ".join(dict.fromkeys(f"--accept {finding.name}" for finding in left))
-        print(f"{args.output} not written: a check found an error ({words} writes it anyway)")
+        print(f"{output} not written: a check found an error ({words} writes it anyway)")
         return BAD_DATA
-    database.write(args.output)
-    print(f"written: {args.output} ({Path(args.output).stat().st_size / 1e6:.2f} MB)")
+    database.write(output)
+    print(f"written: {output} ({Path(output).stat().st_size / 1e6:.2f} MB)")
     return DONE
 
 
-def _body(
-    text: str, points: dict[str, list[float]], size: float | None, settings: bem.Settings
-) -> bem.WettedBody:
-    name, equals, what = text.partition("=")
+def _name_of(text: str) -> str:
+    name, equals, _ = text.partition("=")
     if not equals or body_name(name) != name:
         raise CaseError(f"--body {text!r}: expected NAME=SHAPE:key=value... or NAME=FILE")
+    return name
+
+
+def _body(
+    text: str,
+    points: dict[str, list[float]],
+    size: float | None,
+    settings: bem.Settings,
+    pose: Pose,
+) -> bem.WettedBody:
+    name, what = _name_of(text), text.partition("=")[2]
     if name not in points:
         raise CaseError(f"--body {name}: needs --cog {name}=X,Y,Z, its reference point [m]")
     first, words = _words(name, what)
     axes = words.get("mirror", "")
     try:
-        panels = immersed(_panels(name, first, words, size, settings))
+        hull = _panels(name, first, words, size, settings)
+        moved, point = pose.moved(hull, np.array(points[name], dtype=float))
+        panels = immersed(moved)
     except DatabaseError as error:
         hint = ""
         if "holes" in str(error) and Path(first).is_file():
@@ -177,7 +274,7 @@ def _body(
                 else " (half of a hull: add :mirror=y, or x, or xy)"
             )
         raise DatabaseError(f"body {name}: {error}{hint}") from error
-    return bem.WettedBody(name, panels, np.array(points[name]))
+    return bem.WettedBody(name, panels, point)
 
 
 def _words(name: str, what: str) -> tuple[str, dict[str, str]]:
