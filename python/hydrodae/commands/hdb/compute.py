@@ -191,12 +191,13 @@ def _numbered(output: str, number: int) -> Path:
 def _pose_table(body: str, poses: list[Pose], files: list[str]) -> str:
     coordinate = poses[0].coordinate
     key = "values" if coordinate == "heave" else "values_deg"
+    names = ", ".join(f'"{Path(file).name}"' for file in files)
     return (
         "fit the memory of each file (hydrodae hdb fit), and put into the case:\n\n"
         f'[[pose_table]]\nname = "{body}"\nbody = "{body}"\n'
         f'coordinate = "{coordinate.removesuffix("_deg")}"\n'
         f"{key} = [{', '.join(f'{pose.value:g}' for pose in poses)}]\n"
-        f"databases = [{', '.join(f'"{Path(file).name}"' for file in files)}]"
+        f"databases = [{names}]"
     )
 
 
