@@ -128,8 +128,7 @@ def reference_decay(folder: Path, poses: Array, times: Array) -> Array:
     vertices, triangles = hulls.sphere(RADIUS, 12)
 
     def buoyancy(rise: float) -> float:
-        # The mesh holds the exact volume of the sphere when it is under water; between, its own.
-        return RHO * GRAVITY * float(_volume(vertices, triangles, rise + CENTER))
+        return RHO * GRAVITY * float(_volume(vertices, triangles, rise))
 
     def rates(_: float, y: Array) -> Array:
         z, v = y[0], y[1]
@@ -237,7 +236,7 @@ def test_the_frequency_domain_takes_the_tables_at_equilibrium(tmp_path: Path) ->
     write_tables(tmp_path, poses)
     path = write_case(tmp_path, poses, more="")
     # heavier: it floats 1 m deeper
-    deeper = RHO * float(_volume(*hulls.sphere(RADIUS, 12), CENTER - 1.0))
+    deeper = RHO * float(_volume(*hulls.sphere(RADIUS, 12), -1.0))
     path.write_text(path.read_text().replace("mass = 261.8e3", f"mass = {deeper!r}"))
     model = LinearModel(path)
     rest = HydroDatabase.read(tmp_path / "hydro.h5")
