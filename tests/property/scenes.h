@@ -377,6 +377,17 @@ inline void add_hydro(model::Scene& scene, const std::string& axes, const std::s
     body.hydro = body.name;
 }
 
+/// Another database whose added mass, and its blends, are positive.
+inline std::shared_ptr<const hydro::Database> near(const hydro::Database& first, Random& random) {
+  auto db = std::make_shared<hydro::Database>(*random_database(random));
+  const auto mix = [&](MatrixX& own, const MatrixX& other) { own = other + 0.05 * own; };
+  mix(db->added_mass_inf, first.added_mass_inf);
+  mix(db->fits[0].added_mass_inf, first.fits[0].added_mass_inf);
+  for (std::size_t w = 0; w < db->added_mass.size(); ++w)
+    mix(db->added_mass[w], first.added_mass[w]);
+  return db;
+}
+
 /// Tables of both bodies over one coordinate of the pose of each.
 inline void add_pose_tables(model::Scene& scene, const std::string& coordinate, Random& random) {
   for (const model::Body& body : scene.bodies) {
@@ -385,7 +396,7 @@ inline void add_pose_tables(model::Scene& scene, const std::string& coordinate, 
     table.coordinate = coordinate;
     (table.turns() ? table.values_deg : table.values) = {-1.1, -0.2, 0.3, 1.4};
     for (int k = 0; k < 4; ++k)
-      table.loaded.push_back(random_database(random));
+      table.loaded.push_back(near(*scene.database, random));
     scene.pose_tables.push_back(table);
   }
 }

@@ -159,14 +159,31 @@ class Pose:
     coordinate: str
     value: float
 
-    def moved(self, panels: Array, point: Array) -> tuple[Array, Array]:
-        """Return panels and reference point in the pose."""
+    def moved(self, panels: Array, point: Array) -> Array:
+        """Return panels in the pose, turned about the reference point."""
         if self.coordinate == "heave":
-            rise = np.array([0.0, 0.0, self.value])
-            return panels + rise, point + rise
+            return panels + np.array([0.0, 0.0, self.value])
         axis = ("roll_deg", "pitch_deg", "yaw_deg").index(self.coordinate)
         turn = Rotation.from_rotvec(np.radians(self.value) * np.eye(3)[axis]).as_matrix()
-        return (panels - point) @ turn.T + point, point
+        return np.asarray((panels - point) @ turn.T + point)
+
+    def of_point(self, point: Array) -> Array:
+        """Return the reference point in the pose."""
+        return point + np.array([0.0, 0.0, self.value if self.coordinate == "heave" else 0.0])
+
+    def of_shape(self, shape: str, words: dict[str, str]) -> dict[str, str]:
+        """Return the lengths of a simple shape in the pose; it goes on above the water."""
+        if self.value == 0.0:
+            return words
+        if self.coordinate != "heave":
+            raise CaseError(f"--poses {self.coordinate}: a {shape} has heave only; give a mesh file")
+        up, down = ("z", "") if shape == "sphere" else ("top", "draft")
+        out = dict(words)
+        if shape == "sphere" or float(words.get(up, "0")) < 0.0:
+            out[up] = str(float(words.get(up, "0")) + self.value)
+        if down in words:
+            out[down] = str(float(words[down]) - self.value)
+        return out
 
 
 def _poses(args: argparse.Namespace) -> list[Pose]:
@@ -263,9 +280,11 @@ def _body(
     first, words = _words(name, what)
     axes = words.get("mirror", "")
     try:
-        hull = _panels(name, first, words, size, settings)
-        moved, point = pose.moved(hull, np.array(points[name], dtype=float))
-        panels = immersed(moved)
+        point = np.array(points[name], dtype=float)
+        if first in shapes.SHAPES:  # built as far as they are wet
+            panels = immersed(_panels(name, first, pose.of_shape(first, words), size, settings))
+        else:
+            panels = immersed(pose.moved(_panels(name, first, words, size, settings), point))
     except DatabaseError as error:
         hint = ""
         if "holes" in str(error) and Path(first).is_file():
@@ -275,7 +294,7 @@ def _body(
                 else " (half of a hull: add :mirror=y, or x, or xy)"
             )
         raise DatabaseError(f"body {name}: {error}{hint}") from error
-    return bem.WettedBody(name, panels, point)
+    return bem.WettedBody(name, panels, pose.of_point(point))
 
 
 def _words(name: str, what: str) -> tuple[str, dict[str, str]]:
