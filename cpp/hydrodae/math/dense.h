@@ -35,10 +35,13 @@ PivotedColumns pivoted_columns(const MatrixX& A);
 /// Eigenvalues of a symmetric matrix, ascending.
 VectorX symmetric_eigenvalues(const MatrixX& A);
 
-/// The smallest eigenvalue of a symmetric matrix, and its eigenvector of length one.
-std::pair<double, VectorX> lowest_eigenpair(const MatrixX& A);
+/// The smallest eigenvalue of a Hermitian matrix, of which only the lower triangle is read, and its
+/// eigenvector of length one.
+std::pair<double, Eigen::VectorXcd> lowest_eigenpair(const Eigen::MatrixXcd& A);
 
-/// Are all eigenvalues of a symmetric matrix positive?
+/// Are all eigenvalues of a symmetric or Hermitian matrix positive? Only the lower triangle is
+/// read.
 bool is_positive_definite(const MatrixX& A);
+bool is_positive_definite(const Eigen::MatrixXcd& A);
 
 } // namespace hydrodae
