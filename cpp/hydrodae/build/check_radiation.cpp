@@ -7,6 +7,7 @@
 #include "hydrodae/build/radiation_damping.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/linalg/dense_cholesky.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 
@@ -56,33 +57,50 @@ std::string coordinate_name(const system::System& s, Index u) {
                        "solver.force (--force) runs it none the less");
 }
 
-/// The lower triangle of one frequency plus `shift` times one.
-template <class Matrix> Matrix triangle(const Damping& d, Index frequency, double shift) {
-  Matrix out = Matrix::Zero(d.size(), d.size());
-  for (Index u = 0; u < d.size(); ++u) {
-    for (Index v = 0; v <= u; ++v)
-      if constexpr (std::is_same_v<Matrix, MatrixX>)
-        out(u, v) = d.real(frequency, Damping::place(u, v));
-      else
-        out(u, v) = {d.real(frequency, Damping::place(u, v)),
-                     d.imaginary.size() > 0 ? d.imaginary(frequency, Damping::place(u, v)) : 0.0};
-    out(u, u) += shift;
-  }
-  return out;
-}
-
 /// The smallest eigenvalue and the coordinate that has most of its vector.
 std::pair<double, Index> lowest(const Damping& d, Index frequency) {
-  const auto [value, vector] = lowest_eigenpair(triangle<Eigen::MatrixXcd>(d, frequency, 0.0));
+  Eigen::MatrixXcd lower = Eigen::MatrixXcd::Zero(d.size(), d.size());
+  for (Index u = 0; u < d.size(); ++u)
+    for (Index v = 0; v <= u; ++v) {
+      const Index at = Damping::place(u, v);
+      lower(u, v) = {d.real(frequency, at),
+                     d.imaginary.size() > 0 ? d.imaginary(frequency, at) : 0.0};
+    }
+  const auto [value, vector] = lowest_eigenpair(lower);
   Index u = 0;
   vector.cwiseAbs2().maxCoeff(&u);
   return {value, d.coordinates[static_cast<std::size_t>(u)]};
 }
 
+/// Is R + i I plus `shift` positive definite? So it is when the real form [R, -I; I, R] is: when R
+/// and its Schur complement R - I^T R^-1 I are, for I^T = -I.
 bool is_positive(const Damping& d, Index frequency, double shift) {
-  return d.imaginary.size() == 0
-             ? is_positive_definite(triangle<MatrixX>(d, frequency, shift))
-             : is_positive_definite(triangle<Eigen::MatrixXcd>(d, frequency, shift));
+  if (d.size() == 1)
+    return d.real(frequency, 0) + shift > 0.0;
+  const linalg::dense::Kernels& kernels = linalg::dense::kernels();
+  const Index n = linalg::dense::padded(d.size());
+  Damping::Rows R = Damping::Rows::Identity(n, n);
+  for (Index u = 0; u < d.size(); ++u) {
+    for (Index v = 0; v <= u; ++v)
+      R(v, u) = d.real(frequency, Damping::place(u, v));
+    R(u, u) += shift;
+  }
+  Damping::Rows U = R;
+  if (!kernels.factorise(n, U.data(), 0.0))
+    return false;
+  if (d.imaginary.size() == 0)
+    return true;
+  Damping::Rows W = Damping::Rows::Zero(n, n); // U^-T I
+  for (Index u = 0; u < d.size(); ++u)
+    for (Index v = 0; v < u; ++v) {
+      W(u, v) = d.imaginary(frequency, Damping::place(u, v));
+      W(v, u) = -W(u, v);
+    }
+  kernels.solve_left(n, U.data(), n, W.data());
+  R = -R;
+  kernels.add_gram(n, n, W.data(), R.data());
+  R = -R;
+  return kernels.factorise(n, R.data(), 0.0);
 }
 
 /// @param largest  of each coordinate over all frequencies, over its mass

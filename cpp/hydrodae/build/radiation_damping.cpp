@@ -155,15 +155,14 @@ Damping of_fit(Poles p, std::size_t most) {
   for (Index u = 0; u < n; ++u)
     for (Index v = 0; v <= u; ++v)
       entries.emplace_back(u, v);
+  Eigen::VectorXcd uv(m), vu(m);
   const auto fill = [&](double sign) {
     return [&, sign](Index entry, auto column) {
       const auto [u, v] = entries[static_cast<std::size_t>(entry)];
-      for (Index k = 0; k < m; ++k) {
-        const std::complex<double> uv = p.output(k, u) * p.input(k, v),
-                                   vu = p.output(k, v) * p.input(k, u);
-        column[k] = 0.5 * (uv.real() + sign * vu.real());
-        column[m + k] = 0.5 * (uv.imag() + sign * vu.imag());
-      }
+      uv = 0.5 * p.output.col(u).cwiseProduct(p.input.col(v));
+      vu = 0.5 * p.output.col(v).cwiseProduct(p.input.col(u));
+      column.head(m) = uv.real() + sign * vu.real();
+      column.tail(m) = uv.imag() + sign * vu.imag();
     };
   };
   d.real = weighted(real, count, std::ssize(entries), fill(1.0));

@@ -39,9 +39,4 @@ VectorX symmetric_eigenvalues(const MatrixX& A);
 /// eigenvector of length one.
 std::pair<double, Eigen::VectorXcd> lowest_eigenpair(const Eigen::MatrixXcd& A);
 
-/// Are all eigenvalues of a symmetric or Hermitian matrix positive? Only the lower triangle is
-/// read.
-bool is_positive_definite(const MatrixX& A);
-bool is_positive_definite(const Eigen::MatrixXcd& A);
-
 } // namespace hydrodae

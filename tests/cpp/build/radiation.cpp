@@ -40,8 +40,8 @@ model::Scene with_radiation_times(const model::Scene& given, double factor) {
   return scene;
 }
 
-/// Floats that heave, each with a real pole of its own; the first two of `coupled` share one,
-/// whose load on each other is `there` and `back` times that on themselves.
+/// Floats that heave, each with a real pole of its own. By two more poles the first of `coupled`
+/// loads the second `there` times as much as itself, and the second the first `back` times.
 model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, double back) {
   auto database = std::make_shared<hydro::Database>();
   database->rho = 1000.0;
@@ -68,12 +68,13 @@ model::Scene row_of_floats(int n, std::array<int, 2> coupled, double there, doub
   }
   fit.inputs = fit.outputs = database->coordinates;
   fit.added_mass_inf = MatrixX::Identity(n, n) * 500.0;
-  fit.states = n;
-  fit.poles = Eigen::VectorXcd::Constant(n, -1.0);
-  fit.input_matrix = fit.output_matrix = 30.0 * Eigen::MatrixXcd::Identity(n, n);
-  const auto [a, b] = coupled;
-  fit.output_matrix(b, a) = 30.0 * there;
-  fit.output_matrix(a, b) = 30.0 * back;
+  fit.states = n + 2;
+  fit.poles = Eigen::VectorXcd::Constant(n + 2, -1.0);
+  fit.input_matrix = 30.0 * Eigen::MatrixXcd::Identity(n + 2, n);
+  fit.output_matrix = 30.0 * Eigen::MatrixXcd::Identity(n, n + 2);
+  fit.input_matrix(n, coupled[0]) = fit.input_matrix(n + 1, coupled[1]) = 30.0;
+  fit.output_matrix(coupled[1], n) = 30.0 * there;
+  fit.output_matrix(coupled[0], n + 1) = 30.0 * back;
   database->added_mass_inf = fit.added_mass_inf;
   database->fits = {fit};
   scene.database = database;
