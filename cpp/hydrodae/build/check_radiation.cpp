@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "hydrodae/build/radiation_damping.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
+#include "hydrodae/linalg/dense_cholesky.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 
@@ -19,14 +21,6 @@ constexpr double allowed_fit = 1e-3;
 constexpr double allowed_table = 0.05;
 constexpr double own = 0.05;        ///< the same for one coordinate, of its own largest
 constexpr double negligible = 1e-4; ///< of the largest: what belongs to a coordinate below is noise
-constexpr double budget = 4e8;      ///< multiplications that the check may take
-
-/// Hermitian part of H(iw), by the masses of the coordinates once scaled [1/s].
-struct Damping {
-  double frequency = 0.0; ///< [rad/s]
-  MatrixX real;           ///< symmetric part of Re H
-  MatrixX imaginary;      ///< antisymmetric part of Im H; empty where it is not looked at
-};
 
 /// sqrt of mass and added mass of each coordinate on itself: damping over mass is a rate that
 /// bodies of all sizes share.
@@ -41,126 +35,6 @@ VectorX mass_scale(const system::System& s) {
     scale[u] = std::sqrt(std::max(mass + h.added_mass(u, u), 1e-300));
   }
   return scale;
-}
-
-void scale_by(const VectorX& mass, Damping& d) {
-  const auto inverse = mass.cwiseInverse().asDiagonal();
-  d.real = 0.5 * (inverse * MatrixX(d.real + d.real.transpose()) * inverse);
-  if (d.imaginary.size() > 0)
-    d.imaginary = 0.5 * (inverse * MatrixX(d.imaginary - d.imaginary.transpose()) * inverse);
-}
-
-/// Poles with their rows and columns, from the states.
-struct Poles {
-  Eigen::VectorXcd poles;
-  Eigen::MatrixXcd input, output; ///< (n_poles, n_moving), (n_moving, n_poles)
-};
-
-Poles poles_of(const system::HydroData& h) {
-  const auto n = static_cast<Index>(h.blocks.size());
-  Poles out{Eigen::VectorXcd(n), Eigen::MatrixXcd::Zero(n, h.n_moving),
-            Eigen::MatrixXcd::Zero(h.n_moving, n)};
-  std::vector<Index> block(static_cast<std::size_t>(h.n_states));
-  for (Index k = 0; k < n; ++k) {
-    const system::HydroData::Block& b = h.blocks[static_cast<std::size_t>(k)];
-    out.poles[k] = {b.a, b.pair ? b.b : 0.0};
-    block[static_cast<std::size_t>(b.state)] = k;
-    if (b.pair)
-      block[static_cast<std::size_t>(b.state + 1)] = k;
-    for (Index u = 0; u < h.n_moving; ++u)
-      out.output(u, k) = {h.output(u, b.state), b.pair ? -h.output(u, b.state + 1) : 0.0};
-  }
-  for (const system::HydroData::Input& in : h.inputs) {
-    const Index k = block[static_cast<std::size_t>(in.state)];
-    const bool second = in.state != h.blocks[static_cast<std::size_t>(k)].state;
-    out.input(k, in.coordinate) += second ? std::complex<double>(0.0, in.value) : in.value;
-  }
-  return out;
-}
-
-/// From far below the slowest to far above the fastest pole, and near each of them.
-std::vector<double> pole_frequencies(const Poles& p, std::size_t most) {
-  const VectorX size = p.poles.cwiseAbs();
-  std::vector<double> near, out;
-  for (Index k = 0; k < p.poles.size(); ++k)
-    for (double part : {0.0, 0.5, -0.5, 1.5})
-      near.push_back(std::abs(p.poles[k].imag()) + part * std::abs(p.poles[k].real()));
-  std::sort(near.begin(), near.end());
-  const std::size_t coarse = std::max<std::size_t>(most / 3, 12);
-  const double low = 0.01 * size.minCoeff(), high = 100.0 * size.maxCoeff();
-  for (std::size_t k = 0; k < coarse; ++k)
-    out.push_back(low *
-                  std::pow(high / low, static_cast<double>(k) / static_cast<double>(coarse - 1)));
-  const std::size_t stride =
-      std::max<std::size_t>(1, near.size() / std::max<std::size_t>(most - coarse, 1));
-  for (std::size_t k = 0; k < near.size(); k += stride)
-    if (near[k] > 0.0)
-      out.push_back(near[k]);
-  return out;
-}
-
-/// H(iw) = sum_k (C B / (iw - p) + conj(C B) / (iw - conj p)) / 2, C B / (iw - p) for real poles.
-std::vector<Damping> of_fit(const system::HydroData& h) {
-  const Poles p = poles_of(h);
-  const double cost =
-      static_cast<double>(h.n_moving) * h.n_moving * static_cast<double>(p.poles.size());
-  const auto most = static_cast<std::size_t>(std::clamp(budget / (4.0 * cost), 16.0, 400.0));
-  const bool both = h.n_moving <= 60;
-  std::vector<Damping> out;
-  for (double w : pole_frequencies(p, most)) {
-    // Re and Im of the sum as real products of [Re C, Im C] with weighted [Re B, Im B].
-    Eigen::VectorXcd plus(p.poles.size()), minus(p.poles.size());
-    for (Index k = 0; k < p.poles.size(); ++k) {
-      const std::complex<double> iw(0.0, w);
-      const bool pair = p.poles[k].imag() != 0.0;
-      plus[k] = (pair ? 0.5 : 1.0) / (iw - p.poles[k]);
-      minus[k] = pair ? 0.5 / (iw - std::conj(p.poles[k])) : 0.0;
-    }
-    Damping d{w, {}, {}};
-    // C B plus + conj(C B) minus
-    const Eigen::MatrixXcd first = plus.asDiagonal() * p.input,
-                           second = minus.asDiagonal() * p.input.conjugate();
-    d.real = p.output.real() * (first + second).real() + p.output.imag() * (second - first).imag();
-    if (both)
-      d.imaginary =
-          p.output.real() * (first + second).imag() + p.output.imag() * (first - second).real();
-    out.push_back(std::move(d));
-  }
-  return out;
-}
-
-/// int_0^T K cos(w t) dt by trapezoids over the samples of the splines.
-std::vector<Damping> of_kernel(const system::HydroData& h) {
-  const system::Convolution& c = h.convolution;
-  const Index n = c.splines.rows() - 2;
-  const auto pairs = static_cast<Index>(c.n_moving_pairs);
-  MatrixX samples =
-      (c.splines.topRows(n).leftCols(pairs) + 4.0 * c.splines.middleRows(1, n).leftCols(pairs) +
-       c.splines.bottomRows(n).leftCols(pairs)) /
-      6.0;
-  samples.row(0) *= 0.5;
-  const double cost = static_cast<double>(n) * static_cast<double>(pairs);
-  const auto count = static_cast<Index>(std::clamp(budget / (8.0 * cost), 16.0, 200.0));
-  const double low = 0.5 / c.length, high = 0.5 * pi / c.step;
-  MatrixX cosine(count, n);
-  VectorX frequency(count);
-  for (Index i = 0; i < count; ++i) {
-    frequency[i] =
-        low * std::pow(high / low, static_cast<double>(i) / static_cast<double>(count - 1));
-    for (Index k = 0; k < n; ++k)
-      cosine(i, k) = c.step * std::cos(frequency[i] * c.step * static_cast<double>(k));
-  }
-  const MatrixX values = cosine * samples;
-  std::vector<Damping> out;
-  for (Index i = 0; i < count; ++i) {
-    Damping d{frequency[i], MatrixX::Zero(h.n_moving, h.n_moving), {}};
-    for (Index p = 0; p < pairs; ++p) {
-      const system::Convolution::Pair& pair = c.pairs[static_cast<std::size_t>(p)];
-      d.real(pair.row, pair.column) = values(i, p);
-    }
-    out.push_back(std::move(d));
-  }
-  return out;
 }
 
 std::string coordinate_name(const system::System& s, Index u) {
@@ -183,32 +57,50 @@ std::string coordinate_name(const system::System& s, Index u) {
                        "solver.force (--force) runs it none the less");
 }
 
-/// As a real symmetric matrix, of a Hermitian one R + i I twice as large: [[R, -I], [I, R]].
-MatrixX symmetric(const Damping& d) {
-  if (d.imaginary.size() == 0)
-    return d.real;
-  const Index n = d.real.rows();
-  MatrixX out(2 * n, 2 * n);
-  out << d.real, -d.imaginary, d.imaginary, d.real;
-  return out;
-}
-
 /// The smallest eigenvalue and the coordinate that has most of its vector.
-std::pair<double, Index> lowest(const Damping& d) {
-  const auto [value, vector] = lowest_eigenpair(symmetric(d));
-  const Index n = d.real.rows();
-  VectorX squares = vector.head(n).cwiseAbs2();
-  if (vector.size() > n)
-    squares += vector.tail(n).cwiseAbs2();
+std::pair<double, Index> lowest(const Damping& d, Index frequency) {
+  Eigen::MatrixXcd lower = Eigen::MatrixXcd::Zero(d.size(), d.size());
+  for (Index u = 0; u < d.size(); ++u)
+    for (Index v = 0; v <= u; ++v) {
+      const Index at = Damping::place(u, v);
+      lower(u, v) = {d.real(frequency, at),
+                     d.imaginary.size() > 0 ? d.imaginary(frequency, at) : 0.0};
+    }
+  const auto [value, vector] = lowest_eigenpair(lower);
   Index u = 0;
-  squares.maxCoeff(&u);
-  return {value, u};
+  vector.cwiseAbs2().maxCoeff(&u);
+  return {value, d.coordinates[static_cast<std::size_t>(u)]};
 }
 
-bool is_positive(const Damping& d, double shift) {
-  MatrixX shifted = symmetric(d);
-  shifted.diagonal().array() += shift;
-  return is_positive_definite(shifted);
+/// Is R + i I plus `shift` positive definite? So it is when the real form [R, -I; I, R] is: when R
+/// and its Schur complement R - I^T R^-1 I are, for I^T = -I.
+bool is_positive(const Damping& d, Index frequency, double shift) {
+  if (d.size() == 1)
+    return d.real(frequency, 0) + shift > 0.0;
+  const linalg::dense::Kernels& kernels = linalg::dense::kernels();
+  const Index n = linalg::dense::padded(d.size());
+  Damping::Rows R = Damping::Rows::Identity(n, n);
+  for (Index u = 0; u < d.size(); ++u) {
+    for (Index v = 0; v <= u; ++v)
+      R(v, u) = d.real(frequency, Damping::place(u, v));
+    R(u, u) += shift;
+  }
+  Damping::Rows U = R;
+  if (!kernels.factorise(n, U.data(), 0.0))
+    return false;
+  if (d.imaginary.size() == 0)
+    return true;
+  Damping::Rows W = Damping::Rows::Zero(n, n); // U^-T I
+  for (Index u = 0; u < d.size(); ++u)
+    for (Index v = 0; v < u; ++v) {
+      W(u, v) = d.imaginary(frequency, Damping::place(u, v));
+      W(v, u) = -W(u, v);
+    }
+  kernels.solve_left(n, U.data(), n, W.data());
+  R = -R;
+  kernels.add_gram(n, n, W.data(), R.data());
+  R = -R;
+  return kernels.factorise(n, R.data(), 0.0);
 }
 
 /// @param largest  of each coordinate over all frequencies, over its mass
@@ -217,33 +109,35 @@ void judge(const system::System& s, const std::vector<Damping>& all, const Vecto
   const double scale = largest.maxCoeff();
   if (!(scale > 0.0))
     return; // no radiation at all
-  const Damping* worst_own = nullptr;
-  double part = own;
-  Index coordinate = 0;
+  double at = 0.0, part = own;
+  Index which = -1;
   for (const Damping& d : all)
-    for (Index u = 0; u < largest.size(); ++u)
-      if (largest[u] > negligible * scale && -d.real(u, u) > part * largest[u]) {
-        part = -d.real(u, u) / largest[u];
-        worst_own = &d;
-        coordinate = u;
+    for (Index k = 0; k < d.size(); ++k) {
+      const Index u = d.coordinates[static_cast<std::size_t>(k)];
+      Index i = 0;
+      const double least = d.real.col(Damping::place(k, k)).minCoeff(&i);
+      if (largest[u] > negligible * scale && -least > part * largest[u]) {
+        part = -least / largest[u];
+        at = d.frequency[static_cast<std::size_t>(i)];
+        which = u;
       }
-  if (worst_own)
-    refuse(s, what, coordinate, worst_own->frequency, part);
-  const Damping* worst = nullptr;
-  double least = -allowed * scale;
-  Index which = 0;
-  for (const Damping& d : all) {
-    if (is_positive(d, -least))
-      continue;
-    const auto [value, u] = lowest(d);
-    if (value < least) {
-      least = value;
-      worst = &d;
-      which = u;
     }
-  }
-  if (worst)
-    refuse(s, what, which, worst->frequency, -least / scale);
+  if (which >= 0)
+    refuse(s, what, which, at, part);
+  double least = -allowed * scale;
+  for (const Damping& d : all)
+    for (Index i = 0; i < d.real.rows(); ++i) {
+      if (is_positive(d, i, -least))
+        continue;
+      const auto [value, u] = lowest(d, i);
+      if (value < least) {
+        least = value;
+        at = d.frequency[static_cast<std::size_t>(i)];
+        which = u;
+      }
+    }
+  if (which >= 0)
+    refuse(s, what, which, at, -least / scale);
 }
 
 } // namespace
@@ -263,20 +157,21 @@ void check_radiation(const model::Scene& scene, const system::System& s, const V
                                              "itself; fit it again with hydrodae hdb fit");
   if (h.damped) {
     what = "the radiation damping";
-    all.push_back({*scene.hydro->frequency, h.damping, {}});
+    all = damping_of_table(h, mass, *scene.hydro->frequency);
   } else if (!h.convolution.empty()) {
     what = "the transform of the radiation kernel";
-    all = of_kernel(h);
+    all = damping_of_kernel(h, mass);
   } else {
-    all = of_fit(h);
+    all = damping_of_fit(h, mass);
   }
   VectorX most = VectorX::Zero(h.n_moving);
   if (h.damped)
     most = largest.cwiseQuotient(mass.cwiseAbs2());
-  for (Damping& d : all) {
-    scale_by(mass, d);
-    most = most.cwiseMax(d.real.diagonal().cwiseAbs());
-  }
+  for (const Damping& d : all)
+    for (Index k = 0; k < d.size(); ++k) {
+      double& own_most = most[d.coordinates[static_cast<std::size_t>(k)]];
+      own_most = std::max(own_most, d.real.col(Damping::place(k, k)).cwiseAbs().maxCoeff());
+    }
   judge(s, all, most, what, h.damped || !h.convolution.empty() ? allowed_table : allowed_fit);
 }
 

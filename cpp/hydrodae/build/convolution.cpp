@@ -58,13 +58,14 @@ void add_convolution(const model::Scene& scene, const hydro::RadiationKernel& ke
   const auto n = std::min<Eigen::Index>(static_cast<Eigen::Index>(length / c.step + 1e-9) + 1,
                                         static_cast<Eigen::Index>(kernel.values.size()));
   c.length = c.step * static_cast<double>(n - 1);
+  std::vector<int> columns; // of the kernel, of each coordinate
+  for (const system::HydroData::Coordinate& k : h.coordinates)
+    columns.push_back(
+        label_index(kernel.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component)));
   std::vector<VectorX> splines;
   auto add_row = [&](int row, int from) { // `from`: of the kernel
     for (int u = 0; u < h.n_moving; ++u) {
-      const system::HydroData::Coordinate& k = h.coordinates[static_cast<std::size_t>(u)];
-      const int column =
-          label_index(kernel.inputs, hydro_label(scene, h.bodies[k.hydro_body], k.component));
-      const VectorX samples = kernel_samples(kernel, from, column, n);
+      const VectorX samples = kernel_samples(kernel, from, columns[static_cast<std::size_t>(u)], n);
       if (samples.isZero(0.0))
         continue;
       c.pairs.push_back({row, u});

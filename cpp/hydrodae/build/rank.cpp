@@ -3,9 +3,9 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "hydrodae/math/dense.h"
+#include "hydrodae/math/sets.h"
 
 namespace hydrodae::build {
 
@@ -156,13 +156,7 @@ VectorX sparse_solution(SparseMatrix part, const VectorX& b) {
 
 std::vector<Component> components(const SparseMatrix& matrix) {
   // Rows are joined by the columns that they share: a forest over the rows.
-  std::vector<Index> parent(matrix.rows());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  Sets sets(matrix.rows());
   std::vector<Index> first(matrix.cols(), -1);
   for (Index c = 0; c < matrix.cols(); ++c)
     for (Iterator it(matrix, c); it; ++it) {
@@ -170,14 +164,14 @@ std::vector<Component> components(const SparseMatrix& matrix) {
         continue;
       if (first[c] < 0)
         first[c] = it.row();
-      parent[root(it.row())] = root(first[c]);
+      sets.join(it.row(), first[c]);
     }
   std::vector<Component> out;
   std::vector<Index> number(matrix.rows(), -1);
   for (Index c = 0; c < matrix.cols(); ++c) {
     if (first[c] < 0)
       continue;
-    Index& part = number[root(first[c])];
+    Index& part = number[sets.root(first[c])];
     if (part < 0) {
       part = static_cast<Index>(out.size());
       out.emplace_back();
@@ -185,8 +179,8 @@ std::vector<Component> components(const SparseMatrix& matrix) {
     out[part].columns.push_back(c);
   }
   for (Index i = 0; i < matrix.rows(); ++i)
-    if (number[root(i)] >= 0)
-      out[number[root(i)]].rows.push_back(i);
+    if (number[sets.root(i)] >= 0)
+      out[number[sets.root(i)]].rows.push_back(i);
   return out;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <string>
 #include <tuple>
 
 #include "hydrodae/core/error.h"
+#include "hydrodae/math/sets.h"
 
 namespace hydrodae::hull {
 namespace {
@@ -82,21 +82,13 @@ std::vector<Edge> pair_edges(const Vertices& vertices, const Triangles& triangle
 
 /// For each triangle the first triangle of its shell.
 std::vector<int> shells_of(const Triangles& triangles, const std::vector<Edge>& edges) {
-  std::vector<int> parent(static_cast<std::size_t>(triangles.rows()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i)
-      i = parent[static_cast<std::size_t>(i)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-    return i;
-  };
-  for (const Edge& e : edges) {
-    const int a = root(e.left), b = root(e.right);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  for (int i = 0; i < triangles.rows(); ++i)
-    parent[static_cast<std::size_t>(i)] = root(i);
-  return parent;
+  Sets sets(triangles.rows());
+  for (const Edge& e : edges)
+    sets.join(e.left, e.right);
+  std::vector<int> out;
+  for (Index i = 0; i < triangles.rows(); ++i)
+    out.push_back(static_cast<int>(sets.root(i)));
+  return out;
 }
 
 } // namespace

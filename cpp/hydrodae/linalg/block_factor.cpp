@@ -1,7 +1,8 @@
 #include "hydrodae/linalg/block_factor.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "hydrodae/math/sets.h"
 
 namespace hydrodae::linalg {
 
@@ -11,28 +12,6 @@ constexpr double least_pivot = 1e-15; ///< at most this part of its entry is rou
 /// Likewise of S without eD. More keeps ten of sixteen digits, so that one refinement of a solution
 /// restores them all; less may be rows that follow from each other, which eD has to keep apart.
 constexpr double regular = 1e-6;
-
-/// Sets of numbers, joined one by one.
-class Sets {
-public:
-  explicit Sets(Index n) : parent_(static_cast<std::size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index root(Index i) {
-    while (at(i) != i)
-      i = at(i) = at(at(i));
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    at(std::max(a, b)) = std::min(a, b); // roots come first, so that sets keep the order
-  }
-
-private:
-  Index& at(Index i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<Index> parent_;
-};
 
 } // namespace
 

@@ -163,6 +163,14 @@ HYDRODAE_PART void add_gram_part(Index n, Index m, const double* w, double* s) {
       tile<R, rows, true>(n, w + b, m, w + c, m, s + b * m + c, m);
 }
 
+template <class R, int rows>
+HYDRODAE_PART void add_product_part(Index k, Index n, const double* p, Index m, const double* q,
+                                    double* c) {
+  for (Index i = 0; i < n; i += lanes)
+    for (Index j = 0; j < m; j += lanes)
+      tile<R, rows, true>(k, p + i, n, q + j, m, c + i * m + j, m);
+}
+
 template <class R>
 HYDRODAE_PART void add_transposed_part(Index n, Index m, const double* w, const double* x,
                                        double* y) {
@@ -245,6 +253,10 @@ template <class R> HYDRODAE_PART void solve_backward_part(Index n, const double*
   target void add_gram_##set(Index n, Index m, const double* w, double* s) {                       \
     add_gram_part<R, rows>(n, m, w, s);                                                            \
   }                                                                                                \
+  target void add_product_##set(Index k, Index n, const double* p, Index m, const double* q,       \
+                                double* c) {                                                       \
+    add_product_part<R, rows>(k, n, p, m, q, c);                                                   \
+  }                                                                                                \
   target void solve_forward_##set(Index n, const double* u, double* x) {                           \
     solve_forward_part<R>(n, u, x);                                                                \
   }                                                                                                \
@@ -268,8 +280,8 @@ HYDRODAE_KERNELS(avx512, Register64, 8, [[gnu::target("avx512f,fma")]])
 
 #define HYDRODAE_ROW(set)                                                                          \
   Kernels {                                                                                        \
-    #set, factorise_##set, solve_left_##set, add_gram_##set, solve_forward_##set,                  \
-        solve_backward_##set, add_transposed_##set, subtract_product_##set                         \
+    #set, factorise_##set, solve_left_##set, add_gram_##set, add_product_##set,                    \
+        solve_forward_##set, solve_backward_##set, add_transposed_##set, subtract_product_##set    \
   }
 
 const Kernels table[] = {HYDRODAE_ROW(plain),

@@ -34,6 +34,9 @@ struct Kernels {
   /// S += W^T W for W (n, m): the upper triangle of S (m, m), with whole blocks on the diagonal.
   void (*add_gram)(Index n, Index m, const double* w, double* s);
 
+  /// C += P^T Q for P (k, n), Q (k, m), C (n, m), with any k.
+  void (*add_product)(Index k, Index n, const double* p, Index m, const double* q, double* c);
+
   /// x := U^-T x and x := U^-1 x for x (n,).
   void (*solve_forward)(Index n, const double* u, double* x);
   void (*solve_backward)(Index n, const double* u, double* x);

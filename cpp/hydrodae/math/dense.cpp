@@ -1,6 +1,5 @@
 #include "hydrodae/math/dense.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -46,13 +45,9 @@ PivotedColumns pivoted_columns(const MatrixX& A) {
   return out;
 }
 
-std::pair<double, VectorX> lowest_eigenpair(const MatrixX& A) {
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(A);
+std::pair<double, Eigen::VectorXcd> lowest_eigenpair(const Eigen::MatrixXcd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(A);
   return {solver.eigenvalues()[0], solver.eigenvectors().col(0)};
-}
-
-bool is_positive_definite(const MatrixX& A) {
-  return Eigen::LLT<MatrixX>(A).info() == Eigen::Success;
 }
 
 VectorX symmetric_eigenvalues(const MatrixX& A) {

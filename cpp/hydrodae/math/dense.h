@@ -35,10 +35,8 @@ PivotedColumns pivoted_columns(const MatrixX& A);
 /// Eigenvalues of a symmetric matrix, ascending.
 VectorX symmetric_eigenvalues(const MatrixX& A);
 
-/// The smallest eigenvalue of a symmetric matrix, and its eigenvector of length one.
-std::pair<double, VectorX> lowest_eigenpair(const MatrixX& A);
-
-/// Are all eigenvalues of a symmetric matrix positive?
-bool is_positive_definite(const MatrixX& A);
+/// The smallest eigenvalue of a Hermitian matrix, of which only the lower triangle is read, and its
+/// eigenvector of length one.
+std::pair<double, Eigen::VectorXcd> lowest_eigenpair(const Eigen::MatrixXcd& A);
 
 } // namespace hydrodae

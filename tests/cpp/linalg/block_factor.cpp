@@ -117,3 +117,14 @@ TEST_CASE("blocks count work, and refuse masses that are not positive") {
   saddle.values[0] = NAN;
   CHECK_FALSE(blocks.factorise(saddle.values, saddle.damping));
 }
+
+TEST_CASE("a product of padded matrices by each instruction set") {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Rows P = Rows::Random(13, 16), Q = Rows::Random(13, 24), before = Rows::Random(16, 24);
+  for (const linalg::dense::Kernels& kernels : linalg::dense::all_kernels()) {
+    CAPTURE(kernels.name);
+    Rows C = before;
+    kernels.add_product(13, 16, P.data(), 24, Q.data(), C.data());
+    CHECK((C - before - P.transpose() * Q).cwiseAbs().maxCoeff() < 1e-14);
+  }
+}
