@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import passive_yaw  # type: ignore[import-not-found] # stands beside this file
 import ptosim  # type: ignore[import-not-found] # stands beside this file
 from of_case import (  # type: ignore[import-not-found] # stands beside this file
     NoFigure,
@@ -91,6 +92,7 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         "conditions": conditions,
         "gauges": gauges,
         "yaw": yaw,
+        "faced": faced,
         "pitch": pitch,
     }[kind](results, case)
 
@@ -355,6 +357,16 @@ def gauges(results: Results, case: Path) -> Figure:
 def yaw(results: Results, case: Path) -> Figure:
     """Largest turn about z of the bodies."""
     return _turn(results, 2, "largest yaw, deg")
+
+
+def faced(results: Results, case: Path) -> Figure:
+    """Mean yaw of the last two periods, and that of the equation of motion."""
+    exact = passive_yaw.mean_yaw(case, 2)
+    time, period = time_of(results), tables_of(case)["wave"][0]["period"]
+    turns = [np.asarray(results[n])[:, 2] for n in results if n.endswith("/rotation")]
+    last = np.interp(time[-1] - period * np.arange(200, 0, -1) / 100.0, time, turns[-1])
+    ours = float(np.rad2deg(np.mean(last)))
+    return Figure("mean yaw of the last two periods, deg", ours, exact, "own integration")
 
 
 def pitch(results: Results, case: Path) -> Figure:
