@@ -18,8 +18,8 @@ from scipy.interpolate import CubicSpline
 def mean_yaw(case: Path, periods: int) -> float:
     """Mean yaw over the last periods of the wave [deg].
 
-    (I + A) psi'' + (B + C) psi' = r(t) Re(a F(heading - psi) e^(iwt)), with A, B and F of the wave's
-    frequency, a cubic spline of F over the headings, and the ramp r of `sea.ramp`.
+    (I + A) psi'' + (B + C) psi' = r(t) Re(a F(heading - psi) e^(iwt)), with A, B and F of the
+    wave's frequency, a cubic spline of F over the headings, and the ramp r of `sea.ramp`.
     """
     tables, database = tables_of(case), database_of(case)
     wave, body = tables["wave"][0], next(b for b in tables["body"] if b.get("motion") != "fixed")
