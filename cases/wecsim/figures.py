@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import imported_sea  # type: ignore[import-not-found] # stands beside this file
 import numpy as np
 import passive_yaw  # type: ignore[import-not-found] # stands beside this file
 import ptosim  # type: ignore[import-not-found] # stands beside this file
@@ -77,6 +78,11 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         return stored(results, case, folder / example["file"])
     if kind == "stages":
         return stages(results, case, folder, example["stage"])
+    if kind == "elevation":
+        ours, exact = imported_sea.elevations(case, folder / example["file"])
+        means = float(np.mean(ours * exact)), float(np.mean(exact**2))
+        name = "elevation, square mean against that of the file, m2"
+        return Figure(name, *means, "its spectrum and phases")
     if kind == "":
         return None
     tables = tables_of(case)
