@@ -11,6 +11,7 @@ from typing import Any
 import imported_sea  # type: ignore[import-not-found] # stands beside this file
 import numpy as np
 import passive_yaw  # type: ignore[import-not-found] # stands beside this file
+import predictive  # type: ignore[import-not-found] # stands beside this file
 import ptosim  # type: ignore[import-not-found] # stands beside this file
 from of_case import (  # type: ignore[import-not-found] # stands beside this file
     NoFigure,
@@ -83,6 +84,10 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         means = float(np.mean(ours * exact)), float(np.mean(exact**2))
         name = "elevation, square mean against that of the file, m2"
         return Figure(name, *means, "its spectrum and phases")
+    if kind == "predictive":
+        found = predictive.figures(case, folder, seeds=10)["power"]
+        name = "mean power of ten seas with `predictive.py`, W"
+        return Figure(name, found, 3.0e5, "manual of WEC-Sim, one sea")
     if kind == "":
         return None
     tables = tables_of(case)
