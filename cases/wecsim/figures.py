@@ -8,7 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import imported_sea  # type: ignore[import-not-found] # stands beside this file
 import numpy as np
+import passive_yaw  # type: ignore[import-not-found] # stands beside this file
+import predictive  # type: ignore[import-not-found] # stands beside this file
 import ptosim  # type: ignore[import-not-found] # stands beside this file
 from of_case import (  # type: ignore[import-not-found] # stands beside this file
     NoFigure,
@@ -76,6 +79,15 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         return stored(results, case, folder / example["file"])
     if kind == "stages":
         return stages(results, case, folder, example["stage"])
+    if kind == "elevation":
+        ours, exact = imported_sea.elevations(case, folder / example["file"])
+        means = float(np.mean(ours * exact)), float(np.mean(exact**2))
+        name = "elevation, square mean against that of the file, m2"
+        return Figure(name, *means, "its spectrum and phases")
+    if kind == "predictive":
+        found = predictive.figures(case, folder, seeds=10)["power"]
+        name = "mean power of ten seas with `predictive.py`, W"
+        return Figure(name, found, 3.0e5, "manual of WEC-Sim, one sea")
     if kind == "":
         return None
     tables = tables_of(case)
@@ -91,6 +103,7 @@ def make(example: dict[str, Any], results: Results, case: Path, folder: Path) ->
         "conditions": conditions,
         "gauges": gauges,
         "yaw": yaw,
+        "faced": faced,
         "pitch": pitch,
     }[kind](results, case)
 
@@ -355,6 +368,16 @@ def gauges(results: Results, case: Path) -> Figure:
 def yaw(results: Results, case: Path) -> Figure:
     """Largest turn about z of the bodies."""
     return _turn(results, 2, "largest yaw, deg")
+
+
+def faced(results: Results, case: Path) -> Figure:
+    """Mean yaw of the last two periods, and that of the equation of motion."""
+    exact = passive_yaw.mean_yaw(case, 2)
+    time, period = time_of(results), tables_of(case)["wave"][0]["period"]
+    turns = [np.asarray(results[n])[:, 2] for n in results if n.endswith("/rotation")]
+    last = np.interp(time[-1] - period * np.arange(200, 0, -1) / 100.0, time, turns[-1])
+    ours = float(np.rad2deg(np.mean(last)))
+    return Figure("mean yaw of the last two periods, deg", ours, exact, "own integration")
 
 
 def pitch(results: Results, case: Path) -> Figure:

@@ -265,3 +265,21 @@ def test_a_morison_element_with_drag_along_z_only(tmp_path: Path) -> None:
     expected = -0.5 * 1025.0 * 2.0 * 7.0 * np.abs(rate) * rate  # deep below the waves
     np.testing.assert_allclose(force[:, 2], expected, atol=1e-6 * np.abs(expected).max())
     assert np.abs(force[:, :2]).max() < 1e-9
+
+
+def test_a_spectrum_with_phases_is_a_sea_of_its_components(tmp_path: Path) -> None:
+    """Of sqrt(2 S df) cos(2 pi f t + phase); outside the database, and rows of zeros: nothing."""
+    source, case = tmp_path / "source", tmp_path / "case"
+    write_one_body(source, "waves = waveClass('spectrumImport'); waves.spectrumFile = 's.mat';", "")
+    band = hydrodae.hdb.read(next(source.rglob("*.h5"))).omega[[0, -1]] / (2.0 * np.pi)
+    rates = np.linspace(band[0] + 0.01, band[0] + 0.09, 5)
+    rows = [(f, s, p) for f, s, p in zip(rates, (0.0, 2.0, 5.0, 1.0, 0.0), range(5), strict=True)]
+    savemat(source / "s.mat", {"s": np.array([*rows, (2.0 * band[1], 1.0, 0.5), (0.0, 0.0, 0.0)])})
+    remarks = convert(source, case).remarks
+    assert [str(r) for r in remarks.of("left out")] == []
+    assert any("1 frequencies are outside" in r.text for r in remarks.of("assumed"))
+    waves = tables(case)["wave"]
+    assert [1.0 / wave["period"] for wave in waves] == pytest.approx(rates[1:4])
+    sizes = np.sqrt(2.0 * np.array([2.0, 5.0, 1.0]) * 0.02)
+    assert [0.5 * wave["height"] for wave in waves] == pytest.approx(sizes)
+    assert [wave["phase_deg"] % 360.0 for wave in waves] == pytest.approx(np.degrees([1, 2, 3]))

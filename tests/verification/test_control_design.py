@@ -14,6 +14,7 @@ import pytest
 import hydrodae
 from hydrodae.commands.cli import main
 from hydrodae.control import Plant, match
+from hydrodae.errors import CaseError
 
 MASS = 261.8e3  # kg, of cases/sphere
 PTO = '[[force]]\nname = "pto"\ntype = "pto_general"\njoint = "guide"\n'
@@ -114,6 +115,68 @@ viscous = 2.0e4
     assert main(["control", "design", str(path), "--joint", "guide"]) == 0
     told = capsys.readouterr().out
     assert "left out     pto (pto_general)" in told
+
+
+GEARED = """
+[[body]]
+name = "shaft"
+mass = 0.0
+center_of_gravity = [0.0, 0.0, 0.0]
+inertia = [2.0, 2.0, 2.0]
+[[joint]]
+name = "shaft"
+type = "revolute"
+body_a = "ground"
+body_b = "shaft"
+point = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[constraint]]
+name = "gear"
+type = "coupler"
+joint = "guide"
+joint_b = "shaft"
+ratio = 100.0
+[[force]]
+name = "generator"
+type = "pto_lagged"
+joint = "shaft"
+damping = 38.0
+stiffness = -15.0
+lag = 0.01
+load_limit = 1.0e5
+[[force]]
+name = "gear_friction"
+type = "pto_linear"
+joint = "shaft"
+damping = 1.5
+"""
+
+
+def test_a_take_off_behind_a_gear_is_no_part_of_the_device(
+    repository: Path,
+) -> None:
+    """Its inertia is; `keep` counts its friction: 100^2 times 2 kg m2 and 1.5 N m s."""
+    omega = 1.2
+    case = case_with(repository, PTO + GEARED)
+    z = own_impedance(repository, omega) + 1j * omega * 2e4
+    found = match(Plant(case, "guide"), 2.0 * np.pi / omega)
+    assert abs(found.impedance - z) < 1e-4 * abs(z)
+    assert found.left_out == ("pto", "generator", "gear_friction")
+    kept = match(Plant(case, "guide"), 2.0 * np.pi / omega, keep=["gear_friction"])
+    assert kept.impedance == pytest.approx(found.impedance + 1.5e4, rel=1e-6)
+    assert kept.counted == ("gear_friction",)
+    with pytest.raises(CaseError, match=r"keep 'gear': no take-off .* pto, generator, gear_fr"):
+        match(Plant(case, "guide"), 2.0 * np.pi / omega, keep=["gear"])
+
+
+def test_the_command_prints_what_it_leaves_out_and_counts(
+    repository: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = repository / "cases" / "sphere" / "control.toml"
+    command = ["control", "design", str(path), "--joint", "guide", "--keep"]
+    assert main([*command, "pto"]) == 0
+    told = capsys.readouterr().out
+    assert "left out     no force of the case\n  counted      pto (pto_general)" in told
 
 
 def test_the_model_of_a_plant_keeps_its_take_off(repository: Path) -> None:

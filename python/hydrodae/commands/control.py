@@ -25,6 +25,14 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="of the wave to match (default: the energy period of the sea of the case)",
     )
     design.add_argument(
+        "--keep",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="a take-off that stays beside the controller; without it all take-offs along joints "
+        "are left out; may be repeated",
+    )
+    design.add_argument(
         "--set",
         metavar="KEY=VALUE",
         action="append",
@@ -42,19 +50,19 @@ def run(arguments: argparse.Namespace) -> int:
     from hydrodae.control import Plant, match
 
     plant = Plant(given_case(arguments), arguments.joint)
-    found = match(plant, arguments.period)
+    found = match(plant, arguments.period, keep=arguments.keep)
     turns = plant.turns
     resistance, stiffness = ("N m s/rad", "N m/rad") if turns else ("N s/m", "N/m")
     print(f"joint {arguments.joint} at {found.omega:.5g} rad/s ({2 * pi / found.omega:.4g} s)")
-    print(
-        f"  impedance    {found.impedance:.5g} {resistance}, of the device without the controller"
-    )
+    print(f"  impedance    {found.impedance:.5g} {resistance}, of the device without its take-offs")
     for title, names in (("left out", found.left_out), ("counted", found.counted)):
-        if names:
-            kinds = ", ".join(f"{name} ({plant.loads[name]})" for name in names)
-            print(f"  {title:<12s} {kinds}")
+        kinds = ", ".join(f"{name} ({plant.loads[name]})" for name in names)
+        print(f"  {title:<12s} {kinds or 'no force of the case'}")
     if found.left_out:
-        print("  the controller stands for what is left out: set its damping and stiffness to zero")
+        print(
+            "  the controller replaces what is left out: set its damping and stiffness to zero, "
+            "or keep it by --keep NAME"
+        )
     if found.excitation == found.excitation:
         print(f"  excitation   {found.excitation:.5g} {'N m/m' if turns else 'N/m'}")
         print(f"  most power   {found.power:.5g} W per m2 of amplitude, |F|^2 / (8 Re Z)")

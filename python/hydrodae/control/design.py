@@ -1,8 +1,9 @@
 """Impedance matching: gains of a PI controller from the device's own impedance.
 
 Along a joint the device is Z(w) s' = F(w) + u, Z from the frequency tables at its equilibrium. The
-controller stands for the power take-off, so the take-offs that the case has along the joint (types
-``pto_...``) are left out of Z; every other load counts. A load u = -Kp s' - Ki s with
+controller stands for the power take-off, so all take-offs that the case has along its joints (types
+``pto_...``) are left out of Z, also those that a gear or another loop couples to this joint, unless
+one is kept; every other load counts. A load u = -Kp s' - Ki s with
 
     Kp = Re Z(w0),    Ki = w0 Im Z(w0)
 
@@ -12,6 +13,7 @@ w0, the most that can be taken.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,7 +39,7 @@ class Matching:
     excitation : float
         |F(w0)| per metre of amplitude [N/m, N]; NaN for a case without waves.
     left_out, counted : tuple of str
-        Forces of the case along the joint: take-offs, which Z is without, and the others.
+        Forces of the case: take-offs, which Z is without, and the others.
     """
 
     omega: float
@@ -76,18 +78,25 @@ def energy_frequency(waves: np.ndarray) -> float:
     return float(energy.sum() / (energy / waves[:, 0]).sum())
 
 
-def match(plant: Plant, period: float | None = None, heading: float | None = None) -> Matching:
+def match(
+    plant: Plant,
+    period: float | None = None,
+    heading: float | None = None,
+    keep: Sequence[str] = (),
+) -> Matching:
     """Match a PI controller to a device.
 
     Parameters
     ----------
     plant : Plant
-        The device along a joint. The power take-offs that the case has along it are left out: where
-        the controller writes the load of one, set its own damping and stiffness to zero.
+        The device along a joint. The power take-offs that the case has along joints are left out:
+        where the controller writes the load of one, set its own damping and stiffness to zero.
     period : float, optional
         Of the wave to match [s]; by default the energy period of the sea of the case.
     heading : float, optional
         Of the waves [rad]; by default that of the case's first wave, else 0.
+    keep : sequence of str, optional
+        Take-offs that stay beside the controller, as the friction of a drive train.
 
     Raises
     ------
@@ -109,7 +118,13 @@ def match(plant: Plant, period: float | None = None, heading: float | None = Non
                 ) from None
     omega = energy_frequency(waves) if period is None and waves is not None else _rate(period)
     direction = heading if heading is not None else float(waves[0, 1]) if waves is not None else 0.0
-    left_out = plant.take_offs
+    for name in keep:
+        if name not in plant.take_offs:
+            known = ", ".join(plant.take_offs) or "none"
+            raise CaseError(
+                f"keep {name!r}: no take-off along a joint has this name; there are: {known}"
+            )
+    left_out = tuple(name for name in plant.take_offs if name not in keep)
     counted = tuple(name for name in plant.loads if name not in left_out)
     z = complex(plant.without(left_out).impedance(omega)[0])
     if z.real <= 0.0:

@@ -78,14 +78,17 @@ class Plant:
 
     @cached_property
     def loads(self) -> dict[str, str]:
-        """Name and type of every force of the case along the joint."""
-        forces = case_tables(self.model.case).get("force", [])
-        return {f["name"]: f["type"] for f in forces if f.get("joint") == self.joint}
+        """Name and type of every force of the case."""
+        return {f["name"]: f["type"] for f in case_tables(self.model.case).get("force", [])}
 
     @property
     def take_offs(self) -> tuple[str, ...]:
-        """Power take-offs of the case along the joint: forces whose type begins with ``pto_``."""
-        return tuple(name for name, kind in self.loads.items() if kind.startswith("pto_"))
+        """Take-offs along joints, all of which move with the one free motion of the case.
+
+        Their types begin with ``pto_``. A `pto_rotary`, between two bodies, is none of them.
+        """
+        forces = case_tables(self.model.case).get("force", [])
+        return tuple(f["name"] for f in forces if f["type"].startswith("pto_") and "joint" in f)
 
     def without(self, names: Sequence[str]) -> Plant:
         """Return the same device, in the same pose, without some forces along joints."""

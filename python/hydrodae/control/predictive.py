@@ -16,8 +16,11 @@ from hydrodae.support.extras import install_command
 
 Array = NDArray[np.float64]
 
-#: How dear it is to exceed the stroke, against the curvature of the program.
+#: How dear it is to exceed the stroke or the velocity, against the curvature of the program.
 _EXCEED = 1e4
+
+#: Least eigenvalue of a program, of its largest, above which it has one solution.
+_CONVEX = 1e-12
 
 #: Step of OSQP that each solution begins with.
 _RHO = 0.1
@@ -32,7 +35,7 @@ class ModelPredictive:
 
     least. The first term is the energy that the take-off gives away, in steps of a held load
     exactly, and never negative in sum without waves, so that the program is convex; the second one
-    draws it to the damper c. With r -> 0 the load is the one of most mechanical energy, with
+    draws it to the damper c. With r = 0 the load is the one of most mechanical energy, with
     r -> inf a damper within the limits; between them, less energy goes to and fro, which pays
     where the take-off has an efficiency.
 
@@ -53,12 +56,15 @@ class ModelPredictive:
     damping : float
         c >= 0 [N s/m, N m s/rad].
     weight : float
-        r > 0 [m/(N s), rad/(N m s)].
+        r >= 0 [m/(N s), rad/(N m s)]; 0 needs a device that loses energy by itself, as all that
+        radiate waves do.
     load_limit, rate_limit : float, optional
         Largest |u| [N, N m] and |u'| [N/s, N m/s].
     stroke : (float, float), optional
-        Least and largest coordinate of the joint [m, rad], as the channel counts it. What exceeds
-        it is dear, not forbidden: it is kept to about a hundredth where the loads can keep it.
+        Least and largest coordinate of the joint [m, rad], as the channel counts it.
+    velocity_limit : float, optional
+        Largest |s'| at the samples [m/s, rad/s]. What exceeds stroke or velocity is dear, not
+        forbidden: each is kept to about a hundredth where the loads can keep it.
 
     Raises
     ------
@@ -78,14 +84,14 @@ class ModelPredictive:
         load_limit: float = math.inf,
         rate_limit: float = math.inf,
         stroke: tuple[float, float] = (-math.inf, math.inf),
+        velocity_limit: float = math.inf,
     ) -> None:
         if not (horizon > 0 and float(horizon).is_integer()):
             raise CaseError(f"model-predictive control: horizon must be an integer, got {horizon}")
-        if not (0.0 < period < math.inf and 0.0 <= damping < math.inf and 0.0 < weight < math.inf):
-            raise CaseError("model-predictive control: period and weight > 0, damping >= 0, finite")
-        if not (
-            load_limit > 0.0 and rate_limit > 0.0 and len(stroke) == 2 and stroke[0] < stroke[1]
-        ):
+        if not (0.0 < period < math.inf and 0.0 <= damping < math.inf and 0.0 <= weight < math.inf):
+            raise CaseError("model-predictive control: period > 0, damping and weight >= 0, finite")
+        positive = min(load_limit, rate_limit, velocity_limit) > 0.0
+        if not (positive and len(stroke) == 2 and stroke[0] < stroke[1]):
             raise CaseError("model-predictive control: limits must be positive, stroke ascending")
         self._forecast, self._period, self._horizon = forecast, period, int(horizon)
         self._joint = plant.joint.partition("/")[0]
@@ -94,65 +100,85 @@ class ModelPredictive:
         self._rate_limit = rate_limit
         self._model = plant.sampled(period)
         self._predict()
-        self._limits = (load_limit, stroke[0] - plant.rest, stroke[1] - plant.rest)
+        self._load_limit = load_limit
+        least = np.repeat([stroke[0] - plant.rest, -velocity_limit], horizon)
+        most = np.repeat([stroke[1] - plant.rest, velocity_limit], horizon)
+        #: rows of the prediction that have limits, with them: strokes about the rest, velocities
+        self._bounded = np.flatnonzero(np.isfinite(least) | np.isfinite(most))
+        self._least, self._most = least[self._bounded], most[self._bounded]
         self._make_program()
         self.reset()
 
     def _predict(self) -> None:
-        """Strokes s(1) ... s(N) from y(0), u and e: free @ y + by_load @ u + by_wave @ e."""
+        """Strokes s(1) ... s(N), then velocities, of y(0), u and e.
+
+        They are free @ y + by_load @ u + by_wave @ e.
+        """
         step, held, early, late = self._model
         n, count = len(step), self._horizon
-        rows = np.zeros((count, n))
+        motion = np.zeros((2, count, n))  # s and s' of y(0), at each sample
+        impulse = np.zeros((2, count, 3))  # of a load, of a wave at both ends of its step
         power = np.eye(n)
-        impulse = np.zeros((count, 3))  # of a load, of a wave at both ends of its step
         for k in range(count):
-            impulse[k] = [(power @ column)[0] for column in (held, early, late)]
+            impulse[:, k] = power[:2] @ np.column_stack([held, early, late])
             power = power @ step
-            rows[k] = power[0]
-        self._free = rows
-        self._by_load = _toeplitz(impulse[:, 0], count)
-        self._by_wave = np.zeros((count, count + 1))
-        self._by_wave[:, :-1] += _toeplitz(impulse[:, 1], count)
-        self._by_wave[:, 1:] += _toeplitz(impulse[:, 2], count)
+            motion[:, k] = power[:2]
+        self._free = np.concatenate(motion)
+        self._by_load = np.concatenate([_toeplitz(one[:, 0], count) for one in impulse])
+        self._by_wave = np.zeros((2 * count, count + 1))
+        for end in (0, 1):
+            answers = [_toeplitz(one[:, 1 + end], count) for one in impulse]
+            self._by_wave[:, end : end + count] += np.concatenate(answers)
         #: s(k+1) - s(k) from s(1) ... s(N); s(0) is apart
         self._difference = np.eye(count) - np.eye(count, k=-1)
 
+    def _weigh(self) -> None:
+        """The quadratic part of the cost, u @ hessian @ u / 2."""
+        n, r, c, period = self._horizon, self._weight, self._damping, self._period
+        moves = self._difference @ self._by_load[:n]
+        self._per_load = per_load = np.eye(n) + c / period * moves
+        self._hessian = moves + moves.T + r * period * per_load.T @ per_load
+        curvature = np.linalg.eigvalsh(self._hessian)
+        if curvature[0] <= _CONVEX * curvature[-1]:
+            raise CaseError(
+                f"model-predictive control: the program is not convex (eigenvalues "
+                f"{curvature[0]:.2g} to {curvature[-1]:.2g}): a larger weight, or a passive memory "
+                f"fit, is needed; without a weight the device must lose energy by itself"
+            )
+        # in units of the limits and of the curvature, OSQP's tolerances fit
+        self._scale = float(np.abs(self._hessian).max())
+        #: what a load does most to the strokes or velocities of each row with limits
+        reach = [np.abs(part).sum(axis=1).max() for part in np.split(self._by_load, 2)]
+        self._reach = np.repeat(reach, n)[self._bounded]
+        spans = (self._most - self._least) / self._reach
+        spans = [self._load_limit, *spans[::n], self._rate_limit * period]
+        self._unit = next((float(span) for span in spans if math.isfinite(span)), 1.0)
+
     def _make_program(self) -> None:
-        """Set the program up: variables u(0) ... u(N-1) and by how much the stroke is exceeded."""
+        """Set the program up: loads u(0) ... u(N-1), and the excess of stroke and of velocity."""
         try:
             import osqp
         except ImportError:
             raise CaseError(
                 f"model-predictive control needs OSQP: {install_command('control')}"
             ) from None
-        n, moves = self._horizon, self._difference @ self._by_load
-        r, c, period = self._weight, self._damping, self._period
-        self._per_load = per_load = np.eye(n) + c / period * moves
-        hessian = moves + moves.T + r * period * per_load.T @ per_load
-        least = float(np.linalg.eigvalsh(hessian)[0])
-        if least <= 0.0:
-            raise CaseError(
-                f"model-predictive control: the program is not convex (eigenvalue {least:.2g}): "
-                f"a larger weight, or a passive memory fit, is needed"
-            )
-        self._hessian = hessian
-        # in units of the limits and of the curvature, OSQP's tolerances fit
-        self._scale = float(np.abs(hessian).max())
-        self._reach = float(np.abs(self._by_load).sum(axis=1).max())
-        spans = [self._limits[0], (self._limits[2] - self._limits[1]) / self._reach]
-        finite = [span for span in (*spans, self._rate_limit * period) if math.isfinite(span)]
-        self._unit = finite[0] if finite else 1.0
-        whole = np.zeros((n + 1, n + 1))
-        whole[:n, :n], whole[n, n] = hessian / self._scale, _EXCEED
-        one, zero = np.ones((n, 1)), np.zeros((n, 1))
-        stroke = self._by_load / self._reach
+        n = self._horizon
+        self._weigh()
+        motion = self._by_load[self._bounded] / self._reach[:, None]
+        excess = np.repeat(np.eye(2), n, axis=0)[self._bounded]
+        excess = excess[:, excess.any(axis=0)]
+        #: variables that follow the loads
+        self._spare = np.zeros(excess.shape[1])
+        whole = np.diag(np.full(n + self._spare.size, _EXCEED))
+        whole[:n, :n] = self._hessian / self._scale
+        alone = np.zeros((n, self._spare.size))
         self._rows = sparse.csc_matrix(
             np.vstack(
                 [
-                    np.hstack([np.eye(n), zero]),
-                    np.hstack([self._difference, zero]),
-                    np.hstack([stroke, -one]),
-                    np.hstack([stroke, one]),
+                    np.hstack([np.eye(n), alone]),
+                    np.hstack([self._difference, alone]),
+                    np.hstack([motion, -excess]),
+                    np.hstack([motion, excess]),
                 ]
             )
         )
@@ -160,7 +186,7 @@ class ModelPredictive:
         self._program = osqp.OSQP()
         self._program.setup(
             sparse.triu(sparse.csc_matrix(whole), format="csc"),
-            np.zeros(n + 1),
+            np.zeros(len(whole)),
             self._rows,
             np.full(count, -np.inf),
             np.full(count, np.inf),
@@ -234,7 +260,7 @@ class ModelPredictive:
         wave = self._forecast.ahead(t, self._horizon + 1)
         free = self._free @ self._y + self._by_wave @ wave
         loads = self._solve(free)
-        self._last = float(np.clip(loads[0], -self._limits[0], self._limits[0]))
+        self._last = float(np.clip(loads[0], -self._load_limit, self._load_limit))
         return self._last
 
     def _follow(self, s: float, rate: float) -> None:
@@ -251,21 +277,22 @@ class ModelPredictive:
 
     def _solve(self, free: Array) -> Array:
         n, r, c = self._horizon, self._weight, self._damping
-        moves = self._difference @ free
+        moves = self._difference @ free[:n]
         moves[0] -= self._y[0]
         linear = moves + r * c * self._per_load.T @ moves
-        load, lower, upper = self._limits
+        load = np.full(n, self._load_limit)
         change = np.full(n, self._rate_limit * self._period)
-        first, none = np.zeros(n), np.full(n, np.inf)
+        first, none = np.zeros(n), np.full(self._bounded.size, np.inf)
         first[0] = self._last
-        low = [np.full(n, -load), first - change, -none, (lower - free) / self._reach]
-        high = [np.full(n, load), first + change, (upper - free) / self._reach, none]
+        motion = free[self._bounded]
+        low = [-load, first - change, -none, (self._least - motion) / self._reach]
+        high = [load, first + change, (self._most - motion) / self._reach, none]
         bounds = np.concatenate(low), np.concatenate(high)
-        best = np.append(-np.linalg.solve(self._hessian, linear), 0.0)
+        best = np.append(-np.linalg.solve(self._hessian, linear), self._spare)
         rows = self._rows @ best
         if np.all(rows >= bounds[0]) and np.all(rows <= bounds[1]):
             return best[:n]  # no limit matters
-        slopes = np.append(linear, 0.0) / (self._scale * self._unit)
+        slopes = np.append(linear, self._spare) / (self._scale * self._unit)
         return self._unit * self._solve_within(slopes, *(bound / self._unit for bound in bounds))
 
     def _solve_within(self, linear: Array, low: Array, high: Array) -> Array:
@@ -279,7 +306,7 @@ class ModelPredictive:
                 f"model-predictive control: at t = {self._time:g} s the program is "
                 f"{found.info.status}"
             )
-        return np.asarray(found.x[:-1])
+        return np.asarray(found.x[: self._horizon])
 
     def state(self) -> list[float]:
         """What it remembers, for checkpoints."""

@@ -11,6 +11,7 @@ from typing import Any
 from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.wecsim.bodies import Bodies
 from hydrodae.wecsim.conditions import STUDY, find_conditions, write_study
 from hydrodae.wecsim.hydro import find_source, read_database, with_radiation
@@ -181,9 +182,13 @@ def _database(
         for number in group.bodies
         if number in wet and group.motion != "fixed"
     ]
+    turning = [b for b in read.of("body") if b.number_of("yaw.option")]
+    if turning:
+        database, mirrors = mirrored(database)
+        for finding in mirrors:
+            read.remarks.assumed("headings", finding.message)
     database, kind = with_radiation(database, moving, kind, read)
     keys: dict[str, float | str] = {"database": "hydro.h5"}
-    turning = [b for b in read.of("body") if b.number_of("yaw.option")]
     for body in read.of("body"):
         body.used |= {"yaw.option", "yaw.threshold"}
     if turning:

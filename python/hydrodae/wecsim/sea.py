@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
-from hydrodae.records import Table, read_elevation, read_table
+from hydrodae.records import Table, read_components, read_elevation, read_table
 from hydrodae.wecsim.gauges import add_gauges
 from hydrodae.wecsim.objects import InputFile, Item
 from hydrodae.wecsim.old_names import WAVES
@@ -66,7 +66,7 @@ def add_waves(text: CaseText, read: InputFile, folder: Path, omega: Array | None
     ramp = 100.0 if simu is None else simu.number_of("rampTime", 100.0)
     tables: list[tuple[dict[str, Any], str]] = []
     for waves in all_waves:
-        tables += _tables(waves, read, folder)
+        tables += _tables(waves, read, folder, omega)
     for keys, _ in tables:
         _allow_loss(keys, omega, read)
     current = _current(all_waves, read)
@@ -81,7 +81,9 @@ def add_waves(text: CaseText, read: InputFile, folder: Path, omega: Array | None
     add_gauges(text, read, len(tables))
 
 
-def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, Any], str]]:
+def _tables(
+    waves: Item, read: InputFile, folder: Path, omega: Array | None
+) -> list[tuple[dict[str, Any], str]]:
     kind = _kind(waves)
     place = read.place(waves.line)
     name = "waves" if waves.number == 1 else f"waves{waves.number}"
@@ -114,7 +116,15 @@ def _tables(waves: Item, read: InputFile, folder: Path) -> list[tuple[dict[str, 
     if kind == "elevationImport":
         return _elevation(waves, read, folder, first)
     if kind in ("irregular", "spectrumImport"):
-        spectrum = _imported(waves, read) if kind == "spectrumImport" else _formula(waves, read)
+        if kind == "irregular":
+            spectrum = _formula(waves, read)
+        else:
+            table = _data(waves, "spectrumFile", read)
+            if table is None:
+                return []
+            if table.values.shape[1] == 3:
+                return _with_phases(waves, read, table, first["name"], omega)
+            spectrum = _imported(table)
         return [] if spectrum is None else _directions(waves, read, first, spectrum)
     read.remarks.left_out(place, f"waves of type {kind!r}")
     return []
@@ -174,15 +184,48 @@ def _formula(waves: Item, read: InputFile) -> dict[str, Any] | None:
     return None
 
 
-def _imported(waves: Item, read: InputFile) -> dict[str, Any] | None:
-    table = _data(waves, "spectrumFile", read)
-    if table is None:
-        return None
+def _with_phases(
+    waves: Item, read: InputFile, table: Table, name: str, omega: Array | None
+) -> list[tuple[dict[str, Any], str]]:
+    """A regular wave for each frequency [Hz] of a spectrum [m2/Hz] with phases [rad].
+
+    Of sqrt(2 S dw) cos(w t + phase), between the frequencies of the database; in each direction
+    sqrt(share) of it.
+    """
+    for field in ("phaseSeed", "bem.option", "bem.count"):
+        waves.used.add(field)
+    place = read.place(waves.line_of("spectrumFile"))
+    rate = 2.0 * math.pi * table.values[:, 0]
+    ends = waves.vector("bem.range", [] if omega is None else [omega[0], omega[-1]])
+    held = rate > 0.0
+    if ends.size == 2:
+        held &= (rate >= ends[0]) & (rate <= ends[1])
+    units = ("frequency [Hz]", "density [m2/Hz]", "phase [rad]")
+    try:
+        found = read_components(Table(table.path, units, table.values[held]))
+    except CaseError as error:
+        read.remarks.left_out(place, str(error))
+        return []
+    lost = int(np.sum(~held & (rate > 0.0) & (table.values[:, 1] > 0.0)))
+    if lost:
+        text = f"{lost} frequencies are outside {ends[0]:.4g} to {ends[1]:.4g} rad/s, as in WEC-Sim"
+        read.remarks.assumed(place, text)
+    headings = waves.vector("direction", [0.0])
+    shares = waves.vector("spread", [1.0])
+    if shares.size != headings.size:
+        shares = np.full(headings.size, 1.0 / headings.size)
+        read.remarks.assumed(place, "as many spreads as directions: equal shares")
+    tables: list[tuple[dict[str, Any], str]] = []
+    for heading, share in zip(headings, shares, strict=True):
+        for wave in found:
+            keys = wave.wave(f"{name}_{len(tables) + 1}")
+            keys |= {"height": keys["height"] * math.sqrt(share), "heading_deg": _turned(heading)}
+            tables.append((keys, ""))
+    return tables
+
+
+def _imported(table: Table) -> dict[str, Any]:
     rows = table.values
-    if rows.shape[1] > 2:
-        read.remarks.left_out(
-            read.place(waves.line_of("spectrumFile")), "phases of the imported spectrum: a seed"
-        )
     kept = (rows[:, 0] > 0.0) & np.isfinite(rows[:, 1])
     return {
         "type": "table",

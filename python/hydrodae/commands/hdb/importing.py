@@ -95,6 +95,12 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--cut", metavar="W", type=float, help="leave out the frequencies above W [rad/s]"
     )
     add.add_argument(
+        "--symmetric",
+        metavar="PLANES",
+        help="y, x or y,x: the hulls are symmetric about the plane y = 0, x = 0. Adds the headings "
+        "that follow, and prints by how much the tables miss the symmetry (at most 2 %%)",
+    )
+    add.add_argument(
         "--mesh",
         metavar="[NAME=]FILE",
         action="append",
@@ -134,6 +140,7 @@ def run(args: argparse.Namespace) -> int:
         time_convention=args.time_convention,
         keep=args.keep,
         cut=args.cut,
+        symmetric=None if args.symmetric is None else args.symmetric.split(","),
         band=_band(args),
     )
     if args.no_coupling:

@@ -19,6 +19,7 @@ from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.hdb.hull.mesh_statics import mesh_statics
 from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.hdb.preparation.mirroring import mirrored
 from hydrodae.hdb.readers.finishing import finish
 from hydrodae.hdb.readers.headings import FORCES
 from hydrodae.hdb.readers.kinds import kind
@@ -43,6 +44,7 @@ def import_database(
     time_convention: str | None = None,
     keep: str | None = None,
     cut: float | None = None,
+    symmetric: Sequence[str] | None = None,
     band: Band | Callable[[HydroDatabase], Band] | None = None,
 ) -> tuple[HydroDatabase, CheckReport]:
     """Read a source, check it, rename its bodies and move it to the scene's reference points.
@@ -71,6 +73,8 @@ def import_database(
         Coordinates to keep, as in `hydrodae.hdb.expand`; the checks see these only.
     cut : float, optional
         Leave out the frequencies above [rad/s], before anything is estimated.
+    symmetric : sequence of "y", "x", optional
+        Planes y = 0, x = 0 of symmetry of the hulls, whose mirror images add headings.
     band : (low, high) or function of the database, optional
         Frequencies [rad/s] that the device feels; see `hydrodae.hdb.check`.
 
@@ -132,6 +136,9 @@ def import_database(
         noticed = [f for f in noticed if f.check != "hydrostatics"]
     if keep is not None:
         database = database.select(expand(keep, database.coordinates))
+    if symmetric is not None:
+        database, mirrors = mirrored(database, symmetric)
+        noticed = [*noticed, *mirrors]
     judged = band(database) if callable(band) else band
     return database, CheckReport([*noticed, *check(database, judged).findings])
 

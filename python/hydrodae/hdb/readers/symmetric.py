@@ -48,7 +48,7 @@ def mirrored_forces(
         mirrors.append((lambda angle: np.pi - angle, ALONG))
     for turn, sign in mirrors:
         other = np.mod(turn(heading), 2.0 * np.pi)
-        new = _absent(other, heading)
+        new = absent(other, heading)
         heading = np.concatenate([heading, other[new]])
         force = np.concatenate([force, force[:, new] * sign], axis=1)
     return heading, force
@@ -66,7 +66,7 @@ def turned_forces(heading: Array, force: Complex) -> tuple[Array, Complex]:
     return np.mod(angles, 2.0 * np.pi), turned
 
 
-def _absent(candidates: Array, known: Array) -> NDArray[np.bool_]:
+def absent(candidates: Array, known: Array) -> NDArray[np.bool_]:
     """Tell which angles are none of those known, nor of the candidates before."""
     new = np.ones(candidates.size, dtype=bool)
     seen = list(known)

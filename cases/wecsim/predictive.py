@@ -1,0 +1,99 @@
+"""Run WEC-Sim's example of model predictive control with the controller of hydrodae.
+
+    python cases/wecsim/predictive.py WEC-Sim_Applications/Controls/MPC
+
+The limits, the period and the horizon are those of its input file. Two numbers differ. Its weight
+is on the rate of the load, here it is on the load. Its forecast of order 4 takes the loads at the
+samples; here they are means over the periods, whose forecast needs order 16 to keep the limits.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from of_case import tables_of  # type: ignore[import-not-found] # stands beside this file
+
+import hydrodae
+from hydrodae.control import AutoregressiveForecast, ModelPredictive, Plant
+from hydrodae.wecsim import convert
+from hydrodae.wecsim.m_file import evaluate, read_input
+
+ORDER, WEIGHT = 16, 1e-7  # -, m/(N s)
+CONTROLLER = """
+[[force]]
+type = "pto_general"
+name = "pto1"
+joint = "pto1"
+[[controller]]
+type = "python"
+name = "law"
+inputs = ["joints/pto1/displacement", "joints/pto1/displacement_rate"]
+outputs = ["forces/pto1/load"]
+period = {period}
+"""
+
+
+def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
+    """Mean power [W] of the last ten periods of each sea, their mean; the largest of the others.
+
+    Parameters
+    ----------
+    case : Path
+        The converted case, which lacks the controller.
+    folder : Path
+        Of the example.
+    seeds : int
+        How many seas.
+    """
+    read = read_input(folder / "wecSimInputFile.m")
+
+    def given(name: str) -> float:
+        return float(evaluate(read, f"controller(1).modelPredictiveControl.{name}"))  # type: ignore[arg-type]
+
+    period = given("dt")
+    file = case.with_name("predictive.toml")
+    text = case.read_text(encoding="utf-8") + CONTROLLER.format(period=period)
+    file.write_text(text, encoding="utf-8")
+    plant = Plant(file, "pto1")
+    rows = []
+    for seed in range(1, seeds + 1):
+        law = ModelPredictive(
+            plant,
+            AutoregressiveForecast(ORDER, int(given("Ho"))),
+            period=period,
+            horizon=round(given("predictionHorizon") / period),
+            damping=0.0,
+            weight=WEIGHT,
+            load_limit=given("maxPTOForce"),
+            rate_limit=given("maxPTOForceChange"),
+            stroke=(-given("maxPos"), given("maxPos")),
+            velocity_limit=given("maxVel"),
+        )
+        run = hydrodae.run(file, controllers={"law": law}, set={"wave.waves.seed": seed})
+        time, load = np.asarray(run.time), np.asarray(run["controllers/law/output"])
+        last = time >= time[-1] - 10.0 * tables_of(file)["wave"][0]["peak_period"]
+        rows.append(
+            (
+                np.mean(np.asarray(run["forces/pto1/power_absorbed"])[last]),
+                np.abs(run["joints/pto1/displacement"]).max(),
+                np.abs(run["joints/pto1/displacement_rate"]).max(),
+                np.abs(load).max(),
+                np.abs(np.diff(load)).max() / period,
+            )
+        )
+    table = np.array(rows, dtype=float)
+    names = ("displacement", "velocity", "load", "rate of load")
+    largest = dict(zip(names, map(float, table[:, 1:].max(axis=0)), strict=True))
+    deviation = float(np.std(table[:, 0], ddof=1)) if seeds > 1 else float("nan")
+    return {"power": float(np.mean(table[:, 0])), "deviation of power": deviation} | largest
+
+
+if __name__ == "__main__":
+    source = Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as name:
+        found = figures(convert(source, Path(name) / "case").case, source, 10)
+    for quantity, value in found.items():
+        print(f"{quantity}: {value:.5g}")
