@@ -31,7 +31,7 @@ def mean_yaw(case: Path, periods: int) -> float:
     def at(table: np.ndarray) -> np.ndarray:
         k = int(np.searchsorted(database.omega, omega))
         low, high = database.omega[k - 1 : k + 1]
-        return table[k - 1] + (omega - low) / (high - low) * (table[k] - table[k - 1])
+        return np.asarray(table[k - 1] + (omega - low) / (high - low) * (table[k] - table[k - 1]))
 
     force = CubicSpline(database.heading, at(database.excitation[:, :, label]), bc_type="periodic")
     inertia = body["inertia"][2] + float(at(database.added_mass[:, label, label]))

@@ -51,7 +51,7 @@ def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
     read = read_input(folder / "wecSimInputFile.m")
 
     def given(name: str) -> float:
-        return float(evaluate(read, f"controller(1).modelPredictiveControl.{name}"))  # type: ignore[arg-type]
+        return float(evaluate(read, f"controller(1).modelPredictiveControl.{name}"))
 
     period = given("dt")
     file = case.with_name("predictive.toml")

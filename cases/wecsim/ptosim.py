@@ -48,8 +48,8 @@ def stroke(chain: Chain, results: Results, joint: str) -> np.ndarray:
             c, length, across = p["crank"], p[rod], p["crank"] * np.cos(angle) - p["offset"]
             far = math.sqrt(length**2 - (c - p["offset"]) ** 2)
             if kind == "linCrank":
-                return c * np.sin(angle) + np.sqrt(length**2 - across**2) - far
-            return np.hypot(across, far - c * np.sin(angle)) - length
+                return np.asarray(c * np.sin(angle) + np.sqrt(length**2 - across**2) - far)
+            return np.asarray(np.hypot(across, far - c * np.sin(angle)) - length)
     return np.asarray(results[f"joints/{joint}/displacement"])
 
 
@@ -142,6 +142,7 @@ def direct_drive(chain: Chain, omega: float, rest: complex, force: complex) -> d
     """Mean powers [W] of a gear and generator on a body of impedance `rest` [N s/m] at `omega`."""
     p = sizes(chain, "simpleDDPTO")
     law, gear = chain.law, p["gearRatio"]
+    assert law is not None
     ohm = p["windingResistance"]
     answer = (law.damping + law.stiffness / (1j * omega)) / (
         1.0 + 1j * omega * p["windingInductance"] / ohm

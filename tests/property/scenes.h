@@ -416,9 +416,8 @@ inline std::vector<NamedScene> all_scenes() {
   std::size_t next_pose = 0;
   for (const joint::JointType& type : joint::joint_types())
     for (const auto& motion : motions)
-      for (const std::string hydro :
-           {"dry", "body", "mean", "yaw", "round", "constant", "convolution", "poses",
-            "poses, constant"}) {
+      for (const std::string hydro : {"dry", "body", "mean", "yaw", "round", "constant",
+                                      "convolution", "poses", "poses, constant"}) {
         // Rows on three axes of rotation overdetermine a body that has one.
         if (motion.size() > 1 && type.rows.size() > 3)
           continue;
@@ -428,9 +427,9 @@ inline std::vector<NamedScene> all_scenes() {
                     hydro == "round"                    ? "yaw"
                     : hydro == "mean" || hydro == "yaw" ? hydro
                                                         : "body",
-                    hydro.ends_with("constant")     ? "constant"
-                    : hydro == "convolution" ? hydro
-                                             : "exponential",
+                    hydro.ends_with("constant") ? "constant"
+                    : hydro == "convolution"    ? hydro
+                                                : "exponential",
                     random);
         if (hydro == "round")
           scene.database = all_round(*scene.database);

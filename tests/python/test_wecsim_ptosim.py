@@ -17,7 +17,7 @@ from hydrodae.study.sweep.measures import make_measure, measure
 from hydrodae.wecsim import convert
 
 sys.path.append(str(Path(__file__).parents[2] / "cases" / "wecsim"))
-import ptosim  # the equations of PTO-Sim, without the kernel
+import ptosim  # type: ignore[import-not-found]  # the equations of PTO-Sim, without the kernel
 
 ACTUATED = "Translational PTO Actuation Force"
 TURNED = "Rotational PTO Actuation Torque"
@@ -135,9 +135,10 @@ def test_a_direct_drive_has_the_powers_of_linear_theory(tmp_path: Path) -> None:
     ours = powers(converted.case, results)
     body = case["body"][0]
     omega, statics = 2.0 * np.pi / 6.0, database.bodies["buoy"].hydrostatics
+    assert statics is not None
 
     def at(table: np.ndarray) -> complex:
-        return np.interp(omega, database.omega, table)
+        return complex(np.interp(omega, database.omega, table))
 
     i = database.coordinates.index("buoy.heave")
     added, damping = at(database.added_mass[:, i, i]), at(database.radiation_damping[:, i, i])

@@ -55,7 +55,8 @@ Eigen::MatrixXcd yaw_coefficients(const hydro::Excitation& table, std::size_t fi
 /// diffraction when it is taken from the excitation of a database, so that in small waves the loads
 /// are those of the database (hulls.cpp).
 Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& mesh,
-                                   const hull::Pose& body, const Meeting& meeting, const YawSamples& samples,
+                                   const hull::Pose& body, const Meeting& meeting,
+                                   const YawSamples& samples,
                                    const std::vector<sea::Component>& components);
 
 /// Which rows of `yaw_coefficients` are more than a tenth of the noise that the tables have from

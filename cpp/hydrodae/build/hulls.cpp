@@ -78,7 +78,8 @@ Vector6c linear_load(const hull::Mesh& mesh, const hull::Water& water, const hul
 } // namespace
 
 Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& mesh,
-                                   const hull::Pose& body, const Meeting& meeting, const YawSamples& samples,
+                                   const hull::Pose& body, const Meeting& meeting,
+                                   const YawSamples& samples,
                                    const std::vector<sea::Component>& components) {
   const hull::Water water = water_of_hulls(scene);
   // Phases are those of the point where the body meets the waves: the pose stands above the origin.
@@ -88,8 +89,7 @@ Eigen::MatrixXcd mesh_coefficients(const model::Scene& scene, const hull::Mesh& 
     const sea::Component& c = components[static_cast<std::size_t>(i)];
     Eigen::MatrixXcd force(samples.yaws.size(), 6);
     for (Index k = 0; k < force.rows(); ++k)
-      force.row(k) =
-          linear_load(mesh, water, pose, c, c.heading - samples.yaws[k]).transpose();
+      force.row(k) = linear_load(mesh, water, pose, c, c.heading - samples.yaws[k]).transpose();
     const double lag = c.wavenumber * (meeting.point[0] * std::cos(c.heading) +
                                        meeting.point[1] * std::sin(c.heading));
     force *= std::polar(c.amplitude, c.phase - lag);

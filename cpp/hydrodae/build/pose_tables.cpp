@@ -108,7 +108,8 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
   const system::HydroBody& hb = none.bodies[number];
   table.axis.component = given.component();
   if (table.axis.component < 3)
-    table.axis.reference = s.bodies[static_cast<std::size_t>(hb.body)].reference[table.axis.component];
+    table.axis.reference =
+        s.bodies[static_cast<std::size_t>(hb.body)].reference[table.axis.component];
   table.axis.weights = CardinalSplines(given.poses());
   table.first_weight = s.hydro.n_weights;
   for (std::size_t k = 0; k < given.loaded.size(); ++k) {
@@ -119,8 +120,7 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
       table.damping.push_back(own_block(hb, table.hydro_body, one.damping_all));
     append_memory(one, s.hydro.n_weights++, s.hydro);
     if (k == 0)
-      s.hydro.uncovered.insert(s.hydro.uncovered.end(), one.uncovered.begin(),
-                               one.uncovered.end());
+      s.hydro.uncovered.insert(s.hydro.uncovered.end(), one.uncovered.begin(), one.uncovered.end());
   }
   check_blends(given, table, none, s);
   s.hydro.bodies[number].table = static_cast<int>(s.hydro.tables.size());

@@ -140,7 +140,8 @@ struct Sources {
         if (own.size() != first.size() || !own.isApprox(first, 1e-9))
           throw ModelError("pose_table." + table->name + ".databases",
                            "the headings of " + table->loaded[k]->path + " are not those of " +
-                               table->loaded[0]->path + "; compute all poses for the same headings");
+                               table->loaded[0]->path +
+                               "; compute all poses for the same headings");
       }
     }
   }
@@ -211,8 +212,7 @@ std::vector<water::Excitation::Body> wave_loads(const model::Scene& scene, const
     const system::BodyData& b = s.bodies[static_cast<std::size_t>(hb.body)];
     const std::vector<const Source*> own = sources.of(i);
     const YawSamples samples = yaw_samples(own[0]->total, 6 * i, meetings[i], all);
-    out.push_back(
-        {b.name, hb, b.reference, b.length_scale, samples.functions, {}, {}, {}, {}});
+    out.push_back({b.name, hb, b.reference, b.length_scale, samples.functions, {}, {}, {}, {}});
     if (hb.table >= 0)
       out[i].poses = s.hydro.tables[static_cast<std::size_t>(hb.table)].axis;
     for (std::size_t pose = 0; pose < own.size(); ++pose)
@@ -257,12 +257,12 @@ void add_sea(const model::Scene& scene, system::System& s) {
   if (!sources.symmetry.empty())
     s.notes.push_back("axes = \"yaw\": headings that the database lacks follow from its symmetry "
                       "about " +
-                      sources.symmetry + "; with them there are " + degrees(db.heading[0]) + " to " +
-                      degrees(db.heading[db.heading.size() - 1]));
+                      sources.symmetry + "; with them there are " + degrees(db.heading[0]) +
+                      " to " + degrees(db.heading[db.heading.size() - 1]));
   Functions functions;
-  std::vector<water::Excitation::Body> loaded = wave_loads(scene, s, sources, bodies, all, functions);
-  auto list =
-      std::make_shared<water::Excitation>(h.axes, std::move(loaded), sources.split);
+  std::vector<water::Excitation::Body> loaded =
+      wave_loads(scene, s, sources, bodies, all, functions);
+  auto list = std::make_shared<water::Excitation>(h.axes, std::move(loaded), sources.split);
   if (scene.sea.phase == "fixed") {
     VectorX omega(std::ssize(all));
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -169,11 +169,9 @@ model::Scene read_tables(const toml::table& root, const std::string& name) {
 }
 
 /// `path` is relative to the case; `place` is the key that has it.
-std::shared_ptr<const hydro::Database> read_database(const model::Scene& scene,
-                                                     const std::string& directory,
-                                                     const std::string& path,
-                                                     const std::string& key,
-                                                     const std::string& what) {
+std::shared_ptr<const hydro::Database>
+read_database(const model::Scene& scene, const std::string& directory, const std::string& path,
+              const std::string& key, const std::string& what) {
   const std::filesystem::path whole = std::filesystem::path(directory) / path;
   // Axes that turn with the bodies may need any heading; symmetry is judged by the damping, too.
   const bool turns = scene.hydro->axes == "yaw" && !scene.waves.empty();

@@ -148,8 +148,7 @@ bool NewtonMatrix<Scalar>::factorise(const system::JacobianParts& parts, const A
   return lu_.factorise(careful);
 }
 
-template <class Scalar>
-void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS& z, Scalar* b) {
+template <class Scalar> void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS& z, Scalar* b) {
   const HydroData& h = s_.hydro;
   if (parts_->memory_weights.size() > 0)
     z.array() *= parts_->memory_weights.template cast<Scalar>().array();

@@ -38,7 +38,8 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
 }
 
 /// A table that ends before the pose that its body has taken.
-[[noreturn]] void refuse_pose(double t, const System& s, const water::PoseTable& table, double pose) {
+[[noreturn]] void refuse_pose(double t, const System& s, const water::PoseTable& table,
+                              double pose) {
   const std::string& body =
       s.bodies[static_cast<std::size_t>(
                    s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)].body)]
@@ -46,15 +47,16 @@ void Observer::observe_memory(const HydroData& h, const double* y) {
   const bool turns = table.axis.component >= 3;
   const auto text = [&](double x) { return rounded_text(turns ? x * 180.0 / pi : x, 4); };
   throw SolverError(
-      t, {Reason::range,
-          "body " + in_quotes(body) + " is at a " +
-              std::string(model::coordinate_names[static_cast<std::size_t>(table.axis.component)]) +
-              " of " + text(pose) + (turns ? " deg" : " m") + "; its [[pose_table]] covers " +
-              text(table.axis.weights.front()) + " to " + text(table.axis.weights.back()) + " alone",
-          "bodies/" + body,
-          {{turns ? "pose_deg" : "pose_m", turns ? pose * 180.0 / pi : pose}},
-          "add databases for poses beyond its ends",
-          ""});
+      t,
+      {Reason::range,
+       "body " + in_quotes(body) + " is at a " +
+           std::string(model::coordinate_names[static_cast<std::size_t>(table.axis.component)]) +
+           " of " + text(pose) + (turns ? " deg" : " m") + "; its [[pose_table]] covers " +
+           text(table.axis.weights.front()) + " to " + text(table.axis.weights.back()) + " alone",
+       "bodies/" + body,
+       {{turns ? "pose_deg" : "pose_m", turns ? pose * 180.0 / pi : pose}},
+       "add databases for poses beyond its ends",
+       ""});
 }
 
 /// A(s) U and d/dt (A(s) U) of bodies with tables, for all six coordinates of each.

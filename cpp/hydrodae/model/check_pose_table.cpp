@@ -66,9 +66,8 @@ void check_database_at(const Scene& scene, const PoseTable& table, std::size_t k
 } // namespace
 
 int PoseTable::component() const {
-  return static_cast<int>(
-      std::find(coordinate_names.begin(), coordinate_names.end(), coordinate) -
-      coordinate_names.begin());
+  return static_cast<int>(std::find(coordinate_names.begin(), coordinate_names.end(), coordinate) -
+                          coordinate_names.begin());
 }
 
 const PoseTable* pose_table(const Scene& scene, const std::string& body) {

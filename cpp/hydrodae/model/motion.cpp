@@ -111,8 +111,8 @@ std::vector<std::string> moving_coordinates(const Scene& scene) {
 const hydro::MemoryFit* memory_fit(const Scene& scene) {
   if (!scene.hydro || !scene.database || scene.hydro->radiation != "exponential")
     return nullptr;
-  const std::vector<std::string> moving = moving_coordinates(
-      scene.pose_tables.empty() ? scene : scene_without_tables(scene));
+  const std::vector<std::string> moving =
+      moving_coordinates(scene.pose_tables.empty() ? scene : scene_without_tables(scene));
   if (moving.empty())
     return nullptr;
   const std::vector<hydro::MemoryFit>& fits = scene.database->fits;

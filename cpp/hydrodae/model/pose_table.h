@@ -14,12 +14,12 @@ struct Scene;
 
 /// Table [[pose_table]].
 struct PoseTable {
-  static constexpr std::string_view doc =
-      "Added mass, radiation and excitation of one body by its pose: databases computed for several "
-      "poses, blended by cubic splines.";
+  static constexpr std::string_view doc = "Added mass, radiation and excitation of one body by its "
+                                          "pose: databases computed for several "
+                                          "poses, blended by cubic splines.";
   std::string name, body, coordinate;
   static constexpr std::size_t most = 100; ///< poses
-  std::vector<double> values, values_deg; ///< one of the two is empty; the second is in radians
+  std::vector<double> values, values_deg;  ///< one of the two is empty; the second is in radians
   std::vector<std::string> databases;
   std::vector<std::shared_ptr<const hydro::Database>> loaded; ///< of `databases`
 
@@ -34,7 +34,8 @@ struct PoseTable {
         {"coordinate",
          &T::coordinate,
          "-",
-         "Coordinate of the pose: the rise of the centre of gravity above the reference pose, or the "
+         "Coordinate of the pose: the rise of the centre of gravity above the reference pose, or "
+         "the "
          "angle of the body.",
          true,
          any_value,

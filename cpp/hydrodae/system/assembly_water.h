@@ -25,7 +25,7 @@ inline Matrix6 hydro_block(const MatrixX& matrix, const HydroBody& i, const Hydr
 /// A table at the pose of its body.
 struct TableHere {
   water::PoseCoordinate<double> pose;
-  double rate = 0.0;        ///< s'
+  double rate = 0.0;           ///< s'
   Matrix6 A, A_slope, damping; ///< A, dA/ds, B; rows and columns that do not move are zero
 };
 
@@ -120,8 +120,8 @@ void Assembly<Sink>::table_columns(std::size_t number, const HydroLoadGradient& 
     const int weight = s.hydro.weight_of_state[static_cast<std::size_t>(z)];
     for (int c = 0; c < 6; ++c)
       if (hb.moving[c] >= 0)
-        force[c] += s.hydro.output(hb.moving[c], z) * ws.state.weight_slopes[weight] *
-                    y[s.hydro.z0 + z];
+        force[c] +=
+            s.hydro.output(hb.moving[c], z) * ws.state.weight_slopes[weight] * y[s.hydro.z0 + z];
   }
   const Vector6 by_pose = load.L * force + load.Q * momentum - 0.5 * U.dot(bend) * g,
                 by_rate = load.L * momentum;

@@ -52,12 +52,12 @@ template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
 
 /// A table at the pose of its body: weights, pose and its rate.
 template <class S>
-water::PoseCoordinate<S> read_pose(const Regime& s, Workspace<S>& ws, const water::PoseTable& table) {
+water::PoseCoordinate<S> read_pose(const Regime& s, Workspace<S>& ws,
+                                   const water::PoseTable& table) {
   const HydroBody& hb = s.hydro.bodies[static_cast<std::size_t>(table.hydro_body)];
-  const water::PoseCoordinate<S> pose =
-      table.axis.at(ws.bodies[hb.body]);
+  const water::PoseCoordinate<S> pose = table.axis.at(ws.bodies[hb.body]);
   table.axis.weights.values(pose.value, ws.weights.data() + table.first_weight,
-                       ws.weight_slopes.data() + table.first_weight);
+                            ws.weight_slopes.data() + table.first_weight);
   return pose;
 }
 
@@ -124,8 +124,8 @@ void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y
   for (const HydroBody& hb : h.bodies) {
     if (!hb.moves)
       continue;
-    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body], hb.gather<S>(ws.inertia_force),
-                                       hb.gather<S>(ws.momentum));
+    ws.loads[hb.body] -= hydro_load<S>(h.axes, hb, ws.bodies[hb.body],
+                                       hb.gather<S>(ws.inertia_force), hb.gather<S>(ws.momentum));
     if (hb.table >= 0)
       ws.loads[hb.body] += ws.table_loads[static_cast<std::size_t>(hb.table)];
   }

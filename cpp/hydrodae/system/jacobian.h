@@ -47,7 +47,7 @@ struct JacobianParts {
   std::vector<double> by_y, by_yp; ///< (nonzeros,) dF/dy and dF/dy'
   std::vector<MemoryPort> memory;  ///< of each hydrodynamic body; with Part::condensed
   VectorX memory_weights; ///< (n_states,) of C z, where tables follow poses; with Part::condensed
-  VectorX row_rates;               ///< (n_lambda,) (dG/dt) u; with Part::accelerations
+  VectorX row_rates;      ///< (n_lambda,) (dG/dt) u; with Part::accelerations
   explicit JacobianParts(const Pattern& pattern)
       : by_y(pattern.row.size()), by_yp(pattern.row.size()) {}
 };

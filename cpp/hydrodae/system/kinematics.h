@@ -50,11 +50,11 @@ template <class S> struct Workspace {
   std::vector<Vec6<S>> loads;  ///< world force, body-axes moment about the centre of gravity
   std::vector<Vec6<S>> shifts; ///< G^T mu
   VecX<S> U, U_dot, momentum, inertia_force;
-  VecX<S> memory;             ///< scratch of the convolution
-  VecX<S> weights, weight_slopes; ///< of the tables over poses
-  VecX<S> weighted;               ///< memory states times their weights
+  VecX<S> memory;                   ///< scratch of the convolution
+  VecX<S> weights, weight_slopes;   ///< of the tables over poses
+  VecX<S> weighted;                 ///< memory states times their weights
   std::vector<Vec6<S>> table_loads; ///< 1/2 U.A' U grad s of each table, on its body
-  const Past* past = nullptr; ///< at the time of this evaluation (history.h)
+  const Past* past = nullptr;       ///< at the time of this evaluation (history.h)
   std::vector<ElementScratch<S>> elements;
   double time = 0.0; ///< of this evaluation [s]
   Turns turns;

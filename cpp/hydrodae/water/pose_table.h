@@ -45,8 +45,7 @@ template <class S> Vec3<S> turn_gradient(int component, const Vec3<S>& g) {
 /// Of a component: 0..2 the displacement from `reference` along a world axis [m]; 3..5 roll, pitch,
 /// yaw [rad].
 template <class S>
-PoseCoordinate<S> pose_coordinate(int component, double reference,
-                                  const element::BodyState<S>& b) {
+PoseCoordinate<S> pose_coordinate(int component, double reference, const element::BodyState<S>& b) {
   using std::atan2;
   using std::sqrt;
   PoseCoordinate<S> out;
@@ -75,7 +74,7 @@ inline Matrix3 pose_gradient_by_rotation(int component, const Matrix3& R) {
   const Vector3 g = R.row(2).transpose();
   const Matrix3 turn = skew<double>(g);
   for (int c = 0; c < 3; ++c) {
-    const Vec3<Dual> turned{{g[0], turn(0, c)}, {g[1], turn(1, c)}, {g[2], turn(2, c)}};
+    const Vec3<Dual> turned(Dual(g[0], turn(0, c)), Dual(g[1], turn(1, c)), Dual(g[2], turn(2, c)));
     const Vec3<Dual> gradient = turn_gradient<Dual>(component, turned);
     for (int k = 0; k < 3; ++k)
       out(k, c) = gradient[k].b;

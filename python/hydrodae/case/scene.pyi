@@ -20,6 +20,12 @@ _HydroRadiation = Literal[
     "exponential",
     "convolution",
 ]
+_PoseTableCoordinate = Literal[
+    "heave",
+    "roll",
+    "pitch",
+    "yaw",
+]
 _SeaPhase = Literal[
     "fixed",
     "moving",
@@ -3002,6 +3008,48 @@ class Scene(SceneBase):
         fit : text, optional
             Name of the exponential fit; by default the one with the fewest states that covers
             the coordinates that move.
+
+        Raises
+        ------
+        CaseError
+            A key or a value is wrong.
+        """
+    def pose_table(
+        self,
+        name: str,
+        *,
+        body: str,
+        coordinate: _PoseTableCoordinate,
+        databases: str | Sequence[str],
+        values: _Numbers = ...,
+        values_deg: _Numbers = ...,
+    ) -> str:
+        """Add `[[pose_table]]`.
+
+        Added mass, radiation and excitation of one body by its pose: databases computed for
+        several poses, blended by cubic splines.
+
+        Parameters
+        ----------
+        name : text
+            Name of the table.
+        body : text
+            Body whose pose it follows, and which it loads.
+        coordinate : text
+            Coordinate of the pose: the rise of the centre of gravity above the reference pose,
+            or the angle of the body. Allowed: heave, roll, pitch, yaw.
+        values : list of numbers, m, optional
+            Heave of the databases, two or more in ascending order.
+        values_deg : list of numbers, deg, optional
+            Roll, pitch or yaw of the databases, two or more in ascending order.
+        databases : text or list of texts
+            Paths of the databases, one for each value, relative to the case file. Each is about
+            the centre of gravity where it then is.
+
+        Returns
+        -------
+        str
+            The name, for other calls to refer to.
 
         Raises
         ------

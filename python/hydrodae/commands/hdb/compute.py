@@ -162,21 +162,22 @@ class Pose:
     def moved(self, panels: Array, point: Array) -> Array:
         """Return panels in the pose, turned about the reference point."""
         if self.coordinate == "heave":
-            return panels + np.array([0.0, 0.0, self.value])
+            return np.asarray(panels + np.array([0.0, 0.0, self.value]))
         axis = ("roll_deg", "pitch_deg", "yaw_deg").index(self.coordinate)
         turn = Rotation.from_rotvec(np.radians(self.value) * np.eye(3)[axis]).as_matrix()
         return np.asarray((panels - point) @ turn.T + point)
 
     def of_point(self, point: Array) -> Array:
         """Return the reference point in the pose."""
-        return point + np.array([0.0, 0.0, self.value if self.coordinate == "heave" else 0.0])
+        rise = self.value if self.coordinate == "heave" else 0.0
+        return np.asarray(point + np.array([0.0, 0.0, rise]))
 
     def of_shape(self, shape: str, words: dict[str, str]) -> dict[str, str]:
         """Return the lengths of a simple shape in the pose; it goes on above the water."""
         if self.value == 0.0:
             return words
         if self.coordinate != "heave":
-            raise CaseError(f"--poses {self.coordinate}: a {shape} has heave only; give a mesh file")
+            raise CaseError(f"--poses: a {shape} takes heave only; give a mesh file")
         up, down = ("z", "") if shape == "sphere" else ("top", "draft")
         out = dict(words)
         if shape == "sphere" or float(words.get(up, "0")) < 0.0:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
@@ -58,24 +59,27 @@ def blended(
     labels = [label for label in database.coordinates if label.rpartition(".")[0] == body]
     mine = database.index(labels)
 
-    def blend(name: str, axes: int) -> np.ndarray:
-        def own(of: HydroDatabase) -> np.ndarray:
-            table, i = getattr(of, name), of.index(labels)
-            return table[..., i[:, None], i] if axes == 2 else table[..., i]
+    def blend(name: str, axes: int) -> NDArray[Any]:
+        def own(of: HydroDatabase) -> NDArray[Any]:
+            table, i = np.asarray(getattr(of, name)), of.index(labels)
+            return np.asarray(table[..., i[:, None], i] if axes == 2 else table[..., i])
 
         between = CubicSpline(x, [own(table) for table in tables])(pose)
-        out = getattr(database, name).copy()
+        out = np.array(getattr(database, name))
         if axes == 2:
             out[..., mine[:, None], mine] = between
         else:
             out[..., mine] = between
         return out
 
-    matrices = ("added_mass", "radiation_damping", "added_mass_inf", "added_mass_inf_std")
     return replace(
         database,
-        **{name: blend(name, 2) for name in matrices},
-        **{name: blend(name, 1) for name in ("froude_krylov", "diffraction")},
+        added_mass=blend("added_mass", 2),
+        radiation_damping=blend("radiation_damping", 2),
+        added_mass_inf=blend("added_mass_inf", 2),
+        added_mass_inf_std=blend("added_mass_inf_std", 2),
+        froude_krylov=blend("froude_krylov", 1),
+        diffraction=blend("diffraction", 1),
         memory={},
         kernel=None,
     )
