@@ -9,7 +9,7 @@ samples; here they are means over the periods, whose forecast needs order 16 to 
 
 from __future__ import annotations
 
-import sys
+import argparse
 import tempfile
 from pathlib import Path
 
@@ -92,7 +92,9 @@ def figures(case: Path, folder: Path, seeds: int) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    source = Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("folder", type=Path, help="Controls/MPC of WEC-Sim's applications")
+    source = parser.parse_args().folder
     with tempfile.TemporaryDirectory() as name:
         found = figures(convert(source, Path(name) / "case").case, source, 10)
     for quantity, value in found.items():

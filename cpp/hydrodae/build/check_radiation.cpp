@@ -7,7 +7,7 @@
 #include "hydrodae/build/radiation_damping.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/linalg/dense_cholesky.h"
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/math/dense.h"
 #include "hydrodae/model/motion.h"
 
@@ -77,8 +77,8 @@ std::pair<double, Index> lowest(const Damping& d, Index frequency) {
 bool is_positive(const Damping& d, Index frequency, double shift) {
   if (d.size() == 1)
     return d.real(frequency, 0) + shift > 0.0;
-  const linalg::dense::Kernels& kernels = linalg::dense::kernels();
-  const Index n = linalg::dense::padded(d.size());
+  const dense::Kernels& kernels = dense::kernels();
+  const Index n = dense::padded(d.size());
   Damping::Rows R = Damping::Rows::Identity(n, n);
   for (Index u = 0; u < d.size(); ++u) {
     for (Index v = 0; v <= u; ++v)

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "hydrodae/linalg/dense_cholesky.h"
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/math/sets.h"
 
 namespace hydrodae::build {
@@ -22,7 +22,7 @@ constexpr double budget = 4e8; ///< multiplications that the sums may take
 /// @param fill  writes the column of that number of the table, zero at first
 template <class Fill>
 Rows weighted(const Rows& weights, Index n_frequencies, Index n_columns, Fill&& fill) {
-  const Index strip = std::min<Index>(4 * linalg::dense::lanes, linalg::dense::padded(n_columns));
+  const Index strip = std::min<Index>(4 * dense::lanes, dense::padded(n_columns));
   Rows table(weights.rows(), strip), part(weights.cols(), strip), out(n_frequencies, n_columns);
   for (Index first = 0; first < n_columns; first += strip) {
     const Index count = std::min(strip, n_columns - first);
@@ -30,7 +30,7 @@ Rows weighted(const Rows& weights, Index n_frequencies, Index n_columns, Fill&& 
     part.setZero();
     for (Index i = 0; i < count; ++i)
       fill(first + i, table.col(i));
-    linalg::dense::kernels().add_product(weights.rows(), weights.cols(), weights.data(), strip,
+    dense::kernels().add_product(weights.rows(), weights.cols(), weights.data(), strip,
                                          table.data(), part.data());
     out.middleCols(first, count) = part.topLeftCorner(n_frequencies, count);
   }
@@ -136,7 +136,7 @@ std::vector<double> pole_frequencies(const Poles& p, std::size_t most) {
 Damping of_fit(Poles p, std::size_t most) {
   Damping d{std::move(p.coordinates), pole_frequencies(p, most), {}, {}};
   const Index n = d.size(), m = p.poles.size(), count = std::ssize(d.frequency);
-  Rows real = Rows::Zero(2 * m, linalg::dense::padded(count)), imaginary = real;
+  Rows real = Rows::Zero(2 * m, dense::padded(count)), imaginary = real;
   for (Index i = 0; i < count; ++i)
     for (Index k = 0; k < m; ++k) {
       const double w = d.frequency[static_cast<std::size_t>(i)], a = p.poles[k].real(),
@@ -248,7 +248,7 @@ std::vector<Damping> damping_of_kernel(const system::HydroData& h, const VectorX
   const auto count = static_cast<Index>(std::clamp(budget / (8.0 * cost), 16.0, 200.0));
   const double low = 0.5 / c.length, high = 0.5 * pi / c.step;
   std::vector<double> frequency;
-  Rows cosine = Rows::Zero(n, linalg::dense::padded(count));
+  Rows cosine = Rows::Zero(n, dense::padded(count));
   for (Index i = 0; i < count; ++i) {
     frequency.push_back(
         low * std::pow(high / low, static_cast<double>(i) / static_cast<double>(count - 1)));

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hydrodae/core/types.h"
-#include "hydrodae/linalg/dense_cholesky.h"
+#include "hydrodae/math/dense_cholesky.h"
 
 namespace hydrodae::linalg {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "hydrodae/core/error.h"
-#include "hydrodae/linalg/dense_cholesky.h"
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/linalg/pressed_friction.h"
 #include "hydrodae/system/retract.h"
 

@@ -16,7 +16,7 @@ from hydrodae.case.case import CaseLike
 from hydrodae.case.contents import case_tables
 from hydrodae.errors import CaseError, DatabaseError
 from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.relations.poses import blended
+from hydrodae.hdb.database.poses import blended
 from hydrodae.linear.kinematics import water_motion
 from hydrodae.linear.modes import Mode, find_modes
 from hydrodae.linear.reading import without_memory

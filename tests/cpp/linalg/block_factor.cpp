@@ -65,7 +65,7 @@ struct Saddle {
 TEST_CASE("blocks solve the saddle-point matrix by every instruction set") {
   const std::vector<std::vector<Index>> bodies{
       {6, 6, 3, 1, 6}, {3}, {6, 6}, {54, 30, 6, 6}, {1, 1, 1}};
-  for (const auto& kernels : linalg::dense::all_kernels())
+  for (const auto& kernels : dense::all_kernels())
     for (const std::vector<Index>& sizes : bodies)
       for (const bool wide : {false, true})
         for (const Index rows : {0, 2, 9}) {
@@ -121,7 +121,7 @@ TEST_CASE("blocks count work, and refuse masses that are not positive") {
 TEST_CASE("a product of padded matrices by each instruction set") {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Rows P = Rows::Random(13, 16), Q = Rows::Random(13, 24), before = Rows::Random(16, 24);
-  for (const linalg::dense::Kernels& kernels : linalg::dense::all_kernels()) {
+  for (const dense::Kernels& kernels : dense::all_kernels()) {
     CAPTURE(kernels.name);
     Rows C = before;
     kernels.add_product(13, 16, P.data(), 24, Q.data(), C.data());

@@ -1,4 +1,4 @@
-#include "hydrodae/linalg/dense_cholesky.h"
+#include "hydrodae/math/dense_cholesky.h"
 
 #include <cmath>
 #include <cstring>
@@ -7,7 +7,7 @@
 #define HYDRODAE_X86 1
 #endif
 
-namespace hydrodae::linalg::dense {
+namespace hydrodae::dense {
 
 namespace {
 
@@ -307,4 +307,4 @@ std::span<const Kernels> all_kernels() {
   return {table, count};
 }
 
-} // namespace hydrodae::linalg::dense
+} // namespace hydrodae::dense

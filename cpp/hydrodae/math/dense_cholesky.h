@@ -11,7 +11,7 @@
 
 #include "hydrodae/core/types.h"
 
-namespace hydrodae::linalg::dense {
+namespace hydrodae::dense {
 
 constexpr Index lanes = 8; ///< numbers in the longest register
 
@@ -51,4 +51,4 @@ std::span<const Kernels> all_kernels();
 
 inline const Kernels& kernels() { return all_kernels().back(); }
 
-} // namespace hydrodae::linalg::dense
+} // namespace hydrodae::dense

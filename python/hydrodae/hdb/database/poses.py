@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.database.database import HydroDatabase
 
 
 def blended(
