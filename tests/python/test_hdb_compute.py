@@ -223,3 +223,33 @@ def test_bad_arguments_of_compute(tmp_path, words, message):
     given = words if "--omega" in words else [*words, "--omega", "0.5,2,4"]
     with pytest.raises((CaseError, DatabaseError), match=message):
         call("compute", *given, "-o", tmp_path / "x.h5", "-q")
+
+
+def test_poses_of_a_body_make_a_pose_table(tmp_path, capsys):
+    words = ("compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid")
+    words += ("--omega", "0.4,1.6,4", "--panel", 2.5, "--rho", 1000, "-o", tmp_path / "buoy.h5")
+    assert call(*words, "--poses", "heave=-2,2") == 0
+    table = capsys.readouterr().out.rpartition("[[pose_table]]")[2]
+    assert "values = [-2, 2]" in table
+    assert 'databases = ["buoy_1.h5", "buoy_2.h5"]' in table
+    for number, rise in ((1, -2.0), (2, 2.0)):
+        db = hdb.HydroDatabase.read(tmp_path / f"buoy_{number}.h5")
+        height = 5.0 - rise  # of the wet cap
+        volume = np.pi * height**2 * (15.0 - height) / 3.0
+        np.testing.assert_allclose(db.reference_point("buoy"), [0.0, 0.0, rise - 2.0])
+        assert db.bodies["buoy"].hydrostatics.displaced_volume == pytest.approx(volume, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("poses", "message"),
+    [
+        ("sway=0,1", "expected heave=A,B"),
+        ("heave=1,0", "two or more ascending"),
+        ("pitch_deg=0,5", "a sphere takes heave only"),
+    ],
+)
+def test_wrong_poses_are_refused(tmp_path, poses, message):
+    words = ("compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid")
+    words += ("--omega", "0.4,1.6,4", "--panel", 2.5, "-o", tmp_path / "buoy.h5")
+    with pytest.raises(CaseError, match=message):
+        call(*words, "--poses", poses)

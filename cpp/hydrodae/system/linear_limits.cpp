@@ -66,9 +66,13 @@ LinearLimits linear_limits(const model::Scene& scene, const System& s) {
     watched.mean = rotation_about_axis<double>(2, hb.yaw);
     watched.place << b.position[0], b.position[1], b.reference[2];
     watched.free_yaw = s.hydro.axes == HydroAxes::yaw;
+    const model::Body& body = scene.bodies[static_cast<std::size_t>(hb.body)];
+    const bool follows_rise =
+        body.hydrostatics == "mesh" && hb.table >= 0 &&
+        s.hydro.tables[static_cast<std::size_t>(hb.table)].axis.component == 2;
     for (const hydro::DatabaseBody& entry : scene.database->bodies)
-      if (entry.name == *scene.bodies[static_cast<std::size_t>(hb.body)].hydro &&
-          entry.hydrostatics && entry.hydrostatics->displaced_volume > 0.0)
+      if (entry.name == *body.hydro && !follows_rise && entry.hydrostatics &&
+          entry.hydrostatics->displaced_volume > 0.0)
         watched.half_draught = 0.5 * draught(*scene.database, *entry.hydrostatics);
     out.bodies.push_back(watched);
   }

@@ -174,8 +174,6 @@ class Pose:
 
     def of_shape(self, shape: str, words: dict[str, str]) -> dict[str, str]:
         """Return the lengths of a simple shape in the pose; it goes on above the water."""
-        if self.value == 0.0:
-            return words
         if self.coordinate != "heave":
             raise CaseError(f"--poses: a {shape} takes heave only; give a mesh file")
         up, down = ("z", "") if shape == "sphere" else ("top", "draft")
