@@ -245,3 +245,60 @@ def test_the_frequency_domain_takes_the_tables_at_equilibrium(tmp_path: Path) ->
     i = list(rest.coordinates).index("sphere.heave")
     at_rest = CubicSpline(rest.omega, rest.added_mass[:, i, i], bc_type="natural")(1.2)
     assert added[0, 0, 0] == pytest.approx(float(growth(-1.0)) * float(at_rest), rel=1e-4)
+
+
+def test_the_added_mass_of_a_small_sphere_keeps_the_energy(tmp_path: Path, reference: Path) -> None:
+    # 19 positions by a boundary-element method; let go from 0.8 radii, without waves and radiation
+    rows = np.genfromtxt(
+        reference / "nonlinear" / "sphere_ainf_z" / "ainf.csv", delimiter=",", names=True
+    )
+    radius, mass = 0.15, 7.056
+    rest = HydroDatabase.read(ROOT / "cases" / "sphere" / "hydro.h5")
+    i = rest.coordinates.index("sphere.heave")
+    files, poses = [], radius * rows["z_over_R"]
+    for k, (pose, added) in enumerate(zip(poses, rows["A_extrapolated_kg"], strict=True)):
+        table = np.zeros_like(rest.added_mass_inf)
+        table[i, i] = added
+        point = np.array([0.0, 0.0, pose])
+        body = replace(rest.bodies["sphere"], reference_point=point, hydrostatics=None)
+        files.append(f"pose{k}.h5")
+        replace(
+            rest,
+            added_mass_inf=table,
+            rho=998.2,
+            bodies={"sphere": body},
+            memory={},
+            kernel=None,
+        ).write(tmp_path / files[-1])
+    hulls.write_obj(tmp_path / "sphere.obj", hulls.sphere(radius, 12))
+    middle = files[int(np.abs(poses).argmin())]
+    path = tmp_path / "case.toml"
+    path.write_text(f"""
+[hydro]
+database = "{middle}"
+radiation = "none"
+[[pose_table]]
+name = "depth"
+body = "ball"
+coordinate = "heave"
+values = {poses.tolist()}
+databases = [{", ".join(f'"{file}"' for file in files)}]
+[[body]]
+name = "ball"
+hydro = "sphere"
+motion = "heave"
+mass = {mass}
+center_of_gravity = [0.0, 0.0, 0.0]
+mesh = "sphere.obj"
+hydrostatics = "mesh"
+initial = {{ displacement = [0.0, 0.0, {0.8 * radius}] }}
+[solver]
+end_time = 4.0
+rtol = 1e-12
+[output]
+step = 0.01
+""")
+    results = hydrodae.run(path)
+    total, kinetic = results["energy/total"].values, results["energy/kinetic"].values
+    assert np.ptp(results["bodies/ball/position"].values[:, 2]) > 1.5 * 0.8 * radius
+    assert np.abs(total - total[0]).max() < 1e-8 * kinetic.max()
