@@ -7,8 +7,8 @@
 #include "hydrodae/build/radiation_damping.h"
 #include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
-#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/math/dense.h"
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {

@@ -31,7 +31,7 @@ Rows weighted(const Rows& weights, Index n_frequencies, Index n_columns, Fill&& 
     for (Index i = 0; i < count; ++i)
       fill(first + i, table.col(i));
     dense::kernels().add_product(weights.rows(), weights.cols(), weights.data(), strip,
-                                         table.data(), part.data());
+                                 table.data(), part.data());
     out.middleCols(first, count) = part.topLeftCorner(n_frequencies, count);
   }
   return out;

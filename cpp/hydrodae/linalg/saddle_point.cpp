@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "hydrodae/core/error.h"
-#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/linalg/pressed_friction.h"
+#include "hydrodae/math/dense_cholesky.h"
 #include "hydrodae/system/retract.h"
 
 namespace hydrodae::linalg {
