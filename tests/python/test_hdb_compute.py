@@ -226,8 +226,17 @@ def test_bad_arguments_of_compute(tmp_path, words, message):
 
 
 def test_poses_of_a_body_make_a_pose_table(tmp_path, capsys):
-    words = ("compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid")
-    words += ("--omega", "0.4,1.6,4", "--panel", 2.5, "--rho", 1000, "-o", tmp_path / "buoy.h5")
+    words = ["compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid"]
+    words += [
+        "--omega",
+        "0.4,1.6,4",
+        "--panel",
+        "2.5",
+        "--rho",
+        "1000",
+        "-o",
+        str(tmp_path / "buoy.h5"),
+    ]
     assert call(*words, "--poses", "heave=-2,2") == 0
     table = capsys.readouterr().out.rpartition("[[pose_table]]")[2]
     assert "values = [-2, 2]" in table
@@ -237,7 +246,9 @@ def test_poses_of_a_body_make_a_pose_table(tmp_path, capsys):
         height = 5.0 - rise  # of the wet cap
         volume = np.pi * height**2 * (15.0 - height) / 3.0
         np.testing.assert_allclose(db.reference_point("buoy"), [0.0, 0.0, rise - 2.0])
-        assert db.bodies["buoy"].hydrostatics.displaced_volume == pytest.approx(volume, rel=1e-6)
+        statics = db.bodies["buoy"].hydrostatics
+        assert statics is not None
+        assert statics.displaced_volume == pytest.approx(volume, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -249,7 +260,7 @@ def test_poses_of_a_body_make_a_pose_table(tmp_path, capsys):
     ],
 )
 def test_wrong_poses_are_refused(tmp_path, poses, message):
-    words = ("compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid")
-    words += ("--omega", "0.4,1.6,4", "--panel", 2.5, "-o", tmp_path / "buoy.h5")
+    words = ["compute", "--body", "buoy=sphere:radius=5", "--cog", "buoy=0,0,-2", "-q", "--no-lid"]
+    words += ["--omega", "0.4,1.6,4", "--panel", "2.5", "-o", str(tmp_path / "buoy.h5")]
     with pytest.raises(CaseError, match=message):
         call(*words, "--poses", poses)
