@@ -51,7 +51,7 @@ def test_a_mesh_that_misses_its_symmetry_is_completed_and_the_miss_stated() -> N
     assert found.heading.size == 7
     assert re.search(r"miss it by up to 1(\.\d)? % \(F\)", finding.message)
     with pytest.raises(
-        DatabaseError, match=r"y = 0 is none of symmetry: .* up to 3(\.\d)? % \(F\)"
+        DatabaseError, match=r"not symmetric about y = 0: .* up to 3(\.\d)? % \(F\)"
     ):
         mirrored(noisy(hulls(np.array([0.0, 20.0])), 0.03), ["y"])
 

@@ -302,3 +302,36 @@ step = 0.01
     total, kinetic = results["energy/total"].values, results["energy/kinetic"].values
     assert np.ptp(results["bodies/ball/position"].values[:, 2]) > 1.5 * 0.8 * radius
     assert np.abs(total - total[0]).max() < 1e-8 * kinetic.max()
+
+
+def test_a_table_over_pitch_gives_one_motion_by_all_methods(tmp_path: Path) -> None:
+    poses = np.array([-30.0, -10.0, 10.0, 30.0])
+    write_tables(tmp_path, poses / 10.0, turns=True)
+    more = 'frequency = 1.3\n[[wave]]\nname = "swell"\ntype = "regular"\nperiod = 7.0\nheight = 1.0'
+    path = write_case(tmp_path, poses, radiation="constant", motion="planar", end=10.0, more=more)
+    text = path.read_text().replace('"heave"\nvalues =', '"pitch"\nvalues_deg =')
+    path.write_text(text.replace("[0.0, 0.0, 3.0]", "[0.0, 0.0, 0.5], rotation_deg = [0, 12, 0]"))
+    places = [
+        hydrodae.run(path, set={"solver.method": method})["bodies/float/position"].values
+        for method in ("explicit_rk", "radau", "ida")
+    ]
+    assert np.ptp(places[0][:, 0]) > 1.0
+    for place in places[1:]:
+        np.testing.assert_allclose(place, places[0], atol=2e-6)
+
+
+def test_a_table_of_a_coupled_body_is_refused(tmp_path: Path) -> None:
+    folder = ROOT / "cases" / "f3of"
+    (tmp_path / "hydro.h5").write_bytes((folder / "hydro.h5").read_bytes())
+    table = """
+[[pose_table]]
+name = "turn"
+body = "flap1"
+coordinate = "pitch"
+values_deg = [-20.0, 20.0]
+databases = ["hydro.h5", "hydro.h5"]
+"""
+    path = tmp_path / "case.toml"
+    path.write_text((folder / "flap_decay.toml").read_text() + table)
+    with pytest.raises(CaseError, match="couples body 'flap1' with body"):
+        hydrodae.run(path)

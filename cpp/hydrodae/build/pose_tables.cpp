@@ -67,7 +67,8 @@ void append_memory(const system::HydroData& from, int weight, system::HydroData&
   h.weight_of_state.resize(static_cast<std::size_t>(h.n_states), weight);
 }
 
-/// The scene with the added mass that the splines make of the tables at many poses.
+/// The scene with the added mass that the splines make of the tables at many poses: between two of
+/// these a cubic has at most two extremes, which 8 steps find up to some percent.
 void check_blends(const model::PoseTable& given, const water::PoseTable& table,
                   const system::HydroData& none, system::System& s) {
   constexpr int between = 8; ///< poses from one table to the next
@@ -75,7 +76,7 @@ void check_blends(const model::PoseTable& given, const water::PoseTable& table,
   std::vector<double> w(table.axis.weights.size()), slopes(w.size());
   const std::vector<double>& poses = given.poses();
   system::HydroData before = std::exchange(s.hydro, bare(none));
-  s.hydro.added_mass = MatrixX::Zero(none.n_moving, none.n_moving);
+  s.hydro.added_mass = before.added_mass; // of the other bodies
   for (std::size_t k = 0; k + 1 < poses.size(); ++k)
     for (int part = 0; part <= between; ++part) {
       const double pose = poses[k] + (poses[k + 1] - poses[k]) * part / between;

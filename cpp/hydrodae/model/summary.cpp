@@ -84,6 +84,13 @@ void write_hydro(std::ostream& out, const Scene& scene) {
         << number_text(scene.hydro->memory_length.value_or(database.kernel->length()))
         << " s in steps of " << number_text(database.kernel->step) << " s";
   out << '\n';
+  for (const PoseTable& table : scene.pose_tables) {
+    const double unit = table.turns() ? pi / 180.0 : 1.0;
+    out << "    pose table " << in_quotes(table.name) << ": " << table.body << " by its "
+        << table.coordinate << ", " << table.databases.size() << " databases from "
+        << rounded_text(table.poses().front() / unit, 4) << " to "
+        << rounded_text(table.poses().back() / unit, 4) << (table.turns() ? " deg" : " m") << '\n';
+  }
 }
 
 void write_solver(std::ostream& out, const Scene& scene) {

@@ -85,7 +85,7 @@ class Plant:
     def take_offs(self) -> tuple[str, ...]:
         """Take-offs along joints, all of which move with the one free motion of the case.
 
-        Their types begin with ``pto_``. A `pto_rotary`, between two bodies, is none of them.
+        Their types begin with ``pto_``, but for `pto_rotary`, which acts between two bodies.
         """
         forces = case_tables(self.model.case).get("force", [])
         return tuple(f["name"] for f in forces if f["type"].startswith("pto_") and "joint" in f)

@@ -48,7 +48,7 @@ def mirrored(
     Raises
     ------
     DatabaseError
-        A plane that was asked for is none of symmetry.
+        The tables are not symmetric about a plane that was asked for.
     """
     findings: list[Finding] = []
     for plane in PLANES if planes is None else planes:
@@ -57,7 +57,7 @@ def mirrored(
         text, miss = _miss(database, plane)
         if not miss <= MOST:
             if planes is not None:
-                raise DatabaseError(f"the plane {plane} = 0 is none of symmetry: {text}")
+                raise DatabaseError(f"the tables are not symmetric about {plane} = 0: {text}")
             continue
         before = database.heading
         database = _with_images(database, plane)
