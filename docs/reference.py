@@ -126,7 +126,7 @@ def keys_table(keys: Iterable[Key]) -> str:
     text = "| key | value | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n"
     for key in keys:
         default = "required" if key.required else f"`{key.default}`" if key.default else ""
-        words = ", ".join(f"`{word}`" for word in key.choices)
+        words = ", ".join(f"`{word}`" for word in key.choices if not key.is_number)
         cells = [f"`{key.name}`", key.kind_text, key.unit, default, words or key.allowed, key.doc]
         text += "| " + " | ".join(map(escaped, cells)) + " |\n"
     return text

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable
+from dataclasses import replace
 
 from hydrodae.case.builder.methods import docstring
 from hydrodae.case.tables import Key, Table
@@ -101,6 +102,9 @@ def method(table: Table, kind: Table, words: Words) -> str:
 def annotation(owner: Table, key: Key, words: Words) -> str:
     """The type of a key for a type checker."""
     word = words.name(owner, key)
+    if key.is_number and key.choices:
+        instead = ", ".join(map(quoted, key.choices))
+        return f"{annotation(owner, replace(key, choices=()), words)} | Literal[{instead}]"
     return {
         "number": "float",
         "integer": "int",

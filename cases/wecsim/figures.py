@@ -144,6 +144,15 @@ def heave(results: Results, case: Path) -> Figure:
     return Figure(f"heave amplitude of {names[0]}, m", ours, exact, "linear theory")
 
 
+def mass_of(body: dict[str, Any], database: hydrodae.hdb.HydroDatabase) -> float:
+    """Mass [kg], by the displaced volume of the database where it is that of equilibrium."""
+    if body["mass"] != "equilibrium":
+        return float(body["mass"])
+    statics = database.bodies[body["hydro"]].hydrostatics
+    assert statics is not None
+    return database.rho * statics.displaced_volume
+
+
 def _linear(
     tables: dict[str, Any], database: hydrodae.hdb.HydroDatabase
 ) -> tuple[list[str], np.ndarray, float]:
@@ -152,7 +161,7 @@ def _linear(
     omega = 2.0 * math.pi / wave["period"]
     names = [b["name"] for b in tables["body"] if b.get("motion") != "fixed" and "hydro" in b]
     added, damping, force = heave_tables(database, names, omega)
-    mass = np.diag([b["mass"] for b in tables["body"] if b["name"] in names])
+    mass = np.diag([mass_of(b, database) for b in tables["body"] if b["name"] in names])
     water = [waterplane_of(database, n) for n in names]
     stiffness = np.diag(np.array(water) * database.rho * database.gravity)
     joints = {joint["name"]: joint for joint in tables.get("joint", [])}
@@ -235,7 +244,7 @@ def decay(results: Results, case: Path) -> Figure:
     omega = 1.0
     for _ in range(60):
         added, damping, _ = heave_tables(database, [body["name"]], omega)
-        total = body["mass"] + added[0, 0]
+        total = mass_of(body, database) + added[0, 0]
         omega = math.sqrt(stiffness / total - (0.5 * damping[0, 0] / total) ** 2)
     time, z = time_of(results), heave_of(results, body["name"])
     z = z - z[-1] if tables.get("morison") else z - body["center_of_gravity"][2]
@@ -334,7 +343,8 @@ def _direct_drive(chain: Any, case: Path) -> dict[str, float]:
     body = next(b for b in tables["body"] if "hydro" in b)
     added, damping, force = heave_tables(database, [body["name"]], omega)
     stiffness = waterplane_of(database, body["name"]) * database.rho * database.gravity
-    rest = 1j * omega * (body["mass"] + added[0, 0]) + damping[0, 0] + stiffness / (1j * omega)
+    mass = mass_of(body, database) + added[0, 0]
+    rest = 1j * omega * mass + damping[0, 0] + stiffness / (1j * omega)
     return dict(ptosim.direct_drive(chain, omega, rest, force[0] * 0.5 * wave["height"]))
 
 

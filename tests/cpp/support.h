@@ -83,7 +83,7 @@ inline model::Body bar(const std::string& name, const Vector3& center,
   body.motion = {motion};
   body.mass = 2.0;
   body.center_of_gravity = center;
-  body.inertia = {0.1, 0.2, 0.15};
+  body.inertia = Vector3(0.1, 0.2, 0.15);
   return body;
 }
 

@@ -20,9 +20,9 @@ from hydrodae.commands import cli
 from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.framing import Frame, camera_of
-from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.page import page_data
 from hydrodae.viewer.stage import Body, Sea
 

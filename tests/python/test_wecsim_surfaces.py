@@ -9,9 +9,9 @@ import pytest
 from tests.python.wecsim_files import append, left_out, tables
 
 import hydrodae
+from hydrodae.hdb.hull.closed import write_stl
 from hydrodae.hdb.hull.meshes import read_mesh
 from hydrodae.wecsim import convert
-from hydrodae.wecsim.surface import write_stl
 
 
 def box(half: tuple[float, float, float], top: float) -> np.ndarray:
@@ -60,5 +60,5 @@ def test_a_surface_that_faces_inwards_is_turned(two_bodies: Path, tmp_path: Path
 def test_a_surface_that_is_not_closed_is_left_out(two_bodies: Path, tmp_path: Path) -> None:
     nonlinear(two_bodies, box((4.0, 5.0, 4.0), 5.5)[:-1])
     converted = convert(two_bodies, tmp_path / "case")
-    assert "hull.stl is not closed: 3 edges lack a neighbour" in left_out(converted)
+    assert "hull.stl: the surface is not closed: 3 edges lack a neighbour" in left_out(converted)
     assert not list((tmp_path / "case").glob("*.stl"))

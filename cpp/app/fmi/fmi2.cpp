@@ -73,6 +73,8 @@ HYDRODAE_VALUES(Real, Type::number)
 HYDRODAE_VALUES(Integer, Type::integer)
 HYDRODAE_VALUES(Boolean, Type::boolean)
 
+#undef HYDRODAE_VALUES // the next file may be compiled in one unit with this one
+
 HYDRODAE_FMI fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference* references,
                                       std::size_t n, fmi2String* values) {
   return get_texts<fmi2Status>(c, references, n, values);

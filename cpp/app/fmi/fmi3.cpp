@@ -91,6 +91,8 @@ HYDRODAE_VALUES(Float64, Type::number)
 HYDRODAE_VALUES(Int32, Type::integer)
 HYDRODAE_VALUES(Boolean, Type::boolean)
 
+#undef HYDRODAE_VALUES // the next file may be compiled in one unit with this one
+
 HYDRODAE_FMI fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference* references,
                                       std::size_t count, fmi3String* values, std::size_t n) {
   return count == n ? get_texts<fmi3Status>(i, references, count, values) : refuse_arrays(i);

@@ -8,6 +8,7 @@
 #include "hydrodae/build/initial_pose.h"
 #include "hydrodae/build/parts.h"
 #include "hydrodae/core/error.h"
+#include "hydrodae/core/text.h"
 #include "hydrodae/model/mass.h"
 #include "hydrodae/model/motion.h"
 #include "hydrodae/system/declare.h"
@@ -21,7 +22,7 @@ namespace {
 system::BodyData make_body(const model::Body& body, const Pose& pose) {
   system::BodyData b;
   b.name = body.name;
-  b.mass = body.mass;
+  b.mass = body.mass.value;
   b.inertia = model::inertia_tensor(body);
   b.reference = body.center_of_gravity;
   b.position = pose.r;
@@ -45,6 +46,15 @@ system::BodyData make_body(const model::Body& body, const Pose& pose) {
   return b;
 }
 
+/// Masses that follow from the displaced water.
+void note_masses(const model::Scene& scene, system::System& s) {
+  for (const model::Body& body : scene.bodies)
+    if (!body.mass.word.empty())
+      s.notes.push_back("body " + in_quotes(body.name) + ": mass " +
+                        rounded_text(body.mass.value, 6) +
+                        " kg, that of the water which it displaces in the reference pose");
+}
+
 /// What the bodies of the case are given at the start.
 std::vector<BodyStart> body_starts(const model::Scene& scene) {
   std::vector<BodyStart> out;
@@ -65,6 +75,7 @@ system::System build(const model::Scene& scene, bool with_excitation) {
   const std::vector<Pose> poses = initial_poses(scene);
   for (std::size_t i = 0; i < poses.size(); ++i)
     s.bodies.push_back(make_body(scene.bodies[i], poses[i]));
+  note_masses(scene, s);
   for (const model::Joint& joint : scene.joints)
     add_joint(scene, joint, s);
   set_body_scales(scene, s);

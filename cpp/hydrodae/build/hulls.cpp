@@ -39,12 +39,9 @@ std::vector<hull::Wave> waves_of_hulls(const model::Scene& scene) {
 }
 
 /// What the mesh displaces in the reference pose, beside the database.
-void note_volume(const model::Scene& scene, const model::Body& body, const hull::Water& water,
-                 system::System& s) {
-  const hull::WaveField still(water);
-  hull::Workspace work(*body.hull, still);
+void note_volume(const model::Scene& scene, const model::Body& body, system::System& s) {
   const hull::Floating f =
-      hull::floating(*body.hull, still, {body.center_of_gravity, Matrix3::Identity()}, work);
+      hull::floating_in_reference_pose(*body.hull, body.center_of_gravity);
   std::string text = "body " + in_quotes(body.name) + ": the mesh displaces " +
                      rounded_text(f.volume, 5) + " m3 in the reference pose";
   const hydro::DatabaseBody* entry =
@@ -112,7 +109,7 @@ void add_hulls(const model::Scene& scene, bool with_waves, system::System& s) {
             water, in_waves && with_waves ? waves_of_hulls(scene) : std::vector<hull::Wave>(),
             scene.sea.ramp);
       list->add(body.name, body.hull, body.center_of_gravity, s.bodies[i].n_active > 0);
-      note_volume(scene, body, water, s);
+      note_volume(scene, body, s);
       system::PortData port;
       port.component = list->type;
       port.body = static_cast<int>(i);

@@ -34,6 +34,18 @@ inline constexpr double longest_time = 1e10;
 /// No restriction of the words of a string. (A named constant: g++ 12 crashes on `= {}` below.)
 inline const std::vector<std::string_view> any_word;
 
+/// A value, or a word that says what to take it from: "equilibrium" for a mass.
+template <class V> struct ValueOrWord {
+  V value;          ///< as given, or as it follows from the word
+  std::string word; ///< "" for a value
+
+  ValueOrWord& operator=(const V& given) {
+    value = given;
+    word.clear();
+    return *this;
+  }
+};
+
 /// A member of `T` of one of the types that a case file can hold. A `std::vector<std::string>` also
 /// accepts one bare string; a `Matrix6` also accepts six numbers (its diagonal).
 template <class T>
@@ -41,7 +53,8 @@ using Member =
     std::variant<double T::*, bool T::*, int T::*, std::string T::*, std::vector<std::string> T::*,
                  std::vector<double> T::*, std::vector<Vector3> T::*, Vector3 T::*, Vector6 T::*,
                  Matrix6 T::*, std::optional<double> T::*, std::optional<Vector3> T::*,
-                 std::optional<std::string> T::*>;
+                 std::optional<std::string> T::*, ValueOrWord<double> T::*,
+                 ValueOrWord<Vector3> T::*>;
 
 /// One key of a case table.
 template <class T> struct Field {
@@ -51,7 +64,7 @@ template <class T> struct Field {
   std::string_view doc;  ///< one sentence of meaning
   bool required = false;
   Range range = any_value; ///< applies to every number of the value, in the unit of the file
-  std::vector<std::string_view> choices = any_word; ///< allowed words of a string; empty: any
+  std::vector<std::string_view> choices = any_word; ///< allowed words; empty: any
 };
 
 /// What is wrong with the values of an entry taken together.

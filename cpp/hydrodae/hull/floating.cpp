@@ -29,6 +29,12 @@ Floating floating(const Mesh& mesh, const WaveField& still, const Pose& pose, Wo
   return out;
 }
 
+Floating floating_in_reference_pose(const Mesh& mesh, const Vector3& origin) {
+  const WaveField still(Water{});
+  Workspace work(mesh, still);
+  return floating(mesh, still, {origin, Matrix3::Identity()}, work);
+}
+
 Matrix3 Floating::stiffness(double weight) const {
   Matrix3 C;
   C << plane_area, plane_y, -plane_x,                      //

@@ -106,6 +106,7 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vecto
   // Tetrahedra over a point near the surface, not over an origin that may be far away.
   const Vector3 middle = vertices.colwise().mean();
   Vector3 moment = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero(); // over a tetrahedron 0 a b c: V / 20 (aa + bb + cc + ss), s = a + b + c
   for (int i = 0; i < triangles.rows(); ++i) {
     const Vector3 a = vertices.row(triangles(i, 0)).transpose() - middle,
                   b = vertices.row(triangles(i, 1)).transpose() - middle,
@@ -118,7 +119,10 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vecto
     mesh.area += area.norm();
     const double volume = a.dot(area) / 3.0;
     volumes[static_cast<std::size_t>(shell[static_cast<std::size_t>(i)])] += volume;
-    moment += volume * 0.25 * (a + b + c);
+    const Vector3 sum = a + b + c;
+    moment += volume * 0.25 * sum;
+    second += volume / 20.0 *
+              (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
   for (int i = 0; i < triangles.rows(); ++i) {
     if (shell[static_cast<std::size_t>(i)] != i)
@@ -133,6 +137,7 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vecto
     mesh.volume += volume;
   }
   mesh.centroid = middle - origin + moment / mesh.volume;
+  mesh.spread = second - moment * moment.transpose() / mesh.volume;
   return mesh;
 }
 

@@ -28,6 +28,7 @@ struct Mesh {
   double area = 0.0;                  ///< of the surface [m2]
   double radius = 0.0;                ///< largest distance of a vertex from the body's origin [m]
   Vector3 centroid = Vector3::Zero(); ///< of the enclosed volume [m]
+  Matrix3 spread = Matrix3::Zero();   ///< integral of x x^T over it, x from the centroid [m5]
 };
 
 /// Checks a surface and prepares it. Throws Error, naming the place, if

@@ -15,6 +15,7 @@
 #include "hydrodae/io/sha256.h"
 #include "hydrodae/io/toml_table.h"
 #include "hydrodae/model/joint_keys.h"
+#include "hydrodae/model/mass.h"
 #include "hydrodae/model/scene_tables.h"
 #include "hydrodae/model/tables.h"
 
@@ -225,7 +226,8 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
     try {
       const Surface surface = read_surface(path.lexically_normal().string());
       body.hull = std::make_shared<hull::Mesh>(
-          hull::make_mesh(surface.vertices, surface.triangles, body.center_of_gravity));
+          hull::make_mesh(surface.vertices, surface.triangles,
+                          body.center_of_gravity - body.mesh_origin));
     } catch (const Error& error) {
       throw CaseError(scene.positions.at("body." + body.name + ".mesh") +
                       ": key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());
@@ -269,6 +271,7 @@ model::Scene parse(const std::string& text, const std::string& directory,
   read_meshes(scene, directory);
   find_fmus(scene, directory);
   try {
+    model::fill_in_masses(scene);
     model::check(scene);
   } catch (const ModelError& error) {
     throw CaseError(model::located(scene, error));

@@ -40,4 +40,14 @@ template <class V> void read_value(const toml::node& node, const Key& key, std::
   read_value(node, key, out.emplace());
 }
 
+/// A string must be one of the words of the key.
+template <class V>
+void read_value(const toml::node& node, const Key& key, ValueOrWord<V>& out) {
+  out.word.clear();
+  if (node.is_string())
+    read_value(node, key, out.word);
+  else
+    read_value(node, key, out.value);
+}
+
 } // namespace hydrodae::io

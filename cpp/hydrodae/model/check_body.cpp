@@ -85,6 +85,8 @@ void check_volume(const Scene& scene, const Body& body) {
 /// What a mesh needs, and what would count its loads twice.
 void check_mesh(const Scene& scene, const Body& body) {
   const bool statics = body.hydrostatics == "mesh", waves = body.froude_krylov == "mesh";
+  if (!body.mesh && !body.mesh_origin.isZero(0.0))
+    refuse(body, "mesh_origin", "this is the place of a 'mesh', and the body has none");
   if (body.mesh && !statics)
     refuse(body, "mesh", "a mesh does nothing without hydrostatics = \"mesh\"");
   if (statics && !body.mesh)
@@ -110,10 +112,10 @@ void check_mesh(const Scene& scene, const Body& body) {
 
 void check_body(const Scene& scene, const Body& body) {
   const std::array<bool, 6> free = free_coordinates(body);
-  if (moves(body) && body.hydro && !(body.mass > 0.0))
+  if (moves(body) && body.hydro && body.mass.word.empty() && !(body.mass.value > 0.0))
     refuse(body, "mass",
            "a body in the water that moves needs a mass > 0 kg, this one has " +
-               number_text(body.mass) + " kg");
+               number_text(body.mass.value) + " kg");
   check_inertia(body, free);
   check_initial(body, free);
   check_volume(scene, body);

@@ -16,6 +16,7 @@ inline ValueKind kind_of(const Vector3&) { return ValueKind::vector3; }
 inline ValueKind kind_of(const Vector6&) { return ValueKind::vector6; }
 inline ValueKind kind_of(const Matrix6&) { return ValueKind::matrix6; }
 template <class V> ValueKind kind_of(const std::optional<V>&) { return kind_of(V{}); }
+template <class V> ValueKind kind_of(const ValueOrWord<V>& given) { return kind_of(given.value); }
 
 /// A value that a struct has of itself as TOML, in the unit of the file; "" for what stands for
 /// "not given": nothing, an empty list, a number out of its range.
@@ -31,6 +32,9 @@ std::string value_text(const FieldInfo& field, const Vector6& value);
 std::string value_text(const FieldInfo& field, const Matrix6& value);
 template <class V> std::string value_text(const FieldInfo& field, const std::optional<V>& value) {
   return value ? value_text(field, *value) : "";
+}
+template <class V> std::string value_text(const FieldInfo& field, const ValueOrWord<V>& given) {
+  return given.word.empty() ? value_text(field, given.value) : value_text(field, given.word);
 }
 
 template <class T> FieldInfo field_info(const Field<T>& field) {

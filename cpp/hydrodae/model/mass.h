@@ -8,4 +8,9 @@ namespace hydrodae::model {
 /// moments J and the rotation R of `principal_axes`.
 Matrix3 inertia_tensor(const Body& body);
 
+/// Masses and moments of inertia that a case gives by a word or by radii of gyration: `value` of
+/// `mass` and `inertia`, for "mesh" also `products_of_inertia`. The scene has its databases and
+/// meshes. Throws ModelError where the displaced volume, the density or the mesh is missing.
+void fill_in_masses(Scene& scene);
+
 } // namespace hydrodae::model

@@ -132,15 +132,17 @@ struct Body {
   static constexpr std::string_view doc = "A rigid body.";
   std::string name;
   std::vector<std::string> motion = {"rigid"};
-  double mass = 0.0;
+  ValueOrWord<double> mass = {0.0, ""};
   Vector3 center_of_gravity = Vector3::Zero();
-  Vector3 inertia = Vector3::Zero();
+  ValueOrWord<Vector3> inertia = {Vector3::Zero(), ""};
+  std::optional<Vector3> radii_of_gyration;
   Vector3 products_of_inertia = Vector3::Zero();
   std::optional<Vector3> principal_axes; ///< rotation vector; then `inertia`: principal moments
   std::optional<std::string> hydro;
   double volume = 0.0; ///< 0: not given
   std::optional<Vector3> center_of_buoyancy;
   std::optional<std::string> mesh;
+  Vector3 mesh_origin = Vector3::Zero();
   std::string hydrostatics = "linear", froude_krylov = "linear";
   std::shared_ptr<const hull::Mesh> hull; ///< read from `mesh`, about the centre of gravity
   BodyInitial initial;
@@ -156,11 +158,26 @@ struct Body {
          false,
          any_value,
          {"fixed", "planar", "point", "rigid", "surge", "sway", "heave", "roll", "pitch", "yaw"}},
-        {"mass", &B::mass, "kg", "Mass.", true, at_least(0)},
+        {"mass",
+         &B::mass,
+         "kg",
+         "Mass; \"equilibrium\": that of the water which the body displaces in the reference pose, "
+         "by its mesh, the database or `volume`.",
+         true,
+         at_least(0),
+         {"equilibrium"}},
         {"center_of_gravity", &B::center_of_gravity, "m",
          "Centre of gravity in the reference pose, world axes.", true},
-        {"inertia", &B::inertia, "kg m2",
-         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity.", false, at_least(0)},
+        {"inertia",
+         &B::inertia,
+         "kg m2",
+         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity; \"mesh\": with the products "
+         "those of a solid of uniform density that fills the mesh, about its own centroid.",
+         false,
+         at_least(0),
+         {"mesh"}},
+        {"radii_of_gyration", &B::radii_of_gyration, "m",
+         "Radii r of gyration instead of `inertia`: the moments are m r^2.", false, at_least(0)},
         {"products_of_inertia", &B::products_of_inertia, "kg m2",
          "Ixy, Iyz, Izx as entries of the inertia tensor (Ixy = -sum m x y)."},
         {"principal_axes_deg", &B::principal_axes, "deg",
@@ -179,6 +196,9 @@ struct Body {
          "File of the closed surface of the body in the reference pose, world axes, normals "
          "outwards, up to above the highest water: .stl or .obj, in metres; relative to the case "
          "file."},
+        {"mesh_origin", &B::mesh_origin, "m",
+         "Place of the origin of that file in the reference pose, world axes; for a mesh about the "
+         "centre of gravity the place of that."},
         {"hydrostatics",
          &B::hydrostatics,
          "-",

@@ -11,7 +11,7 @@ namespace {
 void write_body(std::ostream& out, const Body& body) {
   out << "    " << body.name << ": " << joined(body.motion);
   if (moves(body))
-    out << ", " << number_text(body.mass) << " kg";
+    out << ", " << number_text(body.mass.value) << " kg";
   if (body.hydro)
     out << ", hydro " << in_quotes(*body.hydro);
   out << '\n';

@@ -32,6 +32,7 @@ CHANNELS = ("inputs", "outputs")
 PLACES = (
     "center_of_gravity",
     "center_of_buoyancy",
+    "mesh_origin",
     "point",
     "point_a",
     "point_b",
@@ -98,16 +99,10 @@ def place(
     ------
     CaseError
         A name that cannot stand before those of bodies, a shift that is not two finite numbers,
-        two units at one place, no units, or a body with a mesh.
+        two units at one place, or no units.
     """
     offsets = _placed_units(units)
     tables = tomllib.loads(device.to_toml())
-    for body in tables.get("body", []):
-        if "mesh" in body:
-            raise CaseError(
-                f"body {body['name']!r}: the file of its 'mesh' holds one place in the world, so "
-                "units of an array cannot share it; write a mesh for each and the case by hand"
-            )
     tables.pop("title", None)
     array = Scene(title or f"{len(units)} x {device.title}", directory=directory)
     own = {str(e["name"]) for table in OF_UNITS for e in tables.get(table, []) if "name" in e}
@@ -119,6 +114,8 @@ def place(
             for entry in tables[table]:
                 if table == "gauge" and "marker" not in entry:
                     entry = {"point": [0.0, 0.0], **entry}
+                if "mesh" in entry:
+                    entry = {"mesh_origin": [0.0, 0.0, 0.0], **entry}
                 keys = {key: _moved(key, value, unit, own, offset) for key, value in entry.items()}
                 _add(array, table, keys)
     return array

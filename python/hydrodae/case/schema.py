@@ -63,7 +63,10 @@ def _object(table: Table) -> Schema:
 
 def _key_schema(key: Key) -> Schema:
     unit = "" if key.unit == "-" else f" [{key.unit}]"
-    schema = {"description": key.doc + unit, **_value_schema(key)}
+    value = _value_schema(key)
+    if key.is_number and key.choices:
+        value = {"anyOf": [value, {"type": "string", "enum": list(key.choices)}]}
+    schema = {"description": key.doc + unit, **value}
     if key.default:
         schema["default"] = json.loads(key.default)
     return schema

@@ -50,7 +50,7 @@ class Key:
     far_maximum : bool
         Is the maximum far from all sense, of interest to nobody else?
     choices : tuple of str
-        The words that are allowed; empty: any.
+        The words that are allowed; empty: any. Of numbers those that may stand instead.
     default : str
         Value where it is not given, as TOML (which is JSON as well); "" for none.
     """
@@ -70,12 +70,17 @@ class Key:
     @property
     def kind_text(self) -> str:
         """What the value is, in words."""
-        return _KINDS[self.kind]
+        return _KINDS[self.kind] + (" or text" if self.is_number and self.choices else "")
+
+    @property
+    def is_number(self) -> bool:
+        """Is the value one or more numbers? Then `choices` are words that may stand instead."""
+        return self.kind not in ("truth", "word", "words")
 
     @property
     def allowed(self) -> str:
         """Range or words of the value: "> 0", "0 to 1", "mean, yaw, body"; "" for any."""
-        if self.choices:
+        if self.choices and not self.is_number:
             return ", ".join(self.choices)
         high = None if self.far_maximum else self.maximum
         if self.minimum is not None and high is not None and not self.above_minimum:
@@ -85,7 +90,7 @@ class Key:
             parts.append(f"{'>' if self.above_minimum else '>='} {self.minimum:g}")
         if high is not None:
             parts.append(f"<= {high:g}")
-        return ", ".join(parts)
+        return " or ".join([", ".join(parts), *self.choices])
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from hydrodae.hdb.database.coordinates import check_body
 from hydrodae.hdb.database.files import read as read_database
 from hydrodae.hdb.database.tables import Body as HydroBody
+from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
 from hydrodae.viewer import shapes
-from hydrodae.viewer.freeboard import freeboard
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body
 
@@ -166,10 +166,16 @@ def _box_of_inertia(entry: Mapping[str, Any]) -> Array | None:
 
     I_x = m (b^2 + c^2) / 12, so a^2 = 6 (I_y + I_z - I_x) / m, and so on.
     """
-    inertia, mass = np.asarray(entry.get("inertia", np.zeros(3)), dtype=float), entry["mass"]
-    if mass <= 0.0 or "products_of_inertia" in entry:
+    given, mass = entry.get("inertia", np.zeros(3)), entry["mass"]
+    if "products_of_inertia" in entry:
         return None
-    squares = 6.0 * (inertia.sum() - 2.0 * inertia) / mass
+    if "radii_of_gyration" in entry:
+        gyration = np.square(np.asarray(entry["radii_of_gyration"], dtype=float))
+    elif isinstance(given, str) or isinstance(mass, str) or mass <= 0.0:
+        return None
+    else:
+        gyration = np.asarray(given, dtype=float) / mass
+    squares = 6.0 * (gyration.sum() - 2.0 * gyration)
     if squares.min() < -1e-6 * squares.max() or squares.max() <= 0.0:
         return None
     longest = float(np.sqrt(squares.max()))

@@ -10,19 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database.coordinates import nearest
-from hydrodae.hdb.hull.meshes import read_mesh
+from hydrodae.hdb.hull.meshes import read_mesh, triangles_of
 
 Array = NDArray[np.float64]
 #: Sides of what is round.
 SIDES = 32
-
-
-def triangles_of(panels: ArrayLike) -> Array:
-    """Return the triangles (m, 3, 3) of panels (n, 4, 3), those without area left out."""
-    p = np.asarray(panels, dtype=float)
-    both = np.concatenate([p[:, [0, 1, 2]], p[:, [0, 2, 3]]])
-    across = np.linalg.norm(np.cross(both[:, 1] - both[:, 0], both[:, 2] - both[:, 0]), axis=1)
-    return np.asarray(both[across > 1e-12 * across.max(initial=0.0)], dtype=float)
 
 
 def box(*, length: float, width: float, height: float) -> Array:

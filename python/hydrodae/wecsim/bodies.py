@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
+from hydrodae.hdb.hull.closed import write_stl
 from hydrodae.wecsim.morison import members
 from hydrodae.wecsim.objects import InputFile, Item
-from hydrodae.wecsim.surface import read_surface, write_stl
+from hydrodae.wecsim.surface import read_surface
 from hydrodae.wecsim.text import CaseText
 
 Array = NDArray[np.float64]
@@ -178,7 +179,7 @@ class Bodies:
             )
         return {"mesh": name, "hydrostatics": "mesh", "froude_krylov": "mesh"}
 
-    def _mass(self, item: Item, number: int) -> tuple[float, str]:
+    def _mass(self, item: Item, number: int) -> tuple[float | str, str]:
         value = item.get("mass")
         if isinstance(value, str) and value.lower() == "equilibrium":
             volume = self.volume(number)
@@ -187,7 +188,7 @@ class Bodies:
                     f"{self.read.place(item.line_of('mass'))}: {item.title}.mass is 'equilibrium', "
                     "but no displaced volume is known"
                 )
-            return self.rho * volume, f": mass = rho V for 'equilibrium', V = {volume:.6g} m3"
+            return "equilibrium", f": V = {volume:.6g} m3, mass {self.rho * volume:.6g} kg"
         if isinstance(value, float | np.ndarray):
             return item.number_of("mass"), ""
         if isinstance(value, str) and value.lower() in ("fixed", "user"):

@@ -104,7 +104,7 @@ TEST_CASE("a memory that is not passive is refused unless forced") {
 TEST_CASE("masses and inertias are physical") {
   CHECK(verdict(body({"rigid"})) == "");
   Body b = body({"point"});
-  b.inertia.setZero();
+  b.inertia = Vector3::Zero();
   CHECK(verdict(b) == "");
   b.mass = 0.0;
   CHECK(verdict(b) == ""); // constraints may hold it

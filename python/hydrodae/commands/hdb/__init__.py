@@ -9,6 +9,7 @@ from hydrodae.commands.hdb import (
     compare,
     compute,
     doctor,
+    hull,
     importing,
     memory,
     mesh,
@@ -29,16 +30,19 @@ _ACTIONS = {
     "compare": compare.run,
     "sensitivity": sensitivity.run,
     "mesh": mesh.run,
+    "hull": hull.run,
 }
 
 #: What is written by all but these is a database.
-_OTHERS = ("show", "export", "compare", "sensitivity")
+_OTHERS = ("show", "export", "compare", "sensitivity", "hull")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands to the parser of `hydrodae hdb`."""
     actions = parser.add_subparsers(dest="hdb_action", metavar="ACTION", required=True)
-    for command in (importing, memory, show, doctor, compute, array, compare, sensitivity, mesh):
+    for command in (
+        importing, memory, show, doctor, compute, array, compare, sensitivity, mesh, hull
+    ):  # fmt: skip
         command.add_arguments(actions)
 
 

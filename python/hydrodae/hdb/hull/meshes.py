@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hydrodae.errors import DatabaseError
 
@@ -54,6 +54,14 @@ def read_mesh(path: str | Path) -> Array:
     if file.suffix.lower() == ".pnl":
         return _pnl(file, lines)
     raise DatabaseError(f"{file}: expected a mesh of STL, GDF, PNL, Nemoh or GMSH")
+
+
+def triangles_of(panels: ArrayLike) -> Array:
+    """Return the triangles (m, 3, 3) of panels (n, 4, 3), those without area left out."""
+    p = np.asarray(panels, dtype=float)
+    both = np.concatenate([p[:, [0, 1, 2]], p[:, [0, 2, 3]]])
+    across = np.linalg.norm(np.cross(both[:, 1] - both[:, 0], both[:, 2] - both[:, 0]), axis=1)
+    return np.asarray(both[across > 1e-12 * across.max(initial=0.0)], dtype=float)
 
 
 def mirrored(panels: Array, axes: str) -> Array:

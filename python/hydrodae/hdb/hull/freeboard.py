@@ -1,11 +1,11 @@
-"""What is drawn above the water line of a wetted surface, which ends there."""
+"""What stands above the water line of a wetted surface, which ends there."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydrodae.viewer.shapes import triangles_of
+from hydrodae.hdb.hull.meshes import triangles_of
 
 Array = NDArray[np.float64]
 #: Height of what is drawn, over the draught.
@@ -28,18 +28,41 @@ def freeboard(panels: ArrayLike, height: float | None = None) -> Array:
         Walls, and decks where a water line encloses no other one; empty for a submerged body.
     """
     p = np.asarray(panels, dtype=float)
-    draught = -float(p[..., 2].min())
-    up = PART * draught if height is None else height
-    edges = _water_line(p, 1e-6 * max(draught, 1e-300))
-    if len(edges) == 0 or up <= 0.0:
-        return np.empty((0, 3, 3))
-    top = edges + np.array([0.0, 0.0, up])
+    walls, loops = _extended(p, -PART * float(p[..., 2].min()) if height is None else height)
+    decks = [_deck(loop) for loop in loops if not _encloses(loop, loops)]
+    return np.concatenate([walls, *(_upwards(deck) for deck in decks)])
+
+
+def walls_and_decks(panels: ArrayLike, height: float) -> Array:
+    """Extend a wetted surface and close it, for integrals over the surface.
+
+    Parameters
+    ----------
+    panels : (n, 4, 3) array
+        Wetted surface [m], open at z = 0.
+    height : float
+        Of the extension [m].
+
+    Returns
+    -------
+    (m, 3, 3) array
+        Walls, and a deck for each water line. The deck of an inner one (a moonpool) faces down and
+        takes back what the deck of the outer one covers too much.
+    """
+    walls, loops = _extended(np.asarray(panels, dtype=float), height)
+    return np.concatenate([walls, *map(_deck, loops)])
+
+
+def _extended(panels: Array, height: float) -> tuple[Array, list[Array]]:
+    """Walls (m, 3, 3) above the water line, and its loops (k, 3) at their top."""
+    draught = -float(panels[..., 2].min())
+    edges = _water_line(panels, 1e-6 * max(draught, 1e-300))
+    if len(edges) == 0 or height <= 0.0:
+        return np.empty((0, 3, 3)), []
+    top = edges + np.array([0.0, 0.0, height])
     # the panel below runs along the edge; its neighbour above runs the other way
     walls = np.stack([edges[:, 1], edges[:, 0], top[:, 0], top[:, 1]], axis=1)
-    parts = [triangles_of(walls)]
-    loops = _loops(top)
-    parts += [_deck(loop) for loop in loops if not _encloses(loop, loops)]
-    return np.concatenate(parts)
+    return triangles_of(walls), _loops(top)
 
 
 def _water_line(panels: Array, tolerance: float) -> Array:
@@ -76,9 +99,12 @@ def _loops(edges: Array) -> list[Array]:
 
 
 def _deck(loop: Array) -> Array:
-    """Fan of triangles about the middle of a polygon, facing up."""
+    """Fan of triangles about the middle of a polygon, which runs along it against the walls."""
     middle = np.broadcast_to(loop.mean(axis=0), loop.shape)
-    fan = np.stack([loop, np.roll(loop, -1, axis=0), middle], axis=1)
+    return np.stack([np.roll(loop, -1, axis=0), loop, middle], axis=1)
+
+
+def _upwards(fan: Array) -> Array:
     turn = np.cross(fan[:, 1] - fan[:, 0], fan[:, 2] - fan[:, 0])[:, 2].sum()
     return np.asarray(fan if turn > 0.0 else fan[:, ::-1], dtype=float)
 
