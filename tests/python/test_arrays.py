@@ -147,10 +147,10 @@ def test_copies_take_their_mesh_with_them(tmp_path: Path) -> None:
     device.solver(end_time=3.0, rtol=1e-8)
     alone = hydrodae.run(device)
     both = hydrodae.run(arrays.place(device, {"a": (0.0, 0.0), "b": (30.0, -10.0)}, tmp_path))
-    assert np.ptp(alone["bodies/box/rotation"][:, 1]) > 0.01
+    assert np.ptp(alone["bodies/box/rotation"].values[:, 1]) > 0.01
     for unit in "ab":
-        copy = both[f"bodies/{unit}_box/rotation"]
-        np.testing.assert_allclose(copy, alone["bodies/box/rotation"], atol=1e-6)
+        copy = both[f"bodies/{unit}_box/rotation"].values
+        np.testing.assert_allclose(copy, alone["bodies/box/rotation"].values, atol=1e-6)
 
 
 def test_error_of_a_limited_interaction_is_what_is_left_out(

@@ -103,8 +103,9 @@ def test_a_database_from_python_is_read(case):
             "mass = 1000.0",
             "masss = 1000.0",
             "case.toml:9:1: unknown key 'masss' in [[body]] 'buoy'; did you mean 'mass'? (valid: "
-            "name, motion, mass, center_of_gravity, inertia, products_of_inertia, "
-            "principal_axes_deg, hydro, volume, center_of_buoyancy, mesh, hydrostatics, "
+            "name, motion, mass, center_of_gravity, inertia, radii_of_gyration, "
+            "products_of_inertia, principal_axes_deg, hydro, volume, center_of_buoyancy, mesh, "
+            "mesh_origin, hydrostatics, "
             "froude_krylov, initial)",
         ),
         (

@@ -114,7 +114,7 @@ displacement = [0.0, 0.0, 0.1]
     assert any("mass 8000 kg" in note for note in results.notes)
     # m z" = -rho g A z: the heave of a wall-sided body without added mass
     exact = -0.2 + 0.1 * np.cos(np.sqrt(9.81) * results.time)
-    heave = results.position("box")[:, 2]
+    heave = results["bodies/box/position"].values[:, 2]
     np.testing.assert_allclose(heave, exact, atol=2e-4)
 
 

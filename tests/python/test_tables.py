@@ -138,8 +138,14 @@ def test_the_schema_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     printed = json.loads(capsys.readouterr().out)
     assert printed == json.loads(json.dumps(SCHEMA))
     assert printed["required"] == ["body", "solver"]
-    mass = printed["properties"]["body"]["items"]["properties"]["mass"]
-    assert mass == {"description": "Mass. [kg]", "type": "number", "minimum": 0.0}
+    body = printed["properties"]["body"]["items"]["properties"]
+    numbers = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+    doc = "Centre of gravity in the reference pose, world axes. [m]"
+    assert body["center_of_gravity"] == {"description": doc, **numbers}
+    assert body["mass"]["anyOf"] == [
+        {"type": "number", "minimum": 0.0},
+        {"type": "string", "enum": ["equilibrium"]},
+    ]
 
 
 def keys_printed(capsys: pytest.CaptureFixture[str], *words: str) -> str:

@@ -21,6 +21,7 @@ from hydrodae.errors import CaseError
 from hydrodae.hdb.bem import shapes as wetted
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.hull.freeboard import freeboard
+from hydrodae.hdb.hull.meshes import triangles_of
 from hydrodae.viewer import ViewError, browser, shapes
 from hydrodae.viewer.framing import Frame, camera_of
 from hydrodae.viewer.page import page_data
@@ -49,7 +50,7 @@ def test_shapes_are_closed_and_face_outwards(triangles, volume, part):
 
 def test_a_cylinder_is_extended_above_the_water_and_closed():
     hull = wetted.cylinder(0.5, radius=2.0, draft=5.0)
-    whole = np.concatenate([shapes.triangles_of(hull), freeboard(hull, 1.5)])
+    whole = np.concatenate([triangles_of(hull), freeboard(hull, 1.5)])
     below = wetted.hydrostatics(hull, np.zeros(3))
     expected = below.displaced_volume + 1.5 * below.waterplane_area
     assert volumes(whole) == pytest.approx([expected] * 3, rel=1e-9)

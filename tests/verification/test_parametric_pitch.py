@@ -14,6 +14,7 @@ Oscillations, 1979, section 5.3).
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,7 +47,7 @@ def _growth(amplitude: float, omega: float) -> float:
     def rates(t: float, y: np.ndarray) -> np.ndarray:
         k = _righting(amplitude * np.sin(omega * t))
         m = np.array([[0.0, 1.0], [-k / INERTIA, -DAMPING / INERTIA]])
-        return (m @ y.reshape(2, 2)).ravel()
+        return np.asarray((m @ y.reshape(2, 2)).ravel())
 
     end = solve_ivp(rates, (0.0, 2.0 * np.pi / omega), np.eye(2).ravel(), rtol=1e-11, atol=1e-13)
     return float(np.log(np.abs(np.linalg.eigvals(end.y[:, -1].reshape(2, 2))).max()))
@@ -130,14 +131,15 @@ def test_only_the_wetted_surface_makes_a_spar_pitch_in_waves(tmp_path: Path, sur
     omega = brentq(lambda w: stiff - w**2 * (mass + np.interp(w, grid, heave)), 0.5, 0.8)
     inertia = STIFFNESS / (0.5 * omega) ** 2 - np.interp(0.5 * omega, grid, pitch)
 
+    more: dict[str, Any] = {}
+    if surface == "mesh":
+        more = {"mesh": "spar.obj", "hydrostatics": "mesh", "froude_krylov": "mesh"}
     scene = _spar(tmp_path)
     scene.hydro(database="hydro.h5", radiation="constant", frequency=omega)
     scene.body(
         "spar", hydro="spar", motion=["heave", "pitch"], mass="equilibrium",
         center_of_gravity=[0.0, 0.0, CENTER], inertia=[inertia] * 3,
-        initial={"rotation_deg": [0.0, 0.01, 0.0]},
-        **({"mesh": "spar.obj"} | dict.fromkeys(("hydrostatics", "froude_krylov"), "mesh")
-           if surface == "mesh" else {}),
+        initial={"rotation_deg": [0.0, 0.01, 0.0]}, **more,
     )  # fmt: skip
     scene.wave.regular("swell", height=0.1, period=2.0 * np.pi / omega)
     scene.sea(ramp=30.0)

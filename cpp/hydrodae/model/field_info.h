@@ -45,7 +45,7 @@ template <class T> FieldInfo field_info(const Field<T>& field) {
   info.required = field.required;
   info.range = field.range;
   info.choices.assign(field.choices.begin(), field.choices.end());
-  const T defaults{};
+  static const T defaults{};
   std::visit(
       [&](auto member) {
         info.kind = kind_of(defaults.*member);

@@ -3102,16 +3102,18 @@ class Scene(SceneBase):
         self,
         name: str,
         *,
-        mass: float,
+        mass: float | Literal["equilibrium"],
         center_of_gravity: _Numbers,
         motion: _BodyMotion | Sequence[_BodyMotion] = ...,
-        inertia: _Numbers = ...,
+        inertia: _Numbers | Literal["mesh"] = ...,
+        radii_of_gyration: _Numbers = ...,
         products_of_inertia: _Numbers = ...,
         principal_axes_deg: _Numbers = ...,
         hydro: str = ...,
         volume: float = ...,
         center_of_buoyancy: _Numbers = ...,
         mesh: str = ...,
+        mesh_origin: _Numbers = ...,
         hydrostatics: _BodyHydrostatics = ...,
         froude_krylov: _BodyFroudeKrylov = ...,
         initial: BodyInitial = ...,
@@ -3128,12 +3130,17 @@ class Scene(SceneBase):
             What the body can do: fixed, heave, planar (surge, heave, pitch), point (3
             translations), rigid (6), or a list of free coordinates. Allowed: fixed, planar,
             point, rigid, surge, sway, heave, roll, pitch, yaw.
-        mass : number, kg
-            Mass. Allowed: >= 0.
+        mass : number or text, kg
+            Mass; "equilibrium": that of the water which the body displaces in the reference
+            pose, by its mesh, the database or `volume`. Allowed: >= 0 or equilibrium.
         center_of_gravity : 3 numbers, m
             Centre of gravity in the reference pose, world axes.
-        inertia : 3 numbers, kg m2, default [0, 0, 0]
-            Moments of inertia Ixx, Iyy, Izz about the centre of gravity. Allowed: >= 0.
+        inertia : 3 numbers or text, kg m2, default [0, 0, 0]
+            Moments of inertia Ixx, Iyy, Izz about the centre of gravity; "mesh": with the
+            products those of a solid of uniform density that fills the mesh, about its own
+            centroid. Allowed: >= 0 or mesh.
+        radii_of_gyration : 3 numbers, m, optional
+            Radii r of gyration instead of `inertia`: the moments are m r^2. Allowed: >= 0.
         products_of_inertia : 3 numbers, kg m2, default [0, 0, 0]
             Ixy, Iyz, Izx as entries of the inertia tensor (Ixy = -sum m x y).
         principal_axes_deg : 3 numbers, deg, optional
@@ -3151,6 +3158,9 @@ class Scene(SceneBase):
             File of the closed surface of the body in the reference pose, world axes, normals
             outwards, up to above the highest water: .stl or .obj, in metres; relative to the
             case file.
+        mesh_origin : 3 numbers, m, default [0, 0, 0]
+            Place of the origin of that file in the reference pose, world axes; for a mesh about
+            the centre of gravity the place of that.
         hydrostatics : text, default "linear"
             Hydrostatics: the stiffness of the database about the reference pose (linear), or
             the pressure on the wetted part of `mesh` at each instant (mesh). Allowed: linear,

@@ -13,6 +13,7 @@ from hydrodae.hdb.database.files import read as read_database
 from hydrodae.hdb.database.tables import Body as HydroBody
 from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
+from hydrodae.hdb.hull.meshes import triangles_of
 from hydrodae.viewer import shapes
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body
@@ -113,7 +114,7 @@ def _surface(
         return hull, NOTHING, f"drawn as asked: {wanted}"
     if wet is not None and wet.mesh is not None:
         shift = _shift(entry, {wet.name: wet})
-        hull, above = shapes.triangles_of(wet.mesh) + shift, freeboard(wet.mesh) + shift
+        hull, above = triangles_of(wet.mesh) + shift, freeboard(wet.mesh) + shift
         text = f"wetted surface of the database, {len(wet.mesh)} panels"
         return hull, above, text + (", extended above the water" if len(above) else "")
     if wet is not None and wet.hydrostatics is not None:

@@ -20,9 +20,9 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
     hull = actions.add_parser(
         "hull",
         help="write the closed .stl of a hull, for 'mesh' of a body",
-        description="Write the closed surface of a hull as .stl, for the key 'mesh' of a body, "
-        "from a mesh of STL, GDF, PNL, Nemoh or GMSH, or from the panels in a database. What ends "
-        "at the water line is extended straight up.",
+        description="Write the closed surface of a hull as .stl, for the key 'mesh' of a body. It "
+        "comes from a mesh of STL, GDF, PNL, Nemoh or GMSH, or from the panels in a database. What "
+        "ends at the water line is extended straight up.",
         epilog="example: hydrodae hdb hull float.gdf --freeboard 3 -o float.stl",
     )
     hull.add_argument("source", metavar="FILE", help="a mesh file, or a hydro.h5 with panels")
