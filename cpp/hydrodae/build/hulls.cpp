@@ -40,8 +40,7 @@ std::vector<hull::Wave> waves_of_hulls(const model::Scene& scene) {
 
 /// What the mesh displaces in the reference pose, beside the database.
 void note_volume(const model::Scene& scene, const model::Body& body, system::System& s) {
-  const hull::Floating f =
-      hull::floating_in_reference_pose(*body.hull, body.center_of_gravity);
+  const hull::Floating f = hull::floating_in_reference_pose(*body.hull, body.center_of_gravity);
   std::string text = "body " + in_quotes(body.name) + ": the mesh displaces " +
                      rounded_text(f.volume, 5) + " m3 in the reference pose";
   const hydro::DatabaseBody* entry =

@@ -106,7 +106,8 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vecto
   // Tetrahedra over a point near the surface, not over an origin that may be far away.
   const Vector3 middle = vertices.colwise().mean();
   Vector3 moment = Vector3::Zero();
-  Matrix3 second = Matrix3::Zero(); // over a tetrahedron 0 a b c: V / 20 (aa + bb + cc + ss), s = a + b + c
+  Matrix3 second =
+      Matrix3::Zero(); // over a tetrahedron 0 a b c: V / 20 (aa + bb + cc + ss), s = a + b + c
   for (int i = 0; i < triangles.rows(); ++i) {
     const Vector3 a = vertices.row(triangles(i, 0)).transpose() - middle,
                   b = vertices.row(triangles(i, 1)).transpose() - middle,

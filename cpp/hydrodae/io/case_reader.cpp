@@ -225,9 +225,8 @@ void read_meshes(model::Scene& scene, const std::string& directory) {
     const std::filesystem::path path = std::filesystem::path(directory) / *body.mesh;
     try {
       const Surface surface = read_surface(path.lexically_normal().string());
-      body.hull = std::make_shared<hull::Mesh>(
-          hull::make_mesh(surface.vertices, surface.triangles,
-                          body.center_of_gravity - body.mesh_origin));
+      body.hull = std::make_shared<hull::Mesh>(hull::make_mesh(
+          surface.vertices, surface.triangles, body.center_of_gravity - body.mesh_origin));
     } catch (const Error& error) {
       throw CaseError(scene.positions.at("body." + body.name + ".mesh") +
                       ": key 'mesh' in [[body]] " + in_quotes(body.name) + ": " + error.what());

@@ -171,8 +171,9 @@ bool ends_with(const std::string& path, std::string_view end) {
 Surface read_surface(const std::string& path) {
   const bool stl = ends_with(path, ".stl") || ends_with(path, ".STL");
   if (!stl && !ends_with(path, ".obj") && !ends_with(path, ".OBJ"))
-    throw CaseError(path + ": a mesh is an .stl or .obj file; 'hydrodae hdb hull FILE -o hull.stl' makes one "
-                           "of .gdf, .pnl and others");
+    throw CaseError(
+        path + ": a mesh is an .stl or .obj file; 'hydrodae hdb hull FILE -o hull.stl' makes one "
+               "of .gdf, .pnl and others");
   const std::string bytes = read_bytes(path);
   const Corners corners = !stl                   ? obj(bytes, path)
                           : is_binary_stl(bytes) ? binary_stl(bytes)

@@ -41,8 +41,7 @@ template <class V> void read_value(const toml::node& node, const Key& key, std::
 }
 
 /// A string must be one of the words of the key.
-template <class V>
-void read_value(const toml::node& node, const Key& key, ValueOrWord<V>& out) {
+template <class V> void read_value(const toml::node& node, const Key& key, ValueOrWord<V>& out) {
   out.word.clear();
   if (node.is_string())
     read_value(node, key, out.word);

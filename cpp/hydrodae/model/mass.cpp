@@ -79,8 +79,7 @@ void fill_in_inertia(Body& body) {
            "inertia = \"mesh\" has its own products of inertia; leave this out");
   // J = m / V (tr S - S), S the integral of x x^T over the solid
   const Matrix3& S = body.hull->spread;
-  const Matrix3 J =
-      body.mass.value / body.hull->volume * (S.trace() * Matrix3::Identity() - S);
+  const Matrix3 J = body.mass.value / body.hull->volume * (S.trace() * Matrix3::Identity() - S);
   body.inertia.value = J.diagonal();
   body.products_of_inertia = {J(0, 1), J(1, 2), J(2, 0)};
 }

@@ -171,7 +171,8 @@ struct Body {
         {"inertia",
          &B::inertia,
          "kg m2",
-         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity; \"mesh\": with the products "
+         "Moments of inertia Ixx, Iyy, Izz about the centre of gravity; \"mesh\": with the "
+         "products "
          "those of a solid of uniform density that fills the mesh, about its own centroid.",
          false,
          at_least(0),
