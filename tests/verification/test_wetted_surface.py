@@ -233,3 +233,41 @@ def test_what_a_mesh_lacks_is_said(tmp_path: Path, body: str, message: str) -> N
         hydrodae.Case.read(_sphere_in_waves(tmp_path, 1.0, body))
     assert message in str(error.value)
     assert "case.toml:" in str(error.value)
+
+
+ELEMENT = """
+[[morison]]
+name = "inside"
+body = "sphere"
+point = [0.0, 0.0, -2.5]
+volume = 10.0
+added_mass_coefficient = 0.25
+[[morison]]
+name = "beside"
+body = "sphere"
+point = [6.0, 0.0, -2.5]
+volume = 10.0
+added_mass_coefficient = 0.25
+"""
+
+
+def test_an_element_inside_the_mesh_leaves_the_waves_to_it(tmp_path: Path) -> None:
+    """rho V (1 + C_a) a_f holds the undisturbed waves, which the mesh has by its pressure."""
+    forces = []
+    for more in (MESH, ""):
+        path = _sphere_in_waves(tmp_path, 0.5, more, end=20.0)
+        text = path.read_text().replace('"heave"', '"fixed"').replace("ramp = 30.0", "ramp = 2.0")
+        path.write_text(text + ELEMENT)
+        results = hydrodae.run(path)
+        forces.append({k: results[f"forces/{k}/force"].values for k in ("inside", "beside")})
+        assert ("lies inside the mesh" in str(results.notes)) == bool(more)
+    assert np.abs(forces[1]["inside"]).max() > 100.0
+    np.testing.assert_allclose(forces[0]["inside"], 0.2 * forces[1]["inside"], atol=1e-6)
+    np.testing.assert_allclose(forces[0]["beside"], forces[1]["beside"], atol=1e-6)
+    member = ELEMENT.replace(
+        "point = [0.0", "diameter = 1.0\npoint_b = [0.0, 0.0, -9.0]\npoint_a = [0.0"
+    )
+    member = member.replace("volume = 10.0\n", "", 1)
+    path.write_text(text.replace('motion = "fixed"', f'motion = "fixed"\n{MESH}') + member)
+    with pytest.raises(hydrodae.CaseError, match="10 of its 20 pieces lie inside the mesh of body"):
+        hydrodae.run(path)

@@ -2,6 +2,7 @@
 
 #include "hydrodae/build/initial_pose.h"
 #include "hydrodae/build/parts.h"
+#include "hydrodae/core/error.h"
 #include "hydrodae/core/text.h"
 #include "hydrodae/model/waves.h"
 #include "hydrodae/water/morison_list.h"
@@ -41,6 +42,24 @@ water::MorisonSegment member_law(const water::Morison& m, double length, double 
   return law;
 }
 
+/// Do the waves load these pieces by the mesh of their body already, with its Froude-Krylov
+/// pressure? An element that is half inside has no answer.
+bool in_mesh(const water::Morison& m, const model::Body& body, const water::MorisonMember& member) {
+  if (body.froude_krylov != "mesh" || member.law.mass_fluid == 0.0)
+    return false;
+  int inside = 0;
+  for (int k = 0; k < member.segments; ++k)
+    inside += hull::encloses(*body.hull, member.first + k * member.step);
+  if (inside != 0 && inside != member.segments)
+    throw ModelError("morison." + m.name,
+                     "morison " + in_quotes(m.name) + ": " + std::to_string(inside) + " of its " +
+                         std::to_string(member.segments) + " pieces lie inside the mesh of body " +
+                         in_quotes(body.name) +
+                         ", whose Froude-Krylov load their inertia force would count twice; end "
+                         "the member at the hull, or make it two elements");
+  return inside != 0;
+}
+
 } // namespace
 
 void add_morison(const model::Scene& scene, system::System& s) {
@@ -59,7 +78,8 @@ void add_morison(const model::Scene& scene, system::System& s) {
     water::MorisonMember member;
     member.instantaneous = m.surface == "instantaneous";
     member.moves = s.bodies[static_cast<std::size_t>(port.body)].n_active > 0;
-    const Vector3& origin = scene.bodies[static_cast<std::size_t>(port.body)].center_of_gravity;
+    const model::Body& body = scene.bodies[static_cast<std::size_t>(port.body)];
+    const Vector3& origin = body.center_of_gravity;
     if (m.point) {
       member.law = point_law(m, water.density);
       member.first = *m.point - origin;
@@ -70,6 +90,13 @@ void add_morison(const model::Scene& scene, system::System& s) {
       member.first = *m.point_a - origin + 0.5 * member.step;
       member.axis = along.normalized();
       member.law = member_law(m, member.step.norm(), water.density);
+    }
+    if (in_mesh(m, body, member)) {
+      member.law.mass_fluid = member.law.mass_body;
+      s.notes.push_back("morison " + in_quotes(m.name) + " lies inside the mesh of body " +
+                        in_quotes(body.name) +
+                        ", which has the load of the undisturbed waves: its inertia force is rho "
+                        "V C_a (a_f - a_b)");
     }
     if (member.moves)
       pieces += member.segments;

@@ -1,6 +1,7 @@
 #include "hydrodae/hull/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -140,6 +141,23 @@ Mesh make_mesh(const Vertices& vertices, const Triangles& triangles, const Vecto
   mesh.centroid = middle - origin + moment / mesh.volume;
   mesh.spread = second - moment * moment.transpose() / mesh.volume;
   return mesh;
+}
+
+bool encloses(const Mesh& mesh, const Vector3& point) {
+  double halves = 0.0; // of the solid angle
+  for (Index i = 0; i < mesh.triangles.rows(); ++i) {
+    std::array<Vector3, 3> r;
+    std::array<double, 3> d{};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const int v = mesh.triangles(i, static_cast<Index>(j));
+      r[j] = mesh.vertices.row(v).matrix().transpose() - point;
+      d[j] = r[j].norm();
+    }
+    halves +=
+        std::atan2(r[0].dot(r[1].cross(r[2])), d[0] * d[1] * d[2] + r[0].dot(r[1]) * d[2] +
+                                                   r[1].dot(r[2]) * d[0] + r[2].dot(r[0]) * d[1]);
+  }
+  return halves > pi;
 }
 
 } // namespace hydrodae::hull

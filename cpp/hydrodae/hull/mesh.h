@@ -41,4 +41,8 @@ struct Mesh {
 Mesh make_mesh(const Vertices& vertices, const Triangles& triangles,
                const Vector3& origin = Vector3::Zero());
 
+/// Is a point, in body axes, inside the surface? By the solid angles of all triangles, whose sum is
+/// 4 pi inside and 0 outside (A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983)).
+bool encloses(const Mesh& mesh, const Vector3& point);
+
 } // namespace hydrodae::hull

@@ -16,6 +16,8 @@ namespace hydrodae::water {
 ///            each segment dl; along the axis 1/2 rho C_dt pi D dl |u_t| u_t and
 ///            rho V C_at (a_f - a_b)_t. The pressure on its end faces is not in it.
 ///
+/// Inside a mesh that has the Froude-Krylov load of its body, C_a stands for 1 + C_a.
+///
 /// u = u_fluid - v_body [m/s], w the wet part of the segment (see `wet_part`). There is no
 /// buoyancy: that belongs to the hydrostatics of the database.
 struct Morison {

@@ -41,6 +41,31 @@ TEST_CASE("a box: volume, centroid, area, edges, wherever its axes are") {
   CHECK(mesh.areas.colwise().sum().matrix().norm() < 1e-12);
 }
 
+TEST_CASE("a mesh encloses the points inside it, and no others") {
+  tests::MeshArrays arrays = tests::box(2.0, 3.0, 4.0);
+  const Vector3 shift(1e3, -2e3, 7.0);
+  for (Vector3& v : arrays.vertices)
+    v += shift;
+  const hull::Mesh mesh = arrays.mesh();
+  const Vector3 middle = mesh.centroid;
+  for (const double part : {0.0, 0.5, 0.999, 1.001, 2.0, 100.0})
+    for (int c = 0; c < 3; ++c)
+      for (const double sign : {-1.0, 1.0}) {
+        Vector3 point = middle;
+        point[c] += sign * part * 0.5 * (2.0 + c);
+        CHECK(hull::encloses(mesh, point) == (part < 1.0));
+      }
+  // in one of two shells, and between them
+  tests::MeshArrays two = tests::box(1.0, 1.0, 1.0), other = tests::box(1.0, 1.0, 1.0);
+  for (const Vector3& v : other.vertices)
+    two.vertices.push_back(v + Vector3(5.0, 0.0, 0.0));
+  for (auto [a, b, c] : other.triangles)
+    two.triangles.push_back({a + 8, b + 8, c + 8});
+  const hull::Mesh pair = two.mesh();
+  CHECK(hull::encloses(pair, Vector3(5.0, 0.0, 0.0)));
+  CHECK_FALSE(hull::encloses(pair, Vector3(2.5, 0.0, 0.0)));
+}
+
 TEST_CASE("two bodies in one mesh are two shells, and a triangle without area is counted") {
   tests::MeshArrays arrays = tests::box(1.0, 1.0, 1.0), other = tests::sphere(1.0, 1);
   for (const Vector3& v : other.vertices)
