@@ -233,6 +233,16 @@ def gdf(path):
     path.write_text("\n".join(lines))
 
 
+def obj(path):
+    """Quads and two triangles; numbers of vertices from the first one and from the last one."""
+    points, index = numbered(PANELS)
+    lines = ["# box", *(f"v {p[0]} {p[1]} {p[2]}" for p in points), "vn 0 0 1"]
+    (a, b, c, d), *others = index.tolist()
+    lines += [f"f {a}/1/1 {b}/2/1 {c}//1", f"f {a} {c} {d}"]
+    lines += ["f " + " ".join(str(k - 1 - len(points)) for k in row) for row in others]
+    path.write_text("\n".join(lines))
+
+
 def gmsh_2(path):
     points, index = numbered(PANELS)
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
@@ -255,6 +265,7 @@ def gmsh_4(path):
 WRITERS = {
     "a.stl": stl_text,
     "b.stl": stl_binary,
+    "box.obj": obj,
     "mesh.dat": nemoh,
     "box.gdf": gdf,
     "two.msh": gmsh_2,
@@ -280,6 +291,9 @@ def test_one_box_in_every_format(tmp_path, name):
         ("box.gdf", 4, "900", r"coordinates for 900 panels"),
         ("two.msh", 2, "3.0 0 8", r"two.msh:2: expected an ASCII file of GMSH"),
         ("two.msh", 4, "$Knots", r"no section \$Nodes"),
+        ("box.obj", 2, "v 1 2", r"box.obj:2: expected v x y z"),
+        ("box.obj", 999, "f 1 2", r"expected f and three vertices or more"),
+        ("box.obj", 999, "f 1 2 4000", r"no point 4000"),
         ("a.stl", 4, "vertex 1 2", r"a.stl:4: expected vertex x y z"),
     ],
 )
@@ -297,5 +311,5 @@ def test_other_files_are_refused(tmp_path):
     with pytest.raises(DatabaseError, match="no such mesh file"):
         read_mesh(tmp_path / "none.stl")
     (tmp_path / "x.stl").write_text("hello")
-    with pytest.raises(DatabaseError, match="expected a mesh of STL, GDF, PNL, Nemoh or GMSH"):
+    with pytest.raises(DatabaseError, match="expected a mesh of STL, OBJ, GDF, PNL, Nemoh or GMSH"):
         read_mesh(tmp_path / "x.stl")

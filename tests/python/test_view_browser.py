@@ -107,3 +107,15 @@ def test_picture_and_video_are_drawn(page, seen, tmp_path: Path):
     assert np.ptp(pixels[..., :3].reshape(-1, 3), axis=0).min() > 0.3
     video = seen.video(tmp_path / "a.gif", size=SIZE, rate=2.0)
     assert video.read_bytes()[:6] == b"GIF89a"
+
+
+def test_everything_fits_a_narrow_screen(page):
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.evaluate("hydrodae.pick('flap1')")
+    for name in ("#views", "#switches", "#player", "#speed", "#panel", ".chart canvas"):
+        box = page.locator(name).first.bounding_box()
+        assert box is not None
+        assert box["x"] >= 0.0, name
+        assert box["x"] + box["width"] <= 390.0, name
+    page.keyboard.press("Escape")
+    page.set_viewport_size({"width": SIZE[0], "height": SIZE[1]})

@@ -126,8 +126,8 @@ class Case:
 
     @property
     def directory(self) -> Path:
-        """Folder that relative paths of a case from a string refer to."""
-        return self._directory
+        """Folder that relative paths refer to: that of the case file, if there is one."""
+        return self._directory if self._path is None else self._path.parent
 
     @property
     def overrides(self) -> dict[str, str]:

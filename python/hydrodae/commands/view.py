@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="cylinder:radius=R:length=L, sphere:radius=R, box:length=L:width=W:height=H, each "
         "may be followed by :x=..:y=..:z=.. from the centre of gravity. Also rods:diameter=D to "
-        "the attached joints, or a mesh file (STL, GDF, PNL, Nemoh, GMSH). May be repeated",
+        "the attached joints, or a mesh file (STL, OBJ, GDF, PNL, Nemoh, GMSH). May be repeated",
     )
     what.add_argument(
         "--freeboard",

@@ -133,7 +133,6 @@ def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
     for kind, key in (("wave", "file"), ("body", "mesh"), ("pose_table", "databases")):
         for entry in root.get(kind, []):
             keys[f"{kind}.{entry['name']}.{key}"] = entry.get(key)
-    folder = case.directory if case.path is None else case.path.parent
     files: dict[str, Path] = {}
     values: dict[str, str] = {}
     for key, found in keys.items():
@@ -144,7 +143,7 @@ def _files(case: Case) -> tuple[dict[str, Path], dict[str, str]]:
         names = []
         for path in found if isinstance(found, list) else [found]:
             names.append(f"{len(files)}_{Path(path).name}")
-            files[names[-1]] = folder / path
+            files[names[-1]] = case.directory / path
         values[key] = to_toml(names if isinstance(found, list) else names[0])
     return files, values
 

@@ -89,8 +89,8 @@ class LinearModel:
             values = np.radians(table["values_deg"]) if turns else np.array(table["values"])
             place = (self.rotations if turns else self.offsets)[body]
             pose = float(place[("roll", "pitch", "yaw").index(table["coordinate"]) if turns else 2])
-            folder = self.case.directory if self.case.path is None else self.case.path.parent
-            sources = [HydroDatabase.read(folder / path) for path in table["databases"]]
+            paths = (self.case.directory / name for name in table["databases"])
+            sources = [HydroDatabase.read(path) for path in paths]
             wet = next(b["hydro"] for b in case_tables(self.case)["body"] if b["name"] == body)
             database = blended(database, wet, values, sources, pose)
         return database

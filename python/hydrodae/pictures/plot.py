@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 
 from hydrodae.errors import CaseError
 from hydrodae.pictures.curve import Curve
+from hydrodae.pictures.hulls import load_panels
 from hydrodae.pictures.panels import (
     Line,
     Panel,
@@ -46,7 +47,8 @@ def plot_overview(results: Results) -> Figure:
     """Draw the standard set of a run, one panel each, and spectra below where there are waves.
 
     Elevation, joint coordinates, motions of the bodies, absorbed powers with their means, loads of
-    the power take-offs, reactions and tensions, energies. The spectrum of the elevation has the
+    the power take-offs, reactions and tensions, energies, and the loads on each body with a mesh,
+    load by load. The spectrum of the elevation has the
     target of the case beside it.
 
     Raises
@@ -54,7 +56,7 @@ def plot_overview(results: Results) -> Figure:
     CaseError
         The results have none of these channels.
     """
-    return _draw(results, [*overview(results), *spectra(results)])
+    return _draw(results, [*overview(results), *load_panels(results), *spectra(results)])
 
 
 def plot_channels(results: Results, names: Iterable[str]) -> Figure:

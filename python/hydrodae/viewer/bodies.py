@@ -13,7 +13,7 @@ from hydrodae.hdb.database.files import read as read_database
 from hydrodae.hdb.database.tables import Body as HydroBody
 from hydrodae.hdb.hull.freeboard import freeboard
 from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.hull.meshes import triangles_of
+from hydrodae.hdb.hull.meshes import read_mesh, triangles_of
 from hydrodae.viewer import shapes
 from hydrodae.viewer.source import Source
 from hydrodae.viewer.stage import Body
@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 NOTHING: Array = np.empty((0, 3, 3))
 #: Diameter of drawn rods over the length of the longest one.
 SLENDER = 0.04
+#: Surfaces that cut meshes, in words.
+CUTS = {"waves": "the waves as they come", "still": "z = 0"}
 
 
 def make_bodies(
@@ -57,15 +59,22 @@ def make_bodies(
     made = []
     for entry in entries:
         name, center = entry["name"], _center(entry)
-        hull, above, origin = _surface(
-            entry, wanted.get(name), wet.get(entry.get("hydro", "")), ends[name], tables, size
-        )
+        cut = ""
+        if "mesh" in entry and name not in wanted:
+            place = np.asarray(entry.get("mesh_origin", np.zeros(3)), dtype=float)
+            hull = triangles_of(read_mesh(source.case.directory / entry["mesh"]) + place)
+            above, cut = NOTHING, _cut(entry, tables)
+            origin = f"its mesh, {len(hull)} triangles; dark: beneath {CUTS[cut]}"
+        else:
+            hull, above, origin = _surface(
+                entry, wanted.get(name), wet.get(entry.get("hydro", "")), ends[name], tables, size
+            )
         if height is not None and len(above):
             above = freeboard(wet[entry["hydro"]].mesh, height) + _shift(entry, wet)
         position = source.values(f"bodies/{name}/position")
         orientation = source.values(f"bodies/{name}/orientation")
         moves = entry.get("motion") != "fixed"
-        made.append(Body(name, center, position, orientation, hull, above, origin, moves))
+        made.append(Body(name, center, position, orientation, hull, above, origin, moves, cut))
     return made
 
 
@@ -97,6 +106,12 @@ def bodies_of_rope(force: Mapping[str, Any]) -> list[str]:
     """Return the body of each point of a rope."""
     bodies = force["bodies"]
     return [bodies] * len(force["points"]) if isinstance(bodies, str) else list(bodies)
+
+
+def _cut(entry: Mapping[str, Any], tables: Mapping[str, Any]) -> str:
+    """Surface at which the kernel cuts the mesh of a body."""
+    waves = entry.get("froude_krylov") == "mesh" and tables.get("wave")
+    return "waves" if waves and tables.get("sea", {}).get("stretching") != "none" else "still"
 
 
 def _surface(

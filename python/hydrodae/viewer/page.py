@@ -162,6 +162,7 @@ def _bodies(stage: Stage, numbers: Numbers) -> list[dict[str, Any]]:
                 "surface": numbers.add(body.surface),
                 "above": numbers.add(body.above),
                 "origin": body.origin,
+                "cut": body.cut,
                 "colour": colour,
             }
         )

@@ -53,7 +53,11 @@ def write_paraview(stage: Stage, frame: Frame, folder: Path) -> list[Path]:
 
 
 def _bodies(stage: Stage, path: Path) -> Path:
-    """Triangles; the cell data `body` is the number of the body."""
+    """Triangles; the cell data `body` is the number of the body.
+
+    The point data `above_water` [m] is the height over the surface that cuts a mesh: the wetted
+    part of which the load is taken is where it is below zero. NaN for all other bodies.
+    """
     parts = [np.concatenate([body.surface, body.above]) for body in stage.bodies]
     count = sum(map(len, parts))
     cells = np.arange(3 * count).reshape(count, 3)
@@ -63,7 +67,23 @@ def _bodies(stage: Stage, path: Path) -> Path:
         for body, part in zip(stage.bodies, parts, strict=True)
     ]
     points = (np.concatenate([p[i] for p in places]) for i in range(len(stage.time)))
-    return write(path, stage.time, points, "Polygons", list(cells), {"body": numbers})
+    heights = None
+    if stage.sea is not None and any(body.cut for body in stage.bodies):
+        heights = {"above_water": _heights(stage, stage.sea, parts)}
+    return write(path, stage.time, points, "Polygons", list(cells), {"body": numbers}, heights)
+
+
+def _heights(stage: Stage, sea: Sea, parts: list[Array]) -> Array:
+    """Heights (n, k) of the corners of all bodies above the surfaces that cut them."""
+    found = []
+    for body, part in zip(stage.bodies, parts, strict=True):
+        heights = np.full((len(stage.time), 3 * len(part)), np.nan)
+        if body.cut:
+            corners, index = np.unique(part.reshape(-1, 3), axis=0, return_inverse=True)
+            for i, places in enumerate(body.places(corners)):
+                heights[i] = sea.above(body.cut, float(stage.time[i]), places)[index.ravel()]
+        found.append(heights)
+    return np.concatenate(found, axis=1)
 
 
 def _lines(stage: Stage, path: Path) -> Path:
@@ -183,6 +203,11 @@ def _readme(stage: Stage, path: Path) -> Path:
     ]
     rows += ["", "bodies.vtkhdf, cell data 'body':"]
     rows += [f"  {i:3} {body.name}: {body.origin}" for i, body in enumerate(stage.bodies)]
+    if any(body.cut for body in stage.bodies):
+        rows += [
+            "bodies.vtkhdf, point data 'above_water' [m]: height over the surface at a mesh.",
+            "  The wetted part is below 0 (Clip), the water line at 0 (Contour).",
+        ]
     if stage.lines:
         rows += ["", "lines.vtkhdf, cell data 'line', point data 'load' [N]:"]
         rows += [f"  {i:3} {line.name} ({line.kind})" for i, line in enumerate(stage.lines)]

@@ -30,6 +30,9 @@ class Body:
     origin : str
         Where the surface is from, in words.
     moves : bool
+    cut : str
+        Surface that bounds the wetted part on which the pressure acts: "waves" or "still" (z = 0);
+        empty if the load of the body does not follow from its surface.
     """
 
     name: str
@@ -40,6 +43,7 @@ class Body:
     above: Array
     origin: str
     moves: bool
+    cut: str = ""
 
     def places(self, points: Array) -> Array:
         """World places (n, k, 3) over time of points (k, 3) of the reference pose."""
@@ -146,6 +150,11 @@ class Sea:
             along = np.cos(heading) * x + np.sin(heading) * y
             total += amplitude * np.cos(w * time - k * along + phase)
         return np.asarray(total * self.growth(time), dtype=float)
+
+    def above(self, cut: str, time: float, places: Array) -> Array:
+        """Heights (k,) [m] of places (k, 3) above the surface that cuts a body; see `Body.cut`."""
+        x, y, z = np.asarray(places, dtype=float).T
+        return np.asarray(z - self.elevation(time, x, y) if cut == "waves" else z)
 
     def elevations(self, times: Array, x: Array, y: Array) -> Array:
         """(n_times, n_places) elevations [m] at places x, y: one product of two matrices.

@@ -50,7 +50,7 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="sphere:radius=R[:x=..:y=..:z=..], cylinder:radius=R:draft=D[:top=..:x=..:y=..], "
         "box:length=L:width=W:draft=D[..], cone:radius=R:draft=D[:bottom=RADIUS..], "
         "ring:radius=R:inner=R:draft=D[..] in metres. Or revolution:profile=FILE[:x=..:y=..:z=..] "
-        "with points r z a line. Or a mesh file (STL, GDF, PNL, Nemoh, GMSH). :x=..:y=..:z=.. "
+        "with points r z a line. Or a mesh file (STL, OBJ, GDF, PNL, Nemoh, GMSH). :x=..:y=..:z=.. "
         "moves it, :mirror=y (x, xy) completes a half, :scale=0.001 is for millimetres. May be "
         "repeated",
     )

@@ -1,4 +1,4 @@
-"""Mesh files: STL, GDF of WAMIT, PNL of HAMS, Nemoh, GMSH (ASCII 2.2 and 4.1).
+"""Mesh files: STL, OBJ, GDF of WAMIT, PNL of HAMS, Nemoh, GMSH (ASCII 2.2 and 4.1).
 
 All are read into panels (n, 4, 3) [m], triangles with their last corner repeated.
 """
@@ -49,11 +49,13 @@ def read_mesh(path: str | Path) -> Array:
     first = lines[0].split() if lines else []
     if len(first) == 2 and first[0] == "2" and first[1] in ("0", "1"):
         return _nemoh(file, lines)
+    if file.suffix.lower() == ".obj":
+        return _obj(file, lines)
     if file.suffix.lower() == ".gdf":
         return _gdf(file, lines)
     if file.suffix.lower() == ".pnl":
         return _pnl(file, lines)
-    raise DatabaseError(f"{file}: expected a mesh of STL, GDF, PNL, Nemoh or GMSH")
+    raise DatabaseError(f"{file}: expected a mesh of STL, OBJ, GDF, PNL, Nemoh or GMSH")
 
 
 def triangles_of(panels: ArrayLike) -> Array:
@@ -117,6 +119,27 @@ def _stl_text(path: Path, lines: list[str]) -> Array:
     if not corners or len(corners) % 3:
         raise DatabaseError(f"{path}: {len(corners)} corners: expected three a facet")
     return _quads(np.array(corners).reshape(-1, 3, 3))
+
+
+def _obj(path: Path, lines: list[str]) -> Array:
+    """`v x y z`, and faces `f a b c ...` by the number of the vertex, negative: from the last one.
+
+    A corner may be `a/texture/normal`. More than four corners are a fan about the first one.
+    """
+    points: dict[int, list[float]] = {}
+    panels = []
+    for i, line in enumerate(lines, start=1):
+        words = line.split()
+        if words[:1] == ["v"]:
+            points[len(points) + 1] = _floats(path, i, words[1:4], 3, "v x y z")
+        elif words[:1] == ["f"]:
+            names = [word.partition("/")[0] for word in words[1:]]
+            numbers = _floats(path, i, names, max(len(names), 3), "f and three vertices or more")
+            places = [int(n) if n > 0 else len(points) + 1 + int(n) for n in numbers]
+            face = [_point(path, i, points, n) for n in places]
+            fan = [[face[0], *face[k : k + 2]] for k in range(1, len(face) - 1)]
+            panels += [face] if len(face) == 4 else fan
+    return _with_mirrored(path, panels, [])
 
 
 def _nemoh(path: Path, lines: list[str]) -> Array:

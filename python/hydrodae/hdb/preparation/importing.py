@@ -63,8 +63,8 @@ def import_database(
     hydrostatics : dict of Hydrostatics, optional
         Where the source has none, or wrong ones; waterplane moments about `reference_points`.
     meshes : dict of path, optional
-        Mesh files of the wetted hulls (STL, GDF, PNL, Nemoh, GMSH), from which the hydrostatics of
-        a body follow, where the source has none or wrong ones.
+        Mesh files of the wetted hulls (STL, OBJ, GDF, PNL, Nemoh, GMSH), from which the
+        hydrostatics of a body follow, where the source has none or wrong ones.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
     time_convention : str, optional

@@ -29,7 +29,7 @@ def write_case(
         A value does not stand by itself on a line of the file, or the copy is not the same case.
     """
     target = Path(path)
-    folder = before.directory if before.path is None else before.path.parent
+    folder = before.directory
     if target.parent.resolve() != folder.resolve():
         raise CaseError(
             f"{target}: files that the case names are relative to it: write it into {folder}"

@@ -90,7 +90,7 @@ def time_domain(
         raise CaseError(f"settle = {settle:g} s: expected 0 to end_time = {case.end_time:g} s")
     values = {key: tomllib.loads(f"x = {text}")["x"] for key, text in case.overrides.items()}
     work = partial(
-        _run_one, case.text, str(_folder(case)), values, tuple(waves), tuple(names), settle
+        _run_one, case.text, str(case.directory), values, tuple(waves), tuple(names), settle
     )
     if jobs == 1:
         runs = [work(seed) for seed in seeds]
@@ -109,10 +109,6 @@ def time_domain(
 
 def _random(wave: Mapping[str, Any]) -> bool:
     return wave["type"] not in ("regular", "measured")
-
-
-def _folder(case: Case) -> Any:
-    return case.directory if case.path is None else case.path.parent
 
 
 def _run_one(

@@ -8,6 +8,12 @@ const LIT_AT_CORNERS = `
   #ifdef PAINTED
     attribute vec4 color;
   #endif
+  #ifdef CUT
+    attribute float level;
+    varying float height;
+    varying vec4 wetFront, wetBack;
+    ${WETTED}
+  #endif
   vec4 lit(vec4 paint, vec3 n) {
     vec3 light = mix(ground, sky, 0.5 * n.z + 0.5) + sun * max(dot(n, toSun), 0.0);
     vec3 c = clamp(paint.rgb * light * 0.31830989 + emissive, 0.0, 1.0);
@@ -28,10 +34,25 @@ const LIT_AT_CORNERS = `
     gl_Position = projectionMatrix * (modelViewMatrix * place);
     n = normalize(mat3(modelMatrix) * n);
     front = lit(paint, n), back = lit(paint, -n);
+    #ifdef CUT
+      height = level;
+      paint.rgb = wetted(paint.rgb);
+      wetFront = lit(paint, n), wetBack = lit(paint, -n);
+    #endif
   }`;
 const AS_LIT = `
   varying vec4 front, back;
-  void main() { gl_FragColor = gl_FrontFacing ? front : back; }`;
+  #ifdef CUT
+    varying float height;
+    varying vec4 wetFront, wetBack;
+    ${CUT}
+  #endif
+  void main() {
+    gl_FragColor = gl_FrontFacing ? front : back;
+    #ifdef CUT
+      gl_FragColor.rgb = cut(gl_FragColor.rgb, (gl_FrontFacing ? wetFront : wetBack).rgb, height);
+    #endif
+  }`;
 
 /// Lights of the scene, shared by all plain materials; `aim` follows the sun.
 function makeLights(scene) {
@@ -70,7 +91,8 @@ class Surfaces {
     const none = { value: new L.Color(0) };
     return new L.ShaderMaterial({
       vertexShader: LIT_AT_CORNERS, fragmentShader: AS_LIT, depthTest: full.depthTest,
-      defines: full.vertexColors ? { PAINTED: 1 } : {}, forceSinglePass: true,
+      defines: { ...(full.vertexColors && { PAINTED: 1 }), ...(full.userData.cut && { CUT: 1 }) },
+      forceSinglePass: true,
       polygonOffset: full.polygonOffset, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       uniforms: { ...lights, diffuse: { value: full.color }, opacity: { value: 1 },
                   emissive: full.emissive ? { value: full.emissive } : none },

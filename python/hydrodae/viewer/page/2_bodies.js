@@ -92,10 +92,12 @@ function makeBody(body) {
   });
   const pale = material.clone();
   pale.color = colour.clone().lerp(new L.Color("white"), 0.35);
-  const parts = [[body.surface, material], [body.above, pale]];
+  const parts = [[body.surface, body.cut ? cutMaterial(material) : material], [body.above, pale]];
+  let level = () => {};
   for (const [place, paint] of parts) {
     if (place[1] === 0) continue;
     const geometry = surface(numbers(place), body.center);
+    if (body.cut) level = levels(geometry, group, body.cut);
     const mesh = new L.Mesh(geometry, paint);
     mesh.userData.name = body.name;
     const line = new L.LineBasicMaterial({ color: 0x16222b, transparent: true, opacity: 0.55 });
@@ -103,12 +105,13 @@ function makeBody(body) {
   }
   const position = numbers(body.position), orientation = numbers(body.orientation);
   const next = new L.Quaternion();
-  const place = (sample) => {
+  const place = (sample, time) => {
     for (let c = 0; c < 3; ++c) group.position.setComponent(c, between(position, 3, sample, c));
     const i = 4 * sample.at, j = Math.min(i + 4, orientation.length - 4);
     const q = orientation;
     group.quaternion.set(q[i + 1], q[i + 2], q[i + 3], q[i]);
     group.quaternion.slerp(next.set(q[j + 1], q[j + 2], q[j + 3], q[j]), sample.part);
+    level(time);
   };
   return { name: body.name, group, place, paints: [material, pale], origin: body.origin,
            kind: "body" };

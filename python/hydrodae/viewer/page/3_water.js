@@ -9,6 +9,21 @@ function growth(t) {
   return x ** 4 * (35 + x * (-84 + x * (70 - 20 * x)));
 }
 
+/// Elevation at time t by place: ramp(t) sum a cos(w t - k.x + phase).
+function elevationAt(t) {
+  const table = numbers(DATA.sea.waves), ramp = growth(t), waves = [];
+  for (let i = 0; i < table.length; i += 5) {
+    const [w, k, heading, a, phase] = table.subarray(i, i + 5);
+    waves.push(ramp * a, w * t + phase, k * Math.cos(heading), k * Math.sin(heading));
+  }
+  return (x, y) => {
+    let sum = 0;
+    for (let i = 0; i < waves.length; i += 4)
+      sum += waves[i] * Math.cos(waves[i + 1] - waves[i + 2] * x - waves[i + 3] * y);
+    return sum;
+  };
+}
+
 /// Elevations on a grid: ramp(t) sum a cos(w t - k.x + phase), by products of factors in x and y.
 class Waves {
   constructor(xs, ys) {
@@ -155,8 +170,7 @@ function makeWater() {
       }
     position.needsUpdate = normal.needsUpdate = color.needsUpdate = true;
   };
-  const elevation = (t, x, y) => new Waves([x], [y]).at(t)[0];
-  return { mesh, net, place, elevation };
+  return { mesh, net, place };
 }
 
 function makeBed() {

@@ -34,7 +34,7 @@ class Curves {
       { label: curve.label, stroke: INKS[i % INKS.length], width: 1.5,
         points: { show: TIME.length < 2 } }));
     const plot = new L.uPlot({
-      title, width: 376, height: 150, series: [{ label: "t" }, ...series],
+      title, width: Math.min(376, holder.clientWidth), height: 150, series: [{ label: "t" }, ...series],
       scales: { x: { time: false } }, legend: { show: curves.length > 1, live: false },
       cursor: { drag: { x: false } },
       axes: [{ size: 24 }, { size: 58, values: (_, ticks) => ticks.map(short) }],

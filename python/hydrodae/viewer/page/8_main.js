@@ -100,7 +100,7 @@ function draw(level = player.playing ? bare : 0) {
   if (wanted !== ratio) renderer.setPixelRatio((ratio = wanted));
   showDetails(level);
   const sample = sampleAt(player.time);
-  bodies.forEach((body) => body.place(sample));
+  bodies.forEach((body) => body.place(sample, player.time));
   const pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / window.innerHeight;
   lines.place(sample, camera, pixel);
   spots.forEach((spot) => spot.place(sample, camera, pixel));
@@ -240,7 +240,7 @@ window.hydrodae = {
   times: TIME, player, look, redraw,
   show(time, level) { player.toggle(false), player.seek(time), draw(level), (dirty = false); },
   pick: (name) => pick(thing(name)),
-  elevation: (t, x, y) => water.elevation(t, x, y),
+  elevation: (t, x, y) => elevationAt(t)(x, y),
   place: (name) => bodies.find((body) => body.name === name).group.position.toArray(),
   resolution: () => ratio,
   leftOut: () => bare,
