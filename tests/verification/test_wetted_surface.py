@@ -259,7 +259,7 @@ def test_an_element_inside_the_mesh_leaves_the_waves_to_it(tmp_path: Path) -> No
         text = path.read_text().replace('"heave"', '"fixed"').replace("ramp = 30.0", "ramp = 2.0")
         path.write_text(text + ELEMENT)
         results = hydrodae.run(path)
-        forces.append({k: results[f"forces/{k}/force"].values for k in ("inside", "beside")})
+        forces.append({k: results[f"forces/{k}/sphere/force"].values for k in ("inside", "beside")})
         assert ("lies inside the mesh" in str(results.notes)) == bool(more)
     assert np.abs(forces[1]["inside"]).max() > 100.0
     np.testing.assert_allclose(forces[0]["inside"], 0.2 * forces[1]["inside"], atol=1e-6)

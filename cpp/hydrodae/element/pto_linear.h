@@ -50,7 +50,7 @@ struct PtoLinear {
   /// A program may change them while it runs.
   static std::vector<Signal> inputs() {
     return {{"damping", "N s/m or N m s/rad", 0.0},
-            {"stiffness", "N/m or N m/rad", 0.0},
+            {"stiffness", "N/m or N m/rad"},
             {"neutral", "m or rad"},
             {"load", "N or N m"}};
   }
@@ -64,7 +64,8 @@ struct PtoLinear {
          "Which coordinate of the joint: displacement, angle, angle_2, ...; default: its only "
          "one."},
         {"damping", &P::damping, "N s/m or N m s/rad", "Damping c.", false, at_least(0)},
-        {"stiffness", &P::stiffness, "N/m or N m/rad", "Stiffness k.", false, at_least(0)},
+        {"stiffness", &P::stiffness, "N/m or N m/rad",
+         "Stiffness k; negative: it pushes away from `neutral`, as reactive control does."},
         {"neutral", &P::neutral, "m or rad", "Joint coordinate s0 at which the spring is slack."},
         {"delay", &P::delay, "s",
          "Pure delay tau of damper and spring: they act on the coordinate as it was tau ago.",
