@@ -1,6 +1,6 @@
 """Dynamic lines against closed forms and equations of as many masses, written here anew.
 
-Every clone runs them; test_lines.py and test_lines_in_motion.py compare with reference data.
+Every clone runs them; the other files of lines compare with reference data as well.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from tests.verification.test_lines import IDLE, case, frequencies, line
+from tests.verification.line_scenes import IDLE, case, frequencies, line
 from tests.verification.test_lines_in_motion import moved
 
 import hydrodae

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
-from tests.verification.test_lines import IDLE, case, line
+from tests.verification.line_scenes import IDLE, case, line
 
 import hydrodae
 from hydrodae._core import State
