@@ -41,3 +41,9 @@ def rm3_planar(rm3: Path, reference: Path) -> Path:
 
     prepare_planar(reference, rm3 / "hydro.h5")
     return rm3
+
+
+@pytest.fixture(params=[2, 3])
+def fmi(request: pytest.FixtureRequest) -> int:
+    """Versions of FMI."""
+    return int(request.param)
