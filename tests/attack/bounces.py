@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
-from tests.attack.drives import functions, motion
+from tests.attack.drives import Motion, functions, motion
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import (
     GRAVITY,
@@ -74,6 +74,23 @@ def falling_ball(height: float, restitution: float, mass: float, kind: str | Non
     return beside(scene, kind)
 
 
+def _moved(f: Motion, amplitude: float, period: float, **more: Any) -> truth.Truth:
+    """Return the flights of a body from rest between walls that follow f."""
+
+    def wall(t: float) -> tuple[float, float, float]:
+        value, rate, change = f(t)
+        return float(value), float(rate), float(change)
+
+    solved = truth.walls(
+        wall=wall,
+        start=(0.0, 0.0),
+        finest=period / 400.0,
+        speed=2.0 * np.pi * amplitude / period,
+        **more,
+    )
+    return lambda t: np.column_stack([f(t)[0], solved(t)])
+
+
 def _draw_table(g: np.random.Generator) -> dict[str, Any]:
     return dict(
         how=("sine", "python", "table")[g.integers(3)],
@@ -100,19 +117,8 @@ def shaken_table(
     end = 5.0 * period
     f, drive = motion(how, amplitude, period, end)
 
-    def wall(t: float) -> tuple[float, float, float]:
-        value, rate, change = f(t)
-        return float(value), float(rate), float(change)
-
-    solved = truth.walls(
-        wall=wall,
-        lower=-height,
-        upper=np.inf,
-        restitution=restitution,
-        start=(0.0, 0.0),
-        gravity=GRAVITY,
-        finest=period / 400.0,
-        speed=amplitude * w,
+    exact = _moved(
+        f, amplitude, period, lower=-height, upper=np.inf, restitution=restitution, gravity=GRAVITY
     )
     bodies = [body("table", "heave", 10.0), body("ball", "heave", 1.0, [0.0, 0.0, height])]
     tables = case(
@@ -131,7 +137,7 @@ def shaken_table(
         size=amplitude,
         time_scale=1.0 / w,
         source="closed flights",
-        truth=lambda t: np.column_stack([f(t)[0], solved(t)]),
+        truth=exact,
         measured=both(position("table", 2), position("ball", 2, origin=[0.0, 0.0, height])),
         drives=functions("motor", how, f),
     )
@@ -166,19 +172,8 @@ def driven_box(
     end = 4.0 * period
     f, drive = motion(how, amplitude, period, end)
 
-    def wall(t: float) -> tuple[float, float, float]:
-        value, rate, change = f(t)
-        return float(value), float(rate), float(change)
-
-    solved = truth.walls(
-        wall=wall,
-        lower=-room,
-        upper=room,
-        restitution=restitution,
-        start=(0.0, 0.0),
-        gravity=0.0,
-        finest=period / 400.0,
-        speed=amplitude * w,
+    exact = _moved(
+        f, amplitude, period, lower=-room, upper=room, restitution=restitution, gravity=0.0
     )
     tables = case(
         [body("box", "surge", 10.0), body("block", "surge", 1.0)],
@@ -196,7 +191,7 @@ def driven_box(
         size=amplitude,
         time_scale=1.0 / w,
         source="closed flights",
-        truth=lambda t: np.column_stack([f(t)[0], solved(t)]),
+        truth=exact,
         measured=both(position("box", 0), position("block", 0)),
         drives=functions("motor", how, f),
     )

@@ -17,6 +17,7 @@ from tests.attack.parts import (
     case,
     joint,
     position,
+    stop,
 )
 
 from hydrodae.study.stability import Scene
@@ -213,9 +214,7 @@ def coast_to_stop(
         [body("slider", "surge", mass, velocity=[speed, 0.0, 0.0])],
         end,
         joints=[joint("guide", "prismatic", "ground", "slider", axis=X)],
-        constraints=[
-            dict(name="stop", type="stop", joint="guide", upper=way, restitution=restitution)
-        ],
+        constraints=[stop("stop", "guide", restitution, upper=way)],
     )
     scene = unnamed(
         title="a slider that coasts into a stop",

@@ -16,6 +16,32 @@ from hydrodae.study.stability import Scene
 KIND = "moorings"
 
 
+def _segments(x: Any, v: Any) -> tuple[Any, Any, Any]:
+    """Lengths (n,), their rates and directions (n, 2) of the segments between nodes (n + 1, 2)."""
+    d = np.diff(x, axis=0)
+    size = np.linalg.norm(d, axis=1)
+    e = d / size[:, None]
+    return size, np.sum(e * np.diff(v, axis=0), axis=1), e
+
+
+def _line(
+    body_b: str, a: Any, b: Any, length: float, n: int, heavy: float, stiff: float, inner: float
+) -> dict[str, Any]:
+    """Return the force; `stiff` counts in the weight of the line, `inner` also in sqrt(l / g)."""
+    return dict(
+        type="line",
+        name="line",
+        body_b=body_b,
+        point_a=a,
+        point_b=b,
+        length=[length],
+        segments=[n],
+        mass=[heavy / length],
+        stiffness=[stiff * heavy * GRAVITY],
+        damping=[inner * heavy * GRAVITY * float(np.sqrt(length / GRAVITY))],
+    )
+
+
 def _draw_line(g: np.random.Generator) -> dict[str, Any]:
     return dict(
         length=log_uniform(g, 0.01, 100.0),
@@ -65,18 +91,12 @@ def hanging_line(
     c_d, c_a = 1.2, 1.0
     across = 0.5 * density * c_d * diameter * length**2 / heavy * part if wet else 0.0
 
-    def tensions(x: Any, v: Any) -> tuple[Any, Any]:
-        d, dv = np.diff(x, axis=0), np.diff(v, axis=0)
-        size = np.linalg.norm(d, axis=1)
-        e = d / size[:, None]
-        rate = np.sum(e * dv, axis=1)
-        return (stiff * (size - part) / part + inner * rate / part)[:, None] * e, e
-
     def rates(_t: float, y: Any) -> Any:
         moving = y.reshape(2, n, 2)
         x = np.vstack([[0.0, 0.0], moving[0]])
         v = np.vstack([[0.0, 0.0], moving[1]])
-        pull, _ = tensions(x, v)
+        size, rate, e = _segments(x, v)
+        pull = (stiff * (size - part) / part + inner * rate / part)[:, None] * e
         force = np.zeros((n + 1, 2))
         force[:-1] += pull
         force[1:] -= pull
@@ -116,18 +136,7 @@ def hanging_line(
     )
     sink = 10.0 * length if wet else 0.0
     top, bob = [0.0, 0.0, -sink], [0.0, 0.0, -sink - rest[-1] * length]
-    line: dict[str, Any] = dict(
-        type="line",
-        name="line",
-        body_b="bob",
-        point_a=top,
-        point_b=bob,
-        length=[length],
-        segments=[n],
-        mass=[heavy / length],
-        stiffness=[stiff * heavy * GRAVITY],
-        damping=[inner * heavy * GRAVITY * tau],
-    )
+    line = _line("bob", top, bob, length, n, heavy, stiff, inner)
     tables = case(
         [
             body(
@@ -204,10 +213,7 @@ def shaken_line(
     inner = 0.02 * part * np.sqrt(stiff)
 
     def pulls(x: Any, v: Any, taut: bool) -> Any:
-        d, dv = np.diff(x, axis=0), np.diff(v, axis=0)
-        size = np.linalg.norm(d, axis=1)
-        e = d / size[:, None]
-        change = np.sum(e * dv, axis=1)
+        size, change, e = _segments(x, v)
         if taut:
             return (stiff * (size - part) / part)[:, None] * e
         bend = part * stretch  # half the strain in which tension sets in: of a segment's weight
@@ -254,25 +260,15 @@ def shaken_line(
         rtol=1e-10,
         longest=0.02,
     )
-    line = dict(
-        type="line",
-        name="line",
-        body_b="top",
-        point_a=[0.0, 0.0, 0.0],
-        point_b=[span * length, 0.0, 0.0],
-        length=[length],
-        segments=[n],
-        mass=[heavy / length],
-        stiffness=[stiff * heavy * GRAVITY],
-        damping=[inner * heavy * GRAVITY * tau],
-    )
+    top = [span * length, 0.0, 0.0]
+    line = _line("top", [0.0, 0.0, 0.0], top, length, n, heavy, stiff, inner)
     tables = case(
         [
             body(
                 "top",
                 ["surge"],
                 heavy,
-                [span * length, 0.0, 0.0],
+                top,
                 velocity=[amplitude * rate * length / tau, 0.0, 0.0],
             )
         ],

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.optimize import root
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
 from tests.attack.parts import GRAVITY, beside, body, both, case, position
@@ -179,9 +181,6 @@ def catenary_pair(
 
     `mass` and `stiff` count in weights of a line over g, and in its weight.
     """
-    from scipy.interpolate import CubicSpline
-    from scipy.optimize import root
-
     rise, reach = 0.4, 0.85
 
     def pull(span: float, guess: Any) -> Any:
