@@ -10,7 +10,6 @@ import pytest
 from scipy.linalg import toeplitz
 from tests.python.decay_record import CHANNEL, FREE, START, TEXT, TIME, TRUTH, Array, motion, record
 from tests.verification import line_scenes as lines
-from tests.verification.test_lines_in_motion import BAR, PERIOD, ROUND
 
 import hydrodae
 from hydrodae.case import Case
@@ -232,15 +231,8 @@ def test_drag_of_a_chain_from_half_of_its_record_predicts_the_other_half(
     """
     file = reference / "chain_tension" / "tension_3.5s.csv"
     time, tension = np.loadtxt(file, delimiter=",", skiprows=1).T[:, ::4]
-    keys = (
-        'body_b = "top"\npoint_a = [0.0, 0.0, -3.0]\npoint_b = [32.554, 0.0, 0.3]\n'
-        "length = [33.0]\nsegments = [20]\nmass = [0.0818]\ndiameter = [0.003654]\n"
-        "stiffness = [1e4]\ndamping = [2.0]\ndrag = [2.4]\ndrag_axial = [0.5]\n"
-        f"added_mass = [3.8]\ncontact_diameter = [{3.35 * BAR}]\nseabed_stiffness = 3e6\n"
-        "seabed_damping = 1e4\nseabed_friction = 0.3"
-    )
-    chain = lines.case(ROUND + lines.line(keys), "end_time = 28.0\nrtol = 1e-4", 0.01)
-    late = 2.0 * PERIOD + 2.945
+    chain = lines.case(lines.round_chain(20, 2.4, 0.5), "end_time = 28.0\nrtol = 1e-4", 0.01)
+    late = 2.0 * lines.PERIOD + 2.945
     halves = [
         Record(
             name,

@@ -19,6 +19,7 @@ from tests.verification.line_scenes import (
     frequencies,
     line,
     moving,
+    span,
 )
 
 import hydrodae
@@ -29,10 +30,7 @@ def test_the_static_shape_tends_to_the_catenary_as_h_squared() -> None:
     exact = hydrodae.catenary(80.0, 30.0, 100.0, 98.1, 1e6, seabed=False)
     errors = []
     for n in (20, 40, 80):
-        keys = (
-            "point_a = [0.0, 0.0, 0.0]\npoint_b = [80.0, 0.0, 30.0]\nlength = [100.0]\n"
-            f"segments = [{n}]\nmass = [10.0]\nstiffness = [1e6]"
-        )
+        keys = span([80.0, 0.0, 30.0], 100.0, n, 10.0, 1e6)
         errors.append(float(at_rest(IDLE + line(keys), "forces/line/tension")) / exact.tension - 1)
     assert abs(errors[-1]) < 3e-5
     assert np.diff(np.log2(np.abs(errors))) == pytest.approx([-2.0, -2.0], abs=0.05)
@@ -41,11 +39,7 @@ def test_the_static_shape_tends_to_the_catenary_as_h_squared() -> None:
 def test_frequencies_of_sagging_cables_of_as_many_masses(reference: Path) -> None:
     cases = json.loads((reference / "rope" / "cable_frequencies.json").read_text())["cases"]
     for c in cases:
-        keys = (
-            f"point_a = [0.0, 0.0, 0.0]\npoint_b = [{c['X']}, 0.0, {c['Z']}]\n"
-            f"length = [{c['L0']}]\nsegments = [50]\nmass = [{c['mu']}]\nstiffness = [{c['EA']}]"
-        )
-        inside, across = frequencies(keys)
+        inside, across = frequencies(span([c["X"], 0.0, c["Z"]], c["L0"], 50, c["mu"], c["EA"]))
         lumped = c["lumped"]["50"]
         assert inside[:6] == pytest.approx(lumped["inplane"], rel=2e-6), c["name"]
         assert across[:6] == pytest.approx(lumped["out_of_plane"], rel=2e-6), c["name"]
@@ -53,21 +47,13 @@ def test_frequencies_of_sagging_cables_of_as_many_masses(reference: Path) -> Non
 
 def test_frequencies_of_a_hanging_chain_of_as_many_masses(reference: Path) -> None:
     d = json.loads((reference / "rope" / "hanging_chain.json").read_text())
-    keys = (
-        "point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [5.0]\nsegments = [20]\n"
-        "mass = [2.0]\nstiffness = [1e8]"
-    )
-    _, across = frequencies(keys)
+    _, across = frequencies(span(None, 5.0, 20, 2.0, 1e8))
     assert across[:6] == pytest.approx(d["discrete_lumped"]["20"], rel=2e-6)
 
 
 def test_frequencies_of_a_taut_string_of_as_many_masses(reference: Path) -> None:
     d = json.loads((reference / "rope" / "taut_string.json").read_text())
-    keys = (
-        "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\n"
-        f"length = [{d['L0_unstretched']!r}]\nsegments = [20]\n"
-        f"mass = [{d['mu0_unstretched']!r}]\nstiffness = [{d['EA']!r}]"
-    )
+    keys = span([10.0, 0.0, 0.0], d["L0_unstretched"], 20, d["mu0_unstretched"], d["EA"])
     _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
     assert across[:8] == pytest.approx(d["transverse_omega_lumped"]["20"], rel=1e-9)
 
@@ -76,10 +62,7 @@ def test_a_stiff_line_bends_as_a_beam() -> None:
     """Simply supported: omega = (n pi / L)^2 sqrt(EI / m), and with the error of h^2."""
     errors = []
     for n in (20, 40):
-        keys = (
-            "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\nlength = [10.0]\n"
-            f"segments = [{n}]\nmass = [3.0]\nstiffness = [1e4]\nbending_stiffness = [5e3]"
-        )
+        keys = span([10.0, 0.0, 0.0], 10.0, n, 3.0, 1e4, "bending_stiffness = [5e3]")
         _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
         exact = (np.arange(1, 4) * math.pi / 10.0) ** 2 * math.sqrt(5e3 / 3.0)
         errors.append(across[:3] / exact - 1.0)
@@ -108,10 +91,7 @@ points = [[0.0, 0.0, 0.0], [0.0, 0.0, -10.0]]
 stiffness = 2e5
 length = 10.0
 """
-    keys = (
-        'body_b = "weight"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [0.0, 0.0, -10.0]\n'
-        "length = [10.0]\nsegments = [5]\nmass = [0.001]\nstiffness = [2e5]"
-    )
+    keys = span([0.0, 0.0, -10.0], 10.0, 5, 0.001, 2e5, 'body_b = "weight"')
     options = 'end_time = 3.0\nmethod = "radau"\nrtol = 1e-6'
     a, b = (
         hydrodae.run(case(HANGING + force, options, 0.05))["bodies/weight/position"].values[:, 2]
@@ -200,11 +180,8 @@ def test_the_damping_of_slack_segments(damped_slack: bool) -> None:
     """Against the same law with a hard onset; the other law is far from it."""
     text = "environment.gravity = 0.0\n"
     text += driven("end", "surge", 1.0, [SNAP_L, 0.0, 0.0], amplitude=SNAP_A, period=SNAP_T)
-    keys = (
-        f'body_b = "end"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [{SNAP_L}, 0.0, 0.0]\n'
-        f"length = [{SNAP_L}]\nsegments = [{SNAP_N}]\nmass = [{SNAP_M}]\n"
-        f"stiffness = [{SNAP_EA}]\ndamping = [{SNAP_C}]\ndamps_slack = {str(damped_slack).lower()}"
-    )
+    more = f'body_b = "end"\ndamping = [{SNAP_C}]\ndamps_slack = {str(damped_slack).lower()}'
+    keys = span([SNAP_L, 0.0, 0.0], SNAP_L, SNAP_N, SNAP_M, SNAP_EA, more)
     run = hydrodae.run(case(text + line(keys), "end_time = 2.0\nrtol = 1e-5", 0.005))
     found = run["forces/line/tension_along"].values[:, -1]
     theirs, others = snap(damped_slack), snap(not damped_slack)
