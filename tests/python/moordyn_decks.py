@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -77,6 +78,13 @@ Line LineType UnstrLen NumSegs NodeAnch NodeFair Flags/Outputs
 FairTen1
 END
 """
+
+
+def written(folder: Path, text: str) -> Path:
+    """Write an input file."""
+    path = folder / "lines.txt"
+    path.write_text(text)
+    return path
 
 
 def tables(text: str) -> dict[str, list[dict[str, Any]]]:

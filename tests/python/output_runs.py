@@ -38,6 +38,13 @@ pretension = [0, 0, 98.1, 0, 0, 0]
     return text + f"\n[solver]\nend_time = {end_time}\n\n[output]\nstep = {step}\n"
 
 
+def spring_case(folder: Path) -> Path:
+    """A case of four seconds."""
+    path = folder / "spring.toml"
+    path.write_text(springs(1, 4.0, 0.5))
+    return path
+
+
 def run_child(
     case: Path, output: Path, progress: str = "None", log: Path | None = None
 ) -> subprocess.Popen[str]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+from tests.verification.point_absorbers import Table
 
 # Each resonance is r s / (s^2 + 2 a s + w0^2) v v^T: a damped cosine, passive, zero at s = 0.
 RESONANCES = (
@@ -14,16 +13,6 @@ RESONANCES = (
 )
 ADDED_MASS_INF = np.array([[5.0e4, 1.0e3, 2.0e4], [1.0e3, 3.0e4, 0.0], [2.0e4, 0.0, 9.0e5]])
 LABELS = ("float.surge", "float.heave", "float.pitch")
-
-
-@dataclass
-class Table:
-    """A database as `fit_memory` reads it."""
-
-    coordinates: tuple[str, ...]
-    omega: np.ndarray
-    added_mass: np.ndarray
-    radiation_damping: np.ndarray
 
 
 def exact_transfer(omega: np.ndarray) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from hydrodae.hdb.database import HydroDatabase
@@ -61,3 +63,11 @@ def make_database(names: tuple[str, ...] = ("float.surge", "float.heave", "float
         gravity=9.81,
         memory={"heave": fit},
     )
+
+
+def write_case(folder: Path) -> Path:
+    """The case with its database."""
+    make_database().write(folder / "hydro.h5")
+    path = folder / "case.toml"
+    path.write_text(CASE)
+    return path

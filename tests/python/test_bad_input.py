@@ -8,7 +8,7 @@ from pathlib import Path
 
 import h5py
 import pytest
-from tests.python.small_database import CASE, make_database
+from tests.python.small_database import CASE, write_case
 
 from hydrodae import _core
 from hydrodae.errors import CaseError
@@ -16,11 +16,7 @@ from hydrodae.errors import CaseError
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """The buoy case with its database."""
-    make_database().write(tmp_path / "hydro.h5")
-    path = tmp_path / "case.toml"
-    path.write_text(CASE)
-    return path
+    return write_case(tmp_path)
 
 
 def message(case: Path, overrides: dict[str, str] | None = None) -> str:

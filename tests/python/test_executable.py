@@ -9,18 +9,14 @@ from pathlib import Path
 
 import h5py
 import pytest
-from tests.python.small_database import CASE, make_database
+from tests.python.small_database import CASE, write_case
 
 from hydrodae import _core
 
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """The buoy case with its database."""
-    make_database().write(tmp_path / "hydro.h5")
-    path = tmp_path / "case.toml"
-    path.write_text(CASE)
-    return path
+    return write_case(tmp_path)
 
 
 def solve(executable: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:

@@ -11,17 +11,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.output_runs import springs
+from tests.python.output_runs import spring_case, springs
 
 from hydrodae.results import Results, partial_path
 
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """A case of four seconds."""
-    path = tmp_path / "spring.toml"
-    path.write_text(springs(1, 4.0, 0.5))
-    return path
+    return spring_case(tmp_path)
 
 
 def limited(kilobytes: int) -> Callable[[], None]:

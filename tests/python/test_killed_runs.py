@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from tests.python.output_runs import run_child, springs, wait_for
+from tests.python.output_runs import run_child, spring_case, springs, wait_for
 
 import hydrodae
 from hydrodae.commands import cli
@@ -19,10 +19,7 @@ from hydrodae.results import Results, ResultsError, ResultsWarning, partial_path
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """A case of four seconds."""
-    path = tmp_path / "spring.toml"
-    path.write_text(springs(1, 4.0, 0.5))
-    return path
+    return spring_case(tmp_path)
 
 
 def killed_runs(tmp_path: Path, kills: int, longest: float) -> None:

@@ -13,11 +13,11 @@ from tests.python.resonances import (
     ADDED_MASS_INF,
     LABELS,
     RESONANCES,
-    Table,
     exact_kernel,
     exact_transfer,
     table,
 )
+from tests.verification.point_absorbers import Table
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.memory import ExponentialMemory, MemoryFitWarning, fit_memory

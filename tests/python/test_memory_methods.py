@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.python.resonances import LABELS, Table, exact_transfer, table
+from tests.python.resonances import LABELS, exact_transfer, table
+from tests.verification.point_absorbers import Table
 
 from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
 from hydrodae.hdb.memory import data as prepare

@@ -7,7 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.moordyn_decks import BRIDLE, LAZY, LOWE_LANGLEY, OLD, PLATFORM, RM3, held, tables
+from tests.python.moordyn_decks import (
+    BRIDLE,
+    LAZY,
+    LOWE_LANGLEY,
+    OLD,
+    PLATFORM,
+    RM3,
+    held,
+    tables,
+    written,
+)
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -17,8 +27,7 @@ from hydrodae.errors import CaseError
 def test_lines_in_series_become_one_force(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    deck = tmp_path / "lines.txt"
-    deck.write_text(RM3)
+    deck = written(tmp_path, RM3)
     out = tmp_path / "moorings.toml"
     assert main(["mooring", "import", str(deck), "--body", "1=spar", "-o", str(out)]) == 0
     found = tables(out.read_text())
@@ -55,8 +64,7 @@ def test_tensions_of_orcaflex(
     tmp_path: Path, x: float, z: float, length: float, fairlead: float, anchor: float
 ) -> None:
     """WD0050, WD0200, WD0600: static tensions [kN] that MoorDyn states; on its elastic bed."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(OLD.format(x=x, z=z, length=length, depth=-z))
+    deck = written(tmp_path, OLD.format(x=x, z=z, length=length, depth=-z))
     (force,) = hydrodae.mooring.read_moordyn(deck).forces
     assert force["body_b"] == "platform"
     line = held(force)
@@ -67,8 +75,7 @@ def test_tensions_of_orcaflex(
 @pytest.mark.parametrize("heading", [0, 1])
 def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> None:
     """At rest as its own quasi-static table; with the damping, drag and bed of the file."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(RM3)
+    deck = written(tmp_path, RM3)
     out = tmp_path / "moorings.toml"
     arguments = ["mooring", "import", str(deck), "--type", "line", "--body", "1=spar"]
     assert main([*arguments, "-o", str(out)]) == 0
@@ -96,21 +103,19 @@ def test_dynamic_lines_hold_what_the_file_says(tmp_path: Path, heading: int) -> 
 
 
 def test_a_force_on_a_point_of_a_dynamic_line_is_refused(tmp_path: Path) -> None:
-    deck = tmp_path / "lines.txt"
     old = OLD.format(x=400.0, z=-50.0, length=205.0, depth=50.0)
     pushed = "3 Connect 200 0 -50 0 0 0 0 10 0 0\n"
     old = old.replace("(kN)", "(N)").replace(
         "---------------------- LINE PROP", pushed + "--- LINE PROP"
     )
-    deck.write_text(old.replace("205.0 41 2 1 p", "205.0 41 2 3 p\n2 main 205.0 41 3 1 p"))
+    deck = written(tmp_path, old.replace("205.0 41 2 1 p", "205.0 41 2 3 p\n2 main 205.0 41 3 1 p"))
     with pytest.raises(CaseError, match=r"point 3: its force is not carried over.*--type catenary"):
         hydrodae.mooring.read_moordyn(deck, type="line")
 
 
 def test_jumper_of_lowe_and_langley(tmp_path: Path) -> None:
     """Forces at both ends [kN]: the bar of MoorDyn's own test is 0.2 kN."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(LOWE_LANGLEY)
+    deck = written(tmp_path, LOWE_LANGLEY)
     imported = hydrodae.mooring.read_moordyn(deck)
     (force,) = imported.forces
     assert force["seabed"] is False
@@ -123,8 +128,7 @@ def test_jumper_of_lowe_and_langley(tmp_path: Path) -> None:
 
 
 def test_a_bridle_has_a_point_mass_in_balance(tmp_path: Path) -> None:
-    deck = tmp_path / "lines.txt"
-    deck.write_text(BRIDLE)
+    deck = written(tmp_path, BRIDLE)
     imported = hydrodae.mooring.read_moordyn(deck)
     assert [body["name"] for body in imported.bodies] == ["point2"]
     # Half of a segment of each line: (10 + 8 + 8) m / 2 of 200 kg/m.
@@ -145,8 +149,7 @@ def test_a_bridle_has_a_point_mass_in_balance(tmp_path: Path) -> None:
 
 def test_a_line_with_a_floating_part_keeps_its_seabed(tmp_path: Path) -> None:
     """At rest as the dynamic line, whose seabed is its own, within what 160 segments leave."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(LAZY)
+    deck = written(tmp_path, LAZY)
     (force,) = hydrodae.mooring.read_moordyn(deck).forces
     assert "seabed" not in force
     line = held(force)
@@ -174,9 +177,8 @@ def test_a_line_with_a_floating_part_keeps_its_seabed(tmp_path: Path) -> None:
 def test_a_line_at_rest_that_would_lose_its_seabed_is_refused(
     tmp_path: Path, change: tuple[str, str], message: str
 ) -> None:
-    deck = tmp_path / "lines.txt"
     assert change[0] in LAZY
-    deck.write_text(LAZY.replace(*change))
+    deck = written(tmp_path, LAZY.replace(*change))
     with pytest.raises(CaseError, match=message):
         hydrodae.mooring.read_moordyn(deck)
     hydrodae.mooring.read_moordyn(deck, type="line")
@@ -184,8 +186,7 @@ def test_a_line_at_rest_that_would_lose_its_seabed_is_refused(
 
 def test_the_water_of_the_lines_is_that_of_the_file(tmp_path: Path) -> None:
     """1000 kg/m3 beside 1025 of the case: the tension is that of the file, and check says so."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(LAZY)
+    deck = written(tmp_path, LAZY)
     tensions = []
     for density in (1000.0, 1025.0):
         text = PLATFORM.replace("1025.0", f"{density}\nwater_depth = 301.0")
@@ -204,8 +205,7 @@ def test_the_water_of_the_lines_is_that_of_the_file(tmp_path: Path) -> None:
 
 
 def test_dynamic_lines_get_the_damping_of_moordyn_and_say_so(tmp_path: Path) -> None:
-    deck = tmp_path / "lines.txt"
-    deck.write_text(RM3)
+    deck = written(tmp_path, RM3)
     imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="line")
     assert all(force["damps_slack"] and force["seabed_damps_up"] for force in imported.forces)
     assert any("damps_slack" in note and "seabed_damps_up" in note for note in imported.notes)

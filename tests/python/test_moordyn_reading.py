@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from tests.python.moordyn_decks import RM3, tables
+from tests.python.moordyn_decks import RM3, tables, written
 
 import hydrodae
 from hydrodae.commands.cli import main
@@ -45,9 +45,8 @@ from hydrodae.errors import CaseError
     ],
 )
 def test_what_cannot_be_read_is_said(tmp_path: Path, change: tuple[str, str], message: str) -> None:
-    deck = tmp_path / "lines.txt"
     assert change[0] in RM3
-    deck.write_text(RM3.replace(*change, 1))
+    deck = written(tmp_path, RM3.replace(*change, 1))
     with pytest.raises(CaseError, match=message):
         hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"})
 
@@ -78,8 +77,7 @@ def test_columns_go_by_their_names(tmp_path: Path, order: str) -> None:
     names, row = ORDERS[order]
     lines = RM3.splitlines()
     lines[3:6] = [names, " ".join(["(-)"] * len(names.split())), row + "  # a comment"]
-    deck = tmp_path / "lines.txt"
-    deck.write_text("\n".join(lines))
+    deck = written(tmp_path, "\n".join(lines))
     imported = hydrodae.mooring.read_moordyn(deck, bodies={"1": "spar"}, type="line")
     force = imported.forces[0]
     assert (force["drag"], force["drag_axial"]) == ([1.6, 1.6], [0.05, 0.05])
@@ -132,8 +130,7 @@ def test_a_place_for_what_no_line_ends_at_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Lines of bodies do not hear a place of coupled points."""
-    deck = tmp_path / "lines.txt"
-    deck.write_text(RM3)
+    deck = written(tmp_path, RM3)
     assert main(["mooring", "import", str(deck), "--body", "1=spar", "--at", "0,0,2"]) == 2
     assert (
         "coupled points, but no line ends there; there is --at 1=X,Y,Z" in capsys.readouterr().err
@@ -141,7 +138,6 @@ def test_a_place_for_what_no_line_ends_at_is_refused(
 
 
 def test_a_body_of_the_file_needs_one_of_the_case(tmp_path: Path) -> None:
-    deck = tmp_path / "lines.txt"
-    deck.write_text(RM3)
+    deck = written(tmp_path, RM3)
     with pytest.raises(CaseError, match=r"body 1: which body of the case.*--body 1=NAME"):
         hydrodae.mooring.read_moordyn(deck)

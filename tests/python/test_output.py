@@ -9,7 +9,7 @@ from pathlib import Path
 
 import h5py
 import pytest
-from tests.python.output_runs import refused, run_child, springs, wait_for
+from tests.python.output_runs import refused, run_child, spring_case, wait_for
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
@@ -18,10 +18,7 @@ from hydrodae.results import Results, ResultsWarning, partial_path
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """A case of four seconds."""
-    path = tmp_path / "spring.toml"
-    path.write_text(springs(1, 4.0, 0.5))
-    return path
+    return spring_case(tmp_path)
 
 
 @pytest.mark.parametrize("way", ["run", "cli", "solve"])
