@@ -8,17 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    GRAVITY,
-    X,
-    beside,
-    body,
-    both,
-    case,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.parts import GRAVITY, X, beside, body, both, case, joint, position, stop
 
 from hydrodae.study.stability import Scene
 

@@ -9,12 +9,7 @@ import numpy as np
 from tests.attack import truth
 from tests.attack.bars import SOURCE, Chain
 from tests.attack.family import chosen, family, log_uniform, unnamed
-from tests.attack.parts import (
-    Array,
-    both,
-    case,
-    driven,
-)
+from tests.attack.parts import Array, both, case, driven
 
 from hydrodae.study.stability import Scene
 

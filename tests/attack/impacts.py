@@ -7,18 +7,7 @@ from typing import Any
 import numpy as np
 from tests.attack import sea, truth
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    DOWN_Y,
-    GRAVITY,
-    X,
-    Z,
-    beside,
-    body,
-    case,
-    joint,
-    position,
-    stop,
-)
+from tests.attack.parts import DOWN_Y, GRAVITY, X, Z, beside, body, case, joint, position, stop
 
 from hydrodae.study.stability import Scene
 

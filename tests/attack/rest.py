@@ -9,17 +9,7 @@ from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.parts import (
-    GRAVITY,
-    beside,
-    body,
-    both,
-    case,
-    driven,
-    joint,
-    position,
-    spring,
-)
+from tests.attack.parts import GRAVITY, beside, body, both, case, driven, joint, position, spring
 
 from hydrodae.study.stability import Scene
 

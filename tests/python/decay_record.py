@@ -9,10 +9,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from tests.scenes import cart
 
-from hydrodae.study.calibrate import (
-    Free,
-    Record,
-)
+from hydrodae.study.calibrate import Free, Record
 
 CHANNEL = "joints/slide/displacement"
 WATER = """

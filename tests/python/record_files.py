@@ -16,6 +16,12 @@ def written(folder: Path, text: str, encoding: str = "utf-8") -> Path:
     return path
 
 
+def table(header: str, *columns) -> str:
+    """Return columns between commas, below a header."""
+    rows = [",".join(f"{x:.12g}" for x in row) for row in zip(*columns, strict=True)]
+    return "\n".join([header, *rows, ""])
+
+
 OMEGA = np.linspace(0.2, 3.0, 141)
 PEAK = 0.9
 

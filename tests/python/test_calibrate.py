@@ -13,13 +13,7 @@ from tests.verification import line_scenes as lines
 
 import hydrodae
 from hydrodae.case import Case
-from hydrodae.study.calibrate import (
-    Calibration,
-    Free,
-    Record,
-    calibrate,
-    read_record,
-)
+from hydrodae.study.calibrate import Calibration, Free, Record, calibrate, read_record
 from hydrodae.study.calibrate.statistics import autoregressive, spread, undetermined
 
 

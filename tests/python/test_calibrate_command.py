@@ -15,9 +15,7 @@ from tests.python.doc_blocks import blocks, command_lines
 
 import hydrodae
 from hydrodae.commands import cli
-from hydrodae.study.calibrate import (
-    read_tests,
-)
+from hydrodae.study.calibrate import read_tests
 
 
 def write_files(folder: Path) -> None:

@@ -7,9 +7,7 @@ import pytest
 from tests.python.decay_record import TIME, Array, motion
 
 import hydrodae
-from hydrodae.study.calibrate import (
-    decay,
-)
+from hydrodae.study.calibrate import decay
 
 
 def test_a_linear_decay_by_its_peaks_is_the_closed_form() -> None:

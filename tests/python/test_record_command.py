@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 from tests.python.doc_blocks import blocks, command_lines
-from tests.python.record_files import OMEGA, bretschneider, written
+from tests.python.record_files import OMEGA, bretschneider, table, written
 
 from hydrodae.commands import cli
 
@@ -67,8 +67,7 @@ def _toml(keys: dict) -> str:
 
 
 def test_the_command_prints_spectra_and_components(tmp_path, capsys):
-    rows = zip(OMEGA, bretschneider(OMEGA), strict=True)
-    path = written(tmp_path, "omega,S\n" + "".join(f"{w:.9g},{s:.9g}\n" for w, s in rows))
+    path = written(tmp_path, table("omega,S", OMEGA, bretschneider(OMEGA)))
     assert cli.main(["record", str(path), "--heading", "30"]) == 0
     out = capsys.readouterr().out
     assert "significant height 1.99" in out

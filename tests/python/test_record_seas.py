@@ -6,13 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.python.record_files import OMEGA, PEAK, bretschneider, written
+from tests.python.record_files import OMEGA, PEAK, bretschneider, table, written
 
 from hydrodae.errors import CaseError
-from hydrodae.records import (
-    read_components,
-    read_spectrum,
-)
+from hydrodae.records import read_components, read_spectrum
 
 
 @pytest.mark.parametrize(
@@ -26,8 +23,7 @@ from hydrodae.records import (
     ],
 )
 def test_spectra_in_every_unit(tmp_path, names, abscissa, factor):
-    rows = zip(abscissa, factor * bretschneider(OMEGA), strict=True)
-    text = names + "\n" + "".join(f"{x:.12g},{s:.12g}\n" for x, s in rows)
+    text = table(names, abscissa, factor * bretschneider(OMEGA))
     found = read_spectrum(written(tmp_path, text))
     np.testing.assert_allclose(found.omega, OMEGA, rtol=1e-9)
     np.testing.assert_allclose(found.density[0], bretschneider(OMEGA), rtol=1e-9, atol=1e-15)
@@ -49,15 +45,10 @@ def test_spectra_over_directions(tmp_path, form):
     grid = 2 * np.pi * bretschneider(OMEGA)[:, None] * spread(ANGLES) * np.pi / 180.0
     hertz = OMEGA / 2 / np.pi
     if form == "matrix":
-        text = "f [Hz]," + ",".join(f"{a:g}" for a in ANGLES) + "\n"
-        for f, row in zip(hertz, grid, strict=True):
-            text += f"{f:.12g}," + ",".join(f"{s:.12g}" for s in row) + "\n"
+        text = table("f [Hz]," + ",".join(f"{a:g}" for a in ANGLES), hertz, *grid.T)
     else:
-        text = "dir [deg],f [Hz],S [m2/Hz/deg]\n"
-        for a, column in zip(ANGLES, grid.T, strict=True):
-            text += "".join(
-                f"{a:g},{f:.12g},{s:.12g}\n" for f, s in zip(hertz, column, strict=True)
-            )
+        pairs = np.repeat(ANGLES, len(hertz)), np.tile(hertz, len(ANGLES))
+        text = table("dir [deg],f [Hz],S [m2/Hz/deg]", *pairs, grid.T.ravel())
     found = read_spectrum(written(tmp_path, text))
     assert found.heading is not None
     np.testing.assert_allclose(np.degrees(found.heading), ANGLES)
@@ -69,8 +60,7 @@ def test_spectra_over_directions(tmp_path, form):
 
 def test_a_mean_direction_of_each_frequency_keeps_the_energy(tmp_path):
     headings = np.where(OMEGA < 0.9, 20.0, -170.0)
-    rows = zip(OMEGA, bretschneider(OMEGA), headings, strict=True)
-    text = "omega,S,direction\n" + "".join(f"{w:.9g},{s:.9g},{d}\n" for w, s, d in rows)
+    text = table("omega,S,direction", OMEGA, bretschneider(OMEGA), headings)
     found = read_spectrum(written(tmp_path, text))
     assert [w["heading_deg"] for w in found.waves()] == pytest.approx([-170.0, 20.0])
     np.testing.assert_allclose(found.density.sum(axis=0), bretschneider(OMEGA), rtol=1e-7)
@@ -111,9 +101,7 @@ def test_components_with_phases(tmp_path):
 
 
 def test_components_of_a_density_with_phases_have_its_variance(tmp_path):
-    rows = zip(OMEGA, bretschneider(OMEGA), np.sin(OMEGA), strict=True)
-    text = "omega,S,phase [rad]\n" + "".join(f"{w:.9g},{s:.9g},{p:.9g}\n" for w, s, p in rows)
-    path = written(tmp_path, text)
-    found = read_components(path)
+    text = table("omega,S,phase [rad]", OMEGA, bretschneider(OMEGA), np.sin(OMEGA))
+    found = read_components(written(tmp_path, text))
     variance = 0.5 * sum(one.amplitude**2 for one in found)
     assert 4.0 * math.sqrt(variance) == pytest.approx(1.9899, abs=1e-3)

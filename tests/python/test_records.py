@@ -11,10 +11,7 @@ from scipy.io import savemat
 from tests.python.record_files import ETA, TIME, written
 
 from hydrodae.errors import CaseError
-from hydrodae.records import (
-    read_elevation,
-    read_table,
-)
+from hydrodae.records import read_elevation, read_table
 from hydrodae.records.clock import even
 
 NUMBERS = np.array([[0.0, 0.25], [0.1, -0.5], [0.2, 1.5], [0.3, -2e-3]])
