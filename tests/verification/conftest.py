@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from tests.verification.fmu_of_c import write_fmu
 
 
 @pytest.fixture(scope="session")
@@ -44,6 +45,7 @@ def rm3_planar(rm3: Path, reference: Path) -> Path:
 
 
 @pytest.fixture(params=[2, 3])
-def fmi(request: pytest.FixtureRequest) -> int:
-    """Versions of FMI."""
+def fmi(request: pytest.FixtureRequest, tmp_path: Path) -> int:
+    """Versions of FMI; pi.fmu of that version is in the folder of the test."""
+    write_fmu(tmp_path / "pi.fmu", request.param)
     return int(request.param)

@@ -49,6 +49,7 @@ point = {point}
 axis = [0.0, 1.0, 0.0]
 initial.angle_deg = {angle}
 """
+PTO = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
 MASS = 261.8e3
 GYRATION = 2.0e6
 

@@ -20,7 +20,6 @@ from hydrodae.fmu import export
 
 
 def test_an_fmu_equals_the_kernels_own_pi(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     own = hydrodae.run(Case.from_text(CART.replace("KEYS", OWN)))
     other = hydrodae.run(cart(tmp_path))
     for name in CHANNELS:
@@ -41,7 +40,6 @@ def rest(run: Simulation, end: float = 3.0) -> list[float]:
 
 
 def test_rollback_and_another_process_go_on_bit_for_bit(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     simulation = Simulation(cart(tmp_path))
     begin = simulation.state()
     rest(simulation, 2.13)
@@ -60,7 +58,6 @@ def test_rollback_and_another_process_go_on_bit_for_bit(fmi: int, tmp_path: Path
 
 
 def test_a_resumed_run_equals_one_that_was_not_cut_off(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     whole = hydrodae.run(cart(tmp_path), tmp_path / "a.h5", checkpoint=0)
     with pytest.raises(RunInterrupted):
         hydrodae.run(cart(tmp_path), tmp_path / "b.h5", checkpoint=0, progress=lambda t, _: t < 2.4)
@@ -87,7 +84,6 @@ def test_another_fmu_is_another_run(tmp_path: Path) -> None:
 
 
 def test_a_step_that_is_not_made_ends_the_run(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     for key, status in (("discard_at", "Discard: the step is too long"), ("fail_at", "Error: it")):
         keys = FMU.replace('"ki"]', f'"ki", "{key}"]').replace("0.7]", "0.7, 1.95]")
         text = " has ended in status " + status
@@ -102,14 +98,12 @@ def test_a_step_that_is_not_made_ends_the_run(fmi: int, tmp_path: Path) -> None:
 
 
 def test_an_fmu_may_end_the_run(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     keys = FMU.replace('"ki"]', '"ki", "end_at"]').replace("0.7]", "0.7, 1.95]")
     with pytest.raises(RunInterrupted, match="controller 'pi': its FMU ends the run"):
         hydrodae.run(cart(tmp_path, keys), tmp_path / "r.h5")
 
 
 def test_the_executable_loads_fmus(fmi: int, tmp_path: Path, executable: str) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     own = hydrodae.run(cart(tmp_path))
     out = tmp_path / "results.h5"
     command = [executable, str(tmp_path / "case.toml"), "-o", str(out)]

@@ -117,13 +117,11 @@ def test_what_is_no_fmu_is_told(how: str, tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_told(fmi: int, old: str, new: str, message: str, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     with pytest.raises(CaseError, match=message):
         hydrodae.run(cart(tmp_path, FMU.replace(old, new)))
 
 
 def test_check_tells_mistakes_before_the_run(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     with pytest.raises(CaseError, match="did you mean 'rate'"):
         hydrodae.check(cart(tmp_path, FMU.replace('["rate"]', '["rat"]')))
 
@@ -144,7 +142,6 @@ TRICKS = {
 
 @pytest.mark.parametrize("trick", TRICKS)
 def test_what_an_fmu_does_wrong_in_a_run_is_told(trick: int, fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     keys = FMU.replace('"ki"]', '"ki", "trick"]').replace("0.7]", f"0.7, {trick}.0]")
     with pytest.raises(SolverError, match=TRICKS[trick]) as caught:
         hydrodae.run(cart(tmp_path, keys), tmp_path / "r.h5")
@@ -155,7 +152,6 @@ def test_what_an_fmu_does_wrong_in_a_run_is_told(trick: int, fmi: int, tmp_path:
 
 
 def test_a_state_without_end_is_refused(fmi: int, tmp_path: Path) -> None:
-    write_fmu(tmp_path / "pi.fmu", fmi)
     keys = FMU.replace('"ki"]', '"ki", "trick"]').replace("0.7]", "0.7, 5.0]")
     run = Simulation(cart(tmp_path, keys))
     run.advance(0.1)

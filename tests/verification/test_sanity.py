@@ -7,7 +7,16 @@ from pathlib import Path
 
 import pytest
 from tests.verification import attenuator
-from tests.verification.sanity_scenes import FLAP, MASS, complaints, flap, pole, run_notes, sphere
+from tests.verification.sanity_scenes import (
+    FLAP,
+    MASS,
+    PTO,
+    complaints,
+    flap,
+    pole,
+    run_notes,
+    sphere,
+)
 
 import hydrodae
 from hydrodae.hdb.preparation.importing import import_database
@@ -240,7 +249,6 @@ end_time = 1.0
 
 
 def test_a_take_off_along_a_locked_motion(repository: Path) -> None:
-    pto = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
     fixed = """
 [[joint]]
 name = "weld"
@@ -249,14 +257,13 @@ body_a = "ground"
 body_b = "flap"
 point = [-12.5, 0.0, -9.0]
 """
-    assert complaints(flap(repository, more=pto)) == []
-    case = flap(repository, more=pto + fixed)
+    assert complaints(flap(repository, more=PTO)) == []
+    case = flap(repository, more=PTO + fixed)
     (text,) = complaints(case)
     assert "force 'pto' acts along angle of joint 'hinge', which cannot change" in text
 
 
 def test_a_take_off_beside_a_drive_moves(repository: Path) -> None:
-    pto = '[[force]]\ntype = "pto_linear"\nname = "pto"\njoint = "hinge"\ndamping = 1.0e6\n'
     drive = """
 [[constraint]]
 name = "motor"
@@ -264,7 +271,7 @@ type = "coordinate"
 joint = "hinge"
 drive = { amplitude = 0.1, period = 5.0 }
 """
-    assert not any("force 'pto'" in line for line in complaints(flap(repository, more=pto + drive)))
+    assert not any("force 'pto'" in line for line in complaints(flap(repository, more=PTO + drive)))
 
 
 def test_a_start_beyond_a_stop(repository: Path) -> None:
