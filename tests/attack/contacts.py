@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 from tests.attack import truth
+from tests.attack.bounces import falling_ball
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.impacts import falling_ball
 from tests.attack.parts import DOWN_Y, GRAVITY, beside, body, case, joint, position
 from tests.attack.slide import LARGE, SMALL, UNIT, Scale, block, drawn, placed, spring
 

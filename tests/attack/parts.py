@@ -83,6 +83,11 @@ def driven(name: str, drive: Table, **where: Any) -> Table:
     return {"name": name, "type": "coordinate", "drive": drive, **where}
 
 
+def stop(name: str, guide: str, restitution: float, **bounds: float) -> Table:
+    """Return a stop of a joint."""
+    return {"name": name, "type": "stop", "joint": guide, "restitution": restitution, **bounds}
+
+
 def case(
     bodies: Sequence[Table],
     end: float,

@@ -9,7 +9,6 @@ import numpy as np
 from tests.attack import driven as driven_mechanisms
 from tests.attack import truth
 from tests.attack.family import chosen, family, log_uniform, neighbour, unnamed
-from tests.attack.impacts import stop
 from tests.attack.parts import (
     DOWN_Y,
     GRAVITY,
@@ -21,6 +20,7 @@ from tests.attack.parts import (
     driven,
     joint,
     position,
+    stop,
 )
 
 from hydrodae.study.stability import Scene

@@ -9,15 +9,19 @@ from functools import cache
 
 import numpy as np
 from tests.attack import (  # noqa: F401  the modules register their families
+    bounces,
     buoyancy,
     chains,
+    coasts,
     contacts,
     control,
     driven,
     drives,
+    geared,
     hinges,
     impacts,
     light,
+    lines,
     long,
     mechanisms,
     memories,

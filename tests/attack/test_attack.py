@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.attack import __main__ as command
-from tests.attack import rest, sea, suite, truth
+from tests.attack import coasts, sea, suite, truth
 from tests.attack.family import FAMILIES
 from tests.attack.parts import GRAVITY
 
@@ -111,7 +111,7 @@ def test_pieces_and_closed_flights_agree() -> None:
 
 
 def test_the_bead_keeps_its_energy_over_the_bump() -> None:
-    scene = rest.path_bump(0.05, 0.3, 2.0, 1.0, 2.0)
+    scene = coasts.path_bump(0.05, 0.3, 2.0, 1.0, 2.0)
     assert scene.truth is not None
     time = np.linspace(0.8, 1.6, 8001)
     place = scene.truth(time)

@@ -17,6 +17,7 @@ from tests.python.wecsim_files import cylinders, two_bodies
 
 import hydrodae
 from hydrodae.errors import CaseError, SolverError
+from hydrodae.starters import create
 
 __all__ = ["cylinders", "two_bodies"]
 
@@ -217,3 +218,9 @@ def device_tables(repository: Path) -> Any:
 
     whole = hdb.read(repository / "cases" / "f3of" / "hydro.h5")
     return dataclasses.replace(whole, memory={})
+
+
+@pytest.fixture(scope="module")
+def buoy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The case of the starter `point_absorber`."""
+    return create("point_absorber", tmp_path_factory.mktemp("cases") / "buoy")

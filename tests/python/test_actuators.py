@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
-from tests.python.test_controllers import LATCH, PLACE, RATE, Pi, case, sampled_cart
+from tests.python.controlled import LATCH, PLACE, RATE, Pi, case, sampled_cart
 from tests.scenes import controlled_cart, damped_ball
 
 import hydrodae

@@ -1,86 +1,22 @@
-"""What a user can get wrong in a case, a database or a command line, and what he is told."""
+"""What a user can get wrong in a case or a database, and the message for it."""
 
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import h5py
-import numpy as np
 import pytest
+from tests.python.small_database import CASE, write_case
 
 from hydrodae import _core
 from hydrodae.errors import CaseError
-from hydrodae.hdb.database import HydroDatabase
-from hydrodae.hdb.database.tables import Body
-from hydrodae.hdb.hull.hydrostatics import Hydrostatics
-from hydrodae.hdb.memory import ExponentialMemory
-
-CASE = """title = "buoy"
-
-[hydro]
-database = "hydro.h5"
-
-[[body]]
-name = "buoy"
-motion = "heave"
-mass = 1000.0
-center_of_gravity = [0.0, 0.0, -1.0]
-hydro = "float"
-
-[solver]
-end_time = 1.0
-"""
-
-
-def make_database(names: tuple[str, ...] = ("float.surge", "float.heave", "float.pitch")):
-    """A body with made-up but admissible coefficients and one fit for heave."""
-    n, omega = len(names), np.array([0.5, 1.0, 2.0])
-    heave = ("float.heave",)
-    fit = ExponentialMemory(
-        "heave",
-        heave,
-        heave,
-        poles=np.array([-1.0 + 0.0j, -0.5 + 2.0j]),
-        input_matrix=np.array([[1.0 + 0.0j], [1.0 + 0.5j]]),
-        output_matrix=np.array([[10.0 + 0.0j, 20.0 - 3.0j]]),
-        added_mass_inf=np.array([[300.0]]),
-        report={"n_states": 3, "passive": True},
-    )
-    return HydroDatabase(
-        coordinates=names,
-        omega=omega,
-        added_mass=np.tile(400.0 * np.eye(n), (3, 1, 1)),
-        radiation_damping=np.tile(50.0 * np.eye(n), (3, 1, 1)),
-        added_mass_inf=300.0 * np.eye(n),
-        added_mass_inf_std=np.zeros((n, n)),
-        heading=np.array([0.0]),
-        froude_krylov=np.zeros((3, 1, n), complex),
-        diffraction=np.zeros((3, 1, n), complex),
-        bodies={
-            "float": Body(
-                "float",
-                np.array([0.0, 0.0, -1.0]),
-                Hydrostatics(1.0, np.array([0.0, 0.0, -1.2]), 2.0, np.zeros(5)),
-            )
-        },
-        rho=1000.0,
-        gravity=9.81,
-        memory={"heave": fit},
-    )
 
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """The buoy case with its database."""
-    make_database().write(tmp_path / "hydro.h5")
-    path = tmp_path / "case.toml"
-    path.write_text(CASE)
-    return path
+    return write_case(tmp_path)
 
 
 def message(case: Path, overrides: dict[str, str] | None = None) -> str:
@@ -380,106 +316,3 @@ def test_a_wrong_database_is_told(case, change: Callable[[h5py.File], None], exp
     with h5py.File(case.parent / "hydro.h5", "r+") as file:
         change(file)
     assert message(case).startswith(expected)
-
-
-def solve(executable: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [executable, *map(str, arguments)], capture_output=True, text=True, check=False
-    )
-
-
-def test_the_executable_runs_a_case(executable, case):
-    output = case.parent / "results.h5"
-    run = solve(executable, case, "-o", output, "--set", "solver.end_time=2", "--quiet")
-    assert run.returncode == 0, run.stderr
-    done, method, error = run.stdout.splitlines()
-    assert done.startswith("completed at t = 2 s: ")
-    assert done.endswith(f"results in {output}")
-    assert method.startswith("method auto: ")
-    assert error == "at rest"
-    assert run.stderr == ""
-    with h5py.File(output) as file:
-        assert file["time"][-1] == pytest.approx(2.0)
-        assert len(file.attrs["hydro_sha256"]) == 64
-
-
-def test_the_executable_checks_a_case(executable, case):
-    run = solve(executable, "--check", case)
-    assert run.returncode == 0
-    scene = _core.load_case(str(case), {})
-    assert run.stdout == _core.examine(scene, {})
-    assert run.stdout.startswith(scene.summary())
-    assert "mobility: 1 degrees of freedom" in run.stdout
-
-
-@pytest.mark.parametrize("flag", ["--help", "--version"])
-def test_the_executable_tells_about_itself(executable, flag):
-    run = solve(executable, flag)
-    assert run.returncode == 0
-    assert "hydrodae" in run.stdout
-
-
-def test_the_executable_lists_keys(executable):
-    assert "  force " in solve(executable, "--keys").stdout
-    assert "pto_linear" in solve(executable, "--keys", "force").stdout
-    run = solve(executable, "--keys", "force", "pto_linear")
-    assert run.returncode == 0
-    assert "  damping [N s/m or N m s/rad] (default 0, >= 0)\n      Damping c.\n" in run.stdout
-
-
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (["--keys", "sover"], "there is no table 'sover'; did you mean 'solver'?"),
-        (["--keys", "joint", "revolut"], "did you mean 'revolute'?"),
-        (["--keys", "solver", "ida"], "the table 'solver' has no types"),
-        (["--keys", "joint", "fixed", "x"], "unexpected argument 'x'"),
-        ([], "a case file is missing"),
-        (["CASE"], "-o RESULTS is missing"),
-        (["CASE", "-o"], "-o: a value is missing"),
-        (["CASE", "-o", "x.h5", "--sett", "a=1"], "unexpected argument '--sett'"),
-        (["CASE", "-o", "x.h5", "--set", "solver.rtol"], "expected KEY=VALUE"),
-        (["CASE", "-o", "x.h5", "--set", "solver.rtl=1"], "did you mean 'rtol'?"),
-        (["none.toml", "-o", "x.h5"], "none.toml: cannot read the case file"),
-    ],
-)
-def test_a_wrong_command_line_is_exit_code_2(executable, case, arguments, expected):
-    run = solve(executable, *[str(case) if a == "CASE" else a for a in arguments])
-    assert run.returncode == 2
-    assert run.stdout == ""
-    assert run.stderr.startswith("hydrodae-solve: ")
-    assert expected in run.stderr
-
-
-def test_a_solver_failure_is_exit_code_3(executable, case):
-    anti_spring = """
-[[force]]
-name = "anti"
-type = "mooring_matrix"
-body = "buoy"
-stiffness = [0, 0, -1e9, 0, 0, 0]
-"""
-    case.write_text(CASE + anti_spring)
-    output = case.parent / "results.h5"
-    values = ["body.buoy.initial.displacement=[0,0,1]", "solver.method=explicit_rk"]
-    run = solve(executable, case, "-o", output, *(w for v in values for w in ("--set", v)))
-    assert run.returncode == 3, run.stdout
-    assert "stopped at t = " in run.stderr
-    with h5py.File(output) as file:
-        assert file.attrs["status"] == "failed"
-
-
-def test_an_interrupt_is_exit_code_4(executable, case):
-    output = case.parent / "results.h5"
-    command = [executable, str(case), "-o", str(output), "--set", "solver.end_time=1e8", "--quiet"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        while not output.with_name("results.partial.h5").exists():
-            time.sleep(0.01)
-        time.sleep(0.1)
-        process.send_signal(signal.SIGINT)
-        said, _ = process.communicate(timeout=20)
-    assert process.returncode == 4
-    assert said.startswith("interrupted at t = ")
-    with h5py.File(output) as file:
-        assert file.attrs["status"] == "interrupted"
-        assert len(file["time"]) > 1

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import LATCH
+from tests.python.controlled import LATCH
 from tests.python.test_tcp import case, free_port
 from tests.scenes import controlled_cart
 

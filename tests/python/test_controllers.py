@@ -8,57 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.python.controlled import PI, PLACE, RATE, Pi, case, sampled_cart
 from tests.scenes import controlled_cart
 
 import hydrodae
 from hydrodae import Case, CaseError, Simulation, SolverError
 from hydrodae.results import Results
-
-RATE, PLACE = '"joints/slide/displacement_rate"', '"joints/slide/displacement"'
-PI = "gain_p = 1.3\ngain_i = 0.7\ngain_d = 0.05\nfilter_time = 0.2\nlower = -0.5\nupper = 0.6"
-
-
-def case(type: str, keys: str = "", inputs: str = RATE, period: float = 0.1) -> Case:
-    return Case.from_text(controlled_cart(type, keys, inputs, period))
-
-
-class Pi:
-    """The PID of the kernel in Python, with limits and back-calculation."""
-
-    def __init__(self) -> None:
-        self.reset()
-
-    def reset(self) -> None:
-        self.memory = [0.0, 0.0, 0.0, 0.0]  # began, error, slope, integral
-
-    def state(self) -> list[float]:
-        return list(self.memory)
-
-    def restore(self, values: list[float]) -> None:
-        self.memory = list(values)
-
-    def __call__(self, _time: float, rate: float) -> float:
-        began, before, slope, integral = self.memory
-        e, period, filtered = -rate, 0.1, 0.2
-        if began:
-            slope = filtered / (filtered + period) * slope + (e - before) / (filtered + period)
-        wanted = 1.3 * e + integral + 0.05 * slope
-        out = min(max(wanted, -0.5), 0.6)
-        integral += period * (0.7 * e + (out - wanted) / (1.3 / 0.7))
-        self.memory = [1.0, e, slope, integral]
-        return out
-
-
-def sampled_cart(law: Any) -> np.ndarray[Any, Any]:
-    """Displacements at the sampling instants: m x'' + k x = u, u held, by the exact exponential."""
-    w, k, period = 2.0, 8.0, 0.1
-    x, v, out = 0.5, 0.0, [0.5]
-    for i in range(50):
-        rest = law(i * period, x, v) / k
-        c, s = math.cos(w * period), math.sin(w * period)
-        x, v = rest + (x - rest) * c + v / w * s, -w * (x - rest) * s + v * c
-        out.append(x)
-    return np.array(out)
 
 
 def test_a_pid_holds_its_output_between_the_instants() -> None:
@@ -302,111 +257,6 @@ def test_one_component_of_a_vector() -> None:
     simulation.advance()
     velocity = simulation.read("bodies/cart/velocity")
     assert simulation.read("bodies/cart/velocity.x") == velocity[0]  # type: ignore[index]
-
-
-LATCH = """
-[[force]]
-name = "latch"
-type = "dry_friction"
-joint = "slide"
-static = 100.0
-kinetic = 0.0
-"""
-
-
-def latched(load: float = 100.0) -> str:
-    keys = f"hold_time = 0.4\nhold_load = {load}"
-    text = controlled_cart("latching", period=0.05, keys=keys)
-    text = text.replace("forces/pto/load", "forces/latch/static")
-    return text.replace("[[controller]]", LATCH + "[[controller]]")
-
-
-def test_latching_locks_at_rest_and_lets_go() -> None:
-    """Half swings at w = 2 rad/s from one turning point to the next, then a hold of 0.4 s."""
-    text = latched()
-    text = text.replace("displacement = [0.5, 0.0, 0.0]", "velocity = [1.0, 0.0, 0.0]")
-    results = hydrodae.run(Case.from_text(text))
-    quarter, half = math.pi / 4, math.pi / 2
-
-    def place(t: float) -> float:
-        if t < quarter:
-            return 0.5 * math.sin(2.0 * t)
-        since, sign = t - quarter, 0.5
-        while since > 0.4 + half:
-            since, sign = since - 0.4 - half, -sign
-        return sign * (math.cos(2.0 * (since - 0.4)) if since > 0.4 else 1.0)
-
-    exact = [place(t) for t in results.time]
-    np.testing.assert_allclose(results["joints/slide/displacement"], exact, atol=2e-6)
-    # what the latch holds with is its force: the spring of 8 N/m pulls
-    stuck = np.array([t > quarter and (t - quarter) % (0.4 + half) < 0.4 for t in results.time])
-    held = results["forces/latch/force"].to_numpy()
-    assert stuck.sum() > 10
-    np.testing.assert_allclose(held[stuck], 8.0 * np.array(exact)[stuck], atol=1e-4)
-    np.testing.assert_array_equal(held[~stuck], 0.0)
-
-
-@pytest.mark.parametrize("start", ["given", "equilibrium"])
-@pytest.mark.parametrize("method", ["radau", "auto"])
-def test_a_latch_on_a_joint_that_rests_lets_go_ever_again(start: str, method: str) -> None:
-    """It closes by getting ready, without an event; once something pushes, the joint swings."""
-    text = latched().replace("displacement = [0.5, 0.0, 0.0]", "displacement = [0.0, 0.0, 0.0]")
-    text = text.replace('method = "radau"', f'method = "{method}"\nstart = "{start}"')
-    run = Simulation(Case.from_text(text))
-    seen = []
-    for k in range(1, 101):
-        while run.time < 0.03 * k:
-            run.advance(0.03 * k)
-        seen.append(float(run.read("controllers/pi/output")))
-    # held 0.4 s, released 0.05 s: 6 times in 3 s
-    assert np.count_nonzero(np.diff(seen) < 0.0) == 6
-    run.write("forces/pto/load", 4.0)
-    reached = 0.0
-    while not run.finished:
-        run.advance()
-        reached = max(reached, float(run.read("joints/slide/displacement")))
-    assert reached == pytest.approx(1.0, abs=1e-5)  # twice 4 N / 8 N/m, the first turning point
-
-
-def test_declutching_frees_from_each_standstill_of_a_joint_that_rested() -> None:
-    """At rest for 1 s, then 4 N: x = 0.5 (1 - cos 2 t'), standstills each pi / 2."""
-    keys = "engaged = 1e-9\nfree = 0.0\nfree_time = 0.2"
-    text = controlled_cart("declutching", period=0.05, keys=keys)
-    text = text.replace("forces/pto/load", "forces/spring/damping")
-    text = text.replace("displacement = [0.5, 0.0, 0.0]", "displacement = [0.0, 0.0, 0.0]")
-    run = Simulation(Case.from_text(text.replace("[solver]", '[solver]\nstart = "equilibrium"')))
-    while run.time < 1.0:
-        run.advance(1.0)
-    run.write("forces/pto/load", 4.0)
-    freed, before = [], 1.0
-    while not run.finished:
-        run.advance()
-        now = float(run.read("controllers/pi/output"))
-        if now == 0.0 and before > 0.0:
-            freed.append(run.time)
-        before = now
-    standstills = [1.0 + k * math.pi / 2 for k in (1, 2)]
-    assert len(freed) == 2
-    for found, exact in zip(freed, standstills, strict=True):
-        assert exact - 1e-6 < found < exact + 0.2 + 1e-6  # seen at the end of the step from there
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        (
-            "forces/latch/static",
-            "forces/pto/load",
-            "'forces/pto/load' is not the 'static' of a dry",
-        ),
-        (RATE, '"bodies/cart/velocity.x"', "not the rate of the joint that it holds, 'joints/sl"),
-    ],
-)
-def test_a_latch_needs_the_friction_of_its_joint(old: str, new: str, message: str) -> None:
-    wrong = Case.from_text(latched().replace(old, new))
-    for ask in (hydrodae.run, hydrodae.check):
-        with pytest.raises(CaseError, match=message):
-            ask(wrong)
 
 
 def test_inputs_of_controllers_are_not_written_beside_them() -> None:

@@ -45,9 +45,9 @@ RUN_APART = {
     ("README.md", "toml"): 1,  # test_readme.py
     ("README.md", "python"): 1,
     ("docs/python.md", "python"): 4,  # test_functions.py
-    ("docs/calibrate.md", "python"): 2,  # test_calibrate.py
+    ("docs/calibrate.md", "python"): 2,  # test_calibrate_command.py
     ("docs/calibrate.md", "sh"): 2,
-    ("docs/records.md", "python"): 3,  # test_records.py
+    ("docs/records.md", "python"): 3,  # test_record_command.py
     ("docs/records.md", "sh"): 3,
     ("docs/spectral.md", "python"): 1,
     ("docs/control.md", "python"): 3,

@@ -1,32 +1,24 @@
-"""Gradients against closed forms, finite differences of other routes, and runs of other methods."""
+"""Gradients of linear models against closed forms and finite differences of other routes."""
 
 from __future__ import annotations
 
-import dataclasses
-import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import xarray
 from scipy.optimize import minimize
-from tests.scenes import cart
+from tests.python.gradients import DAMPING, POWER, REGULAR, dragged, fourth_order
 
 import hydrodae
 import hydrodae.case.contents
 from hydrodae.case import Case
 from hydrodae.linear import LinearModel
-from hydrodae.report import report
 from hydrodae.starters import create
 from hydrodae.study.gradient.differences import derivative
 from hydrodae.study.gradient.parameters import read_parameter
-from hydrodae.study.sweep.optimise import text
 
-REGULAR = [{"name": "sea", "type": "regular", "height": 1.0, "period": 7.0}]
-POWER = "mean_power_absorbed"
-DAMPING = "force.pto.damping"
 TURNING = """
 title = "Rod on the ground by a take-off about skew axes"
 [[body]]
@@ -55,31 +47,11 @@ end_time = 1.0
 [output]
 step = 0.1
 """
-MASS = cart(
-    "damping = 1.0",
-    title="Mass that a take-off brakes",
-    body="float",
-    motion="heave",
-    initial={"velocity": [0.0, 0.0, 1.0]},
-    joint="guide",
-    solver='method = "gauss"\nstep = 0.02\nend_time = 4.0',
-    step=0.02,
-)
-
-
-@pytest.fixture(scope="module")
-def buoy(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return create("point_absorber", tmp_path_factory.mktemp("cases") / "buoy")
 
 
 @pytest.fixture(scope="module")
 def moored(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return create("moored", tmp_path_factory.mktemp("cases") / "moored")
-
-
-def fourth_order(f: Callable[[float], float], x: float, relative: float) -> float:
-    h = relative * x
-    return (f(x - 2 * h) - 8 * f(x - h) + 8 * f(x + h) - f(x + 2 * h)) / (12 * h)
 
 
 def linear_value(case: Case, of: str) -> float:
@@ -115,34 +87,6 @@ def test_frequency_domain_of_a_mooring_moves_the_equilibrium(moored: Path) -> No
     assert found.gradient[0] == pytest.approx(by, rel=1e-6)
 
 
-DRAG = """
-[[force]]
-name = "brake"
-type = "pto_general"
-joint = "slide"
-damping = 60e3
-exponent = 1.7
-load_limit = 60e3
-[[force]]
-name = "skin"
-type = "viscous_damping"
-body = "buoy"
-quadratic = [0.0, 0.0, 40e3, 0.0, 0.0, 0.0]
-[[morison]]
-name = "disc"
-body = "buoy"
-point = [0.0, 0.0, -5.0]
-area = 60.0
-volume = 1.0
-drag_coefficient = 2.0
-[solver]"""
-
-
-def dragged(buoy: Path) -> Case:
-    """The buoy with a limited take-off and drag of two kinds."""
-    return Case.from_text(buoy.read_text().replace("[solver]", DRAG), buoy.parent)
-
-
 @pytest.mark.parametrize(
     ("of", "values", "keys"),
     [
@@ -169,25 +113,6 @@ def test_statistical_linearisation_agrees_with_finite_differences(
         parameter = read_parameter(case, key)
         by = fourth_order(lambda y: value_at(case.with_values(parameter.values(y))), x, 2e-3)  # noqa: B023
         assert slope == pytest.approx(by, rel=1e-6), key
-
-
-def test_best_damper_with_drag(buoy: Path) -> None:
-    """By the spectral rung: no damper beside it takes more."""
-    case = buoy.parent / "dragged.toml"
-    case.write_text(dragged(buoy).text)
-    study = buoy.parent / "best_dragged.toml"
-    text = STUDY.replace("METHOD", "SLSQP").replace('["frequency"]', '["spectral"]')
-    study.write_text(text.replace("case.toml", case.name))
-    found = hydrodae.optimise(study, study.with_suffix(".nc"), set={"wave": REGULAR})
-
-    def power(damping: float) -> float:
-        run = hydrodae.spectral(case, set={"wave": REGULAR, DAMPING: damping})
-        return run.power["pto"] + run.power["brake"]
-
-    best = found.values["damper"]
-    assert found.value == pytest.approx(power(best), rel=1e-6)
-    assert found.value > 1.0001 * max(power(0.95 * best), power(1.05 * best))
-    assert found.evaluations < 20
 
 
 def test_reaction_of_a_joint_with_moving_constraints(tmp_path: Path) -> None:
@@ -282,41 +207,6 @@ def test_differences_are_exact_where_affine_and_of_fourth_order_elsewhere() -> N
     assert (affine, calls) == (True, 2)
 
 
-def test_run_of_a_braked_mass_by_its_closed_form() -> None:
-    """v = v0 exp(-ct/m): mean power m v0^2 (1 - e) / (2 T), e = exp(-2 c T / m); way m v0 / c."""
-    case = Case.from_text(MASS)
-    found = hydrodae.gradient(case, POWER, [DAMPING, "body.float.mass"], rung="time")
-    e = np.exp(-4.0)
-    assert found.value == pytest.approx((1.0 - e) / 4.0, rel=1e-6)
-    by_mass = (0.5 * (1.0 - e) - 2.0 * e) / 4.0
-    np.testing.assert_allclose(found.gradient, [e, by_mass], rtol=1e-5)
-    way = hydrodae.gradient(
-        case, "joints/guide/displacement", [DAMPING], rung="time", statistic="last"
-    )
-    assert way.gradient[0] == pytest.approx(-2.0 * (1.0 - np.exp(-2.0)) + 4.0 * np.exp(-2.0))
-    assert way.unit == "m"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("method", ["gauss", "lobatto_iiic", "generalized_alpha"])
-def test_run_in_waves_agrees_with_tight_adaptive_runs(buoy: Path, method: str) -> None:
-    values: dict[str, Any] = {"sea.ramp": 10.0, "solver.end_time": 60.0}
-    step = 0.002 if method == "generalized_alpha" else 0.05
-    fixed = values | {"solver.method": method, "solver.step": step}
-    tight = values | {"solver.method": "radau", "solver.rtol": 1e-11}
-    for of, statistic in ((POWER, "std"), ("joints/slide/displacement", "std")):
-        found = hydrodae.gradient(buoy, of, [DAMPING], set=fixed, rung="time", statistic=statistic)
-
-        def value(x: float, of: str = of) -> float:
-            results = hydrodae.run(buoy, set=tight | {DAMPING: x})
-            if of == POWER:
-                return float(results.statistics[POWER])
-            return float(np.std(results[of].to_numpy()))
-
-        by = fourth_order(value, 150e3, 1e-2)
-        assert found.gradient[0] == pytest.approx(by, rel=1e-4), of
-
-
 @pytest.mark.parametrize(
     ("of", "keys", "rung", "told"),
     [
@@ -338,160 +228,3 @@ def test_wrong_questions_are_refused(
 ) -> None:
     with pytest.raises(hydrodae.CaseError, match=told):
         hydrodae.gradient(buoy, of, keys, rung=rung)
-
-
-STUDY = """
-case = "case.toml"
-rungs = ["frequency"]
-[optimise]
-maximise = "mean_power_absorbed"
-method = "METHOD"
-[optimise.parameter.damper]
-keys = "force.pto.damping"
-bounds = [1e4, 1e6]
-start = 3e5
-"""
-
-
-@pytest.mark.parametrize("method", ["L-BFGS-B", "SLSQP"])
-def test_best_damper_in_one_wave(buoy: Path, method: str) -> None:
-    study = buoy.parent / f"best_{method}.toml"
-    study.write_text(STUDY.replace("METHOD", method))
-    output = study.with_suffix(".nc")
-    found = hydrodae.optimise(study, output, set={"wave": REGULAR})
-    assert text(found).startswith("converged: ")
-    case = Case(path=buoy, values={"wave": REGULAR, DAMPING: 0.0})
-    w = 2.0 * np.pi / 7.0
-    best = abs(LinearModel(case).dynamic_stiffness_at(np.array([w]))[0, 0, 0]) / w
-    assert found.values["damper"] == pytest.approx(best, rel=1e-3)
-    assert found.keys == {DAMPING: found.values["damper"]}
-    assert found.evaluations < 20
-    page = report(output).read_text()
-    assert f"maximise {POWER}" in page
-    assert page.count(f">{found.values['damper']:,.5g}<") == 1
-    assert "H 1 m, T 7 s" in page  # the sea of the case was replaced
-    assert "frequency domain" in page
-    assert f"damper = {found.values['damper']:.6g}" in text(found)
-    xarray.testing.assert_identical(found.dataset.load(), xarray.load_dataset(output))
-    # Cut off after four evaluations, as by a kill: the same again, and nothing twice.
-    record = output.with_name(f"best_{method}.runs.jsonl")
-    lines = record.read_text().splitlines()
-    record.write_text("\n".join(lines[:5]) + '\n{"key": "cut o')
-    again = hydrodae.optimise(study, output, set={"wave": REGULAR})
-    assert again.values == found.values
-    assert record.read_text().splitlines() == lines
-    keys = [json.loads(line).get("key") for line in lines]
-    assert len(keys) == len(set(keys)) == found.evaluations + 1
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "told"),
-    [
-        ("METHOD", "Powell", "L-BFGS-B, SLSQP"),
-        ("[1e4, 1e6]", "[1e6, 1e4]", "least < most"),
-        ("start = 3e5", "start = 3e6", "within the bounds"),
-        ("start = 3e5", "stat = 3e5", "did you mean 'start'"),
-        ("[1e4, 1e6]\nstart = 3e5", "[1e4, 1e5]", "outside the bounds"),
-        ('["frequency"]', '["frequency", "spectral"]', "an optimisation has one"),
-        ('"mean_power_absorbed"', '"power"', "expected 'mean_power_absorbed'"),
-        ("maximise", "minimise = 1\nmaximise", "one of 'maximise' and 'minimise'"),
-        ("parameter.damper", "parameter.calls", "'calls' cannot be the name"),
-        ("parameter.damper", "parameter.mean_power_absorbed", "none of best"),
-    ],
-)
-def test_wrong_problems_are_refused(buoy: Path, old: str, new: str, told: str) -> None:
-    study = buoy.parent / "wrong.toml"
-    study.write_text(STUDY.replace(old, new).replace("METHOD", "SLSQP"))
-    with pytest.raises(hydrodae.CaseError, match=told):
-        hydrodae.optimise(study, study.with_suffix(".nc"))
-
-
-def test_a_sweep_of_a_problem_names_the_option(buoy: Path) -> None:
-    study = buoy.parent / "problem.toml"
-    study.write_text(STUDY)
-    with pytest.raises(hydrodae.CaseError, match="--optimise"):
-        hydrodae.sweep(study, study.with_suffix(".nc"))
-
-
-def test_linear_studies_need_no_memory_fit(buoy: Path, tmp_path: Path) -> None:
-    (tmp_path / "case.toml").write_text(buoy.read_text())
-    database = hydrodae.hdb.HydroDatabase.read(buoy.parent / "hydro.h5")
-    dataclasses.replace(database, memory={}, kernel=None).write(tmp_path / "hydro.h5")
-    best = tmp_path / "best.toml"
-    best.write_text(STUDY.replace("METHOD", "SLSQP"))
-    assert hydrodae.optimise(best, tmp_path / "best.nc").evaluations < 20
-    grid = tmp_path / "grid.toml"
-    grid.write_text('case = "case.toml"\nrungs = ["frequency"]\n[grid]\n"body.buoy.mass" = [4e5]\n')
-    found = hydrodae.sweep(grid, tmp_path / "grid.nc", jobs=1)
-    assert (found["status"] == "completed").all()
-
-
-CONTROLLED = cart(
-    "stiffness = 8.0",
-    more="""
-[[force]]
-name = "latch"
-type = "dry_friction"
-joint = "slide"
-static = 1e-3
-kinetic = 0.0
-[[controller]]
-name = "law"
-type = "TYPE"
-inputs = ["joints/slide/displacement_rate"]
-outputs = ["forces/pto/load"]
-period = 0.1
-KEYS
-""",
-    solver='method = "radau"\nstep = 0.02\nend_time = 1.0',
-    step=0.1,
-)
-PLACE = "joints/slide/displacement"
-
-
-@pytest.mark.parametrize(
-    ("kind", "keys", "told"),
-    [
-        ("latching", "hold_time = 0.1\nhold_load = 10.0", "through a latching controller"),
-        ("declutching", "engaged = 1.0\nfree_time = 0.1", "through a declutching controller"),
-        ("bang_bang", "lower = -1.0\nupper = 1.0", "through a bang_bang controller"),
-        ("python", "", "through a python controller"),
-        ("tcp", "", "through a tcp controller"),
-        ("fmu", f'file = "{__file__}"\nfmu_inputs = ["a"]\nfmu_outputs = ["b"]', "through a fmu"),
-    ],
-)
-def test_controllers_that_jump_are_refused_by_name(kind: str, keys: str, told: str) -> None:
-    text = CONTROLLED.replace("TYPE", kind).replace("KEYS", keys)
-    if kind == "latching":
-        text = text.replace("forces/pto/load", "forces/latch/static")
-    if kind == "declutching":
-        text = text.replace("forces/pto/load", "forces/pto/damping")
-    with pytest.raises(hydrodae.CaseError, match=f"(?s)controller.law.*{told}"):
-        hydrodae.gradient(
-            Case.from_text(text), PLACE, ["body.cart.mass"], rung="time", statistic="last"
-        )
-
-
-def test_a_gradient_through_a_sampled_damper_is_that_of_its_differences() -> None:
-    """u = -c s' held over 0.1 s; the frequency domain has no controllers."""
-    text = CONTROLLED.replace("TYPE", "resistive").replace("KEYS", "damping = 0.7")
-    text = text.replace(text[text.index('[[force]]\nname = "latch"') : text.index("[[cont")], "")
-    case = Case.from_text(text)
-    key = "controller.law.damping"
-    found = hydrodae.gradient(case, PLACE, [key], rung="time", statistic="last")
-
-    def last(damping: float) -> float:
-        """Exact zero-order hold of x'' = -4 x + u/2."""
-        x, v = 0.5, 0.0
-        c, s = np.cos(0.2), np.sin(0.2)
-        for _ in range(10):
-            rest = -damping * v / 8.0
-            x, v = rest + (x - rest) * c + v * s / 2.0, v * c - 2.0 * (x - rest) * s
-        return float(x)
-
-    assert found.value == pytest.approx(last(0.7), abs=1e-8)
-    assert found.gradient[0] == pytest.approx(fourth_order(last, 0.7, 1e-3), rel=1e-6)
-    with pytest.raises(hydrodae.CaseError, match=r"controller\.law: the frequency domain has no"):
-        hydrodae.gradient(case, PLACE, [key])
-    with pytest.raises(hydrodae.CaseError, match=r"controller\.law\.period: no gradient"):
-        hydrodae.gradient(case, PLACE, ["controller.law.period"], rung="time", statistic="last")

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.relations import irf
+from hydrodae.hdb.relations import irf, tails
 
 POLES = np.array([-0.35 + 0.9j, -0.8 + 1.6j, -0.5 + 0.25j])  # 1/s
 A_INF = 1.0
@@ -100,7 +100,7 @@ def test_spline_is_integrated_exactly():
 
 @pytest.mark.parametrize("power", [2.0, 2.7, 4.5, 8.0])
 def test_tail_integrals_against_quadrature(power):
-    tail = irf.Tail(np.array([1.5]), np.array([power]))
+    tail = tails.Tail(np.array([1.5]), np.array([power]))
     w_max = 3.0
     for t in (0.0, 0.1, 0.3, 4.0):
         if t == 0.0:
@@ -109,9 +109,9 @@ def test_tail_integrals_against_quadrature(power):
             exact, _ = quad(
                 lambda w: 1.5 * (w / w_max) ** -power, w_max, np.inf, weight="cos", wvar=t
             )
-        found = irf._tail_cosine(tail, w_max, np.array([t]))[0, 0]
+        found = tails.tail_cosine(tail, w_max, np.array([t]))[0, 0]
         assert found == pytest.approx(exact, abs=2e-7)
-    near_zero = irf._tail_cosine(tail, w_max, np.array([0.0, 1e-7, 1e-5]))[:, 0]
+    near_zero = tails.tail_cosine(tail, w_max, np.array([0.0, 1e-7, 1e-5]))[:, 0]
     np.testing.assert_allclose(near_zero, near_zero[0], atol=5e-4)
 
 
@@ -135,8 +135,8 @@ def test_sign_changes_and_scatter_get_no_tail():
     b = np.stack(
         [w**-4, np.cos(3.0 * w) * w**-2, w**-4 * np.exp(0.3 * rng.standard_normal(w.size))], axis=1
     )
-    assert irf.fit_tail(w, b).used.tolist() == [True, False, False]
-    assert irf.fit_tail(w, b).power[0] == pytest.approx(4.0, abs=1e-9)
+    assert tails.fit_tail(w, b).used.tolist() == [True, False, False]
+    assert tails.fit_tail(w, b).power[0] == pytest.approx(4.0, abs=1e-9)
 
 
 def test_refuses_to_guess_below_the_first_frequency():

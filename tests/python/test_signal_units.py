@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import PLACE, RATE, case
+from tests.python.controlled import PLACE, RATE, case
 from tests.python.test_tcp import free_port
 from tests.scenes import controlled_cart
 

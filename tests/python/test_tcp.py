@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.python.test_controllers import PI, Pi
+from tests.python.controlled import PI, Pi
 from tests.scenes import controlled_cart
 
 import hydrodae

@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from tests.verification.fmu_of_c import write_fmu
 
 
 @pytest.fixture(scope="session")
@@ -41,3 +42,10 @@ def rm3_planar(rm3: Path, reference: Path) -> Path:
 
     prepare_planar(reference, rm3 / "hydro.h5")
     return rm3
+
+
+@pytest.fixture(params=[2, 3])
+def fmi(request: pytest.FixtureRequest, tmp_path: Path) -> int:
+    """Versions of FMI; pi.fmu of that version is in the folder of the test."""
+    write_fmu(tmp_path / "pi.fmu", request.param)
+    return int(request.param)

@@ -1,6 +1,6 @@
 """Dynamic lines against closed forms and equations of as many masses, written here anew.
 
-Every clone runs them; test_lines.py and test_lines_in_motion.py compare with reference data.
+Every clone runs them; the other files of lines compare with reference data as well.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from tests.verification.test_lines import IDLE, case, frequencies, line
+from tests.verification.line_scenes import IDLE, case, frequencies, line, span
 from tests.verification.test_lines_in_motion import moved
 
 import hydrodae
@@ -21,10 +21,7 @@ G = 9.81
 def test_a_taut_string_has_the_frequencies_of_the_closed_form() -> None:
     """omega_k = 2 sqrt(T / (m l)) sin(k pi / 2 n) for n - 1 masses m between n segments l."""
     n, length, unstretched, density, stiffness = 20, 10.0, 9.9, 3.0, 1e4
-    keys = (
-        f"point_a = [0.0, 0.0, 0.0]\npoint_b = [{length}, 0.0, 0.0]\nlength = [{unstretched}]\n"
-        f"segments = [{n}]\nmass = [{density}]\nstiffness = [{stiffness}]"
-    )
+    keys = span([length, 0.0, 0.0], unstretched, n, density, stiffness)
     _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
     tension = stiffness * (length / unstretched - 1.0)
     mass = density * unstretched / n
@@ -36,11 +33,7 @@ def test_a_taut_string_has_the_frequencies_of_the_closed_form() -> None:
 def test_a_hanging_chain_has_the_frequencies_of_as_many_masses() -> None:
     """Each segment carries the weight below it; the free end has half a mass."""
     n, length, density = 20, 5.0, 2.0
-    keys = (
-        f"point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [{length}]\nsegments = [{n}]\n"
-        f"mass = [{density}]\nstiffness = [1e8]"
-    )
-    _, across = frequencies(keys)
+    _, across = frequencies(span(None, length, n, density, 1e8))
     mass = np.full(n, density * length / n)
     mass[-1] *= 0.5
     along = (
@@ -75,10 +68,7 @@ def test_a_whirling_rope_keeps_its_shape_for_a_turn() -> None:
     tip = brentq(lambda r: float(shape(r)[0][0, 0]), 0.3 * length, 0.95 * length, xtol=1e-13)
     whole, pinned = shape(tip)
     place = whole[1:] - whole[0]
-    keys = (
-        f"point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [{length}]\nsegments = [{n}]\n"
-        f"mass = [{density}]\nstiffness = [{stiffness}]"
-    )
+    keys = span(None, length, n, density, stiffness)
     options = f'end_time = {2.0 * math.pi / turning!r}\nmethod = "radau"\nrtol = 1e-7'
     simulation = hydrodae.Simulation(case(IDLE + line(keys), options))
     state = simulation.state()

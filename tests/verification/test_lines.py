@@ -1,8 +1,7 @@
-"""Dynamic mooring lines against closed forms, independent eigenvalues and other codes' series."""
+"""Dynamic lines against closed forms, independent eigenvalues and equations of their own."""
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 from pathlib import Path
@@ -10,60 +9,28 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.scenes import driven
+from tests.verification.line_scenes import (
+    IDLE,
+    WATER,
+    WEIGHT,
+    at_rest,
+    case,
+    chain,
+    frequencies,
+    line,
+    moving,
+    span,
+)
 
 import hydrodae
 from hydrodae.errors import CaseError
-from hydrodae.linear import LinearModel
-
-# Something that moves: a case needs a body that does.
-IDLE = """
-[[body]]
-name = "idle"
-motion = ["surge"]
-mass = 1.0
-center_of_gravity = [0.0, 50.0, 0.0]
-[[force]]
-type = "mooring_matrix"
-name = "holds"
-body = "idle"
-stiffness = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-"""
-
-
-def line(keys: str, name: str = "line") -> str:
-    return f'\n[[force]]\ntype = "line"\nname = "{name}"\n{keys}\n'
-
-
-def case(text: str, solver: str = "end_time = 1.0", output: float = 0.1) -> hydrodae.Case:
-    return hydrodae.Case.from_text(f"{text}\n[solver]\n{solver}\n[output]\nstep = {output}\n")
-
-
-def at_rest(text: str, channel: str) -> np.ndarray:
-    return np.asarray(hydrodae.Simulation(case(text)).read(channel))
-
-
-def frequencies(keys: str, environment: str = "") -> tuple[np.ndarray, np.ndarray]:
-    """Of a line with fixed ends in the x-z plane: in the plane and across, from its stiffness."""
-    model = LinearModel(case(environment + IDLE + line(keys)))._model
-    a = np.asarray(model["state_by_state"])
-    n = len(a) // 6
-    places = np.array([6 * i + c for i in range(n) for c in range(3)])
-    k = -a[np.ix_(places + 3, places)]
-    across = np.arange(n) * 3 + 1
-    inside = np.setdiff1d(np.arange(3 * n), across)
-    return tuple(
-        np.sqrt(np.sort(np.linalg.eigvals(k[np.ix_(rows, rows)]).real)) for rows in (inside, across)
-    )
 
 
 def test_the_static_shape_tends_to_the_catenary_as_h_squared() -> None:
     exact = hydrodae.catenary(80.0, 30.0, 100.0, 98.1, 1e6, seabed=False)
     errors = []
     for n in (20, 40, 80):
-        keys = (
-            "point_a = [0.0, 0.0, 0.0]\npoint_b = [80.0, 0.0, 30.0]\nlength = [100.0]\n"
-            f"segments = [{n}]\nmass = [10.0]\nstiffness = [1e6]"
-        )
+        keys = span([80.0, 0.0, 30.0], 100.0, n, 10.0, 1e6)
         errors.append(float(at_rest(IDLE + line(keys), "forces/line/tension")) / exact.tension - 1)
     assert abs(errors[-1]) < 3e-5
     assert np.diff(np.log2(np.abs(errors))) == pytest.approx([-2.0, -2.0], abs=0.05)
@@ -72,11 +39,7 @@ def test_the_static_shape_tends_to_the_catenary_as_h_squared() -> None:
 def test_frequencies_of_sagging_cables_of_as_many_masses(reference: Path) -> None:
     cases = json.loads((reference / "rope" / "cable_frequencies.json").read_text())["cases"]
     for c in cases:
-        keys = (
-            f"point_a = [0.0, 0.0, 0.0]\npoint_b = [{c['X']}, 0.0, {c['Z']}]\n"
-            f"length = [{c['L0']}]\nsegments = [50]\nmass = [{c['mu']}]\nstiffness = [{c['EA']}]"
-        )
-        inside, across = frequencies(keys)
+        inside, across = frequencies(span([c["X"], 0.0, c["Z"]], c["L0"], 50, c["mu"], c["EA"]))
         lumped = c["lumped"]["50"]
         assert inside[:6] == pytest.approx(lumped["inplane"], rel=2e-6), c["name"]
         assert across[:6] == pytest.approx(lumped["out_of_plane"], rel=2e-6), c["name"]
@@ -84,21 +47,13 @@ def test_frequencies_of_sagging_cables_of_as_many_masses(reference: Path) -> Non
 
 def test_frequencies_of_a_hanging_chain_of_as_many_masses(reference: Path) -> None:
     d = json.loads((reference / "rope" / "hanging_chain.json").read_text())
-    keys = (
-        "point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [5.0]\nsegments = [20]\n"
-        "mass = [2.0]\nstiffness = [1e8]"
-    )
-    _, across = frequencies(keys)
+    _, across = frequencies(span(None, 5.0, 20, 2.0, 1e8))
     assert across[:6] == pytest.approx(d["discrete_lumped"]["20"], rel=2e-6)
 
 
 def test_frequencies_of_a_taut_string_of_as_many_masses(reference: Path) -> None:
     d = json.loads((reference / "rope" / "taut_string.json").read_text())
-    keys = (
-        "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\n"
-        f"length = [{d['L0_unstretched']!r}]\nsegments = [20]\n"
-        f"mass = [{d['mu0_unstretched']!r}]\nstiffness = [{d['EA']!r}]"
-    )
+    keys = span([10.0, 0.0, 0.0], d["L0_unstretched"], 20, d["mu0_unstretched"], d["EA"])
     _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
     assert across[:8] == pytest.approx(d["transverse_omega_lumped"]["20"], rel=1e-9)
 
@@ -107,10 +62,7 @@ def test_a_stiff_line_bends_as_a_beam() -> None:
     """Simply supported: omega = (n pi / L)^2 sqrt(EI / m), and with the error of h^2."""
     errors = []
     for n in (20, 40):
-        keys = (
-            "point_a = [0.0, 0.0, 0.0]\npoint_b = [10.0, 0.0, 0.0]\nlength = [10.0]\n"
-            f"segments = [{n}]\nmass = [3.0]\nstiffness = [1e4]\nbending_stiffness = [5e3]"
-        )
+        keys = span([10.0, 0.0, 0.0], 10.0, n, 3.0, 1e4, "bending_stiffness = [5e3]")
         _, across = frequencies(keys, "[environment]\ngravity = 0.0\n")
         exact = (np.arange(1, 4) * math.pi / 10.0) ** 2 * math.sqrt(5e3 / 3.0)
         errors.append(across[:3] / exact - 1.0)
@@ -139,10 +91,7 @@ points = [[0.0, 0.0, 0.0], [0.0, 0.0, -10.0]]
 stiffness = 2e5
 length = 10.0
 """
-    keys = (
-        'body_b = "weight"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [0.0, 0.0, -10.0]\n'
-        "length = [10.0]\nsegments = [5]\nmass = [0.001]\nstiffness = [2e5]"
-    )
+    keys = span([0.0, 0.0, -10.0], 10.0, 5, 0.001, 2e5, 'body_b = "weight"')
     options = 'end_time = 3.0\nmethod = "radau"\nrtol = 1e-6'
     a, b = (
         hydrodae.run(case(HANGING + force, options, 0.05))["bodies/weight/position"].values[:, 2]
@@ -150,23 +99,6 @@ length = 10.0
     )
     assert np.ptp(a) > 0.1
     assert b == pytest.approx(a, abs=2e-5 * float(np.ptp(a)) + 1e-5)
-
-
-def chain(segments: int, extra: str = "") -> str:
-    return (
-        'body_b = "buoy"\npoint_a = [-385.0, 0.0, -50.0]\npoint_b = [0.0, 0.0, 0.0]\n'
-        f"length = [400.0]\nsegments = [{segments}]\nmass = [140.0]\ndiameter = [0.15]\n"
-        f"stiffness = [5e7]\n{extra}\n"
-    )
-
-
-WATER = "[environment]\nwater_density = 1025.0\nwater_depth = 50.0\n"
-WEIGHT = 140.0 * 9.81 - 1025.0 * 9.81 * 0.25 * math.pi * 0.15**2
-
-
-def moving(period: float) -> str:
-    """Return a buoy that a sine moves sideways."""
-    return driven("buoy", "surge", 2e5, amplitude=4.0, period=period, ramp=period)
 
 
 def test_slow_motion_is_that_of_a_catenary() -> None:
@@ -248,11 +180,8 @@ def test_the_damping_of_slack_segments(damped_slack: bool) -> None:
     """Against the same law with a hard onset; the other law is far from it."""
     text = "environment.gravity = 0.0\n"
     text += driven("end", "surge", 1.0, [SNAP_L, 0.0, 0.0], amplitude=SNAP_A, period=SNAP_T)
-    keys = (
-        f'body_b = "end"\npoint_a = [0.0, 0.0, 0.0]\npoint_b = [{SNAP_L}, 0.0, 0.0]\n'
-        f"length = [{SNAP_L}]\nsegments = [{SNAP_N}]\nmass = [{SNAP_M}]\n"
-        f"stiffness = [{SNAP_EA}]\ndamping = [{SNAP_C}]\ndamps_slack = {str(damped_slack).lower()}"
-    )
+    more = f'body_b = "end"\ndamping = [{SNAP_C}]\ndamps_slack = {str(damped_slack).lower()}'
+    keys = span([SNAP_L, 0.0, 0.0], SNAP_L, SNAP_N, SNAP_M, SNAP_EA, more)
     run = hydrodae.run(case(text + line(keys), "end_time = 2.0\nrtol = 1e-5", 0.005))
     found = run["forces/line/tension_along"].values[:, -1]
     theirs, others = snap(damped_slack), snap(not damped_slack)
@@ -360,199 +289,6 @@ stiffness = [5e7]
             simulation.advance()
         assert float(simulation.read("forces/line0/tension")) == pytest.approx(before, rel=1e-6)
     assert heave[0] == pytest.approx(heave[1], abs=0.01)
-
-
-def orcaflex(
-    reference: Path, depth: int, motion: str, solver: str = "rtol = 1e-3", segments: int = 0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Computed and OrcaFlex's tension at the fairlead [kN], from t = 0 every 0.1 s."""
-    anchor, length, n = {50: (400, 410, 164), 200: (700, 760, 76), 600: (1500, 1700, 170)}[depth]
-    n = segments or n
-    folder = reference / "lines"
-    with (folder / f"orcaflex_motion_ZZP1_{motion}.csv").open() as file:
-        rows = [[float(x) for x in row] for row in list(csv.reader(file))[1:]]
-    times = [row[0] + 10.0 for row in rows]
-    grown = [min(t / 10.0, 1.0) for t in times]
-    heave = [
-        row[3] * g**3 * (6.0 * g * g - 15.0 * g + 10.0) for row, g in zip(rows, grown, strict=True)
-    ]
-    water = f"[environment]\nwater_density = 1025.0\nwater_depth = {depth}\n"
-    text = water + driven("fairlead", "heave", 1e6, time=times, values=heave)
-    text += line(
-        f'body_b = "fairlead"\npoint_a = [{anchor}.0, 0.0, -{depth}.0]\n'
-        f"point_b = [0.0, 0.0, 0.0]\nlength = [{length}.0]\nsegments = [{n}]\nmass = [390.0]\n"
-        "diameter = [0.252]\nstiffness = [1.674e9]\ndamping_ratio = [1.0]\ndrag = [1.37]\n"
-        f"drag_axial = [{0.64 / math.pi!r}]\nadded_mass = [1.0]\n"
-        f"contact_diameter = [{3.35 * 0.14!r}]\nseabed_stiffness = 1e5\nseabed_damping = 1e4\n"
-        "seabed_friction = 0.5"
-    )
-    run = hydrodae.run(case(text, f"end_time = 29.9\n{solver}", 0.1))
-    with (folder / f"orcaflex_WD{depth:04d}_ZZP1_{motion}.csv").open() as file:
-        theirs = np.array([float(row[3]) for row in list(csv.reader(file))[1:]])
-    ours = run["forces/line/tension"].values[100:] / 1e3
-    n = min(len(ours), len(theirs))
-    return ours[:n], theirs[:n]
-
-
-@pytest.mark.parametrize(
-    ("depth", "motion", "bar"),
-    [
-        pytest.param(50, "A1", 0.075, marks=pytest.mark.slow),
-        (50, "A2", 0.028),
-        (200, "A1", 0.036),
-        (200, "A2", 0.037),
-        (600, "A1", 0.033),
-        (600, "A2", 0.026),
-    ],
-)
-def test_tensions_of_orcaflex(reference: Path, depth: int, motion: str, bar: float) -> None:
-    """Largest difference over the range, from slack to snap. Their axial drag is over D.
-
-    Chain of 140 mm, whose links are 3.35 d wide: its axis lies 0.23 m above the bed. Where half the
-    line rattles on the bed, in 50 m, it takes four times as many segments as the others of 10 m.
-    The motion grows over the 10 s before t = 0, OrcaFlex's stage of building up: at full size from
-    the start 600 m with A1 would be 6.6 % off at t = 0. Of the smallest motions theirs is rough by
-    what the table of the fairlead is rounded by: means over 0.3 s agree better.
-    """
-    ours, theirs = orcaflex(reference, depth, motion)
-    assert ours.mean() == pytest.approx(theirs.mean(), rel=2e-3)
-    difference = ours - theirs
-    assert np.abs(difference).max() < bar * np.ptp(theirs)
-    means = np.convolve(difference, np.full(3, 1.0 / 3.0), "valid")
-    assert np.abs(means).max() < 0.05 * np.ptp(theirs)
-
-
-ORCAFLEX_STEP, ORCAFLEX_RADIUS = 0.1, 0.4
-
-
-def test_the_smallest_tension_of_orcaflex_in_its_own_steps(reference: Path) -> None:
-    """Within 5 % of the range with their segments and their generalised alpha of fixed steps.
-
-    That these are 0.1 s long, with a spectral radius of 0.4, shows in the fairlead that they
-    record: it is where the table is at t - alpha_f h, alpha_f = radius / (1 + radius), which is
-    where the method takes forces.
-    """
-    with (reference / "lines" / "orcaflex_WD0050_ZZP1_A1.csv").open() as file:
-        rows = np.array([[float(x) for x in row[:3]] for row in list(csv.reader(file))[1:]])
-    late = ORCAFLEX_RADIUS / (1.0 + ORCAFLEX_RADIUS) * ORCAFLEX_STEP
-    moved = 2.0 * np.sin(0.2 * math.pi * (rows[:, 0] - late))
-    np.testing.assert_allclose(rows[:, 2], moved, atol=1e-3)  # two roundings to the millimetre
-    solver = (
-        f'method = "generalized_alpha"\nstep = {ORCAFLEX_STEP}\n'
-        f"spectral_radius = {ORCAFLEX_RADIUS}\nrtol = 1e-2"
-    )
-    ours, theirs = orcaflex(reference, 50, "A1", solver, 41)
-    assert ours.mean() == pytest.approx(theirs.mean(), rel=1e-3)
-    assert np.abs(ours - theirs).max() < 0.046 * np.ptp(theirs)
-
-
-def test_a_jumper_with_bending_hangs_as_that_of_lowe_and_langley() -> None:
-    """Published loads at rest: top (11.40, 45.71) kN, bottom (11.40, 24.04) kN, within 0.2 kN."""
-    keys = (
-        "point_a = [-100.0, 0.0, -55.0]\npoint_b = [0.0, 0.0, -5.0]\nlength = [170.0]\n"
-        "segments = [68]\nmass = [165.0]\ndiameter = [0.396]\nstiffness = [5e8]\n"
-        "bending_stiffness = [1.208e5]"
-    )
-    environment = "[environment]\nwater_density = 1000.0\nwater_depth = 100.0\ngravity = 9.807\n"
-    simulation = hydrodae.Simulation(case(environment + IDLE + line(keys)))
-    top, bottom = math.hypot(11400.0, 45710.0), math.hypot(11400.0, 24040.0)
-    assert float(simulation.read("forces/line/tension")) == pytest.approx(top, abs=200.0)
-    assert float(simulation.read("forces/line/tension_anchor")) == pytest.approx(bottom, abs=200.0)
-
-
-JUMPER = (
-    "length = [170.0]\nsegments = [{n}]\nmass = [165.0]\ndiameter = [0.396]\nstiffness = [5e8]\n"
-    "bending_stiffness = [1.208e5]\ndrag = [1.0]\nadded_mass = [1.0]\ndamping_ratio = [0.5]"
-)
-
-
-def jumper(water: str, keys: str, end: float, n: int = 68, deeper: float = 0.0) -> hydrodae.Results:
-    """The run of a jumper of Lowe and Langley, `deeper` [m] than theirs."""
-    text = f"[environment]\nwater_density = 1000.0\nwater_depth = {100.0 + deeper}\n"
-    text += f"gravity = 9.807\n{water}"
-    ends = f"point_a = [-100.0, 0.0, {-55.0 - deeper}]\npoint_b = [0.0, 0.0, {-5.0 - deeper}]\n"
-    forces = line(keys + ends + JUMPER.format(n=n))
-    return hydrodae.run(case(text + forces, f"end_time = {end}\nrtol = 1e-3"))
-
-
-def beside_lowe_and_langley(
-    run: hydrodae.Results, reference: Path, number: int, start: float
-) -> tuple[float, float]:
-    """Largest difference of the tension at the top [kN]: as it is, and at the best shift of time
-    by up to 0.1 s, a step of their table, which is read off a printed graph."""
-    path = reference / "lines" / f"lowe_langley_case{number}.csv"
-    theirs = np.loadtxt(path, delimiter=",", skiprows=1)
-    theirs = theirs[theirs[:, 0] + start <= run.time[-1] - 0.1]
-    ours = run["forces/line/tension"].values / 1e3
-    differences = [
-        float(np.abs(np.interp(theirs[:, 0] + start + by, run.time, ours) - theirs[:, 1]).max())
-        for by in np.arange(-0.1, 0.101, 0.02)
-    ]
-    return differences[5], min(differences)
-
-
-@pytest.mark.parametrize(
-    ("number", "coordinate", "deeper", "n", "bar", "shifted_bar"),
-    [
-        (1, "surge", 20.0, 68, 0.5, 0.27),
-        (2, "sway", 20.0, 68, 0.5, 0.23),
-        (3, "heave", 0.0, 136, 0.7, 0.46),
-    ],
-)
-def test_a_jumper_whose_top_moves_of_lowe_and_langley(
-    reference: Path,
-    number: int,
-    coordinate: str,
-    deeper: float,
-    n: int,
-    bar: float,
-    shifted_bar: float,
-) -> None:
-    """10 m in 27 s [kN], of 11, 5 and 21 kN from least to most. Up and down, the top of 5 m comes
-    out of the water and dips in again: there it takes twice their segments. All three graphs agree
-    best if they are taken to be 0.1 s early."""
-    at = [0.0, 0.0, -5.0 - deeper]
-    moves = driven("top", coordinate, 1e6, at, amplitude=10.0, period=27.0, ramp=27.0)
-    run = jumper(moves, 'body_b = "top"\n', 27.0 + 30.0, n, deeper)
-    found, shifted = beside_lowe_and_langley(run, reference, number, 27.0)
-    assert found < bar
-    assert shifted < shifted_bar
-
-
-@pytest.mark.parametrize(
-    ("number", "heading", "phase", "ramp", "bar", "shifted_bar"),
-    [
-        (4, 0.0, 230.0, 10.0, 0.45, 0.45),
-        (5, 45.0, 165.0, 20.0, 0.99, 0.46),
-        (6, 90.0, 0.0, 10.0, 0.41, 0.41),
-    ],
-)
-def test_a_jumper_in_waves_of_lowe_and_langley(
-    reference: Path,
-    number: int,
-    heading: float,
-    phase: float,
-    ramp: float,
-    bar: float,
-    shifted_bar: float,
-) -> None:
-    """Tension at the top in regular waves of 5 m [kN], of 12 kN from least to most.
-
-    Theirs is under water throughout, though its top is where the troughs are: here all is 4 m
-    deeper, in waves that move the water as much there. They grow over one or two periods. Their
-    phases were chosen in steps of 5 degrees, 0.14 s, to fit the graphs. Without the pressure of
-    the waves along the line the range would be half of that.
-    """
-    deeper, k = 4.0, (2.0 * math.pi / 10.0) ** 2 / 9.807
-    height = 10.0 * math.cosh(k * (100.0 + deeper)) / math.cosh(k * 100.0)
-    waves = (
-        f'[sea]\nramp = {ramp}\n[[wave]]\nname = "w"\ntype = "regular"\nheight = {height!r}\n'
-        f"period = 10.0\nheading_deg = {heading}\nphase_deg = {-phase}\n"
-    )
-    run = jumper(waves + IDLE, "", ramp + 30.0, deeper=deeper)
-    found, shifted = beside_lowe_and_langley(run, reference, number, ramp)
-    assert found < bar
-    assert shifted < shifted_bar
 
 
 def test_lines_that_make_no_sense_are_refused() -> None:

@@ -12,35 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
-from tests.verification.test_lines import IDLE, case, line
+from tests.verification.line_scenes import IDLE, PERIOD, case, line, round_chain, span
 
 import hydrodae
 from hydrodae._core import State
-
-PERIOD = 3.5
-BAR = 0.0022  # of the chain [m]
-ROUND = f"""
-[environment]
-water_density = 1000.0
-water_depth = 3.0
-[[body]]
-name = "top"
-motion = ["surge", "heave"]
-mass = 10.0
-center_of_gravity = [32.554, 0.0, 0.3]
-[[constraint]]
-name = "along"
-type = "coordinate"
-body = "top"
-coordinate = "surge"
-drive = {{ amplitude = 0.2, period = {PERIOD}, phase_deg = 90.0, ramp = {PERIOD} }}
-[[constraint]]
-name = "up"
-type = "coordinate"
-body = "top"
-coordinate = "heave"
-drive = {{ amplitude = -0.2, period = {PERIOD}, ramp = {PERIOD} }}
-"""
 
 
 @pytest.mark.slow
@@ -53,15 +28,10 @@ def test_measured_tension_of_a_chain_whose_top_runs_round_a_circle(reference: Pa
     measured = np.loadtxt(
         reference / "chain_tension" / "tension_3.5s.csv", delimiter=",", skiprows=1
     )
-    keys = (
-        'body_b = "top"\npoint_a = [0.0, 0.0, -3.0]\npoint_b = [32.554, 0.0, 0.3]\n'
-        "length = [33.0]\nsegments = [40]\nmass = [0.0818]\ndiameter = [0.003654]\n"
-        "stiffness = [1e4]\ndamping = [2.0]\ndrag = [1.505]\ndrag_axial = [0.096]\n"
-        f"added_mass = [3.8]\ncontact_diameter = [{3.35 * BAR}]\nseabed_stiffness = 3e6\n"
-        "seabed_damping = 1e4\nseabed_friction = 0.3"
-    )
     turns = 8
-    run = hydrodae.run(case(ROUND + line(keys), f"end_time = {turns * PERIOD}\nrtol = 1e-3", 0.01))
+    run = hydrodae.run(
+        case(round_chain(40, 1.505, 0.096), f"end_time = {turns * PERIOD}\nrtol = 1e-3", 0.01)
+    )
     tension = run["forces/line/tension"].values
     times = measured[:, 0] + 2.0 * PERIOD
     errors = [
@@ -88,10 +58,7 @@ def test_a_whirling_rope_keeps_its_shape_for_five_turns(reference: Path) -> None
     """A rope that turns about the vertical through its pin, at 1.2 times its first frequency."""
     truths = json.loads((reference / "rope" / "swing.json").read_text())["whirling"]
     rope, truth, n = truths["L"], truths["cases"][1], 80
-    keys = (
-        f"point_a = [0.0, 0.0, 0.0]\nfree_end = true\nlength = [{rope}]\nsegments = [{n}]\n"
-        f"mass = [{truths['mu']}]\nstiffness = [{truth['EA']}]"
-    )
+    keys = span(None, rope, n, truths["mu"], truth["EA"])
     turning = truth["Omega"]
     options = f'end_time = {10.0 * math.pi / turning!r}\nmethod = "radau"\nrtol = 1e-7'
     simulation = hydrodae.Simulation(case(IDLE + line(keys), options))

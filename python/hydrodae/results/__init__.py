@@ -6,13 +6,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from hydrodae.results.recording import (
-    ChannelError,
-    Recording,
-    ResultsError,
-    ResultsWarning,
-    partial_path,
-)
+from hydrodae.results.files import ChannelError, ResultsError, ResultsWarning, partial_path
+from hydrodae.results.recording import Recording
 from hydrodae.results.series import Statistics, statistics
 from hydrodae.results.summary import summary
 from hydrodae.support import outputs

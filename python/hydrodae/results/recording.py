@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import os
-import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -15,7 +14,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from hydrodae.errors import HydrodaeError
+from hydrodae.results.files import ChannelError, ResultsError, find, identity, name_of, plain, real
 from hydrodae.results.sampling import FEWEST, PERIODS
 from hydrodae.support.damaged import opened
 
@@ -35,32 +34,6 @@ _LABELS = tuple(name for name, _ in _COMPONENTS.values())
 #: Groups of tables, which are no channels: impacts, one a stop; errors, one a body or line.
 _IMPACTS = "impacts/"
 _ACCURACY = "accuracy/"
-
-
-class ResultsError(HydrodaeError):
-    """A results file cannot be used."""
-
-
-class ChannelError(ResultsError, KeyError):
-    """There is no channel of that name; the message has the nearest one."""
-
-    __str__ = Exception.__str__  # KeyError would show the message in quotes
-
-
-class ResultsWarning(UserWarning):
-    """The results that are read are not those of the last run, or not all of them."""
-
-
-def partial_path(path: str | os.PathLike[str]) -> Path:
-    """Return where a run writes until it ends: ``X.partial.h5`` beside ``X.h5``.
-
-    Parameters
-    ----------
-    path : path
-        Results file; links are followed.
-    """
-    target = Path(os.path.realpath(path))
-    return target.with_name(f"{target.stem}.partial{target.suffix}")
 
 
 @dataclass(frozen=True)
@@ -100,7 +73,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     """Header and channels of a results file, each read when it is first asked for."""
 
     def __init__(self, path: str | os.PathLike[str], owner: object = None) -> None:
-        self.path = _find(Path(path))
+        self.path = find(Path(path))
         self._owner = owner
         self._read: dict[str, xarray.DataArray] = {}
         if not self.path.is_file():
@@ -114,7 +87,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             )
         with opened(self.path, ResultsError, "not a readable results file", search=True) as file:
             self._read_header(file)
-        self._identity = _identity(self.path)
+        self._identity = identity(self.path)
 
     def _read_header(self, file: h5py.File) -> None:
         found = file.attrs.get("format")
@@ -131,12 +104,12 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(
                 f"{self.path}: format version {version}; this hydrodae reads {FORMAT_VERSION}"
             )
-        self._header = {_name(key): _plain(value) for key, value in file.attrs.items()}
+        self._header = {name_of(key): plain(value) for key, value in file.attrs.items()}
         if not isinstance(self._header.get("status"), str):
             raise ResultsError(f"{self.path}: damaged: it has no status")
         solver = file.get("solver")
         attributes = {} if solver is None else solver.attrs
-        self._statistics = {_name(key): _plain(value) for key, value in attributes.items()}
+        self._statistics = {name_of(key): plain(value) for key, value in attributes.items()}
         lengths: dict[str, int] = {}
         impacts: list[str] = []
         errors: list[str] = []
@@ -157,7 +130,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
             raise ResultsError(f"{self.path}: damaged: it has no list of times")
         # A run that was killed may have died between two channels: keep the samples that all have.
         samples = min(lengths.values()) if self.status == "running" else lengths["time"]
-        self._time: NDArray[np.float64] = _real(file["time"][:samples])
+        self._time: NDArray[np.float64] = real(file["time"][:samples])
         self._names = tuple(name for name in lengths if name != "time")
         self._impacts = tuple(impacts)
         self._errors = tuple(errors)
@@ -227,8 +200,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         tables = {}
         for name in self._impacts:
             with opened(self.path, ResultsError, f"impacts on {name} are damaged") as file:
-                values = _real(file[_IMPACTS + name][:])
-                units = str(_plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
+                values = real(file[_IMPACTS + name][:])
+                units = str(plain(file[_IMPACTS + name].attrs["unit"])).split(", ")
             if values.ndim != 2 or values.shape[1] not in (3, 4) or len(units) != values.shape[1]:
                 raise ResultsError(f"{self.path}: impacts on {name} are damaged")
             keys = ("time", "impulse", "energy_lost", "peak_force")
@@ -252,8 +225,8 @@ class Recording(Mapping[str, "xarray.DataArray"]):
         found = {}
         for name in self._errors:
             with opened(self.path, ResultsError, f"accuracy of {name} is damaged") as file:
-                values = _real(file[_ACCURACY + name][:])
-                attributes = {k: _plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
+                values = real(file[_ACCURACY + name][:])
+                attributes = {k: plain(v) for k, v in file[_ACCURACY + name].attrs.items()}
             if values.ndim != 2 or values.shape[1] != 3:
                 raise ResultsError(f"{self.path}: accuracy of {name} is damaged")
             time, error, relative = values.T
@@ -326,15 +299,15 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     def _load(self, name: str) -> xarray.DataArray:
         import xarray
 
-        if _identity(self.path) != self._identity:
+        if identity(self.path) != self._identity:
             raise ResultsError(
                 f"{self.path}: the file has changed since it was opened; read it again"
             )
         damaged = f"channel {name} is damaged"
         with opened(self.path, ResultsError, damaged) as file:
-            values = _real(file[name][: len(self._time)])
+            values = real(file[name][: len(self._time)])
             attributes = {
-                key: _plain(value)
+                key: plain(value)
                 for key, value in file[name].attrs.items()
                 if key != "DIMENSION_LIST"
             }
@@ -380,54 +353,3 @@ class Recording(Mapping[str, "xarray.DataArray"]):
     def _groups(self) -> str:
         groups = sorted({channel.split("/")[0] for channel in self._names})
         return f"; there are channels in {', '.join(groups) or 'no group'}"
-
-
-def _find(path: Path) -> Path:
-    """The file to read: `path`, or what its run has written so far."""
-    partial = partial_path(path)
-    if path.is_file():
-        if partial.is_file():
-            _warn(
-                f"{path} holds an earlier run: a later one is being written to {partial}, or was "
-                "cut off there"
-            )
-        return path
-    if not partial.is_file():
-        raise ResultsError(f"{path}: no such results file")
-    if not h5py.is_hdf5(partial):
-        raise ResultsError(
-            f"{path}: no such results file; {partial} is what a run left that was cut off before "
-            "its first sample"
-        )
-    _warn(f"{path}: its run has not ended, or was cut off; what it wrote is read from {partial}")
-    return partial
-
-
-def _warn(message: str) -> None:
-    warnings.warn(message, ResultsWarning, stacklevel=4)
-
-
-def _name(key: str | bytes) -> str:
-    """Return the name of an attribute; damaged ones come as bytes."""
-    return key.decode("utf-8", "replace") if isinstance(key, bytes) else key
-
-
-def _plain(value: Any) -> Any:
-    """Attribute as plain Python: str, int, float, bool or list."""
-    if isinstance(value, bytes):
-        return value.decode()
-    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
-
-
-def _real(values: Any) -> NDArray[np.float64]:
-    """Values as they are written: real numbers."""
-    found = np.asarray(values)
-    if found.dtype.kind not in "fiu":
-        raise TypeError(f"expected numbers, found {found.dtype}")
-    return found.astype(float)
-
-
-def _identity(path: Path) -> tuple[int, int, int]:
-    """What changes when a file is written again."""
-    stat = path.stat()
-    return stat.st_ino, stat.st_size, stat.st_mtime_ns

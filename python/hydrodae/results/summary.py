@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydrodae.results.recording import Recording, ResultsError
+from hydrodae.results.files import ResultsError
+from hydrodae.results.recording import Recording
 from hydrodae.results.series import intervals_of
 from hydrodae.support.units import displayed
 

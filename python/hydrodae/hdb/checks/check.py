@@ -30,7 +30,7 @@ from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.findings import CheckReport, Finding
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length, resolved_time
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
-from hydrodae.hdb.relations import irf
+from hydrodae.hdb.relations import irf, tails
 
 
 def check(database: HydroDatabase, band: Band | None = None) -> CheckReport:
@@ -109,7 +109,7 @@ def _grid(db: HydroDatabase) -> list[Finding]:
             )
         )
     rest = np.abs(b[-1]) / b.max(axis=0)
-    cut = rest * ~irf.fit_tail(w, b).used
+    cut = rest * ~tails.fit_tail(w, b).used
     if cut.max() > 0.02:
         found.append(
             Finding(
@@ -147,7 +147,7 @@ def _memory(db: HydroDatabase) -> list[Finding]:
     i, resolved = int(lengths.argmax()), resolved_time(db)
     # the end of the kernel over its largest value: what is left there is noise or an image
     rest = np.abs(kernel[int(0.9 * time.size) :]).max(axis=0) / np.abs(kernel).max(axis=0)
-    tail = irf.fit_tail(db.omega, db.radiation_damping[:, used, used])
+    tail = tails.fit_tail(db.omega, db.radiation_damping[:, used, used])
     powers = [f"{p:.1f}" if u else "none" for p, u in zip(tail.power, tail.used, strict=True)]
     names = ", ".join(
         f"{db.coordinates[c]} {p}" for c, p in list(zip(used, powers, strict=True))[:8]

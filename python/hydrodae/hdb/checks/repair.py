@@ -14,7 +14,7 @@ from hydrodae.hdb.checks.irregular import bands, suspect_rows
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.database.coordinates import nearest
 from hydrodae.hdb.database.scales import scales
-from hydrodae.hdb.relations import infinity, irf
+from hydrodae.hdb.relations import infinity, irf, tails
 from hydrodae.hdb.relations.dispersion import wavenumber
 
 Array = NDArray[np.float64]
@@ -186,14 +186,14 @@ def tail(db: HydroDatabase) -> tuple[HydroDatabase, str]:
     w, n = db.omega, len(db.coordinates)
     active = scales(db) > 0.0
     diagonal = np.einsum("wii->wi", db.radiation_damping)
-    fitted = irf.fit_tail(w, diagonal)
+    fitted = tails.fit_tail(w, diagonal)
     bad = [db.coordinates[i] for i in range(n) if active[i] and not fitted.used[i]]
     if bad or not active.any():
         raise DatabaseError(
             f"no tail: B of {', '.join(bad) or 'every coordinate'} follows no power law above "
-            f"{irf.TAIL_FROM * w[-1]:.3g} rad/s; compute higher frequencies"
+            f"{tails.TAIL_FROM * w[-1]:.3g} rad/s; compute higher frequencies"
         )
-    power = np.where(active, fitted.power, irf.TAIL_POWERS[1])
+    power = np.where(active, fitted.power, tails.TAIL_POWERS[1])
     count = int(np.ceil(np.log(TAIL_REACH) / np.log(TAIL_RATIO)))
     more = w[-1] * TAIL_RATIO ** np.arange(1, count + 1)
     ratio = more[:, None] / w[-1]

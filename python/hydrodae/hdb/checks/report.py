@@ -17,7 +17,7 @@ from hydrodae.hdb.database.coordinates import DOFS, split_label
 from hydrodae.hdb.database.findings import CheckReport
 from hydrodae.hdb.database.kernels import diagonal_kernels, envelope_length
 from hydrodae.hdb.database.scales import scaled_damping_eigenvalues, scales
-from hydrodae.hdb.relations import irf
+from hydrodae.hdb.relations import tails
 from hydrodae.hdb.relations.dispersion import wavenumber
 from hydrodae.support.style import COLORS, STYLE
 
@@ -189,7 +189,7 @@ def _draw_causality(ax: Axes, db: HydroDatabase, radiating: list[int]) -> None:
         ax.semilogy(db.omega, np.maximum(residual[:, used.index(i)], 1e-6), color=COLORS[dof])
     negative = np.maximum(-scaled_damping_eigenvalues(db), 1e-6)
     ax.semilogy(db.omega, negative, color="black", lw=0.8, label="negative eigenvalue of scaled B")
-    ax.axhline(irf.TAIL_SCATTER, color="#999999", lw=0.8, ls=":")
+    ax.axhline(tails.TAIL_SCATTER, color="#999999", lw=0.8, ls=":")
     ax.set_ylim(1e-5, 2.0)
     ax.set_title("Ogilvie residual / A, and energy fed in")
     ax.legend(loc="best", fontsize=7)

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydrodae.hdb.relations import irf
+from hydrodae.hdb.relations import irf, tails
 
 Array = NDArray[np.float64]
 
@@ -77,7 +77,7 @@ def added_mass_inf(
     shape = a.shape[1:]
     squares, scatter = irf.added_mass_inf(w, a, b)
     flat_b = b.reshape(w.size, -1)
-    tail = irf.fit_tail(w, flat_b)
+    tail = tails.fit_tail(w, flat_b)
     estimates = irf.added_mass_inf_estimates(w, a, b, tail=False).reshape(w.size, -1)
     beyond = _beyond(w, flat_b, tail)
     middle = [m for low, high in WINDOWS if (m := _median(w, estimates, low, high)) is not None]
@@ -107,7 +107,7 @@ def _median(w: Array, estimates: Array, low: float, high: float) -> Array | None
     return np.asarray(np.median(estimates[inside], axis=0))
 
 
-def _beyond(w: Array, b: Array, tail: irf.Tail) -> Array:
+def _beyond(w: Array, b: Array, tail: tails.Tail) -> Array:
     """2/pi int_{w_max}^inf B(s)/s^2 ds = 2/pi B(w_max)/w_max /(n + 1), what A(0) - A_inf lacks."""
     end = np.median(b[w > 0.9 * w[-1]], axis=0)
     power = np.where(tail.used, np.maximum(tail.power, WAVE_MAKER), WAVE_MAKER)
@@ -119,9 +119,9 @@ def _gap(w: Array, b: Array, low: Array) -> Array:
     return np.asarray(0.5 / np.pi * np.abs(b[0]) * w[0] / np.median(low) ** 2)
 
 
-def _exact(w: Array, b: Array, tail: irf.Tail) -> NDArray[np.bool_]:
+def _exact(w: Array, b: Array, tail: tails.Tail) -> NDArray[np.bool_]:
     """Where the damping is over, and its last points follow a smooth tail to `EXACT_TAIL`."""
-    last = w > irf.TAIL_FROM * w[-1]
+    last = w > tails.TAIL_FROM * w[-1]
     y = np.abs(b[last])
     logs = np.log(np.where(y > 0.0, y, 1.0))
     u2 = (w[-1] / w[last]) ** 2

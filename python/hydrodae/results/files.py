@@ -1,0 +1,91 @@
+"""Results files: where they are, what is read of them, and what can be wrong with one."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from hydrodae.errors import HydrodaeError
+
+
+class ResultsError(HydrodaeError):
+    """A results file cannot be used."""
+
+
+class ChannelError(ResultsError, KeyError):
+    """There is no channel of that name; the message has the nearest one."""
+
+    __str__ = Exception.__str__  # KeyError would show the message in quotes
+
+
+class ResultsWarning(UserWarning):
+    """The results that are read are not those of the last run, or not all of them."""
+
+
+def partial_path(path: str | os.PathLike[str]) -> Path:
+    """Return where a run writes until it ends: ``X.partial.h5`` beside ``X.h5``.
+
+    Parameters
+    ----------
+    path : path
+        Results file; links are followed.
+    """
+    target = Path(os.path.realpath(path))
+    return target.with_name(f"{target.stem}.partial{target.suffix}")
+
+
+def find(path: Path) -> Path:
+    """The file to read: `path`, or what its run has written so far."""
+    partial = partial_path(path)
+    if path.is_file():
+        if partial.is_file():
+            _warn(
+                f"{path} holds an earlier run: a later one is being written to {partial}, or was "
+                "cut off there"
+            )
+        return path
+    if not partial.is_file():
+        raise ResultsError(f"{path}: no such results file")
+    if not h5py.is_hdf5(partial):
+        raise ResultsError(
+            f"{path}: no such results file; {partial} is what a run left that was cut off before "
+            "its first sample"
+        )
+    _warn(f"{path}: its run has not ended, or was cut off; what it wrote is read from {partial}")
+    return partial
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, ResultsWarning, stacklevel=4)
+
+
+def name_of(key: str | bytes) -> str:
+    """Return the name of an attribute; damaged ones come as bytes."""
+    return key.decode("utf-8", "replace") if isinstance(key, bytes) else key
+
+
+def plain(value: Any) -> Any:
+    """Attribute as plain Python: str, int, float, bool or list."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def real(values: Any) -> NDArray[np.float64]:
+    """Values as they are written: real numbers."""
+    found = np.asarray(values)
+    if found.dtype.kind not in "fiu":
+        raise TypeError(f"expected numbers, found {found.dtype}")
+    return found.astype(float)
+
+
+def identity(path: Path) -> tuple[int, int, int]:
+    """What changes when a file is written again."""
+    stat = path.stat()
+    return stat.st_ino, stat.st_size, stat.st_mtime_ns

@@ -1,0 +1,109 @@
+"""Ways to fit the exponential memory: Hankel realisation, vector fit; noise and passivity."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.python.resonances import LABELS, exact_transfer, table
+from tests.verification.point_absorbers import Table
+
+from hydrodae.hdb.memory import MemoryFitWarning, fit_memory
+from hydrodae.hdb.memory import data as prepare
+from hydrodae.hdb.memory.direct import fit_direct
+from hydrodae.hdb.memory.goal import Goal, measure
+
+
+@pytest.fixture(scope="module")
+def exact() -> Table:
+    omega = np.arange(0.05, 5.01, 0.05)
+    return table(exact_transfer(omega), omega)
+
+
+def test_non_passive_data_give_a_passive_fit_that_says_so(exact: Table) -> None:
+    damping = exact.radiation_damping.copy()
+    # waves that give energy: more negative damping in heave than there is positive
+    damping[:, 1, 1] -= 0.6 * damping[:, 1, 1].max() * np.exp(-(((exact.omega - 2.8) / 0.3) ** 2))
+    bad = replace(exact, radiation_damping=damping)
+    with pytest.warns(MemoryFitWarning, match="misses its target"):
+        memory = fit_memory(bad, LABELS, max_states=20)
+    assert memory.report["data_min_eig_relative"] < -0.1
+    assert memory.report["target_met"] is False
+    assert memory.report["passive"] == (memory.report["min_eig_re_h_relative"] >= -1e-4)
+    assert memory.passivity().relative == pytest.approx(
+        memory.report["min_eig_re_h_relative"], abs=1e-6
+    )
+
+
+def test_hankel_realisation_keeps_to_the_states_allowed(exact: Table) -> None:
+    # of seven states one is a real pole at the highest frequency of K(t), which counts twice
+    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3, max_states=7)
+    assert memory.n_states <= 7
+
+
+def test_hankel_realisation_finds_the_same_modes(exact: Table) -> None:
+    memory = fit_memory(exact, LABELS, method="hankel", uniform=1e-3)
+    assert memory.n_states <= 8
+    assert memory.report["passive"] is True
+    assert memory.report["method"].startswith("Hankel")
+    assert memory.report["h_error_peak"] < 1e-3
+    omega = np.linspace(0.3, 1.0, 50)
+    off = np.abs(memory.transfer(omega) - exact_transfer(omega))
+    scale = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
+    assert (off / scale / scale[:, None]).max() < 2e-3
+
+
+def test_a_vector_fit_alone_finds_them_where_the_table_ends_early() -> None:
+    omega = np.arange(0.02, 0.83, 0.02)
+    short = table(exact_transfer(omega), omega)
+    data = prepare.gather(short, LABELS, LABELS)
+    goal = Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None, 1e-3)
+    pick = np.arange(len(LABELS))
+    matrices = prepare.scaled(data.square, data.scale, pick)
+    problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    said: list[str] = []
+    modes, quality, passive = fit_direct(problem, goal, None, said.append)
+    assert passive
+    assert goal.met(quality)
+    assert modes.n_states <= 24
+    assert any("vector fit with 12 poles" in text for text in said)
+    few, _, passive = fit_direct(problem, goal, 6, said.append)
+    assert passive
+    assert few.n_states <= 6
+
+
+def test_errors_that_alternate_rank_before_smaller_ones_that_stay(exact: Table) -> None:
+    """A motion averages errors over the width of its resonance: noise that is followed is worse."""
+    data = prepare.gather(exact, LABELS, LABELS)
+    goal = Goal((0.1, 0.8), 10.0, 1e-3, 0.1, None)
+    matrices = prepare.scaled(data.square, data.scale, np.arange(len(LABELS)))
+    problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+    mass = np.zeros(problem.rows.size)
+    size = np.full((data.omega.size, problem.rows.size), 1e-3 + 0j)
+    turns = (-1.0) ** np.arange(data.omega.size)[:, None]
+    noise = measure(1.5 * size * turns, mass, problem, goal.band)
+    bias = measure(size, mass, problem, goal.band)
+    assert noise.weighted_band == pytest.approx(1.5 * bias.weighted_band)
+    assert noise.steady < 0.5 * bias.steady
+    assert bias.steady == pytest.approx(bias.weighted_band)
+    assert goal.distance(noise) < goal.distance(bias)
+    assert goal.miss(noise) > goal.miss(bias)
+
+
+def test_noise_that_gives_energy_is_not_followed(exact: Table) -> None:
+    """B with eigenvalues down to -1 % of the largest: passive, and says what it misses."""
+    noise = np.random.default_rng(1).standard_normal(exact.radiation_damping.shape)
+    size = np.sqrt(np.einsum("wii->wi", exact.radiation_damping).max(axis=0))
+    noise = 0.01 * (noise + noise.transpose(0, 2, 1)) * size * size[:, None]
+    noisy = replace(exact, radiation_damping=exact.radiation_damping + noise)
+    with pytest.warns(MemoryFitWarning, match="misses its target"):
+        memory = fit_memory(noisy, LABELS, max_states=12)
+    assert memory.report["data_min_eig_relative"] < -5e-3
+    assert memory.report["passive"] is True
+    assert memory.n_states <= 12
+    # nearer to the truth than the tables are
+    omega = noisy.omega[noisy.omega <= 1.0]
+    off = (memory.transfer(omega) - exact_transfer(omega)).real / size / size[:, None]
+    rough = noise[: omega.size] / size / size[:, None]
+    assert np.sqrt(np.mean(off**2)) < 0.7 * np.sqrt(np.mean(rough**2))
