@@ -276,7 +276,7 @@ def _fit(design: Array, logs: Array) -> tuple[Array, Array, Array]:
 
 
 def no_tail(pairs: int) -> Tail:
-    """Return the tail of a table that is simply cut off."""
+    """Return the tail of a table that is cut off."""
     return Tail(np.zeros(pairs), np.full(pairs, TAIL_POWERS[1]))
 
 
