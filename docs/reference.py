@@ -24,8 +24,8 @@ MADE = "<!-- Made by docs/reference.py from the fields of the kernel; do not edi
 INTRODUCTION = """# Reference of case files
 
 A case is one TOML file. Units are SI, world axes have z up, and z = 0 is the still water line. Only
-keys that end in `_deg` are in degrees. Unknown keys and values out of range are errors that name file, line,
-column and the nearest valid name. `title` is the only key outside tables.
+keys that end in `_deg` are in degrees. Unknown keys and values out of range are errors that name
+file, line, column and the nearest valid name. `title` is the only key outside tables.
 
 `hydrodae keys` prints what stands here: `hydrodae keys`, `hydrodae keys solver`,
 `hydrodae keys force pto_linear`.
@@ -39,7 +39,8 @@ EDITORS = """
 
 `hydrodae schema > case.schema.json` writes a JSON schema (draft 2020-12) of case files. With it,
 editors that use Taplo complete keys, show their meaning and mark what is wrong. Even Better TOML in
-VS Code uses it, and many others do through its language server. Name it in the first line of a case:
+VS Code uses it, and many others do through its language server. Name it in the first line of a
+case:
 
 ```toml
 #:schema ./case.schema.json
