@@ -41,7 +41,10 @@ def gather() -> None:
     """Copy the pages and what they link to."""
     shutil.rmtree(SOURCE, ignore_errors=True)
     found = pages()
-    for file in dict.fromkeys([*found, *(target for page in found for target in linked(page))]):
+    style = ROOT / "docs" / "site.css"
+    for file in dict.fromkeys(
+        [*found, style, *(target for page in found for target in linked(page))]
+    ):
         copy = SOURCE / file.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, copy)
