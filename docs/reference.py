@@ -1,7 +1,7 @@
 """Write the reference pages of case files and the stub of `hydrodae.Scene`.
 
     python docs/reference.py            # writes docs/reference/*.md and the stub
-    python docs/reference.py --check    # only tells which are out of date; exit code 1 if any is
+    python docs/reference.py --check    # prints which are out of date; exit code 1 if any is
 
 All is made from the fields that the kernel declares beside its structs.
 """
@@ -23,9 +23,9 @@ MADE = "<!-- Made by docs/reference.py from the fields of the kernel; do not edi
 
 INTRODUCTION = """# Reference of case files
 
-A case is one TOML file: SI units, world axes with z up and z = 0 the still water line; degrees only
-in keys that end in `_deg`. Unknown keys and values out of range are errors that name file, line,
-column and the nearest valid name. `title` is the only key outside tables.
+A case is one TOML file. Units are SI, world axes have z up, and z = 0 is the still water line. Only
+keys that end in `_deg` are in degrees. Unknown keys and values out of range are errors that name
+file, line, column and the nearest valid name. `title` is the only key outside tables.
 
 `hydrodae keys` prints what stands here: `hydrodae keys`, `hydrodae keys solver`,
 `hydrodae keys force pto_linear`.
@@ -38,8 +38,9 @@ EDITORS = """
 ## In an editor
 
 `hydrodae schema > case.schema.json` writes a JSON schema (draft 2020-12) of case files. With it,
-editors that use Taplo (Even Better TOML in VS Code, many others through its language server)
-complete keys, show their meaning and mark what is wrong. Name it in the first line of a case:
+editors that use Taplo complete keys, show their meaning and mark what is wrong. Even Better TOML in
+VS Code uses it, and many others do through its language server. Name it in the first line of a
+case:
 
 ```toml
 #:schema ./case.schema.json
@@ -69,7 +70,7 @@ Each table is a method of `hydrodae.Scene`, each type of a list with types too:
 
 A key is one line in the `fields()` of its struct, a force one struct: case reader, schema,
 `hydrodae keys` and the methods of `hydrodae.Scene` follow. `python docs/reference.py` then writes
-these pages and the stub `python/hydrodae/case/scene.pyi` again; a test tells if they are
+these pages and the stub `python/hydrodae/case/scene.pyi` again; a test fails if they are
 out of date.
 """
 

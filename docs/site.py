@@ -3,7 +3,8 @@
     python docs/site.py          # extra: docs
 
 The pages keep their places in the repository, so that links hold here and there. They are copied
-into build/site_source with the pictures and files that they link to; mkdocs makes build/site.
+into build/site_source with the pictures and files that they link to. docs/api.py adds the pages of
+the interfaces; mkdocs makes build/site.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+import api
 
 from hydrodae.support.extras import install_command
 
@@ -41,10 +44,16 @@ def gather() -> None:
     """Copy the pages and what they link to."""
     shutil.rmtree(SOURCE, ignore_errors=True)
     found = pages()
-    for file in dict.fromkeys([*found, *(target for page in found for target in linked(page))]):
+    style = ROOT / "docs" / "site.css"
+    for file in dict.fromkeys(
+        [*found, style, *(target for page in found for target in linked(page))]
+    ):
         copy = SOURCE / file.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, copy)
+    for path, text in api.pages().items():
+        (SOURCE / path).parent.mkdir(exist_ok=True)
+        (SOURCE / path).write_text(text)
 
 
 def main(arguments: Sequence[str] = ()) -> int:

@@ -131,7 +131,7 @@ void bind_stepping(py::module_& module) {
       .def("state", &Stepper::state)
       .def("restore", &Stepper::restore, py::arg("state"))
       .def("read", &Stepper::read, py::arg("channel"), "The values of a channel now.")
-      .def("close", &Stepper::close, "Tells controllers that are other programs of the end.")
+      .def("close", &Stepper::close, "Notifies controllers that are other programs of the end.")
       .def("write", &Stepper::write, py::arg("input"), py::arg("value"),
            "Holds an input at a value from now on.")
       .def_property_readonly("time", [](const Stepper& s) { return s.simulation().time(); })

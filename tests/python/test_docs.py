@@ -32,6 +32,7 @@ RUN = (
 GIVEN = {"docs/databases.md": {"omega": [2.0, 2.5, 3.0, 3.5]}}
 #: Pages whose calls of hydrodae run one after the other; `cd` changes the folder.
 RUN_COMMANDS = (
+    "docs/architecture.md",
     "docs/commands.md",
     "docs/first_steps.md",
     "docs/control.md",

@@ -132,7 +132,7 @@ def test_numbers_that_are_none_are_refused_by_their_key(tmp_path, key, value):
             "into more than 1e+10 times",
         ),
         ({"constraint.motor.drive.period": "1e-300"}, "drive makes more than 1e+10 periods"),
-        ({"wave.w.period": "1e-300"}, "waves shorter than 0.001 s are none of gravity"),
+        ({"wave.w.period": "1e-300"}, "waves shorter than 0.001 s are no gravity waves"),
     ],
 )
 def test_steps_that_would_never_come_to_the_end_are_refused(tmp_path, values, expected):

@@ -91,7 +91,7 @@ def test_another_program_may_have_its_own_units() -> None:
     [
         ({"input_units": ["N"]}, "has input 1 in 'N', which is no unit of 'joints/slide/disp"),
         ({"output_units": ["furlong"]}, "output 1 in 'furlong', .* 'forces/pto/load', in 'N'"),
-        ({"input_units": ["m/s", "m"]}, r"tells 2 units of its inputs \('m/s, m'\), expected 1"),
+        ({"input_units": ["m/s", "m"]}, r"states 2 units of its inputs \('m/s, m'\), expected 1"),
     ],
 )
 def test_units_of_a_program_that_cannot_be(units: dict[str, Any], message: str) -> None:

@@ -1,8 +1,10 @@
-"""The language of pages and `--help` texts: short sentences, plain words."""
+"""The language of pages, `--help` texts, messages and docstrings: short sentences, plain words."""
 
 from __future__ import annotations
 
 import argparse
+import ast
+import inspect
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,10 +17,18 @@ from hydrodae.commands import cli
 MOST = 25
 """Words in a sentence; code, numbers and symbols do not count."""
 
+MEAN = 18
+"""Words in a sentence of the pages, on average."""
+
+LONGEST = 35
+"""Words in a sentence of a docstring."""
+
+NONE = r"(?:is|are|has|have|there) none"
+
 BANNED = {
     r"tells?|told|telling": "report, print, show, state, list or warn",
     r"(?:say|says|said|saying) so": "report, print or state",
-    r"(?:is|are|has|have|there) none": "no ..., zero, missing or empty",
+    NONE: "no ..., zero, missing or empty",
     r"of (?:one's|its|their|your) own to|of one's own": "your own",
     r"dear(?:er|ly)?": "expensive",
     r"some \d[\d ]*": "about",
@@ -32,6 +42,9 @@ BANNED = {
 
 #: Pages that still break the rules: take a page off when you have rewritten it, add none.
 PENDING: set[str] = set()
+
+#: The same for packages below python/hydrodae.
+PENDING_FOLDERS = {"memory", "viewer"}
 
 
 def prose(text: str) -> str:
@@ -56,23 +69,25 @@ def words(sentence: str) -> int:
     return len(re.findall(r"[A-Za-z][\w'-]*", re.sub(r"\S*=\S*", "", sentence)))
 
 
-def faults(text: str) -> Iterator[str]:
+def faults(text: str, most: int = MOST, allowed: str = "") -> Iterator[str]:
     """What breaks the rules, with what to write instead."""
     for sentence in sentences(text):
-        if words(sentence) > MOST:
-            yield f"{words(sentence)} words (at most {MOST}): {sentence[:120]}"
+        if words(sentence) > most:
+            yield f"{words(sentence)} words (at most {most}): {sentence[:120]}"
     plain = " ".join(prose(text).split())
     for pattern, instead in BANNED.items():
+        if pattern == allowed:
+            continue
         for found in re.finditer(rf"\b(?:{pattern})\b", plain, re.IGNORECASE):
             around = plain[max(0, found.start() - 40) : found.end() + 40]
             yield f"{found[0]!r}, write {instead}: ...{around}..."
 
 
 def held(repository: Path) -> list[Path]:
-    """All pages but those that docs/reference.py makes from the kernel."""
+    """All pages, also those that docs/reference.py makes from the kernel."""
     found = [*pages(repository), repository / "CHANGELOG.md", repository / "tests" / "README.md"]
     found += (repository / ".github").glob("*.md")
-    return [page for page in found if page.parent.name != "reference"]
+    return found
 
 
 def test_pages_keep_to_the_rules(repository: Path) -> None:
@@ -109,6 +124,90 @@ def test_help_keeps_to_the_rules() -> None:
     assert not broken, "\n".join(broken)
 
 
+def test_sentences_of_the_pages_are_short_on_average(repository: Path) -> None:
+    counts = [
+        count
+        for page in held(repository)
+        for sentence in sentences(page.read_text())
+        if (count := words(sentence))
+    ]
+    assert sum(counts) / len(counts) <= MEAN
+
+
+def clauses(text: str) -> str:
+    """A message whose parts, *where: what is wrong; what to write*, are sentences."""
+    return re.sub(r"[;:]\s+(?=\S)", ". X ", text)
+
+
+def literals(source: str) -> Iterator[tuple[int, str]]:
+    """Line and text of each string of C++; adjacent literals are one string."""
+    one = r'"(?:[^"\\\n]|\\.)*"'
+    source = re.sub(r"//[^\n]*", "", source)
+    for found in re.finditer(rf"{one}(?:\s*{one})*", source):
+        text = re.sub(r'(?<!\\)"\s*"', "", found[0][1:-1]).replace("\\n", "\n").replace('\\"', "'")
+        yield source.count("\n", 0, found.start()) + 1, text
+
+
+def strings(source: str) -> Iterator[tuple[int, str, bool]]:
+    """Line and text of each string of Python, and whether it is a docstring."""
+    tree = ast.parse(source)
+    docstrings, inside = set(), set()
+    for node in ast.walk(tree):
+        for statement in ast.iter_child_nodes(node):
+            if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
+                docstrings.add(statement.value)
+        if isinstance(node, ast.Attribute) and node.attr == "split":
+            inside.add(node.value)  # a list of names
+        if isinstance(node, ast.JoinedStr):
+            inside.update(node.values)
+            values = (v.value if isinstance(v, ast.Constant) else "`x`" for v in node.values)
+            yield node.lineno, "".join(map(str, values)), False
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in inside:
+            yield node.lineno, node.value, node in docstrings
+
+
+def described(docstring: str) -> str:
+    """The prose of a docstring: without examples, displayed equations, types and parameters."""
+    lines = inspect.cleandoc(docstring).splitlines()
+    depth = [len(line) - len(line.lstrip()) for line in lines]
+    kept = []
+    for k, line in enumerate(lines):
+        deeper = k + 1 < len(lines) and lines[k + 1] and depth[k + 1] > depth[k]
+        item = deeper and not line.endswith(":")
+        equation = depth[k] and k and not lines[k - 1]
+        rule = not line.strip(" -") or re.match(r" *(>>>|\.\.\. |\w+ : )", line)
+        kept.append("" if item or equation or rule else line)
+    return "\n".join(kept)
+
+
+def test_messages_and_keys_of_the_kernel_keep_to_the_rules(repository: Path) -> None:
+    folders = (repository / "cpp", repository / "python" / "bindings")
+    files = [file for folder in folders for file in sorted(folder.rglob("*.[ch]*"))]
+    assert len(files) > 400
+    broken = [
+        f"{file.relative_to(repository)}:{line}: {fault}"
+        for file in files
+        for line, text in literals(file.read_text())
+        for fault in faults(clauses(text))
+    ]
+    assert not broken, "\n".join(broken)
+
+
+def test_messages_and_docstrings_of_python_keep_to_the_rules(repository: Path) -> None:
+    broken = []
+    for file in sorted((repository / "python" / "hydrodae").rglob("*.py")):
+        if PENDING_FOLDERS & {*file.relative_to(repository / "python" / "hydrodae").parts}:
+            continue
+        for line, text, is_docstring in strings(file.read_text()):
+            if is_docstring:  # None is a word of Python
+                found = faults(clauses(described(text)), LONGEST, allowed=NONE)
+            else:
+                found = faults(clauses(text)) if " " in text.strip() else iter(())
+            broken += [f"{file.relative_to(repository)}:{line}: {fault}" for fault in found]
+    assert not broken, "\n".join(broken)
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -120,6 +219,26 @@ def test_help_keeps_to_the_rules() -> None:
 )
 def test_a_broken_rule_is_found(text: str) -> None:
     assert list(faults(text))
+
+
+def test_strings_are_found_and_joined() -> None:
+    assert list(literals('x; // "a"\nf("he told \\"it\\" "\n  "twice");')) == [
+        (2, "he told 'it' twice")
+    ]
+    source = '"""One."""\nx = f"two {x} three"\nwords = "four five".split()\n'
+    assert list(strings(source)) == [(2, "two `x` three", False), (1, "One.", True)]
+
+
+def test_the_prose_of_a_docstring_is_short() -> None:
+    text = """Return the sum.
+
+    Parameters
+    ----------
+    tell : float
+        First.
+    """
+    assert not list(faults(described(text)))
+    assert list(faults(described(text.replace("First", "As told"))))
 
 
 def test_code_is_no_prose() -> None:

@@ -59,9 +59,9 @@ def test_the_first_method_suits_the_scene(name: str, first: str, tmp_path: Path)
 def test_what_is_dear_to_evaluate_is_evaluated_seldom(tmp_path: Path) -> None:
     text = CART.replace("pto_linear", "python_load").replace("stiffness = 200.0\n", "")
     told = hydrodae.check(hydrodae.Case.from_text(text), forces={"pto": lambda t, x, v: -x})
-    assert "auto begins with radau, as a force of Python is dear to evaluate" in told
+    assert "auto begins with radau, as a force of Python is expensive to evaluate" in told
     told = ATTACK["path_bump_1"].case({}, tmp_path).examine()
-    assert "auto begins with radau, as a path is dear to evaluate" in told
+    assert "auto begins with radau, as a path is expensive to evaluate" in told
 
 
 @pytest.mark.parametrize("name", ["door", "memory", "snap", "stick_slip", "late_damper"])

@@ -155,7 +155,7 @@ def test_a_state_without_end_is_refused(fmi: int, tmp_path: Path) -> None:
     keys = FMU.replace('"ki"]', '"ki", "trick"]').replace("0.7]", "0.7, 5.0]")
     run = Simulation(cart(tmp_path, keys))
     run.advance(0.1)
-    with pytest.raises(CaseError, match=r"tells a size of its state of .* bytes; at most"):
+    with pytest.raises(CaseError, match=r"reports a size of its state of .* bytes; at most"):
         run.state()
 
 

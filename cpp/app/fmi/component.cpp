@@ -66,8 +66,8 @@ void Component::require(const char* function, Phase phase) const {
                     names[static_cast<int>(phase)] + ", and this one is " +
                     (phase_ == Phase::instantiated   ? "not initialised: the run has not begun"
                      : phase_ == Phase::initialising ? "in initialization mode"
-                     : phase_ == Phase::stepping     ? "behind it; a reset begins anew"
-                                                     : "terminated; a reset begins anew"));
+                     : phase_ == Phase::stepping     ? "behind it; a reset starts it again"
+                                                     : "terminated; a reset starts it again"));
 }
 
 void Component::reset() {
@@ -203,7 +203,7 @@ void Component::step(double t, double h) {
   if (end - last > nearness * h)
     throw CaseError("a communication step to t = " + number_text(end) +
                     " s, but the case ends at " + number_text(last) +
-                    " s; tell the FMU a later stop time before it is initialised");
+                    " s; give the FMU a later stop time before it is initialised");
   const double limit = std::min(end, last);
   while (limit - run_->time() > nearness * h)
     run_->advance(limit);

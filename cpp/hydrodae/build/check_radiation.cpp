@@ -54,7 +54,7 @@ std::string coordinate_name(const system::System& s, Index u) {
                        " falls to -" + size + " % of its largest at " + at +
                        " rad/s, and damping must not be negative. Check signs, mesh and irregular "
                        "frequencies of the source, and make the database or its fit again; "
-                       "solver.force (--force) runs it none the less");
+                       "solver.force (--force) runs it all the same");
 }
 
 /// The smallest eigenvalue and the coordinate that has most of its vector.

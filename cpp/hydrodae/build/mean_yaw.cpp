@@ -44,9 +44,9 @@ bool take_mean_yaw(const model::Scene& scene, system::System& s) {
       throw ModelError("body." + s.bodies[static_cast<std::size_t>(hb.body)].name + ".motion",
                        "body " + in_quotes(s.bodies[static_cast<std::size_t>(hb.body)].name) +
                            " starts turned by " + number_text(hb.yaw * 180.0 / pi) +
-                           " deg of yaw, and moves along surge or sway alone: these are the axes "
-                           "of the world, those of its hydrodynamics are turned; free both, or "
-                           "hold one by a joint");
+                           " deg of yaw, and moves along surge or sway alone: surge and sway are "
+                           "along world axes, and the axes of its hydrodynamics are turned; free "
+                           "both, or hold one by a joint");
   }
   if (changed)
     set_hydrostatics(scene, s);
@@ -68,8 +68,8 @@ void note_axes(const model::Scene& scene, system::System& s) {
     }
   if (s.hydro.axes == system::HydroAxes::body && s.hydro.n_moving > 0 && !scene.waves.empty())
     s.notes.push_back(
-        "axes = \"body\" in waves is incomplete at second order (docs/axes.md): drift, and motion "
-        "that grows by itself, are to be distrusted; compare with axes = \"mean\"");
+        "axes = \"body\" in waves is incomplete at second order (docs/axes.md): do not trust "
+        "drift, or motion that grows by itself; compare with axes = \"mean\"");
 }
 
 } // namespace hydrodae::build

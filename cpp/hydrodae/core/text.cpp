@@ -65,7 +65,7 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
 
 std::string suggestion(std::string_view wanted, const std::vector<std::string>& names) {
   if (names.empty())
-    return "; there is none";
+    return "; the list is empty";
   const std::string near = nearest_name(wanted, names);
   return (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?") +
          std::string(near.empty() ? "; " : " (") + "valid: " + joined(names) +

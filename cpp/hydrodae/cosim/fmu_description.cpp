@@ -94,7 +94,7 @@ std::string platforms_of(const std::vector<std::string>& files) {
     if (const auto slash = file.find('/', head.size());
         file.starts_with(head) && slash != std::string::npos)
       names.insert(file.substr(head.size(), slash - head.size()));
-  return names.empty() ? "there is none at all" : "there are " + joined(names);
+  return names.empty() ? "the list is empty" : "there are " + joined(names);
 }
 
 } // namespace

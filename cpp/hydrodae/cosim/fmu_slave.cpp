@@ -24,7 +24,7 @@ void* FmuLibrary::symbol(const char* name) const {
 std::size_t room_of_state(std::size_t size) {
   constexpr std::size_t most = std::size_t{1} << 30;
   if (size > most)
-    throw CaseError("the FMU tells a size of its state of " + std::to_string(size) +
+    throw CaseError("the FMU reports a size of its state of " + std::to_string(size) +
                     " bytes; at most " + std::to_string(most) + " are taken");
   return size;
 }

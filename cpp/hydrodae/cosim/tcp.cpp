@@ -104,7 +104,7 @@ private:
     for (std::string unit; std::getline(text >> std::ws, unit, ',');)
       units.push_back(unit.substr(0, unit.find_last_not_of(' ') + 1));
     if (units.size() != out.size())
-      throw Error("the other program tells " + std::to_string(units.size()) + " units of its " +
+      throw Error("the other program states " + std::to_string(units.size()) + " units of its " +
                   what + "s (" + in_quotes(foreign_text(told)) + "), expected " +
                   std::to_string(out.size()));
     for (std::size_t k = 0; k < out.size(); ++k) {

@@ -145,8 +145,8 @@ struct FrictionLoads {
          "Of an angle: at which the thrust along the axis rubs; 0: it does not.", false,
          at_least(0)},
         {"small_force", &F::small_force, "N",
-         "Size that a force on a bearing has where it is zero, so that friction stays smooth; "
-         "default: 1e-5 of the weight of the lighter body that moves.",
+         "Smallest size of the force on a bearing, so that friction stays smooth at zero; default: "
+         "1e-5 of the weight of the lighter body that moves.",
          false, more_than(0)},
     };
   }

@@ -19,7 +19,7 @@ namespace hydrodae::element {
 struct FrictionStribeck : FrictionLoads {
   static constexpr std::string_view type = "friction_stribeck";
   static constexpr std::string_view doc = "Smooth friction along a joint (Coulomb, Stribeck and "
-                                          "viscous); creeps where it ought to stick.";
+                                          "viscous); creeps where it should stick.";
   static constexpr Port port = Port::along_joint;
   static constexpr std::string_view at_rest_only = "its damping there is its load of sticking over "
                                                    "`creep_rate`, far above that at working rates";

@@ -27,7 +27,7 @@ struct PtoLagged {
   static constexpr std::string_view doc =
       "Power take-off along a joint whose load follows -k (s - s0) - c s' with a lag.";
   static constexpr std::string_view lost =
-      "the linear model moves with what lags, but does not tell the power that it takes";
+      "the linear model moves with what lags, but has no figure of the power that it takes";
   std::string name;
   std::string joint;
   std::optional<std::string> coordinate;

@@ -145,7 +145,7 @@ hydro::MemoryFit read_fit(const Input& file, const std::string& name,
   fit.poles = file.complex_list(group + "/poles");
   const auto blocks = static_cast<std::size_t>(fit.poles.size());
   if (blocks == 0)
-    file.refuse(group + "/poles", "there is none");
+    file.refuse(group + "/poles", "is missing or empty");
   fit.input_matrix = file.complex_matrix(group + "/input_matrix", blocks, fit.inputs.size());
   fit.output_matrix = file.complex_matrix(group + "/output_matrix", fit.outputs.size(), blocks);
   fit.added_mass_inf =
@@ -166,7 +166,7 @@ void read_excitation(const Input& file, hydro::Database& database) {
   const auto nw = static_cast<std::size_t>(database.omega.size()), nh = heading.size();
   const std::size_t n = database.coordinates.size();
   if (nh == 0)
-    file.refuse("/heading", "there is none");
+    file.refuse("/heading", "is missing or empty");
   std::vector<std::size_t> order(nh);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),

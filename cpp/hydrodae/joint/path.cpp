@@ -68,7 +68,7 @@ std::optional<std::string> Path::flaw(const std::vector<Vector3>& points) {
       if (b.arc > a.arc && (b.point - a.point).norm() < closest * (b.arc - a.arc))
         return "comes back near itself: " + number_text(a.arc) + " m and " + number_text(b.arc) +
                " m along it are only " + number_text((b.point - a.point).norm()) +
-               " m apart, and a point that slides there could not tell them apart";
+               " m apart, and a point that slides there could not distinguish them";
   return {};
 }
 

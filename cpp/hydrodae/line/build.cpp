@@ -194,9 +194,8 @@ LineList::LineList(const std::vector<Line>& lines, const element::Surroundings& 
   signals.assign(lines.size() * inputs.size(), 0.0);
   sparsity = line_sparsity(m);
   tells_unknowns = false;
-  lost =
-      "the drag of dynamic lines is zero in the linear model, but for the slope that the current "
-      "gives it, and the loads of waves on them are not in it";
+  lost = "the linear model has no loads of waves on dynamic lines; of their drag it has only the "
+         "slope that the current gives";
   channels = {
       {"tension", "N", "Tension at end B: size of the load on it; 0 of a free end."},
       {"tension_anchor", "N", "Tension at end A: size of the load on it."},

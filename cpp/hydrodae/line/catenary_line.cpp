@@ -207,10 +207,9 @@ std::optional<Fault> CatenaryLine::fault() const {
   }
   const Vector3 d = point_b - point_a;
   if (std::isnan(hold(law().line, std::hypot(d[0], d[1]), d[2]).vertical))
-    return Fault{"seabed",
-                 "in the reference pose a buoy, a part that floats, or what is above one, "
-                 "is down on the seabed, which this type does not know; use type 'line', "
-                 "or seabed = false if there is none"};
+    return Fault{"seabed", "in the reference pose a buoy, a part that floats, or what is above "
+                           "one, is down on the seabed; this type cannot compute that; use type "
+                           "'line', or seabed = false if there is no seabed"};
   return {};
 }
 

@@ -94,7 +94,7 @@ struct CatenaryLine {
         {"seabed", &C::seabed, "-", "Whether a flat seabed at the height of A carries the line."},
         {"friction", &C::friction, "-", "Friction coefficient of the seabed.", false, at_least(0)},
         {"breaking_load", &C::breaking_load, "N",
-         "Tensions that the parts bear, one number or one each; the summary tells where they are "
+         "Tensions that the parts bear, one number or one each; the summary reports where they are "
          "exceeded.",
          false, more_than(0)},
         {"breaks", &C::breaks, "-",

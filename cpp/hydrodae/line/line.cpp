@@ -168,7 +168,7 @@ Fields<Line> Line::fields() {
       {"added_mass_axial", &L::added_mass_axial, "-", "C_at: added mass along the line.", false,
        at_least(0)},
       {"breaking_load", &L::breaking_load, "N",
-       "Breaking loads of the parts; the summary tells where they are exceeded.", false,
+       "Breaking loads of the parts; the summary reports where they are exceeded.", false,
        more_than(0)},
       {"breaks", &L::breaks, "-",
        "Whether the segment parts for good whose tension reaches `breaking_load`."},
@@ -200,7 +200,7 @@ Fields<Line> Line::fields() {
       {"seabed_damps_up", &L::seabed_damps_up, "-",
        "Whether that damping acts on the way up too, where the seabed may pull, as in MoorDyn."},
       {"seabed_friction", &L::seabed_friction, "-",
-       "Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at rest.",
+       "Friction coefficient of the seabed in motion, smooth within about 0.01 m/s; zero at rest.",
        false, at_least(0)},
       {"water_density", &L::water_density, "kg/m3",
        "Density of the water that buoyancy, drag and added mass of the line are by; default: that "

@@ -87,14 +87,14 @@ struct Rope {
          "Radii of the sheaves, one for each point, which is the centre; 0: a point, as the ends.",
          false, at_least(0)},
         {"axes", &R::axes, "-",
-         "Axes of the sheaves, one for each point (any where there is none), world axes: from the "
-         "first point to the last the rope runs round them by the rule of the right hand."},
+         "Axes of the sheaves, one for each point (any value for a point without a sheave), world "
+         "axes: from first to last point the rope runs round them by the right-hand rule."},
         {"friction", &R::friction, "-",
          "Coefficients of friction of the points and sheaves, one for each point (0 at the ends), "
          "or one for all between the ends; a sheave with friction does not turn on its body.",
          false, at_least(0)},
         {"breaking_load", &R::breaking_load, "N",
-         "Tension that it bears; the summary tells where it is exceeded.", false, more_than(0)},
+         "Tension that it bears; the summary reports where it is exceeded.", false, more_than(0)},
         {"breaks", &R::breaks, "-",
          "Whether it parts for good where its tension reaches `breaking_load`."},
     };

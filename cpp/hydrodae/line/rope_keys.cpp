@@ -177,7 +177,7 @@ std::optional<Fault> Rope::fault() const {
   if (const std::string_view wrong = Curve::fault(winch_time, winch_length); !wrong.empty())
     return Fault{"winch_time", "'winch_time' " + std::string(wrong) + " 'winch_length'"};
   if (!winch_time.empty() && (length || pretension))
-    return Fault{"winch_length", "the winch tells the length; take 'length' and 'pretension' out"};
+    return Fault{"winch_length", "the winch sets the length; take 'length' and 'pretension' out"};
   if (const std::optional<Fault> wrong = fault_of_lists(*this))
     return wrong;
   if (has_point_twice() && !(is_plain() && !has_friction() && length && *length > distance()))

@@ -142,10 +142,11 @@ void check_database(const Scene& scene) {
   check_kernel(scene);
   const hydro::MemoryFit* fit = memory_fit(scene);
   if (fit && !fit->passive && !scene.solver.force)
-    throw ModelError("hydro.database",
-                     database.path + ": the memory fit is not passive, so that the waves may feed "
-                                     "the motion; fit it again with hydrodae hdb import --fit "
-                                     "(solver.force, --force, runs it none the less)");
+    throw ModelError(
+        "hydro.database",
+        database.path +
+            ": the memory fit is not passive, so that the waves may feed the motion; fit it again "
+            "with hydrodae hdb import --fit (solver.force, --force, runs it all the same)");
   const HydroOptions& hydro = *scene.hydro;
   if ((hydro.radiation == "constant") != hydro.frequency.has_value())
     throw ModelError(hydro.frequency ? "hydro.frequency" : "hydro.radiation",

@@ -31,7 +31,7 @@ void check_forecast(const Scene& scene, const Entry& entry, const sea::Gauge& ga
 void check_gauge(const Scene& scene, const sea::Gauge& gauge) {
   const Entry entry{"gauge", gauge.name};
   if (scene.waves.empty())
-    refuse(entry, "", "there is no [[wave]] whose elevation it could tell");
+    refuse(entry, "", "there is no [[wave]] whose elevation it could measure");
   if (!gauge.point.empty() && gauge.point.size() != 2)
     refuse(entry, "point", "expected 'point' = [x, y], its place [m]");
   constexpr double far = 1e7; // m; an error of 1e-9 in the phase of waves of 60 m, and ever larger

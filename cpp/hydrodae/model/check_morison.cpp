@@ -20,7 +20,7 @@ void check_shape(const Scene& scene, const Morison& m) {
     refuse_keys(scene, entry, "point",
                 {"point_a", "point_b", "drag_axial", "added_mass_axial", "segments"});
     if (m.diameter && (m.area || m.volume))
-      refuse(entry, m.area ? "area" : "volume", "the diameter tells area and volume already");
+      refuse(entry, m.area ? "area" : "volume", "the diameter gives area and volume already");
     if (m.drag_coefficient > 0.0 && !m.diameter && !m.area)
       refuse(entry, "", "a point element with drag needs 'diameter' or 'area'");
     if (m.added_mass_coefficient && !m.diameter && !m.volume)
@@ -57,7 +57,7 @@ void check_morison(const Scene& scene) {
   const Environment& e = scene.environment;
   if (scene.hydro && (e.water_density || e.water_depth))
     throw ModelError(e.water_density ? "environment.water_density" : "environment.water_depth",
-                     "the hydrodynamic database tells density and depth of the water");
+                     "the hydrodynamic database gives density and depth of the water");
   const bool felt = !scene.morison.empty() ||
                     !std::get<std::vector<line::Line>>(scene.forces).empty() ||
                     std::any_of(scene.bodies.begin(), scene.bodies.end(),

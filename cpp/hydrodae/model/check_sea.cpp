@@ -15,13 +15,15 @@ void check_sea(const Scene& scene) {
                      "waves need a hydrodynamic database, Morison elements, lines or a body with "
                      "froude_krylov = \"mesh\" to act on: the table [hydro] is missing");
   if (!meshed && (scene.sea.bernoulli || scene.sea.stretching != "vertical"))
-    throw ModelError(scene.sea.bernoulli ? "sea.bernoulli" : "sea.stretching",
-                     "this acts on bodies with froude_krylov = \"mesh\", and there are none");
+    throw ModelError(
+        scene.sea.bernoulli ? "sea.bernoulli" : "sea.stretching",
+        "this acts on bodies with froude_krylov = \"mesh\", and the case has no such body");
   if (scene.sea.phase == "moving" && (scene.waves.empty() || !scene.hydro))
     throw ModelError("sea.phase", "phase = \"moving\" is about waves on bodies of the hydrodynamic "
-                                  "database, and there are none");
+                                  "database, and the case lacks waves or database");
   if (!scene.sea.current.isZero(0.0) && !slender)
-    throw ModelError("sea.current", "a current acts on [[morison]] elements, and there is none");
+    throw ModelError("sea.current",
+                     "a current acts on [[morison]] elements, and the case has no such element");
   if (scene.sea.ramp > 0.0 && scene.waves.empty())
     throw ModelError("sea.ramp", "there is no [[wave]] to ramp up");
 }

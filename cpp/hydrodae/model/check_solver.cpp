@@ -100,7 +100,7 @@ void check_formulation(const SolverOptions& o) {
     return;
   if (const std::string_view why = method_traits(o.method).fails_index_3; !why.empty())
     refuse_solver("formulation",
-                  std::string(why) + "; solver.force (--force) runs it none the less");
+                  std::string(why) + "; solver.force (--force) runs it all the same");
 }
 
 void check_coordinates(const SolverOptions& o) {

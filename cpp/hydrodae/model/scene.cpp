@@ -31,8 +31,8 @@ Fields<Joint> Joint::fields() {
       {"pitch", &J::pitch, "m per turn",
        "Advance of body B along the axis for one turn about it, not zero; screw joint only."},
       {"path", &J::path, "m",
-       "Points of the curve that body A carries, in the reference pose, world axes, joined by a "
-       "natural cubic spline that goes on straight beyond its ends; path joint only."},
+       "Points of the curve that body A carries, in the reference pose, world axes. A natural "
+       "cubic spline joins them and continues straight beyond its ends; path joint only."},
       {"one_sided", &J::one_sided, "-",
        "The points may come nearer than `length`, as on a taut or slack rope; distance joint "
        "only."},

@@ -80,19 +80,17 @@ struct HydroOptions {
         {"axes",
          &H::axes,
          "-",
-         "Axes in which added mass, radiation and excitation act: earth axes turned by the yaw "
-         "that each body has at the start or in the equilibrium (mean), axes that follow its yaw "
-         "(yaw), or axes carried by each body (body: large rotations in still water).",
+         "Axes in which added mass, radiation and excitation act. mean: earth axes turned by the "
+         "yaw of each body at the start or in the equilibrium. yaw: axes that follow its yaw. "
+         "body: axes that it carries, for large rotations in still water.",
          false,
          any_value,
          {"mean", "yaw", "body"}},
         {"radiation",
          &H::radiation,
          "-",
-         "Radiation: none (added mass at infinite frequency only), constant (added mass and "
-         "damping "
-         "at one frequency), the fitted exponential memory, or the convolution with the radiation "
-         "kernel.",
+         "Radiation. none: added mass at infinite frequency only. constant: added mass and "
+         "damping at one frequency. exponential: the fitted memory. convolution: the kernel K(t).",
          false,
          any_value,
          {"none", "constant", "exponential", "convolution"}},
@@ -194,9 +192,9 @@ struct Body {
          "Centre of that volume in the reference pose, world axes; default: the centre of "
          "gravity."},
         {"mesh", &B::mesh, "-",
-         "File of the closed surface of the body in the reference pose, world axes, normals "
-         "outwards, up to above the highest water: .stl or .obj, in metres; relative to the case "
-         "file."},
+         "File (.stl or .obj, in metres, relative to the case file) of the closed surface of the "
+         "body in the reference pose. World axes, normals outwards; it must reach above the "
+         "highest water."},
         {"mesh_origin", &B::mesh_origin, "m",
          "Place of the origin of that file in the reference pose, world axes; for a mesh about the "
          "centre of gravity the place of that."},

@@ -37,7 +37,7 @@ struct SolverOptions {
         {"method", &O::method, "-",
          "Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic), generalised "
          "alpha on the Lie group, or projected explicit Runge-Kutta; auto: explicit_rk, radau or "
-         "ida as suits the scene, and another of them where the one at work cannot go on.",
+         "ida as suits the scene, and another of them where one cannot continue.",
          false, any_value, method_names()},
         {"coordinates",
          &O::coordinates,
@@ -90,9 +90,8 @@ struct SolverOptions {
         {"energy_guard", &O::energy_guard, "-",
          "A run ends as failed when the energy balance is off by more than this part of the energy "
          "exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop 0.01 "
-         "sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion is lost "
-         "there. Mechanisms that drives guide altogether may miss ten times as much, since their "
-         "reactions take and give it.",
+         "sqrt(rtol), at least 1e-5, or 5e-4 with fixed steps. Mechanisms that drives guide "
+         "altogether may miss ten times as much, since their reactions take and give it.",
          false, at_least(0, 1e6)},
         {"branch_guard", &O::branch_guard, "-",
          "A run of a scene with closed loops ends as failed when its velocities jump though "
@@ -109,10 +108,9 @@ struct SolverOptions {
          any_value,
          {"two_runs", "none"}},
         {"tolerance_assembly", &O::tolerance_assembly, "-",
-         "Joints that are out of line with each other by less than this part of the body's lever "
-         "(its farthest joint or radius of gyration), or of one radian, count as exact: a row that "
-         "follows from the others but for that gives way. By more, they would lock the mechanism "
-         "and are refused.",
+         "Allowed misalignment of joints, as part of the body's lever (its farthest joint or "
+         "radius of gyration), or of one radian. Below it joints count as exact, and rows that "
+         "follow from others are left out. Above it they would lock the mechanism and are refused.",
          false, between(1e-12, 0.1)},
         {"force", &O::force, "-",
          "Run what is known to fail, for comparisons: a pair of method and formulation, radiation "

@@ -56,9 +56,9 @@ MethodOrder order_methods(const SceneTraits& traits) {
                 " 1/s, the motion's " + rounded_text(traits.motion_rate) + " 1/s"};
   const std::vector<std::string> implicit_first = {"radau", "explicit_rk", "ida"};
   if (!traits.costly.empty())
-    return {implicit_first, traits.costly + " is dear to evaluate"};
+    return {implicit_first, traits.costly + " is expensive to evaluate"};
   if (!traits.damped && traits.end_time * traits.motion_rate > long_run)
-    return {implicit_first, "errors pile up: nothing damps the motion, which goes on for some " +
+    return {implicit_first, "errors pile up: nothing damps the motion, which goes on for about " +
                                 rounded_text(traits.end_time * traits.motion_rate) + " rad"};
   return {{"explicit_rk", "radau", "ida"}, "nothing is stiff"};
 }

@@ -116,7 +116,7 @@ std::vector<Finding> look_at_headings(const model::Scene& scene, const system::S
                      text + ": there forces may be off by " + rounded_text(100.0 * share, 2) +
                          " % of their largest (" + labels[static_cast<std::size_t>(label)] + ")"});
     else if (headings.misses().size() == 0 && step > headings_apart)
-      out.push_back({false, text + ": too few to tell how far off the forces there are"});
+      out.push_back({false, text + ": too few to estimate how far off the forces there are"});
   }
   return out;
 }

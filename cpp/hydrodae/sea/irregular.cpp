@@ -123,7 +123,7 @@ Sum Irregular::drawn(const Spectrum& s, const Site& site) const {
 std::optional<Fault> period_fault(const char* key, double period) {
   if (period < shortest_period)
     return Fault{key, "waves shorter than " + number_text(shortest_period) +
-                          " s are none of gravity, got " + number_text(period) + " s"};
+                          " s are no gravity waves, got " + number_text(period) + " s"};
   return {};
 }
 

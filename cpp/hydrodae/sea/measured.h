@@ -42,8 +42,8 @@ struct Measured : WaveSystem {
                 "Time since the first sample of the record at which t = 0.", false,
                 at_least(0, longest_time)},
                {"taper", &W::taper, "s",
-                "Time over which a record fades at both ends, where the waves before and after it, "
-                "which also load the body, are not known; 30 s by default.",
+                "Time over which a record fades at both ends, because the waves before and after "
+                "it are unknown; 30 s by default.",
                 false, at_least(0, longest_time)},
            } +
            range_fields<W>();

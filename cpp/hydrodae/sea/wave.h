@@ -38,18 +38,18 @@ struct Sea {
          &S::phase,
          "-",
          "Where a body feels the phase of the waves: at its reference position (fixed), or where "
-         "it "
-         "is (moving: for bodies that drift; then every evaluation sums all components).",
+         "it is (moving: for bodies that drift; it costs a sum over all components in each "
+         "evaluation).",
          false,
          any_value,
          {"fixed", "moving"}},
         {"stretching",
          &S::stretching,
          "-",
-         "Pressure of the waves above z = 0 on bodies with `froude_krylov = \"mesh\"`: hydrostatic "
-         "down from the crest (vertical: consistent to second order), the profile of linear theory "
-         "moved up to the crest (wheeler), e^(kz) as it is (extrapolated), or nothing: the wetted "
-         "part ends at z = 0 (none).",
+         "Pressure of the waves above z = 0 on bodies with `froude_krylov = \"mesh\"`. vertical: "
+         "hydrostatic down from the crest, consistent to second order. wheeler: the linear profile "
+         "moved up to the crest. extrapolated: e^(kz) as it is. none: the wetted part ends at z = "
+         "0.",
          false,
          any_value,
          {"vertical", "wheeler", "extrapolated", "none"}},

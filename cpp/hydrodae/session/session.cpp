@@ -259,7 +259,7 @@ void check_options(const model::Scene& scene, const std::string& path, const Run
     return;
   if (options.resume)
     throw CaseError("a run that goes on from a checkpoint cannot be verified: the second run would "
-                    "have to begin anew; leave out --verify, or --resume");
+                    "have to start again; leave out --verify, or --resume");
   if (scene.solver.accuracy == "none")
     throw CaseError("--verify is an estimate of the error, which solver.accuracy = \"none\" leaves "
                     "out; leave out one of them");

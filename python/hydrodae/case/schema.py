@@ -14,7 +14,7 @@ def case_schema() -> Schema:
     """Return the schema of case files (draft 2020-12).
 
     It holds what can be said of one table by itself: keys, types of entries, units, ranges and
-    words. What compares tables with each other only `hydrodae check` tells.
+    words. What compares tables with each other only `hydrodae check` shows.
     """
     schema: Schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -66,5 +66,5 @@ def _chosen(
         if name not in items:
             near = difflib.get_close_matches(name, items, n=1)
             hint = f"; did you mean {near[0]}?" if near else ""
-            raise CaseError(f"there is no {kind} {name!r}{hint}; --list tells them all")
+            raise CaseError(f"there is no {kind} {name!r}{hint}; --list prints all")
     return [items[name] for name in names]

@@ -1,9 +1,9 @@
 """Impedance matching: gains of a PI controller from the device's own impedance.
 
 Along a joint the device is Z(w) s' = F(w) + u, Z from the frequency tables at its equilibrium. The
-controller stands for the power take-off, so all take-offs that the case has along its joints (types
-``pto_...``) are left out of Z, also those that a gear or another loop couples to this joint, unless
-one is kept; every other load counts. A load u = -Kp s' - Ki s with
+controller stands for the power take-off. So Z leaves out all take-offs along joints (types
+``pto_...``), also those that a gear or another loop couples to this joint, unless one is kept.
+Every other load counts. A load u = -Kp s' - Ki s with
 
     Kp = Re Z(w0),    Ki = w0 Im Z(w0)
 

@@ -79,7 +79,7 @@ class KnownSea:
 class AutoregressiveForecast:
     """The loads foretold from their past: e(k+1) = a_1 e(k) + ... + a_p e(k+1-p).
 
-    The coefficients are the least squares of a window, found anew now and then, with a millionth
+    The coefficients are the least squares of a window, updated now and then, with a millionth
     of the mean square of the loads added to the diagonal. Applied again and again they reach as far
     ahead as the horizon of the controller (Fusco and Ringwood, IEEE Trans. Sustainable Energy 1,
     2010, 99-106). Loads are known half a period late, as means of the periods that have passed;

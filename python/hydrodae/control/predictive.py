@@ -63,7 +63,7 @@ class ModelPredictive:
     stroke : (float, float), optional
         Least and largest coordinate of the joint [m, rad], as the channel counts it.
     velocity_limit : float, optional
-        Largest |s'| at the samples [m/s, rad/s]. What exceeds stroke or velocity is dear, not
+        Largest |s'| at the samples [m/s, rad/s]. What exceeds stroke or velocity is expensive, not
         forbidden: each is kept to about a hundredth where the loads can keep it.
 
     Raises
@@ -230,7 +230,7 @@ class ModelPredictive:
             )
 
     def reset(self) -> None:
-        """Begin anew: the device is at rest."""
+        """Start again: the device is at rest."""
         self._y = np.zeros(len(self._model[0]))
         self._last = self._time = 0.0
         self._begun = False

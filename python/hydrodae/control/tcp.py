@@ -225,7 +225,7 @@ def connect(
         Longest wait for the run, and for each of its frames, s.
     input_units, output_units : sequence of str
         Units of this program, one for each input or output, where they are others than those that
-        the run tells: ``["deg", "deg/s"]``. The run converts them, or refuses units of something
+        the run shows: ``["deg", "deg/s"]``. The run converts them, or refuses units of something
         else. Protocol "hydrodae" only.
 
     Raises
@@ -273,5 +273,5 @@ def _made(
     if hotint is None:
         return Numbered(connection, input_units, output_units)
     if input_units or output_units:
-        raise ValueError("the protocol hotint tells no units: give them in the case")
+        raise ValueError("the protocol hotint has no units: give them in the case")
     return Hotint(connection, *hotint)

@@ -47,7 +47,7 @@ def start_text(start: Value) -> str:
 
 @dataclass(frozen=True)
 class Description:
-    """What the XML file tells."""
+    """What the XML file shows."""
 
     identifier: str  #: name of the shared library, a C identifier
     title: str

@@ -1,4 +1,4 @@
-"""Units of channels and inputs as powers of SI base units, the way an FMU tells them."""
+"""Units of channels and inputs as powers of SI base units, the way an FMU shows them."""
 
 from __future__ import annotations
 

@@ -117,8 +117,8 @@ def parameter_at(case: Case, key: str) -> Value:
     if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
         return int(value) if ("integer", False) in kinds else float(value)
     raise CaseError(
-        f"{key}: a parameter must be a number that stands in the case, such as solver.rtol, a "
-        f"truth value, or one of the words that its key takes; found {_told(value)}"
+        f"{key}: a parameter must be a number, such as solver.rtol, a truth value, or one of "
+        f"the words of its key; found {_told(value)}"
     )
 
 

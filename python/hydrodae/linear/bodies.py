@@ -45,7 +45,7 @@ class Bodies:
         return np.asarray(turned.as_matrix(), dtype=float)
 
     def moves(self, name: str) -> bool:
-        """Tell whether it has any coordinate."""
+        """Return whether it has any coordinate."""
         return any(label.startswith(f"bodies/{name}/") for label in self.model.coordinates)
 
     def twist(self, name: str, point: Array) -> Array:

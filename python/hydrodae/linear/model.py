@@ -205,7 +205,7 @@ class LinearModel:
 
     @cached_property
     def tables(self) -> WaterTables | None:
-        """What the database tells of the coordinates that move; None where none of them does."""
+        """What the database shows of the coordinates that move; None where none of them does."""
         if self.database is None or not self._model["hydro_labels"]:
             return None
         hydro = case_tables(self.case).get("hydro", {})
@@ -266,10 +266,10 @@ class LinearModel:
     def excitation(self, omega: ArrayLike, heading: float) -> Complex:
         """T^T F, loads (nw, n_u) per metre of wave amplitude, phase zero at the origin.
 
-        Of the database: the phase at each body's reference point is taken off, natural cubic
-        splines go through the tables in frequency and heading, those of the heading relative to the
-        mean yaw of the body are taken, and the phase is put in where the body stands. Of the
-        Morison elements: inertia, and the slope that a current gives to the drag.
+        From the database, without the phase at each body's reference point: natural cubic splines
+        in frequency and heading, at the heading relative to the mean yaw of the body. The phase
+        where the body stands is then put in. Of the Morison elements: inertia, and the slope that a
+        current gives to the drag.
 
         Raises
         ------
@@ -280,8 +280,8 @@ class LinearModel:
         if self.database is not None and self.database.heading.size == 0:
             raise DatabaseError(
                 f"the database of the case, {self.database.source or 'no source stated'}, holds no "
-                f"excitation, because its source has none: import one with the forces of waves "
-                f"(.3 of WAMIT, ExcitationForce.tec of Nemoh); natural modes need none"
+                f"excitation, because its source lacks it: import one with the forces of waves "
+                f"(.3 of WAMIT, ExcitationForce.tec of Nemoh); natural modes need no excitation"
             )
         if self.database is None and not self._model["water_points"]:
             raise DatabaseError("the case has neither a hydrodynamic database nor Morison elements")

@@ -25,9 +25,9 @@ class Mode:
         Undamped natural period with the added mass at that period [s].
     damping_ratio : float
         Im w / |w| [-] of the complex frequency w of the damped mode, with A(w) and B(w) continued
-        by their Taylor series off the real axis. Of a mode that hardly swings (a ratio above 0.5 to
-        first order), and where Newton's method finds no damped mode beside the undamped one, the
-        first-order value c / (2 w m + w^2 dA/dw) of this mode alone.
+        by their Taylor series off the real axis. It is the first-order value
+        c / (2 w m + w^2 dA/dw) of this mode alone in two cases: the mode hardly swings (a ratio
+        above 0.5 to first order), or Newton's method finds no damped mode beside the undamped one.
     shape : dict
         Share of each coordinate [m or rad], the largest is 1; of the undamped mode.
     extrapolated : bool

@@ -74,7 +74,7 @@ class Channels:
 
 
 def channels_of(m: Mapping[str, Any]) -> Channels:
-    """Channels of a response, from what the kernel tells of the case."""
+    """Channels of a response, from what the kernel shows of the case."""
     n, rows = len(m["coordinates"]), len(m["constraints"])
     still = np.zeros((n + len(m["motions"]), rows))
     return Channels(
@@ -99,7 +99,7 @@ def make_response(
     Parameters
     ----------
     m : mapping
-        What the kernel tells of the case: maps of joints, reactions and dampers.
+        What the kernel shows of the case: maps of joints, reactions and dampers.
     w : (nw,) array
         Frequencies [rad/s].
     heading : float
@@ -142,7 +142,7 @@ def bristles(m: Mapping[str, Any], names: Sequence[str]) -> list[int]:
     Parameters
     ----------
     m : mapping
-        What the kernel tells of the case.
+        What the kernel shows of the case.
     names : sequence of str
         Of forces along joints.
     """

@@ -5,7 +5,7 @@ memory, z' = p z + B U, U = T N x', load -Re(C z):
 
     (N^T M N + (TN)^T A_inf TN) x'' + N^T C_d N x' + N^T K N x + (TN)^T Re(C z) = 0
 
-The eigenvalues tell whether a device that is left alone comes to rest.
+The eigenvalues show whether a device that is left alone comes to rest.
 """
 
 from __future__ import annotations

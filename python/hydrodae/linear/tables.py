@@ -26,7 +26,7 @@ class WaterTables:
     ----------
     database : HydroDatabase
     model : dict
-        What the kernel tells of the case: `hydro_labels`, `hydro_map` (T), `hydro_yaws`,
+        What the kernel shows of the case: `hydro_labels`, `hydro_map` (T), `hydro_yaws`,
         `hydro_points`.
     follows_yaw : bool
         Axes that turn with the bodies: headings that the database lacks follow from its symmetry.

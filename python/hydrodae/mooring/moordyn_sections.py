@@ -200,7 +200,7 @@ def _check_units(name: str, section: Section) -> None:
         if used and (si := other_unit(name, key, unit)):
             raise used[0].fail(
                 f"{section.heading}: column {written} is in {unit} by its header, but MoorDyn "
-                f"takes it in ({si}); make the numbers ({si}) and say so in the header"
+                f"takes it in ({si}); convert the numbers to ({si}) and write that in the header"
             )
 
 

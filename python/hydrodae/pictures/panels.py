@@ -130,9 +130,9 @@ def scaled(panel: Panel) -> Panel:
 def overview(results: Results) -> list[Panel]:
     """Panels of the standard picture over time: what of it the file has.
 
-    Elevation, joint coordinates, motions of the bodies, absorbed powers and their means, loads of
-    the power take-offs, sizes of what holds bodies that cannot move and of the reactions of the
-    joints, loads of the constraints, tensions, energies, estimated errors.
+    Elevation, joint coordinates, motions of the bodies, absorbed powers and their means;
+    loads of the power take-offs, sizes of the reactions at joints and at bodies that cannot move;
+    loads of the constraints, tensions, energies, estimated errors.
     """
     if not len(results.time):
         return []

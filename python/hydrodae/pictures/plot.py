@@ -1,6 +1,6 @@
 """Pictures of results: overview, channels, comparison with other codes' curves.
 
-Angles are drawn in degrees, and only where the label says so. Nothing here touches pyplot: a figure
+Angles are drawn in degrees, and only where the label has deg. Nothing here touches pyplot: a figure
 belongs to the one who asked for it.
 """
 

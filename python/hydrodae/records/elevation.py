@@ -124,7 +124,7 @@ def _time(table: Table, asked: str) -> tuple[Array, int]:
         if place is None and len(table.names) != 2:
             raise CaseError(
                 f"{table.path}: which column is the time? There are {table.listed()}: give "
-                "--time COLUMN, or --rate HZ where there is none"
+                "--time COLUMN, or --rate HZ if no column is the time"
             )
         asked = str((place or 0) + 1) if not table.named else table.names[place or 0]
     values, unit = table.column(asked)

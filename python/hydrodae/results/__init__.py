@@ -32,9 +32,9 @@ class Results(Recording):
     (x, y, z), for orientations `quaternion` (w, x, y, z); its attributes are `unit`, `frame` and
     `description`. It is read from the file when it is first asked for.
 
-    A run that has not ended, or was killed, has its samples in the file that `partial_path` tells:
+    A run that has not ended, or was killed, has its samples in the file that `partial_path` names:
     these are read where there is no other file, up to at most half a second before the run was
-    killed. That, and a later run beside the one that is read, is told as a `ResultsWarning`.
+    killed. That, and a later run beside the one that is read, is reported as a `ResultsWarning`.
 
     Parameters
     ----------

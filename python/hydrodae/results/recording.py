@@ -181,7 +181,7 @@ class Recording(Mapping[str, "xarray.DataArray"]):
 
     @property
     def notes(self) -> list[str]:
-        """What is worth telling: redundant rows, bodies moved to close joints, units converted."""
+        """Facts to report: redundant rows, bodies moved to close joints, units converted."""
         later = ("beyond_linear_theory", "unit_conversions")  # known when the run has ended
         texts = [self._header.get("notes", ""), *(self._statistics.get(key, "") for key in later)]
         return "".join(map(str, texts)).splitlines()

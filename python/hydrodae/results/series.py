@@ -58,7 +58,7 @@ class Waves:
 
 @dataclass(frozen=True)
 class Statistics:
-    """What `Results.statistics_of` tells of a series; print it."""
+    """What `Results.statistics_of` shows of a series; print it."""
 
     name: str
     unit: str

@@ -63,9 +63,9 @@ def run(
         then it is sampled before the run and a spline gives the rates. Exceptions in it end the run
         and come back here.
     forces : mapping from str to callable, optional
-        Law of every force of type ``python_load``, ``f(t, s, rate)`` [N or N m], and
-        ``python_wrench``, ``f(t, displacement, twist)`` (six numbers each, earth axes) to force and
-        moment [N, N m], by its name. It is called inside the solver: it must depend on its
+        Law of every force of two types, by its name: ``python_load``, ``f(t, s, rate)`` [N or N m],
+        and ``python_wrench``, ``f(t, displacement, twist)`` (six numbers each, earth axes) to force
+        and moment [N, N m]. It is called inside the solver: it must depend on its
         arguments alone, and smoothly. Exceptions in it end the run and come back here.
     controllers : mapping from str to callable, optional
         Function ``f(t, input_1, ...)`` to one number or a sequence of them for every controller of
@@ -78,9 +78,9 @@ def run(
         default it is the method of the run, at 10 rtol or twice the fixed step: that cannot see
         errors which no tolerance changes. See `Results.accuracy`.
     checkpoint : float, optional
-        Keep ``X.checkpoint.h5`` beside ``X.h5`` until the run is completed, anew after so many
+        Keep ``X.checkpoint.h5`` beside ``X.h5`` until the run is completed, again after so many
         seconds of wall time: what `resume` goes on from when the run was killed or stopped. At
-        each the method starts anew (see `Simulation.state`).
+        each the method starts again (see `Simulation.state`).
     resume : bool
         Go on from the checkpoint; the results then hold the whole run. Case, overrides, database
         and version have to be those of that run. Functions in `drives` are the caller's to repeat.
@@ -178,7 +178,7 @@ def _integrate(
 
 
 def _stamp(path: Path) -> tuple[int, int] | None:
-    """What tells a file from the one that had its name before; None where there is none."""
+    """What distinguishes a file from the one that had its name before; None where there is none."""
     try:
         status = path.stat()
     except OSError:

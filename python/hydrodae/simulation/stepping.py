@@ -93,11 +93,14 @@ class Simulation:
     def inputs(self) -> dict[str, float]:
         """What `write` may change, with the values that hold now.
 
-        ``forces/NAME/damping``, ``stiffness``, ``neutral`` and ``load`` of each power take-off
-        along a joint, ``force.x`` to ``moment.z`` of each constant load, ``static`` of each dry
-        friction, and in scenes without stops, one-sided joints and dry friction
-        ``constraints/NAME/rate``, the constant part of each rate that a constraint prescribes; SI
-        units and rad. ``hydrodae check`` lists them.
+        SI units and rad; ``hydrodae check`` lists them:
+
+        - ``forces/NAME/damping``, ``stiffness``, ``neutral`` and ``load`` of each power take-off
+          along a joint
+        - ``force.x`` to ``moment.z`` of each constant load
+        - ``static`` of each dry friction
+        - ``constraints/NAME/rate``, the constant part of each rate that a constraint prescribes;
+          only in scenes without stops, one-sided joints and dry friction
         """
         return self._stepper.inputs
 
@@ -107,7 +110,7 @@ class Simulation:
         return self._stepper.input_units
 
     def close(self) -> None:
-        """Tell controllers that are other programs that the run ends here; ports are free then."""
+        """Notify controllers that are other programs of the end of the run; ports are free then."""
         self._stepper.close()
 
     def advance(self, limit: float | None = None) -> float:
@@ -138,7 +141,7 @@ class Simulation:
         """All that the run is now, as a value that can be copied, compared and pickled.
 
         What follows depends on it alone, bit for bit: going on from here equals coming back to it.
-        To that end the method starts anew from the state in this run, too: ``ida`` begins at order
+        To that end the method starts again from the state in this run, too: ``ida`` begins at order
         1, one-step methods keep their step and their polynomial. The motion then differs from that
         of a run left alone, within the tolerance.
 
@@ -180,7 +183,7 @@ class Simulation:
     def write(self, name: str, value: float) -> None:
         """Hold an input at a value from now on, until the next write.
 
-        Accelerations jump there, and with a prescribed rate velocities, so the method starts anew
+        Accelerations jump there, and with a prescribed rate velocities, so the method starts again
         as it does at an event; a value that holds already changes nothing.
 
         Raises

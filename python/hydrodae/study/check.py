@@ -63,7 +63,7 @@ def counts(case: CaseLike, text: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        `title`, `bodies`, `joints`, `waves` (names), and where the text tells them `unknowns`,
+        `title`, `bodies`, `joints`, `waves` (names), and where the text shows them `unknowns`,
         `positions`, `velocities`, `states`, `multipliers`, `nonzeros`, `degrees_of_freedom`,
         `constraint_rows`.
     """

@@ -45,7 +45,7 @@ class Rung:
         Rms difference of its kernel from K(t) over the rms of K [-]; nan where it has no meaning.
     transfer_error : float
         Rms error of H(iw) = B + iw (A - A_inf) in the band that it was made for, as the database
-        tells it [-]: that is what a motion feels. A fit may miss K and have H right.
+        shows it [-]: that is what a motion feels. A fit may miss K and have H right.
     motion_error : float
         Rms difference of the channel from the next higher rung that ran, over the rms of that
         about its mean [-]; nan for the highest.
@@ -108,13 +108,13 @@ def ladder(
     Parameters
     ----------
     case : Case, Scene or path
-        With a database; rungs that it cannot run (no fit, no kernel) are told with the reason.
+        With a database; rungs that it cannot run (no fit, no kernel) are reported with the reason.
     frequency : float, optional
         Of constant radiation [rad/s]; default: that of the largest wave, else of the least damped
         natural mode of the linearised case.
     channel : str, optional
-        Whose error is told, one series such as "joints/hinge1/angle"; default: the joint coordinate
-        (else position) that moves most.
+        Whose error is reported, one series such as "joints/hinge1/angle"; default: the joint
+        coordinate (else position) that moves most.
     repeat : int
         Solver times are the best of so many runs.
     set : mapping from str, optional

@@ -1,6 +1,6 @@
 """Files that commands write: nothing is replaced but a file of the same kind.
 
-The kind of a file that is there is told by its content; by its ending only where it is plain text.
+The content decides the kind of a file that is there; its ending only where it is plain text.
 """
 
 from __future__ import annotations

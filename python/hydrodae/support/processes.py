@@ -10,7 +10,7 @@ from typing import Any
 
 
 class _Process(SpawnProcess):
-    """A process begun anew that does not run the main script again.
+    """A new process that does not run the main script again.
 
     By default it would, to find functions that are defined there; ours are all in the package. A
     script without ``if __name__ == "__main__":`` would start processes of its own in each.

@@ -36,7 +36,7 @@ LACKING = {
     "flex": "generalised body modes",
     "variableHydro.option": "variable hydrodynamics (tables that change in the run)",
     "largeXYDisplacement.option": 'large displacements: [sea] phase = "moving" is near to it',
-    "hydroStiffness": "a hydrostatic stiffness of one's own; that of the database is used",
+    "hydroStiffness": "hydroStiffness of the body; that of the database is used",
 }
 
 

@@ -250,7 +250,7 @@ _SIZE = {"fixed": 0, "heave": 1, "planar": 2, "rigid": 3}
 
 
 def _set_motions(topology: Topology) -> None:
-    """What each group can do, as its joints from the ground on tell: as few motions as possible."""
+    """What each group can do, as its joints from the ground on show: as few motions as possible."""
     for group in topology.groups.values():
         group.motion = "fixed" if group.is_ground else "rigid"
     for _ in topology.groups:

@@ -33,8 +33,10 @@ TEST_CASE("a mistake in a wave is told with its place") {
   CHECK(tests::contains(message(head + "type = \"regular\"\nheight = 1.0\nperiod = 5.0\n"),
                         "the table [hydro] is missing"));
   CHECK(tests::contains(message("\n[sea]\nramp = 5.0\n"), "there is no [[wave]] to ramp up"));
-  CHECK(tests::contains(message("\n[sea]\ncurrent = [1.0, 0.0, 0.0]\n"), "and there is none"));
-  CHECK(tests::contains(message("\n[sea]\nphase = \"moving\"\n"), "and there are none"));
+  CHECK(tests::contains(message("\n[sea]\ncurrent = [1.0, 0.0, 0.0]\n"),
+                        "and the case has no such element"));
+  CHECK(tests::contains(message("\n[sea]\nphase = \"moving\"\n"),
+                        "and the case lacks waves or database"));
   CHECK(tests::contains(message(head + "type = \"measured\"\n"),
                         "a measured wave needs 'file', or 'time' and 'elevation'"));
 }

@@ -57,7 +57,7 @@ TEST_CASE("where an evaluation is dear, radau evaluates least") {
   SceneTraits traits = plain();
   traits.costly = "a drive of Python";
   CHECK(order_methods(traits).methods == radau_first);
-  CHECK(order_methods(traits).reason == "a drive of Python is dear to evaluate");
+  CHECK(order_methods(traits).reason == "a drive of Python is expensive to evaluate");
 }
 
 TEST_CASE("a long run without damping takes the method whose errors are smallest") {

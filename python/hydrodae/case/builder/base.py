@@ -28,7 +28,7 @@ class SceneBase:
         return self._title
 
     def to_toml(self) -> str:
-        """Return the case file: what was said so far, in the order in which it was said."""
+        """Return the case file of the calls so far, in their order."""
         return "\n".join([f"title = {to_toml(self._title)}\n", *(e.text for e in self._entries)])
 
     def case(self, values: Mapping[str, Any] | None = None) -> Case:

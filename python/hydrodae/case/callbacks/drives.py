@@ -78,7 +78,7 @@ def _finite(
 
 
 def _splined(name: str, drive: Drive, end_time: float, fewest: int) -> Kernel:
-    """Quintic spline through samples of the function, doubled until they tell it all."""
+    """Quintic spline through samples of the function, doubled until they represent it."""
     from scipy.interpolate import make_interp_spline
 
     def sample(times: Any) -> Any:

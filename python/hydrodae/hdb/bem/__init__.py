@@ -1,1 +1,1 @@
-"""Boundary-element runs of one's own: panels of shapes and meshes, lids, Capytaine."""
+"""Boundary-element runs with Capytaine: panels of shapes and meshes, lids, solution."""

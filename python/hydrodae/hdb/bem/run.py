@@ -111,7 +111,7 @@ def compute(
     -------
     Path
         A netCDF file as Capytaine makes them, NaN included where Capytaine failed: read it with
-        `hydrodae.hdb.import_database`, which counts and names them, and tells the frequencies that
+        `hydrodae.hdb.import_database`, which counts and names them, and shows the frequencies that
         were solved with the Green function of shallow water (`green.solve`).
 
     Raises
@@ -160,7 +160,7 @@ def _check_depth(bodies: Sequence[WettedBody], water_depth: float) -> None:
 
 
 def panel_warning(bodies: Sequence[WettedBody], settings: Settings) -> str:
-    """Say so if panels are longer than an eighth of the shortest wave; else an empty text."""
+    """Return a warning of panels longer than an eighth of the shortest wave; else empty text."""
     longest = max(
         float(np.linalg.norm(b.panels - np.roll(b.panels, 1, axis=1), axis=2).max()) for b in bodies
     )

@@ -1,4 +1,4 @@
-"""The depth that a database states, against what damping and force of heave tell."""
+"""The depth that a database states, against what damping and force of heave show."""
 
 from __future__ import annotations
 

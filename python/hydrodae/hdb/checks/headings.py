@@ -25,7 +25,7 @@ NONE = 0.02
 
 
 def heading_findings(database: HydroDatabase, band: Band) -> list[Finding]:
-    """Tell how far forces of waves between the headings may be off, in the band."""
+    """Report how far forces of waves between the headings may be off, in the band."""
     heading = database.heading
     if heading.size == 0:
         return []
@@ -43,7 +43,7 @@ def heading_findings(database: HydroDatabase, band: Band) -> list[Finding]:
         if step[widest] <= WIDE and least <= MUCH:
             return []
         known = f", {least:.2g} of their largest off for a body of revolution" if least else ""
-        text = f"{between} are interpolated{known}; the headings are too few to tell how well"
+        text = f"{between} are interpolated{known}; the headings are too few to judge how well"
         return [Finding("warning", "headings", text, value=float(np.degrees(step[widest])))]
     misses = _misses(database, rule.misses, order)
     judged = np.flatnonzero(inside(database.omega, band))

@@ -52,7 +52,7 @@ def hull_findings(database: HydroDatabase) -> list[Finding]:
 
 
 def _impossible(statics: Hydrostatics, depth: float) -> list[tuple[str, str]]:
-    """Tell what no hull has, with its severity."""
+    """Report what no hull has, with its severity."""
     found, size = [], abs(statics.displaced_volume) ** (1.0 / 3.0)
     height = float(statics.center_of_buoyancy[2])
     center = f"its centre of buoyancy, z = {height:.4g} m, is"

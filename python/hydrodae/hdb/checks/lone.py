@@ -81,7 +81,7 @@ def _off_at(w: Array, h: NDArray[np.complex128], at: int) -> float:
 def _alone(
     w: Array, h: NDArray[np.complex128], kept: NDArray[np.bool_], at: int, off: float
 ) -> bool:
-    """Tell if the neighbours of a value that is `off` are right without it."""
+    """Return whether the neighbours of a value that is `off` are right without it."""
     others = np.flatnonzero(kept)
     others = others[others != at]
     place = int(np.searchsorted(others, at))

@@ -86,13 +86,13 @@ def one_heading_findings(database: HydroDatabase) -> list[Finding]:
 
 
 def in_a_tank(database: HydroDatabase) -> bool:
-    """Tell whether damping and forces of all motions are those between walls."""
+    """Return whether damping and forces of all motions are those between walls."""
     off, tank = _logs(database)
     return bool(off) and tank == set(off)
 
 
 def clean_rows(db: HydroDatabase, held: Sequence[str]) -> NDArray[np.bool_]:
-    """Tell which frequencies (nw,) keep causality and energy, bodies on the ground left out."""
+    """Report which frequencies (nw,) keep causality and energy, bodies on the ground left out."""
     moving = [c for c in db.coordinates if split_label(c)[0] not in held]
     return ~suspect_rows(db.select(moving) if held and moving else db)
 
@@ -104,7 +104,7 @@ def power_of(k: Array, ratio: Array) -> float:
 
 
 def _logs(db: HydroDatabase) -> tuple[dict[str, float], set[str]]:
-    """Logarithm of the implied damping over B, of every coordinate that tells; those in a tank."""
+    """Logarithm of the implied damping over B, of coordinates that show it; those in a tank."""
     found: dict[str, float] = {}
     tank: set[str] = set()
     if not db.heading.size:

@@ -1,4 +1,4 @@
-r"""Places and motions that A and B alone tell: rows of other bodies, or of other motions.
+r"""Places and motions that A and B alone show: rows of other bodies, or of other motions.
 
 In waves longer than the bodies a body that heaves is a source and one that surges a dipole. Their
 waves meet, at a distance d and in the direction alpha from the one that surges, so that
@@ -60,7 +60,7 @@ def place_findings(database: HydroDatabase) -> list[Finding]:
 
 
 def _sides(db: HydroDatabase) -> list[Finding]:
-    """Tell bodies whose coupling has the sign of the other side."""
+    """Report bodies whose coupling has the sign of the other side."""
     at = {label: i for i, label in enumerate(db.coordinates)}
     k, b = wavenumber(db.omega, db.water_depth, db.gravity), db.radiation_damping
     wrong: list[tuple[float, str, str]] = []
@@ -118,7 +118,7 @@ def _width(db: HydroDatabase, *names: str) -> float:
 
 
 def _follows(db: HydroDatabase, name: str, heave: int) -> NDArray[np.bool_]:
-    """Tell where (nw,) the heave force of a body is that of its waterplane; nowhere if unknown."""
+    """Where (nw,) the heave force of a body is that of its waterplane; nowhere if unknown."""
     statics = db.bodies[name].hydrostatics
     if statics is None:
         return np.zeros(db.omega.size, bool)
@@ -138,7 +138,7 @@ def _block(db: HydroDatabase, name: str) -> Array | None:
 
 
 def _crossed(db: HydroDatabase, name: str) -> str:
-    """Tell a surge that turns a body as sway does."""
+    """Report a surge that turns a body as sway does."""
     a = _block(db, name)
     if a is None:
         return ""
@@ -160,7 +160,7 @@ def _crossed(db: HydroDatabase, name: str) -> str:
 
 
 def _buried(db: HydroDatabase, name: str) -> str:
-    """Tell pressures that act below the ground, or far above the water."""
+    """Report pressures that act below the ground, or far above the water."""
     a, point = _block(db, name), db.bodies[name].reference_point
     if a is None or point is None:
         return ""

@@ -47,7 +47,7 @@ def draw_report(database: HydroDatabase, report: CheckReport) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Six panels a body; every line over its own largest value, which the legend tells. Fits of
+        Six panels a body; every line over its own largest value, which the legend shows. Fits of
         the memory are dashed; suspect frequencies are shaded.
     """
     head = _head(database, report)

@@ -29,7 +29,7 @@ ROUND = 0.05
 
 
 def row_findings(database: HydroDatabase) -> list[Finding]:
-    """Judge the diagonals of A and B, and tell what cannot be checked without forces of waves.
+    """Judge the diagonals of A and B, and report what cannot be checked without forces of waves.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def _sizes(db: HydroDatabase, size: Array, body: str) -> list[float]:
 
 
 def _turns(db: HydroDatabase) -> list[Finding]:
-    """Tell bodies that roll without water and pitch with it, or the other way round."""
+    """Report bodies that roll without water and pitch with it, or the other way round."""
     at = {label: i for i, label in enumerate(db.coordinates)}
     largest = np.abs(np.einsum("wii->wi", db.added_mass)).max(axis=0)
     held, found = standing(db), []
@@ -142,7 +142,7 @@ def _turns(db: HydroDatabase) -> list[Finding]:
 
 
 def _open(db: HydroDatabase) -> list[Finding]:
-    """Tell what A and B alone leave open, so that nobody takes silence for a verdict."""
+    """Report what A and B alone leave open, so that nobody takes silence for a verdict."""
     if db.heading.size:
         return []
     unseen = ["a factor of A and B together (density, length scale)"]
@@ -159,7 +159,7 @@ def _open(db: HydroDatabase) -> list[Finding]:
         unseen.append("names of bodies whose hulls are equal or not known")
     names = ", ".join(db.bodies)
     text = (
-        f"no forces of waves to check by: {'; '.join(unseen)} cannot be told and "
+        f"no forces of waves to check by: {'; '.join(unseen)} cannot be checked and "
         f"{'are' if len(unseen) > 1 else 'is'} taken as the files say (bodies in the order {names})"
     )
     return [Finding("warning", "not checked", text)]

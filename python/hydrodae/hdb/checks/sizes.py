@@ -59,7 +59,7 @@ def size_findings(database: HydroDatabase) -> list[Finding]:
     Returns
     -------
     list of Finding
-        Errors only; what cannot be told (no headings, hydrostatics or long waves) is left out.
+        Errors only; what cannot be judged (no headings, hydrostatics or long waves) is left out.
     """
     bodies = list(database.bodies)
     # bodies far from each other are alone in long waves, those near move together
@@ -145,7 +145,7 @@ def _of_hulls(db: HydroDatabase) -> list[Finding]:
 
 
 def _impossible(db: HydroDatabase, name: str, statics: Hydrostatics) -> str:
-    """Tell what does not go together, or nothing."""
+    """Report what does not go together, or nothing."""
     at = {dof: i for i, c in enumerate(db.coordinates) for b, dof in [split_label(c)] if b == name}
     volume, area = statics.displaced_volume, statics.waterplane_area
     height = abs(float(statics.center_of_buoyancy[2]))

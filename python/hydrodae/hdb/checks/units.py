@@ -19,7 +19,7 @@ TURN = 2.0 * np.pi
 
 
 def unit_findings(db: HydroDatabase) -> list[Finding]:
-    """Tell if A and B agree only with other frequencies, or with B multiplied by a factor.
+    """Return whether A and B agree only with other frequencies, or with B multiplied by a factor.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def unit_findings(db: HydroDatabase) -> list[Finding]:
 
 
 def _agree(omega: Array, a: Array, b: Array) -> bool:
-    """Tell if at least two coordinates have A and B that belong to each other."""
+    """Return whether at least two coordinates have A and B that belong to each other."""
     slope, correlation = causal_line(omega, a, b)
     right = (correlation > CORRELATION) & (1.0 / FACTOR < slope) & (slope < FACTOR)
     return bool(right.sum() >= 2)

@@ -26,7 +26,7 @@ EQUAL = 1e-2
 
 
 def goes_round(heading: Array) -> bool:
-    """Tell whether ascending headings (nh,) [rad] lack just the last step of the circle.
+    """Return whether ascending headings (nh,) [rad] lack just the last step of the circle.
 
     The gap from the last to the first is at most the largest step between the others, and that at
     most 90 degrees.
@@ -39,7 +39,7 @@ def goes_round(heading: Array) -> bool:
 
 
 def closing_finding(heading: Array) -> Finding:
-    """Tell which heading was added to headings (nh,) [rad] that go round."""
+    """Report which heading was added to headings (nh,) [rad] that go round."""
     first, last, added = np.degrees([heading[0], heading[-1], heading[0] + TURN])
     text = (
         f"{first:.6g} to {last:.6g} deg go all round: {added:.6g} deg, with the forces of "

@@ -118,7 +118,7 @@ def expand(spec: str, labels: Sequence[str]) -> list[str]:
             check_body(body, bodies_of(labels))
             new = [f"{body}.{dof}" for dof in GROUPS[word] if f"{body}.{dof}" in labels]
             if not new:
-                raise DatabaseError(f"{item!r} is empty: the database has none of these")
+                raise DatabaseError(f"{item!r} is empty: the database has no such coordinates")
         else:
             if item not in labels:
                 raise DatabaseError(_no_coordinates(item, labels))
@@ -130,7 +130,7 @@ def expand(spec: str, labels: Sequence[str]) -> list[str]:
 
 
 def _no_coordinates(item: str, labels: Sequence[str]) -> str:
-    """Tell that `item` names no coordinates, and what of that kind does."""
+    """Report that `item` names no coordinates, and what of that kind does."""
     bodies = bodies_of(labels)
     shorthands = [
         f"{body}.{word}"

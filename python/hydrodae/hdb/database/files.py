@@ -51,7 +51,7 @@ ROOT_TEXT = ("source", "source_sha256", "generator", "title")
 
 
 def is_hydro_file(path: Path) -> bool:
-    """Tell whether a file is a `hydro.h5` (by its root attribute)."""
+    """Return whether a file is a `hydro.h5` (by its root attribute)."""
     if not h5py.is_hdf5(path):
         return False
     with opened(path, DatabaseError, DAMAGED, search=True) as f:
@@ -59,7 +59,7 @@ def is_hydro_file(path: Path) -> bool:
 
 
 def is_single(path: str | Path) -> bool:
-    """Tell whether a `hydro.h5` stores its tables in single precision."""
+    """Return whether a `hydro.h5` stores its tables in single precision."""
     with opened(Path(path), DatabaseError, DAMAGED) as f:
         return bool(f["added_mass"].dtype == np.float32)
 

@@ -1,4 +1,4 @@
-"""Frequencies of a run of one's own that needed the Green function of shallow water."""
+"""Frequencies of a run with Capytaine that needed the Green function of shallow water."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SHALLOW = "shallow_omega"
 
 
 def shallow_findings(data: xr.Dataset) -> list[Finding]:
-    """Tell the frequencies of a netCDF file that were solved with FinGreen3D."""
+    """Report the frequencies of a netCDF file that were solved with FinGreen3D."""
     omega = np.atleast_1d(data.attrs.get(SHALLOW, []))
     if not omega.size:
         return []

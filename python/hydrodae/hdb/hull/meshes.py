@@ -19,7 +19,7 @@ _CORNERS = {_TRIANGLE: 3, _QUAD: 4, 9: 3, 10: 4, 16: 4}
 
 
 def read_mesh(path: str | Path) -> Array:
-    """Read a mesh file; what it is is told by its content.
+    """Read a mesh file; its content decides the format.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A database from a boundary-element run of one's own."""
+"""A database from a boundary-element run with Capytaine."""
 
 from __future__ import annotations
 

@@ -244,7 +244,7 @@ def _near_enough(fit: ExponentialMemory, tables: HydroDatabase) -> bool:
 
 
 def _as_near(fit: ExponentialMemory) -> ExponentialMemory:
-    """Return a fit that misses the usual target, and says so."""
+    """Return a fit that misses the usual target, with a note of it."""
     report = fit.report
     cause = "no fit reaches"
     if report["time_limited"]:
@@ -294,7 +294,7 @@ def ways_out(
 
 
 def goes_on(fit: ExponentialMemory, database: HydroDatabase) -> bool:
-    """Tell whether a fit goes to the right limit beyond the frequencies that it matches.
+    """Return whether a fit goes to the right limit beyond the frequencies that it matches.
 
     It is passive, its A_inf is that of the tables within their uncertainty, and |H| nowhere is far
     beyond what it is at the frequencies of the tables that break no law.
@@ -411,7 +411,7 @@ def kernel(
 
 
 def is_fit_name(name: str) -> bool:
-    """Tell whether a fit can have this name in a file: letters, digits, _ and - only."""
+    """Return whether a fit can have this name in a file: letters, digits, _ and - only."""
     return body_name(name) == name
 
 

@@ -1,7 +1,7 @@
 """The listing `.LIS` of AQWA-LINE: tables for people.
 
 Conventions as in `.AH1` (`hydrodae.hdb.readers.aqwa`); added mass and damping carry five digits,
-forces three, but the listing tells Froude-Krylov and diffraction apart. Every page is headed by its
+forces three, but the listing separates Froude-Krylov and diffraction. Every page is headed by its
 structure. Of several structures a page headed `S T R U C T U R E   s` with the title
 `H/I ADDED MASS FOR FORCE ON STR# k` holds rows of forces on k and columns of motions of s.
 """

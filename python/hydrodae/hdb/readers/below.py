@@ -17,7 +17,7 @@ def runs_below(root: Path, holds_one: Callable[[Path], bool]) -> list[Path]:
     ----------
     root : Path
     holds_one : function of a folder
-        Tells whether it holds a run by itself; folders within such a one are not looked at.
+        Whether it holds a run by itself; folders within such a one are not looked at.
 
     Returns
     -------

@@ -28,7 +28,7 @@ ESTIMATED_BY_BEMIO = ("NEMOH", "CAPYTAINE")
 
 
 def is_bemio_file(f: h5py.File) -> bool:
-    """Tell whether an open HDF5 file has the layout of BEMIO."""
+    """Return whether an open HDF5 file has the layout of BEMIO."""
     return "simulation_parameters" in f and "body1" in f
 
 

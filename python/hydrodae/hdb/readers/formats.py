@@ -1,6 +1,6 @@
-"""The formats that are told by the files of a folder. A new one: a module here, a word in READERS.
+"""Formats recognised by the files of a folder. A new one: a module here, a word in READERS.
 
-Nemoh, Capytaine, BEMIO and hydro.h5 itself, which are told otherwise, stand in `kinds`.
+Nemoh, Capytaine, BEMIO and hydro.h5 itself, which are recognised otherwise, stand in `kinds`.
 """
 
 from __future__ import annotations

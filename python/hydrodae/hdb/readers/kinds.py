@@ -1,4 +1,4 @@
-"""Tell what a source is by its content, and find it in a folder."""
+"""Report what a source is by its content, and find it in a folder."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def _folder(path: Path) -> tuple[Path, str]:
 
 
 def _nemoh(path: Path) -> bool:
-    """Tell whether a folder is that of a Nemoh run: with Nemoh.cal, and results there or below.
+    """Return whether a folder is that of a Nemoh run: with Nemoh.cal, and results there or below.
 
     A Nemoh.cal in a folder beside the results belongs to it; one above its own results does not.
     """
@@ -116,7 +116,7 @@ def _named(path: Path, name: str) -> list[Path]:
 
 
 def _holds_one(path: Path) -> bool:
-    """Tell whether a folder itself holds a database."""
+    """Return whether a folder itself holds a database."""
     if _tables(path) or _nemoh(path):
         return True
     try:

@@ -23,7 +23,7 @@ ALIKE = 0.1
 
 
 def statics_of_mesh(data: SourceData, root: Path, name: str, mesh: str) -> None:
-    """Take the hydrostatics of a body from its mesh; tell what was taken, or what is needed.
+    """Take the hydrostatics of a body from its mesh; report what was taken, or what is needed.
 
     Parameters
     ----------

@@ -94,7 +94,7 @@ def total_of_all_bodies(
         return None
     text = f"every body has the displacement {volume[0]:.5g} m3 and the waterplane {area[0]:.5g} m2"
     if heave_force is None or not np.all(np.isfinite(heave_force)):
-        reason = "which cannot be told from the sum of all bodies (a defect of Nemoh 3)"
+        reason = "which cannot be separated from the sum of all bodies (a defect of Nemoh 3)"
     else:
         ratio = heave_force / (rho * gravity * area[0])
         if np.all(np.abs(ratio - 1.0) < 0.05):

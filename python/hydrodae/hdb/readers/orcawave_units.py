@@ -104,7 +104,7 @@ def water_of(
     depth *= units.length
     text = (
         f"depth {depth:g} m is that of the OrcaFlex model; the diffraction analysis may have had "
-        f"another one (OrcaWave's own .yml, put beside it, tells)"
+        f"another one (OrcaWave's own .yml, put beside it, states it)"
     )
     findings.append(Finding("warning", "assumption", text))
     return units.density * rho, units.gravity, depth, [path]

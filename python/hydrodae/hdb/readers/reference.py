@@ -44,7 +44,7 @@ def origin_by_moments(data: SourceData, body: str, statics: Hydrostatics) -> flo
 
     About the point p of the tables F_5 = i k cos(beta) (K_55(p) + g A_51) - rho g S_x(p), and roll
     likewise: A_51 of the tables shares their point, so that a point dz higher changes the bracket
-    by rho g V dz, and one dx ahead S_x by A_w dx. Surge, which leads, tells the time convention.
+    by rho g V dz, and one dx ahead S_x by A_w dx. Surge, which leads, shows the time convention.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def reference_by_statics(data: SourceData, body: str, found: FileHydrostatics) -
     """Return the centre of gravity of the hydrostatics or the origin, by the long-wave moment.
 
     About a point p the Froude-Krylov moment in long waves is FK_5 = i k cos(beta) K_55(p) - ...,
-    with the buoyancy stiffness K_55(p): that tells the height of p.
+    with the buoyancy stiffness K_55(p): that shows the height of p.
 
     Parameters
     ----------

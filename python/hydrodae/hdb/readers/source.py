@@ -92,7 +92,7 @@ class SourceData:
 
 
 def without_hydrostatics(text: str, names: Iterable[str]) -> Finding:
-    """Tell that bodies have no hydrostatics, and what gives them some."""
+    """Report bodies without hydrostatics, and what would give them."""
     options = " ".join(f"--mesh {name}=FILE" for name in names)
     return Finding(
         "warning",

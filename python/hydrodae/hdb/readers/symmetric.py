@@ -67,7 +67,7 @@ def turned_forces(heading: Array, force: Complex) -> tuple[Array, Complex]:
 
 
 def absent(candidates: Array, known: Array) -> NDArray[np.bool_]:
-    """Tell which angles are none of those known, nor of the candidates before."""
+    """Report which angles are none of those known, nor of the candidates before."""
     new = np.ones(candidates.size, dtype=bool)
     seen = list(known)
     for i, angle in enumerate(candidates):

@@ -118,7 +118,7 @@ def table(path: Path, block: Block, columns: int, meaning: str) -> Array:
 def to_omega(path: Path, header: str, block: Block, table: Array) -> Array:
     """Convert the first column of a table to rad/s.
 
-    The header tells what it is: w (rad/s), f (Hz) or T (s).
+    The header shows what it is: w (rad/s), f (Hz) or T (s).
 
     Raises
     ------

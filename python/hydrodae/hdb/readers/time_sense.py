@@ -1,4 +1,4 @@
-r"""Files of one format by programs with other signs, told by physics.
+r"""Files of one format by programs with other signs, recognised by physics.
 
 In x(t) = Re(X e^{+iwt}) a body that is small against the waves feels, about its own place,
 
@@ -46,7 +46,7 @@ FORMAT, OTHER = "format", "other"
 
 
 def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
-    """Conjugate the forces that are of the other convention than the format has, and tell it.
+    """Conjugate the forces that are of the other convention than the format has, and report it.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def correct_time_sense(data: SourceData, stated: str | None = None) -> None:
     stated : str, optional
         What the user says: "format", "other", or the same of each force, as in
         "froude-krylov=other,diffraction=other". Else physics decides, if it can: all bodies must
-        say so.
+        agree.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def _settle_odd(data: SourceData, odd: list[str]) -> None:
     words = [word for word, name in PARTS.items() if name in turned]
     text = (
         f"{' and '.join(words)}: of the other time convention than the rest of the file (the sum "
-        f"and the surge force tell), and taken so "
+        f"and the surge force show it), and taken so "
         f"(--time-convention {','.join(f'{w}=other' for w in words)})"
     )
     data.findings.append(Finding("warning", "time convention", text))

@@ -62,7 +62,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
     path : Path
         Any file of the run (`rm3.1`), or its folder.
     water : Water, optional
-        What no file says. The depth is asked for; density and gravity are assumed and told.
+        What no file says. The depth is asked for; density and gravity are assumed and reported.
 
     Returns
     -------
@@ -189,7 +189,7 @@ def read_wamit(path: Path, water: Water | None = None) -> SourceData:
 
 
 def _of_told_depth(path: Path, control: Control, water: Water, findings: list[Finding]) -> Water:
-    """Enter the depth that damping and force of heave tell, else what HydroDyn takes it for."""
+    """Enter the depth that damping and force of heave show, else what HydroDyn takes it for."""
     deep = read_wamit(path, replace(water, depth=np.inf))
     told = depth_of_bodies(
         deep.coordinates,
@@ -213,7 +213,7 @@ def _of_told_depth(path: Path, control: Control, water: Water, findings: list[Fi
 
 
 def _holds_waves(stem: Path) -> bool:
-    """Tell whether a run has forces of waves, in tables or in its listing alone."""
+    """Return whether a run has forces of waves, in tables or in its listing alone."""
     tables_of = (".2", ".3", ".3fk", ".3sc")
     listed = beside(stem, ".1") is None
     return listed or any(beside(stem, suffix) is not None for suffix in tables_of)

@@ -92,7 +92,7 @@ def asked_findings(
     Parameters
     ----------
     asked : Asked or None
-        Nothing is told without.
+        Nothing is reported without.
     radiation : Path
         The file of A and B.
     omega : (nw,) array
@@ -154,7 +154,7 @@ def _omega(asked: Asked, kind: int, constants: tuple[float, float, float]) -> Ar
 
 
 def _within(omega: Array, grid: Array) -> bool:
-    """Tell if most frequencies were asked for."""
+    """Return whether most frequencies were asked for."""
     at = np.abs(omega[:, None] - grid).argmin(axis=1)
     step = np.gradient(grid)[at] if grid.size > 1 else np.full(at.size, np.inf)
     near = np.abs(omega - grid[at]) < np.minimum(SAME * omega, QUARTER * step)

@@ -3,7 +3,7 @@
 Depth and body axes stand in `.pot` or `.out`, gravity and the length scale in `.mmx`, `.out` or the
 `.gdf`, volumes and centres in `.mmx` or `.out`, the density in `.frc` (alternative form 2). HAMS,
 which writes the same tables, has depth and reference point in `ControlFile.in`; the input of
-OpenFAST's HydroDyn tells what it takes them for.
+OpenFAST's HydroDyn shows what it takes them for.
 """
 
 from __future__ import annotations

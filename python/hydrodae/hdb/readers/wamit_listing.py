@@ -58,7 +58,7 @@ class _Rows:
 
 
 def is_listing(path: Path) -> bool:
-    """Tell whether a file is a listing of WAMIT with tables."""
+    """Return whether a file is a listing of WAMIT with tables."""
     if path.suffix.lower() != ".out" or not path.is_file():
         return False
     with open(path, errors="replace") as f:

@@ -55,7 +55,7 @@ def settled(
     if depth is None:
         raise DatabaseError(
             f"{stem}: the water depth is in {stem.name}.pot or .out, in ControlFile.in of HAMS or "
-            f"in HydroDyn's input: there is none; state it (depth=, --depth 70, or --depth inf)"
+            f"in HydroDyn's input: all are missing; state it (depth=, --depth 70, or --depth inf)"
             f"{_also(stem, control, water)}"
         )
     rho = control.rho if water.density is None else water.density
@@ -106,10 +106,10 @@ def first_column(
 ) -> int:
     """IPEROUT: what the first column of the tables holds.
 
-    Without a `.cfg` that says it, the diagonal entries of A and B tell, which belong to each other
-    (`hydrodae.hdb.relations.causality`) by one of the four meanings only. Where the tables are too
-    short for that, or end before B falls, damping and force of heave do, which Haskind's relation
-    joins at every frequency. Else the tables hold periods, as WAMIT writes unless told otherwise.
+    Without a `.cfg` that says it, the diagonal entries of A and B decide: they belong to each
+    other (`hydrodae.hdb.relations.causality`) by one of the four meanings only. Where the tables
+    are too short for that, or end before B falls, damping and force of heave decide, which
+    Haskind's relation joins at every frequency. Else the tables hold periods, the default of WAMIT.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def first_column(
     force : function
         Returns the lines (m, 7) of the exciting forces, or None.
     findings : list of Finding
-        Told there.
+        Reported there.
     """
     if control.first_column is not None:
         return control.first_column
@@ -174,7 +174,7 @@ def _apart(stem: Path, heave: Array, option: int, constants: tuple[float, float,
     """Typical |log| of the damping of heave over what its force implies, if the column means that.
 
     B_33 = k / (4 rho g c_g) |F_3|^2; of tables over rho w L^3 and rho g L^2 it is
-    B'_33 = k g L |F'_3|^2 / (4 w c_g). Infinite where nothing tells.
+    B'_33 = k g L |F'_3|^2 / (4 w c_g). Infinite where nothing limits it.
     """
     if len(heave) < ROWS:
         return np.inf
@@ -206,7 +206,7 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     """Return A at w = inf of the tables; A(0) and A(inf) that were exchanged are put right.
 
     Capytaine before 3.0 wrote the two rows of `.1` the other way round. A at the lowest frequency
-    is close to A(0), and Ogilvie's relation gives A(inf): that tells.
+    is close to A(0), and Ogilvie's relation gives A(inf): that settles it.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def at_infinity(omega: Array, a: Array, b: Array, findings: list[Finding]) -> Ar
     a, b : (nw, n, n) arrays
         A/(rho L^k), B/(rho w L^k).
     findings : list of Finding
-        Told there.
+        Reported there.
     """
     zero, high = a[omega == 0.0], a[np.isinf(omega)]
     usual = np.isfinite(omega) & (omega > 0.0)

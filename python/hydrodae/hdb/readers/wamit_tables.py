@@ -157,7 +157,7 @@ def check_parts(path: Path, rows: Array, lines: list[int], findings: list[Findin
 
 
 def without_mate(pairs: Array, modes: Array) -> NDArray[np.bool_]:
-    """Tell which pairs I, J of modes stand in a file that holds no J, I.
+    """Report which pairs I, J of modes stand in a file that holds no J, I.
 
     Parameters
     ----------

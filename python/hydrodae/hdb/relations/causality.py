@@ -31,7 +31,7 @@ def causal_line(omega: Array, a: Array, b: Array) -> tuple[Array, Array]:
     Returns
     -------
     slope, correlation : (k,) arrays
-        Of the k entries that tell: their damping falls within the table. None of a short table.
+        Of the k entries whose damping falls within the table. None of a short table.
     """
     empty = np.zeros(0)
     if omega.size < FEWEST:
@@ -54,7 +54,7 @@ def causal_slope(omega: Array, a: Array, b: Array) -> tuple[Array, Array]:
     """Slope of A against -I with what lies beyond the table free, and its standard error.
 
     B beyond the table adds to I(w) a smooth function, sum_k m_k w^{2k}: four of its terms are
-    unknowns beside the slope. So tables that end before B falls can tell, too.
+    unknowns beside the slope. So tables that end before B falls can be judged, too.
 
     Parameters
     ----------

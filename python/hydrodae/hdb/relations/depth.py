@@ -1,4 +1,4 @@
-r"""The depth of the water that damping and force of heave tell by Haskind's relation.
+r"""The depth of the water that damping and force of heave show by Haskind's relation.
 
 The damping of a motion follows from its excitation by all headings (`hydrodae.hdb.checks.energy`),
 
@@ -75,7 +75,7 @@ def depth_told(
     Returns
     -------
     DepthTold or None
-        None if no depth makes them agree, or too few frequencies tell.
+        None if no depth makes them agree, or too few frequencies are usable.
     """
     clear = (damping > LEAST * damping.max(initial=0.0)) & (force > 0.0)
     used = np.flatnonzero(clear)[:LOWEST]
@@ -133,7 +133,7 @@ def depth_of_bodies(
     rho: float,
     gravity: float,
 ) -> DepthTold | None:
-    """Return what all bodies that heave tell of the depth; None if none does, or they differ.
+    """Return what all bodies that heave show of the depth; None if none does, or they differ.
 
     Parameters
     ----------

@@ -58,14 +58,14 @@ def added_mass_inf(
     -------
     value : (...) array
         Median of the estimates below 0.2 w_max, with B ~ w^-n beyond the table, n = 3 or what the
-        table tells if that is more. Where the damping has fallen to a tenth of its peak and the
+        table shows if that is more. Where the damping has fallen to a tenth of its peak and the
         last points follow a power law to 1e-4 the table is trusted everywhere: least squares over
         w > 0.3 w_max (`hydrodae.hdb.relations.irf.added_mass_inf`).
     uncertainty : (...) array
-        Sum of what the tail beyond the table contributes (twice that where the damping still rises
-        at its end), of the largest distance to the estimates in other windows and by least squares,
-        of the scatter within the window and half of that of the least squares (at most that
-        distance once more), and of the gap below the first frequency.
+        Sum of four parts. The first is what the tail beyond the table contributes, twice where the
+        damping still rises at its end. The second is the largest distance to the estimates in other
+        windows and by least squares. The third is the scatter within the window and half of that of
+        the least squares, at most the second. The last is the gap below the first frequency.
 
     Notes
     -----

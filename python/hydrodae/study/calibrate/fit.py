@@ -160,7 +160,7 @@ def _warnings(estimates: Sequence[Estimate], correlation: Array) -> list[str]:
             if abs(correlation[k, m]) > CORRELATED:
                 out.append(
                     f"{estimates[m].name} and {one.name}: correlation {correlation[k, m]:.3f}: "
-                    "another test has to tell them apart"
+                    "another test must separate them"
                 )
     return out
 

@@ -118,9 +118,7 @@ def _unknown(case: Case, free: Free) -> Unknown:
     scale = free.scale if free.scale is not None else abs(start)
     if scale == 0.0 and free.scale is None:
         if not np.isfinite(high - low):
-            raise CaseError(
-                f"{name}: is 0, which tells nothing of its size: give both bounds or a scale"
-            )
+            raise CaseError(f"{name}: is 0, which gives no size: give both bounds or a scale")
         scale = 0.1 * (high - low)
     if not 0.0 < scale < np.inf:
         raise CaseError(f"{name}: scale: expected a number > 0, got {scale:g}")

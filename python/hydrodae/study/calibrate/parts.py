@@ -24,7 +24,7 @@ class Estimate:
     half : float
         Half of its 95 % interval; nan at a bound, or where it is not determined.
     independent : float
-        As many independent samples would tell as much of it as the records do.
+        As many independent samples would show as much of it as the records do.
     at_bound : bool
     is_offset : bool
         The offset of time of a record.

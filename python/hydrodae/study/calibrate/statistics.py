@@ -47,7 +47,7 @@ class Spread:
     half : (n,) array
         Half of the 95 % intervals.
     independent : (n,) array
-        For each parameter: as many independent samples would tell as much of it.
+        For each parameter: as many independent samples would show as much of it.
     """
 
     covariance: Array
@@ -140,7 +140,7 @@ def autoregressive(values: Array) -> tuple[float, Array]:
 
 
 def undetermined(jacobian: Array, names: Sequence[str]) -> list[str]:
-    """Tell which parameters, or which of them together, the samples do not determine.
+    """Report which parameters, or which of them together, the samples do not determine.
 
     Parameters
     ----------

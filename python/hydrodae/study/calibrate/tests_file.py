@@ -25,7 +25,7 @@ def read_tests(path: str | os.PathLike[str]) -> tuple[list[Record], list[Free]]:
     Raises
     ------
     CaseError
-        Something in it is wrong; the message tells what and where.
+        Something in it is wrong; the message shows what and where.
     """
     file = Path(path)
     _, given = read_file(file)

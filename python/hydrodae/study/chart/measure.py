@@ -157,8 +157,8 @@ def recommend(
         raise CaseError(f"no run meets the error {error:g}: {told}")
     if made.agreement is not None and made.agreement > error:
         raise CaseError(
-            f"an error of {error:g} cannot be told: the references ({', '.join(made.references)}) "
-            f"differ by {made.agreement:.1e}"
+            f"an error of {error:g} cannot be measured: the references "
+            f"({', '.join(made.references)}) differ by {made.agreement:.1e}"
         )
     others = (run for run in found if run.method != found[0].method)
     return Recommendation(found[0], next(others, None), made)

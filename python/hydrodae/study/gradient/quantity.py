@@ -61,7 +61,7 @@ def quantity(of: str, statistic: str, component: str | None, start: float) -> Qu
 
 @dataclass(frozen=True)
 class Found:
-    """What a model of the motion tells of a quantity.
+    """What a model of the motion shows of a quantity.
 
     Attributes
     ----------

@@ -71,7 +71,7 @@ def _measured(case: Case, what: Quantity) -> tuple[dict[str, Any], str]:
     missing = [key for key in keys if key not in results.statistics]
     if missing:
         raise CaseError(
-            f"the run tells no {missing[0]}: mean powers are taken after the ramp of the waves "
+            f"the run has no {missing[0]}: mean powers are taken after the ramp of the waves "
             "(sea.ramp), which the run does not reach"
         )
     return {"value": np.array(sum(float(results.statistics[key]) for key in keys))}, "W"

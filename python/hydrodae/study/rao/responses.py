@@ -34,7 +34,7 @@ class Rao:
     Attributes
     ----------
     model : LinearModel
-        The linearised case; `model.notes` tell what it leaves out.
+        The linearised case; `model.notes` list what it leaves out.
     modes : list of Mode
         Natural modes, longest period [s] first.
     response : Response

@@ -138,7 +138,7 @@ def sea_table(
     Parameters
     ----------
     response : Response
-        Of the same case: it tells the units.
+        Of the same case: it shows the units.
     deviation, power : mapping from str
         As `LinearModel.irregular` returns them.
     """

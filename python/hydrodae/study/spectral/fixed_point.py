@@ -51,7 +51,7 @@ def _split(values: Array, like: list[Array]) -> list[Array]:
 
 
 def _same_sign(mixed: Array, found: Array) -> bool:
-    """Tell whether the diagonals are alike in sign and no more than tenfold apart."""
+    """Return whether the diagonals are alike in sign and no more than tenfold apart."""
     a = np.einsum("nii->ni", mixed)
     b = np.einsum("nii->ni", found)
     near = (a * b >= 0.0) & (np.abs(a) >= 0.1 * np.abs(b)) & (np.abs(a) <= 10.0 * np.abs(b))

@@ -1,4 +1,4 @@
-"""The nonlinear loads of a case and what is told of their equivalents."""
+"""The nonlinear loads of a case and what is reported of their equivalents."""
 
 from __future__ import annotations
 

@@ -193,10 +193,10 @@ def spectral(
 ) -> Spectral:
     """Motion of a case in its sea in the frequency domain, nonlinear damping linearised in it.
 
-    Drag of Morison elements, quadratic viscous damping, friction along joints and power take-offs
-    that are nonlinear in the rate are replaced by the linear loads that miss them least in the
-    mean square, for the motion that follows with these: Gaussian in a sea of many components,
-    harmonic (Lorentz) in one of a single one. The drag of Morison elements is that of the motion
+    Linear loads replace drag of Morison elements, quadratic viscous damping, friction along joints
+    and power take-offs that are nonlinear in the rate. They miss these least in the mean square,
+    for the motion that follows with them: Gaussian in a sea of many components, harmonic (Lorentz)
+    in one of a single one. The drag of Morison elements is that of the motion
     of the water against the body, and so excites it as well.
 
     Parameters
@@ -226,8 +226,8 @@ def spectral(
     Notes
     -----
     Other nonlinear loads (stops, ropes, hardening springs, moorings) have their slope at rest, as
-    in `hydrodae.rao`; `Spectral.notes` tell of them. Means do not change: a law that is not odd
-    in the rate has a mean load, which is told but left out.
+    in `hydrodae.rao`; `Spectral.notes` list them. Means do not change: a law that is not odd
+    in the rate has a mean load, which is reported but left out.
 
     References
     ----------

@@ -190,7 +190,7 @@ def _judge(
         notes = [note for note in results.notes if re.search(scene.told, note)]
         if notes:
             return PASS, notes[0], None
-        return WRONG, "completes, and does not tell what it changed", None
+        return WRONG, "completes, and does not report what it changed", None
     off, allowed = scene.error(results), method.allowance(scene)
     if scene.lock_time is not None:
         late = results.end_time - scene.lock_time

@@ -92,7 +92,7 @@ def sweep(
 
 
 def _check_keys(plan: Study, case: Case) -> None:
-    """A wrong key is told before anything runs, and as one of the study."""
+    """A wrong key is reported before anything runs, and as one of the study."""
     try:
         case.with_values({k: v for k, v in plan.points[0].items() if k != RUNG})
     except CaseError as error:

@@ -186,13 +186,13 @@ def make_measure(file: Path, name: str, table: Any) -> Measure:
     if statistic not in known:
         near = difflib.get_close_matches(str(statistic), known, 1)
         raise CaseError(
-            f"{where}: key 'statistic': {statistic!r} is none of {', '.join(known)}"
+            f"{where}: key 'statistic': {statistic!r} is not one of {', '.join(known)}"
             + (f"; did you mean {near[0]!r}?" if near else "")
         )
     if not re.fullmatch(r"[^\W\d][\w-]*", name):
         raise CaseError(f"{where}: a name has letters, digits, - and _, and begins with a letter")
     if name in TAKEN:
-        raise CaseError(f"{where}: every run tells {name!r}; take another name")
+        raise CaseError(f"{where}: every run already gives {name!r}; take another name")
     return Measure(
         name,
         table.get("channel", ""),

@@ -74,7 +74,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     CaseError
-        Something in the file is wrong; the message tells what, where, and what was expected.
+        Something in the file is wrong; the message shows what, where, and what was expected.
     """
     file = Path(path)
     text, given = read_file(file)

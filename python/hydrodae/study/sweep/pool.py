@@ -77,7 +77,7 @@ def run_case(
     missing = [m.name for m in measures if m.name not in found]
     if missing and "time" not in rungs:
         raise MeasureError(
-            f"[result.{missing[0]}]: no rung of the study knows it: linear models tell the "
+            f"[result.{missing[0]}]: no rung of the study knows it: linear models give the "
             "statistic 'std' of coordinates, joints and reactions (hydrodae rao lists them)"
         )
     return row | {

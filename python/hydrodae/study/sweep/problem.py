@@ -84,7 +84,7 @@ def read_problem(path: str | os.PathLike[str]) -> Problem:
     Raises
     ------
     CaseError
-        Something in the file is wrong; the message tells what, where, and what was expected.
+        Something in the file is wrong; the message shows what, where, and what was expected.
     """
     file = Path(path)
     text, given = read_file(file)
@@ -150,7 +150,7 @@ def _check_names(file: Path, quantity: str, parameters: list[str]) -> None:
         if name in taken or not name or "/" in name:
             raise CaseError(
                 f"{file}: [optimise]: {name!r} cannot be the name of a variable of the netCDF "
-                f"file: expected one without '/' that is none of {', '.join(sorted(taken))}"
+                f"file: expected one without '/' that is not one of {', '.join(sorted(taken))}"
             )
         taken |= {name, f"gradient_{name}"}
 

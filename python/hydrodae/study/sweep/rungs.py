@@ -56,7 +56,7 @@ def run_rung(rung: str, case: Case, measures: tuple[Measure, ...], timed: bool) 
     measures : tuple of Measure
         The linear rungs know standard deviations only.
     timed : bool
-        Tell the wall time [s] as well.
+        Report the wall time [s] as well.
 
     Raises
     ------

@@ -51,7 +51,7 @@ def dataset(study: Study, rows: Mapping[str, Row], attributes: Mapping[str, Any]
         for name, unit in units.items()
     }
     for name in ("status", "reason"):
-        text = np.array([row[name] for row in ordered], dtype=object).reshape(shape)
+        text = np.array([row[name] for row in ordered], dtype=str).reshape(shape)
         variables[name] = (dimensions, text)
     if not study.dimensions:
         for key in study.points[0]:
