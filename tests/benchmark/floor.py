@@ -6,12 +6,12 @@ compares hydrodae with it.
 
 from __future__ import annotations
 
-import subprocess
 import tomllib
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.benchmark.counting import run
 
 from hydrodae import hdb
 
@@ -58,9 +58,8 @@ def write_numbers(path: Path) -> None:
     path.write_text("\n".join(repr(float(value)) for value in values))
 
 
-def solve(program: Path, numbers: Path, method: str, steps: int) -> Array:
+def solve(numbers: Path, method: str, steps: int) -> Array:
     """Run the program; return the angles of both hinges at the samples (n, 2) [rad]."""
     samples = numbers.with_suffix(".samples")
-    command = [str(program), str(numbers), method, str(steps), str(samples)]
-    subprocess.run(command, check=True, capture_output=True)
+    run("floor", str(numbers), method, str(steps), str(samples))
     return np.fromfile(samples).reshape(-1, 4)[:, :2]
