@@ -110,6 +110,7 @@ def write_array(folder: Path, limited: bool, count: int = 81) -> Scene:
             center_of_gravity=[30.0 * i, 0.0, -3.0 / 8.0 * RADIUS],
             initial={"displacement": [0.0, 0.0, 1.0 if i % 2 == 0 else -0.5]},
         )
+    scene.solver(end_time=5.0)
     scene.output(step=0.1)
     (folder / "case.toml").write_text(scene.to_toml())
     return Scene(folder / "case.toml", 5.0)
