@@ -11,7 +11,6 @@
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/math/bspline.h"
-#include "hydrodae/math/sets.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
@@ -142,28 +141,21 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
       column.push_back(k);
   }
   find_runs(h);
-  h.output = MatrixX::Zero(h.n_moving, h.n_states);
-  h.output_all = Product(Index{h.n_states});
-  for (const system::HydroBody& hb : h.bodies)
-    for (int c = 0; c < 6; ++c) {
-      const int row = is_wet(scene, hb) ? label_index(fit.outputs, hydro_label(scene, hb, c)) : -1;
-      const int u = hb.moving[c];
-      const auto add = [&](int state, double value) {
-        h.output_all.append(state, value);
-        if (u >= 0)
-          h.output(u, state) = value;
-      };
+  h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
+  for (std::size_t i = 0; i < h.bodies.size(); ++i)
+    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
+      const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
+      if (row < 0)
+        continue;
       for (const system::HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
-        if (row < 0)
-          break;
         const std::complex<double> C = fit.output_matrix(row, column[b.state]);
-        add(b.state, C.real());
+        const Eigen::Index r = 6 * static_cast<Eigen::Index>(i) + c;
+        h.output_all(r, b.state) = C.real();
         if (b.pair)
-          add(b.state + 1, -C.imag());
+          h.output_all(r, b.state + 1) = -C.imag();
       }
-      h.output_all.end_row();
     }
-  h.output_all.finish();
+  h.output = moving_rows(h, h.output_all);
 }
 
 /// Damping of each coordinate of U on itself, the largest over the table; zero where it is not
@@ -206,83 +198,64 @@ std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, 
 // Else a push moves the body towards the hand.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
+  MatrixX mass = 0.5 * (h.added_mass + h.added_mass.transpose());
+  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
+    const system::BodyData& b = s.bodies[h.bodies[i].body];
+    Matrix6 own = Matrix6::Zero();
+    own.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
+    own.bottomRightCorner<3, 3>() = b.inertia;
+    for (int m = 0; m < 6; ++m)
+      for (int n = 0; n < 6; ++n)
+        if (h.bodies[i].moving[m] >= 0 && h.bodies[i].moving[n] >= 0)
+          mass(h.bodies[i].moving[m], h.bodies[i].moving[n]) += own(m, n);
+  }
   // Units differ: judged with a unit diagonal.
-  VectorX size(h.n_moving);
-  const auto own = [&](Index u, Index v) { // of the body itself
-    const system::HydroData::Coordinate &a = h.coordinates[static_cast<std::size_t>(u)],
-                                        &b = h.coordinates[static_cast<std::size_t>(v)];
-    if (a.hydro_body != b.hydro_body || (a.component < 3) != (b.component < 3))
-      return 0.0;
-    const system::BodyData& body =
-        s.bodies[static_cast<std::size_t>(h.bodies[static_cast<std::size_t>(a.hydro_body)].body)];
-    return a.component >= 3 ? body.inertia(a.component - 3, b.component - 3)
-                            : (u == v ? body.mass : 0.0);
-  };
-  Sets sets(h.n_moving);
-  for (Index u = 0; u < h.n_moving; ++u) {
-    const double mass = own(u, u) + h.added_mass(u, u);
-    if (!(mass > 0.0)) {
-      const system::HydroData::Coordinate& c = h.coordinates[static_cast<std::size_t>(u)];
+  for (Eigen::Index k = 0; k < mass.rows(); ++k)
+    if (!(mass(k, k) > 0.0)) {
+      const system::HydroData::Coordinate& c = h.coordinates[k];
       throw ModelError(
           "hydro.database",
           "mass and added mass of body '" + s.bodies[h.bodies[c.hydro_body].body].name + "' in " +
               std::string(model::coordinate_names[static_cast<std::size_t>(c.component)]) +
-              " are " + number_text(mass) + " together, and must be positive");
+              " are " + number_text(mass(k, k)) + " together, and must be positive");
     }
-    size[u] = 1.0 / std::sqrt(mass);
-    for (Index v = 0; v < h.n_moving; ++v) // u by column: as it is stored
-      if (h.added_mass(v, u) != 0.0 || (v < u && own(u, v) != 0.0))
-        sets.join(u, v);
-  }
-  for (const std::vector<Index>& set : sets.lists().members) {
-    const Index n = std::ssize(set);
-    MatrixX mass(n, n);
-    for (Index i = 0; i < n; ++i)
-      for (Index j = 0; j < n; ++j) {
-        const Index u = set[static_cast<std::size_t>(i)], v = set[static_cast<std::size_t>(j)];
-        mass(i, j) =
-            size[u] * size[v] * (own(u, v) + 0.5 * (h.added_mass(u, v) + h.added_mass(v, u)));
-      }
-    if (mass.llt().info() != Eigen::Success)
-      throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
-                                         "positive definite together: a push somewhere moves the "
-                                         "bodies towards the hand");
-  }
+  const VectorX size = mass.diagonal().cwiseSqrt().cwiseInverse();
+  mass = size.asDiagonal() * mass * size.asDiagonal();
+  if (mass.llt().info() != Eigen::Success)
+    throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
+                                       "positive definite together: a push somewhere moves the "
+                                       "bodies towards the hand");
 }
 
 void add_radiation(const model::Scene& scene, system::System& s) {
   const hydro::Database& db = *scene.database;
   system::HydroData& h = s.hydro;
-  MatrixX all; // added mass with the loads on coordinates that do not move
   if (const hydro::MemoryFit* fit = model::memory_fit(scene)) {
-    all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
+    h.added_mass_all = cut(scene, h, fit->outputs, fit->inputs, fit->added_mass_inf);
     add_memory(scene, *fit, s);
     note_uncovered(scene, fit->outputs, s);
   } else if (scene.hydro->radiation == "convolution") {
     const hydro::RadiationKernel& kernel = *db.kernel;
-    all = cut(scene, h, kernel.outputs, kernel.inputs, kernel.added_mass_inf);
-    h.added_mass = moving_rows(h, all);
+    h.added_mass_all = cut(scene, h, kernel.outputs, kernel.inputs, kernel.added_mass_inf);
+    h.added_mass = moving_rows(h, h.added_mass_all);
+    h.output = MatrixX::Zero(h.n_moving, 0);
+    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
     add_convolution(scene, kernel, s);
     note_uncovered(scene, kernel.outputs, s);
   } else {
     const bool constant = scene.hydro->radiation == "constant";
-    all = cut(scene, h, db.coordinates, db.coordinates,
-              constant ? table_at(scene, db.added_mass) : db.added_mass_inf);
+    h.added_mass_all = cut(scene, h, db.coordinates, db.coordinates,
+                           constant ? table_at(scene, db.added_mass) : db.added_mass_inf);
     if (constant) {
       h.damped = true;
-      const MatrixX damping =
-          cut(scene, h, db.coordinates, db.coordinates, table_at(scene, db.damping));
-      h.damping = moving_rows(h, damping);
-      h.damping_all = Product(damping);
+      h.damping_all = cut(scene, h, db.coordinates, db.coordinates, table_at(scene, db.damping));
+      h.damping = moving_rows(h, h.damping_all);
     }
+    h.output = MatrixX::Zero(h.n_moving, 0);
+    h.output_all = MatrixX::Zero(h.added_mass_all.rows(), 0);
     note_uncovered(scene, db.coordinates, s);
   }
-  if (h.n_states == 0) {
-    h.output = MatrixX::Zero(h.n_moving, 0);
-    h.output_all = Product(MatrixX(all.rows(), 0));
-  }
-  h.added_mass = moving_rows(h, all);
-  h.added_mass_all = Product(all);
+  h.added_mass = moving_rows(h, h.added_mass_all);
   h.link();
   check_radiation(scene, s, largest_damping(scene, h));
 }

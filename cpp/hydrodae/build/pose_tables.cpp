@@ -60,9 +60,7 @@ void append_memory(const system::HydroData& from, int weight, system::HydroData&
     to.rightCols(more.cols()) = more;
   };
   join(h.output, from.output);
-  MatrixX all = h.output_all.matrix();
-  join(all, from.output_all.matrix());
-  h.output_all = Product(all);
+  join(h.output_all, from.output_all);
   h.run_values.conservativeResize(values + from.run_values.size());
   h.run_values.tail(from.run_values.size()) = from.run_values;
   h.n_states += from.n_states;
@@ -118,9 +116,9 @@ void add_table(const model::Scene& scene, const model::PoseTable& given,
   for (std::size_t k = 0; k < given.loaded.size(); ++k) {
     const model::Scene there = model::scene_at_pose(scene, given, k);
     const system::HydroData one = radiation_of(there, none, s);
-    table.added_mass.push_back(own_block(hb, table.hydro_body, one.added_mass_all.matrix()));
+    table.added_mass.push_back(own_block(hb, table.hydro_body, one.added_mass_all));
     if (one.damped)
-      table.damping.push_back(own_block(hb, table.hydro_body, one.damping_all.matrix()));
+      table.damping.push_back(own_block(hb, table.hydro_body, one.damping_all));
     append_memory(one, s.hydro.n_weights++, s.hydro);
     if (k == 0)
       s.hydro.uncovered.insert(s.hydro.uncovered.end(), one.uncovered.begin(), one.uncovered.end());

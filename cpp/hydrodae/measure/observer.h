@@ -86,7 +86,7 @@ private:
   Workspace<double> ws_;
   Observation out_;
   std::vector<Vector6> totals_; ///< per body: inertia minus all loads, tangent axes
-  VectorX rate_, momentum_, memory_, all_;
+  VectorX rate_, momentum_, memory_;
   std::vector<double> element_values_; ///< of one list: energies and declared channels, or loads
   const element::Elements* in_waves_ = nullptr; ///< that tell the elevation
   std::size_t next_load_ = 0;

@@ -15,11 +15,9 @@ using namespace system;
 /// What the radiation takes on all coordinates, locked ones too; needs U and U'.
 void Observer::observe_memory(const HydroData& h, const double* y) {
   const double* z = weighted_states<double>(h, ws_, y + h.z0);
-  h.output_all.times(z, memory_);
-  if (h.damped) {
-    h.damping_all.times(ws_.U.data(), all_);
-    memory_ += all_;
-  }
+  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(z, h.n_states);
+  if (h.damped)
+    memory_.noalias() += h.damping_all * ws_.U;
   for (const water::PoseTable& table : h.tables) {
     const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
     memory_.segment<6>(6 * table.hydro_body) += water::blend<double>(
@@ -86,8 +84,8 @@ void Observer::observe_tables(const HydroData& h) {
 
 void Observer::observe(const HydroData& h, const double* y) {
   hydro_motion(s_, ws_);
-  h.added_mass_all.times(ws_.U.data(), momentum_);
-  h.added_mass_all.times(ws_.U_dot.data(), rate_);
+  momentum_.noalias() = h.added_mass_all * ws_.U;
+  rate_.noalias() = h.added_mass_all * ws_.U_dot;
   observe_tables(h);
   observe_memory(h, y);
   for (int u = 0; u < h.n_moving; ++u) {

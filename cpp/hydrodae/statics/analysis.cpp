@@ -237,9 +237,7 @@ LinearModel linearize(const model::Scene& scene) {
   }
   system::System system = build::build(still, false);
   system.hydro.added_mass.setZero();
-  system.hydro.added_mass_all = Product(
-      MatrixX::Zero(system.hydro.added_mass_all.rows(), system.hydro.added_mass_all.cols()));
-  system.hydro.link();
+  system.hydro.added_mass_all.setZero();
   const auto [y, modes] = statics::settle(still, system);
   build::note_axes(scene, system);
   const Regime s(system, modes);

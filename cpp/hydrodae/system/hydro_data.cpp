@@ -2,48 +2,37 @@
 
 namespace hydrodae::system {
 
-namespace {
-
-Product few_nonzeros(const MatrixX& m) {
-  Product out(m);
-  return out.by_nonzeros() ? out : Product();
-}
-
-} // namespace
-
 void HydroData::link() {
   links.assign(bodies.size(), {});
-  const auto body_of = [&](Index u) {
-    return static_cast<std::size_t>(coordinates[static_cast<std::size_t>(u)].hydro_body);
+  const auto numbers = [&](const HydroBody& body) {
+    std::vector<int> out;
+    for (const int u : body.moving)
+      if (u >= 0)
+        out.push_back(u);
+    return out;
   };
-  // Bodies and states that load a body, by the columns of the matrices: each once, in their order.
-  const auto note = [](std::vector<int>& list, int number) {
-    if (list.empty() || list.back() != number)
-      list.push_back(number);
-  };
-  const bool all = !convolution.empty();
-  for (std::size_t j = 0; j < bodies.size(); ++j) {
-    if (!bodies[j].moves)
-      continue;
-    std::vector<bool> loaded(bodies.size(), all);
-    loaded[j] = true;
-    for (const int column : bodies[j].moving)
-      for (Index row = 0; column >= 0 && row < n_moving; ++row)
-        if (added_mass(row, column) != 0.0 || (damped && damping(row, column) != 0.0))
-          loaded[body_of(row)] = true;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (loaded[i])
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::vector<int> rows = numbers(bodies[i]);
+    for (std::size_t j = 0; j < bodies.size(); ++j) {
+      bool coupled = i == j || !convolution.empty();
+      for (const int row : rows)
+        for (const int column : numbers(bodies[j]))
+          coupled =
+              coupled || added_mass(row, column) != 0.0 || (damped && damping(row, column) != 0.0);
+      if (bodies[j].moves && coupled)
         links[i].partners.push_back(static_cast<int>(j));
+    }
+    for (int z = 0; z < n_states; ++z)
+      for (const int row : rows)
+        if (output(row, z) != 0.0) {
+          links[i].states.push_back(z);
+          break;
+        }
   }
-  for (int z = 0; z < n_states; ++z)
-    for (Index row = 0; row < n_moving; ++row)
-      if (output(row, z) != 0.0)
-        note(links[body_of(row)].states, z);
-  for (std::size_t k = 0; k < inputs.size(); ++k)
-    links[body_of(inputs[k].coordinate)].inputs.push_back(static_cast<int>(k));
-  few_added_mass = few_nonzeros(added_mass);
-  few_output = few_nonzeros(output);
-  few_damping = few_nonzeros(damping);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const Coordinate& u = coordinates[static_cast<std::size_t>(inputs[k].coordinate)];
+    links[static_cast<std::size_t>(u.hydro_body)].inputs.push_back(static_cast<int>(k));
+  }
 }
 
 double HydroData::own_added_mass(int u) const {

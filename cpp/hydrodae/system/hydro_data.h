@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "hydrodae/math/product.h"
 #include "hydrodae/water/hydro_axes.h"
 #include "hydrodae/water/pose_table.h"
 
@@ -45,13 +44,12 @@ struct HydroData {
   std::vector<Coordinate> coordinates; ///< (n_moving,)
   int n_moving = 0;                    ///< length of U
   MatrixX added_mass;                  ///< (n_moving, n_moving)
-  MatrixX output;                      ///< C (n_moving, n_states)
-  bool damped = false;                 ///< constant damping; else there is no B
-  MatrixX damping;                     ///< B (n_moving, n_moving)
-  /// With the loads on coordinates that do not move: (6 n_bodies, n_moving), or n_states columns.
-  Product added_mass_all, output_all, damping_all;
-  /// The matrices above by their nonzeros, where these are few; else without rows.
-  Product few_added_mass, few_output, few_damping;
+  MatrixX
+      added_mass_all;  ///< (6 n_bodies, n_moving), also the loads on coordinates that do not move
+  MatrixX output;      ///< C (n_moving, n_states)
+  MatrixX output_all;  ///< (6 n_bodies, n_states)
+  bool damped = false; ///< constant damping; else the next two are empty
+  MatrixX damping, damping_all;       ///< B (n_moving, n_moving), (6 n_bodies, n_moving)
   Convolution convolution;            ///< empty on the other rungs
   std::vector<std::string> uncovered; ///< labels whose load the fit does not give
   Index z0 = 0;
@@ -87,7 +85,7 @@ struct HydroData {
   int n_weights = 0;                ///< of all tables
   std::vector<int> weight_of_state; ///< (n_states,) what its load is multiplied by; -1: 1
 
-  /// Finds `links` and `few_...`, once all the rest is there.
+  /// Finds `links`, once all the rest is there.
   void link();
 
   /// z += factor B_r U, from U (n_moving,) to z (n_states,).

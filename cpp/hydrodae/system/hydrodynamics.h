@@ -7,12 +7,18 @@
 
 namespace hydrodae::system {
 
-/// out = m x, by the nonzeros of m where they are few.
-template <class S> void multiply(const MatrixX& m, const Product& few, const S* x, VecX<S>& out) {
-  if (few.rows() > 0)
-    few.times(x, out);
-  else
-    Product::multiply(m, x, out);
+/// out = m x without temporaries; a plain loop for scalars that Eigen does not vectorise.
+template <class S> void multiply(const MatrixX& m, const S* x, VecX<S>& out) {
+  if constexpr (std::is_same_v<S, double>) {
+    out.noalias() = m * Eigen::Map<const VectorX>(x, m.cols());
+  } else {
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+      S sum(0);
+      for (Eigen::Index j = 0; j < m.cols(); ++j)
+        sum += S(m(i, j)) * x[j];
+      out[i] = sum;
+    }
+  }
 }
 
 /// U and U' of all coordinates that move.
@@ -36,9 +42,9 @@ template <class S> void hydro_motion(const Regime& s, Workspace<S>& ws) {
 template <class S> void add_convolution(const HydroData& h, Workspace<S>& ws) {
   if (h.convolution.empty() || !ws.past)
     return;
-  Product::multiply<S>(ws.past->by_U_dot, ws.U_dot.data(), ws.memory);
+  multiply<S>(ws.past->by_U_dot, ws.U_dot.data(), ws.memory);
   ws.inertia_force += ws.memory;
-  Product::multiply<S>(ws.past->by_U, ws.U.data(), ws.memory);
+  multiply<S>(ws.past->by_U, ws.U.data(), ws.memory);
   ws.inertia_force += ws.memory;
   for (int u = 0; u < h.n_moving; ++u)
     ws.inertia_force[u] += S(ws.past->memory[u]);
@@ -94,17 +100,16 @@ template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws
 template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
   hydro_motion(s, ws);
-  multiply<S>(h.added_mass, h.few_added_mass, ws.U.data(), ws.momentum);
-  multiply<S>(h.added_mass, h.few_added_mass, ws.U_dot.data(), ws.inertia_force);
+  multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
+  multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
   add_tables<S>(s, ws);
   add_convolution<S>(h, ws);
   if (h.n_states > 0) {
-    multiply<S>(h.output, h.few_output, weighted_states<S>(h, ws, z),
-                ws.U_dot); // U' is no longer needed
+    multiply<S>(h.output, weighted_states<S>(h, ws, z), ws.U_dot); // U' is no longer needed
     ws.inertia_force += ws.U_dot;
   }
   if (h.damped) {
-    multiply<S>(h.damping, h.few_damping, ws.U.data(), ws.U_dot);
+    multiply<S>(h.damping, ws.U.data(), ws.U_dot);
     ws.inertia_force += ws.U_dot;
   }
 }
