@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 #include "hydrodae/build/check_radiation.h"
 #include "hydrodae/build/parts.h"
@@ -43,15 +45,28 @@ bool is_wet(const model::Scene& scene, const system::HydroBody& hb) {
   return scene.bodies[static_cast<std::size_t>(hb.body)].hydro.has_value();
 }
 
-/// Where each coordinate of U stands among `labels`, -1: nowhere.
+/// Where each coordinate of the bodies (6 n_bodies,) stands among `labels`, -1: nowhere.
+std::vector<int> all_places(const model::Scene& scene, const system::HydroData& h,
+                            const std::vector<std::string>& labels) {
+  std::unordered_map<std::string_view, int> place;
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    place.emplace(labels[k], static_cast<int>(k));
+  std::vector<int> out;
+  for (const system::HydroBody& hb : h.bodies)
+    for (int c = 0; c < 6; ++c) {
+      const auto found = is_wet(scene, hb) ? place.find(hydro_label(scene, hb, c)) : place.end();
+      out.push_back(found == place.end() ? -1 : found->second);
+    }
+  return out;
+}
+
+/// The same for each coordinate of U.
 std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
                         const std::vector<std::string>& labels) {
+  const std::vector<int> all = all_places(scene, h, labels);
   std::vector<int> out;
-  for (const system::HydroData::Coordinate& k : h.coordinates) {
-    const system::HydroBody& hb = h.bodies[static_cast<std::size_t>(k.hydro_body)];
-    out.push_back(is_wet(scene, hb) ? label_index(labels, hydro_label(scene, hb, k.component))
-                                    : -1);
-  }
+  for (const system::HydroData::Coordinate& k : h.coordinates)
+    out.push_back(all[static_cast<std::size_t>(6 * k.hydro_body + k.component)]);
   return out;
 }
 
@@ -59,18 +74,13 @@ std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
 MatrixX cut(const model::Scene& scene, const system::HydroData& h,
             const std::vector<std::string>& rows, const std::vector<std::string>& columns,
             const MatrixX& source) {
-  MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
-  const std::vector<int> column = places(scene, h, columns);
-  for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
-      const int row = label_index(rows, hydro_label(scene, h.bodies[i], c));
-      if (row < 0)
-        continue;
-      for (int u = 0; u < h.n_moving; ++u)
-        if (column[static_cast<std::size_t>(u)] >= 0)
-          out(6 * static_cast<Eigen::Index>(i) + c, u) =
-              source(row, column[static_cast<std::size_t>(u)]);
-    }
+  const std::vector<int> row = all_places(scene, h, rows), column = places(scene, h, columns);
+  MatrixX out = MatrixX::Zero(std::ssize(row), h.n_moving);
+  for (Index u = 0; u < out.cols(); ++u)
+    for (Index i = 0; i < out.rows(); ++i)
+      if (const int r = row[static_cast<std::size_t>(i)], c = column[static_cast<std::size_t>(u)];
+          r >= 0 && c >= 0)
+        out(i, u) = source(r, c);
   return out;
 }
 
@@ -85,10 +95,10 @@ MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
 /// Loads on coordinates that stay, but that nothing in the fit speaks of.
 void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
                     system::System& s) {
-  for (const system::HydroBody& hb : s.hydro.bodies)
-    for (int c = 0; c < 6 && is_wet(scene, hb); ++c)
-      if (label_index(outputs, hydro_label(scene, hb, c)) < 0)
-        s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
+  const std::vector<int> place = all_places(scene, s.hydro, outputs);
+  for (std::size_t k = 0; k < place.size(); ++k)
+    if (const system::HydroBody& hb = s.hydro.bodies[k / 6]; place[k] < 0 && is_wet(scene, hb))
+      s.hydro.uncovered.push_back(hydro_label(scene, hb, static_cast<int>(k % 6)));
 }
 
 /// The entries of B_r column by column, in runs that few zeros interrupt: sums over them are those
@@ -141,19 +151,17 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
       column.push_back(k);
   }
   find_runs(h);
-  h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
-  for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
-      const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
-      if (row < 0)
+  const std::vector<int> row = all_places(scene, h, fit.outputs);
+  h.output_all = MatrixX::Zero(std::ssize(row), h.n_states);
+  for (const system::HydroData::Block& b : h.blocks) // Re(C z) = Re C Re z - Im C Im z
+    for (Index r = 0; r < std::ssize(row); ++r) {
+      if (row[static_cast<std::size_t>(r)] < 0)
         continue;
-      for (const system::HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
-        const std::complex<double> C = fit.output_matrix(row, column[b.state]);
-        const Eigen::Index r = 6 * static_cast<Eigen::Index>(i) + c;
-        h.output_all(r, b.state) = C.real();
-        if (b.pair)
-          h.output_all(r, b.state + 1) = -C.imag();
-      }
+      const std::complex<double> C =
+          fit.output_matrix(row[static_cast<std::size_t>(r)], column[b.state]);
+      h.output_all(r, b.state) = C.real();
+      if (b.pair)
+        h.output_all(r, b.state + 1) = -C.imag();
     }
   h.output = moving_rows(h, h.output_all);
 }
