@@ -245,6 +245,7 @@ LinearModel linearize(const model::Scene& scene) {
   system::System system = build::build(still, false);
   system.hydro.added_mass.setZero();
   system.hydro.added_mass_all.setZero();
+  system.hydro.link();
   const auto [y, modes] = statics::settle(still, system);
   build::note_axes(scene, system);
   const Regime s(system, modes);
