@@ -1,8 +1,9 @@
 /// Hydrostatics, added mass and radiation memory of a scene, cut down to the coordinates that move.
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <tuple>
+#include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "hydrodae/build/check_radiation.h"
 #include "hydrodae/build/parts.h"
@@ -11,6 +12,8 @@
 #include "hydrodae/hydro/coverage.h"
 #include "hydrodae/hydro/frequency.h"
 #include "hydrodae/math/bspline.h"
+#include "hydrodae/math/dense_cholesky.h"
+#include "hydrodae/math/sets.h"
 #include "hydrodae/model/motion.h"
 
 namespace hydrodae::build {
@@ -43,15 +46,28 @@ bool is_wet(const model::Scene& scene, const system::HydroBody& hb) {
   return scene.bodies[static_cast<std::size_t>(hb.body)].hydro.has_value();
 }
 
-/// Where each coordinate of U stands among `labels`, -1: nowhere.
+/// Where each coordinate of the bodies (6 n_bodies,) stands among `labels`, -1: nowhere.
+std::vector<int> all_places(const model::Scene& scene, const system::HydroData& h,
+                            const std::vector<std::string>& labels) {
+  std::unordered_map<std::string_view, int> place;
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    place.emplace(labels[k], static_cast<int>(k));
+  std::vector<int> out;
+  for (const system::HydroBody& hb : h.bodies)
+    for (int c = 0; c < 6; ++c) {
+      const auto found = is_wet(scene, hb) ? place.find(hydro_label(scene, hb, c)) : place.end();
+      out.push_back(found == place.end() ? -1 : found->second);
+    }
+  return out;
+}
+
+/// The same for each coordinate of U.
 std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
                         const std::vector<std::string>& labels) {
+  const std::vector<int> all = all_places(scene, h, labels);
   std::vector<int> out;
-  for (const system::HydroData::Coordinate& k : h.coordinates) {
-    const system::HydroBody& hb = h.bodies[static_cast<std::size_t>(k.hydro_body)];
-    out.push_back(is_wet(scene, hb) ? label_index(labels, hydro_label(scene, hb, k.component))
-                                    : -1);
-  }
+  for (const system::HydroData::Coordinate& k : h.coordinates)
+    out.push_back(all[static_cast<std::size_t>(6 * k.hydro_body + k.component)]);
   return out;
 }
 
@@ -59,18 +75,13 @@ std::vector<int> places(const model::Scene& scene, const system::HydroData& h,
 MatrixX cut(const model::Scene& scene, const system::HydroData& h,
             const std::vector<std::string>& rows, const std::vector<std::string>& columns,
             const MatrixX& source) {
-  MatrixX out = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_moving);
-  const std::vector<int> column = places(scene, h, columns);
-  for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
-      const int row = label_index(rows, hydro_label(scene, h.bodies[i], c));
-      if (row < 0)
-        continue;
-      for (int u = 0; u < h.n_moving; ++u)
-        if (column[static_cast<std::size_t>(u)] >= 0)
-          out(6 * static_cast<Eigen::Index>(i) + c, u) =
-              source(row, column[static_cast<std::size_t>(u)]);
-    }
+  const std::vector<int> row = all_places(scene, h, rows), column = places(scene, h, columns);
+  MatrixX out = MatrixX::Zero(std::ssize(row), h.n_moving);
+  for (Index u = 0; u < out.cols(); ++u)
+    for (Index i = 0; i < out.rows(); ++i)
+      if (const int r = row[static_cast<std::size_t>(i)], c = column[static_cast<std::size_t>(u)];
+          r >= 0 && c >= 0)
+        out(i, u) = source(r, c);
   return out;
 }
 
@@ -85,32 +96,10 @@ MatrixX moving_rows(const system::HydroData& h, const MatrixX& all) {
 /// Loads on coordinates that stay, but that nothing in the fit speaks of.
 void note_uncovered(const model::Scene& scene, const std::vector<std::string>& outputs,
                     system::System& s) {
-  for (const system::HydroBody& hb : s.hydro.bodies)
-    for (int c = 0; c < 6 && is_wet(scene, hb); ++c)
-      if (label_index(outputs, hydro_label(scene, hb, c)) < 0)
-        s.hydro.uncovered.push_back(hydro_label(scene, hb, c));
-}
-
-/// The entries of B_r column by column, in runs that few zeros interrupt: sums over them are those
-/// of whole vectors.
-void find_runs(system::HydroData& h) {
-  constexpr int most_zeros = 3;
-  std::vector<system::HydroData::Input> inputs = h.inputs;
-  std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.coordinate, a.state) < std::tie(b.coordinate, b.state);
-  });
-  std::vector<double> values;
-  for (const system::HydroData::Input& in : inputs) {
-    const bool goes_on = !h.runs.empty() && h.runs.back().coordinate == in.coordinate &&
-                         in.state - h.runs.back().state - h.runs.back().count <= most_zeros;
-    if (!goes_on)
-      h.runs.push_back({in.coordinate, in.state, static_cast<Index>(values.size()), 0});
-    system::HydroData::Run& run = h.runs.back();
-    run.count = in.state - run.state + 1;
-    values.resize(static_cast<std::size_t>(run.first + run.count));
-    values.back() = in.value;
-  }
-  h.run_values = Eigen::Map<const VectorX>(values.data(), static_cast<Index>(values.size()));
+  const std::vector<int> place = all_places(scene, s.hydro, outputs);
+  for (std::size_t k = 0; k < place.size(); ++k)
+    if (const system::HydroBody& hb = s.hydro.bodies[k / 6]; place[k] < 0 && is_wet(scene, hb))
+      s.hydro.uncovered.push_back(hydro_label(scene, hb, static_cast<int>(k % 6)));
 }
 
 /// Real form of the fit: a pole p = a + i b with Im > 0 becomes two states (Re z, Im z); blocks
@@ -140,20 +129,17 @@ void add_memory(const model::Scene& scene, const hydro::MemoryFit& fit, system::
     for (int n = 0; n < (pair ? 2 : 1); ++n)
       column.push_back(k);
   }
-  find_runs(h);
-  h.output_all = MatrixX::Zero(6 * static_cast<Eigen::Index>(h.bodies.size()), h.n_states);
-  for (std::size_t i = 0; i < h.bodies.size(); ++i)
-    for (int c = 0; c < 6 && is_wet(scene, h.bodies[i]); ++c) {
-      const int row = label_index(fit.outputs, hydro_label(scene, h.bodies[i], c));
-      if (row < 0)
+  const std::vector<int> row = all_places(scene, h, fit.outputs);
+  h.output_all = MatrixX::Zero(std::ssize(row), h.n_states);
+  for (const system::HydroData::Block& b : h.blocks) // Re(C z) = Re C Re z - Im C Im z
+    for (Index r = 0; r < std::ssize(row); ++r) {
+      if (row[static_cast<std::size_t>(r)] < 0)
         continue;
-      for (const system::HydroData::Block& b : h.blocks) { // Re(C z) = Re C Re z - Im C Im z
-        const std::complex<double> C = fit.output_matrix(row, column[b.state]);
-        const Eigen::Index r = 6 * static_cast<Eigen::Index>(i) + c;
-        h.output_all(r, b.state) = C.real();
-        if (b.pair)
-          h.output_all(r, b.state + 1) = -C.imag();
-      }
+      const std::complex<double> C =
+          fit.output_matrix(row[static_cast<std::size_t>(r)], column[b.state]);
+      h.output_all(r, b.state) = C.real();
+      if (b.pair)
+        h.output_all(r, b.state + 1) = -C.imag();
     }
   h.output = moving_rows(h, h.output_all);
 }
@@ -195,36 +181,55 @@ std::string hydro_label(const model::Scene& scene, const system::HydroBody& hb, 
   return *scene.bodies[hb.body].hydro + "." + std::string(model::coordinate_names[c]);
 }
 
-// Else a push moves the body towards the hand.
+// Else a push moves the body towards the hand. Units differ: judged with a unit diagonal, and each
+// set of coupled coordinates by itself.
 void check_mass(const system::System& s) {
   const system::HydroData& h = s.hydro;
-  MatrixX mass = 0.5 * (h.added_mass + h.added_mass.transpose());
-  for (std::size_t i = 0; i < h.bodies.size(); ++i) {
-    const system::BodyData& b = s.bodies[h.bodies[i].body];
-    Matrix6 own = Matrix6::Zero();
-    own.topLeftCorner<3, 3>() = b.mass * Matrix3::Identity();
-    own.bottomRightCorner<3, 3>() = b.inertia;
-    for (int m = 0; m < 6; ++m)
-      for (int n = 0; n < 6; ++n)
-        if (h.bodies[i].moving[m] >= 0 && h.bodies[i].moving[n] >= 0)
-          mass(h.bodies[i].moving[m], h.bodies[i].moving[n]) += own(m, n);
-  }
-  // Units differ: judged with a unit diagonal.
-  for (Eigen::Index k = 0; k < mass.rows(); ++k)
-    if (!(mass(k, k) > 0.0)) {
-      const system::HydroData::Coordinate& c = h.coordinates[k];
+  const auto own = [&](Index u, Index v) { // of the bodies, without the water
+    const system::HydroData::Coordinate &a = h.coordinates[static_cast<std::size_t>(u)],
+                                        &b = h.coordinates[static_cast<std::size_t>(v)];
+    if (a.hydro_body != b.hydro_body || (a.component < 3) != (b.component < 3))
+      return 0.0;
+    const system::BodyData& body = s.bodies[h.bodies[a.hydro_body].body];
+    return a.component >= 3             ? body.inertia(a.component - 3, b.component - 3)
+           : a.component == b.component ? body.mass
+                                        : 0.0;
+  };
+  const auto mass = [&](Index u, Index v) {
+    return own(u, v) + 0.5 * (h.added_mass(u, v) + h.added_mass(v, u));
+  };
+  VectorX size(h.n_moving); // mass^-1/2
+  Sets sets(h.n_moving);
+  for (Index u = 0; u < h.n_moving; ++u) {
+    const system::HydroData::Coordinate& c = h.coordinates[static_cast<std::size_t>(u)];
+    const double both = mass(u, u);
+    if (!(both > 0.0))
       throw ModelError(
           "hydro.database",
           "mass and added mass of body '" + s.bodies[h.bodies[c.hydro_body].body].name + "' in " +
               std::string(model::coordinate_names[static_cast<std::size_t>(c.component)]) +
-              " are " + number_text(mass(k, k)) + " together, and must be positive");
-    }
-  const VectorX size = mass.diagonal().cwiseSqrt().cwiseInverse();
-  mass = size.asDiagonal() * mass * size.asDiagonal();
-  if (mass.llt().info() != Eigen::Success)
-    throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
-                                       "positive definite together: a push somewhere moves the "
-                                       "bodies towards the hand");
+              " are " + number_text(both) + " together, and must be positive");
+    size[u] = 1.0 / std::sqrt(both);
+    for (Index v = 0; v < h.n_moving; ++v)
+      if (h.added_mass(v, u) != 0.0)
+        sets.join(u, v);
+    if (u > 0 && c.hydro_body == h.coordinates[static_cast<std::size_t>(u - 1)].hydro_body)
+      sets.join(u, u - 1);
+  }
+  for (const std::vector<Index>& set : sets.lists().members) {
+    const Index n = dense::padded(std::ssize(set));
+    VectorX upper = VectorX::Zero(n * n); // row by row
+    for (Index i = 0; i < n; ++i)
+      upper[i * n + i] = 1.0;
+    for (std::size_t i = 0; i < set.size(); ++i)
+      for (std::size_t j = i; j < set.size(); ++j)
+        upper[static_cast<Index>(i) * n + static_cast<Index>(j)] =
+            size[set[i]] * mass(set[i], set[j]) * size[set[j]];
+    if (!dense::kernels().factorise(n, upper.data(), 0.0))
+      throw ModelError("hydro.database", "mass and added mass of the moving coordinates are not "
+                                         "positive definite together: a push somewhere moves the "
+                                         "bodies towards the hand");
+  }
 }
 
 void add_radiation(const model::Scene& scene, system::System& s) {

@@ -48,12 +48,6 @@ void append_memory(const system::HydroData& from, int weight, system::HydroData&
     input.state += first;
     h.inputs.push_back(input);
   }
-  const Index values = h.run_values.size();
-  for (system::HydroData::Run run : from.runs) {
-    run.state += first;
-    run.first += values;
-    h.runs.push_back(run);
-  }
   const auto join = [](MatrixX& to, const MatrixX& more) {
     const Index columns = to.cols();
     to.conservativeResize(more.rows(), columns + more.cols());
@@ -61,8 +55,6 @@ void append_memory(const system::HydroData& from, int weight, system::HydroData&
   };
   join(h.output, from.output);
   join(h.output_all, from.output_all);
-  h.run_values.conservativeResize(values + from.run_values.size());
-  h.run_values.tail(from.run_values.size()) = from.run_values;
   h.n_states += from.n_states;
   h.weight_of_state.resize(static_cast<std::size_t>(h.n_states), weight);
 }

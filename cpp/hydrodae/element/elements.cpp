@@ -18,33 +18,39 @@ void Elements::report(double, const double*, const double* out, double* loads) c
     std::copy_n(out + k * static_cast<std::size_t>(shape.n_out()), 6, loads + 6 * k);
 }
 
-AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x) {
+std::vector<AtRest> at_rest(const Elements& list, const VectorX& x) {
   if (const auto still = list.statics())
-    return at_rest(*still, law, x);
+    return at_rest(*still, x);
   const auto n = list.size(), states = static_cast<std::size_t>(list.shape.n_states);
   const Index in_size = list.shape.n_in(), out_size = list.shape.n_out(), w = list.shape.width;
   if (list.shape.in_water())
-    return {VectorX::Zero(w), MatrixX::Zero(w, w), MatrixX::Zero(w, w)};
+    return std::vector<AtRest>(n, {VectorX::Zero(w), MatrixX::Zero(w, w), MatrixX::Zero(w, w)});
   VectorX in = VectorX::Zero(in_size * static_cast<Index>(n)),
           out = VectorX::Zero(out_size * static_cast<Index>(n));
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto law = static_cast<Index>(k);
     for (std::size_t z = 0; z < states; ++z)
-      in[static_cast<Index>(k + 1) * in_size - static_cast<Index>(states - z)] =
+      in[(law + 1) * in_size - static_cast<Index>(states - z)] =
           list.unknowns[k * states + z].start;
-  in.segment(static_cast<Index>(law) * in_size, x.size()) = x;
+    if (x.size() > 0)
+      in.segment(law * in_size, w) = x.segment(law * w, w);
+  }
   std::vector<double> all(n * static_cast<std::size_t>(in_size * out_size), 0.0);
   list.evaluate(0.0, in.data(), list.signals.data(), out.data());
   list.jacobian(0.0, in.data(), list.signals.data(), all.data());
-  const auto k = static_cast<Index>(law);
-  const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
-  AtRest rest{out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)};
-  if (const Index a = list.shape.n_algebraic; a > 0) { // these follow x and v
-    const MatrixX by_z = J.bottomRightCorner(a, a), f_z = J.topRightCorner(w, a);
-    const MatrixX follow = solve_square(by_z, J.bottomLeftCorner(a, 2 * w));
-    rest.stiffness += f_z * follow.leftCols(w);
-    rest.damping += f_z * follow.rightCols(w);
+  std::vector<AtRest> rests;
+  for (Index k = 0; k < static_cast<Index>(n); ++k) {
+    const Eigen::Map<const MatrixX> J(all.data() + k * in_size * out_size, out_size, in_size);
+    AtRest& rest = rests.emplace_back(
+        AtRest{out.segment(k * out_size, w), -J.topLeftCorner(w, w), -J.block(0, w, w, w)});
+    if (const Index a = list.shape.n_algebraic; a > 0) { // these follow x and v
+      const MatrixX by_z = J.bottomRightCorner(a, a), f_z = J.topRightCorner(w, a);
+      const MatrixX follow = solve_square(by_z, J.bottomLeftCorner(a, 2 * w));
+      rest.stiffness += f_z * follow.leftCols(w);
+      rest.damping += f_z * follow.rightCols(w);
+    }
   }
-  return rest;
+  return rests;
 }
 
 } // namespace hydrodae::element

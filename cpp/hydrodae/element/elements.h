@@ -242,12 +242,14 @@ public:
   }
 };
 
-/// A law about rest at x (zero where it is empty), z and signals at their starts; in the water:
-/// zero.
+/// A law about rest.
 struct AtRest {
   VectorX load;               ///< (width,)
   MatrixX stiffness, damping; ///< (width, width) -d load / dx, -d load / dv
 };
-AtRest at_rest(const Elements& list, std::size_t law, const VectorX& x = {});
+
+/// All laws of a list about rest at x (n width,), zero where it is empty, z and signals at their
+/// starts; in the water: zero.
+std::vector<AtRest> at_rest(const Elements& list, const VectorX& x = {});
 
 } // namespace hydrodae::element

@@ -141,9 +141,8 @@ private:
   VectorX y_, yp_;                                   ///< of the bodies, at the end of the last step
   VectorX x_, xp_, x0_;                              ///< the same in the space, and x at its start
   VectorX stage_, stage_xp_, trial_, trial_xp_, inside_, inside_xp_, w_;
-  MatrixX k_;           ///< rates of the stages, one column each
-  MatrixX dense_;       ///< coefficients of the interpolant of order 7
-  VectorX sum_, slope_; ///< (n_,) scratch
+  MatrixX k_;     ///< rates of the stages, one column each
+  MatrixX dense_; ///< coefficients of the interpolant of order 7
   bool extended_ = false;
   double last_error_ = 1e-4;
   double rest_step_ = 0.0;  ///< the longest stable one of this rest, 0: not at rest
@@ -370,32 +369,33 @@ template <class Space> void ExplicitRk<Space>::extend() {
 
 /// inside_ and its rates at x = (t - t0) / h of the last step, on the polynomial.
 template <class Space> void ExplicitRk<Space>::follow_polynomial(double x) {
+  Eigen::Matrix<double, 7, 1> value, slope; // factors of the columns, slope = d value / dx
   inside_ = x0_;
   inside_xp_ = xp_;
   if (pair_.order == 5) {
-    inside_xp_.head(n_).setZero();
+    value.setZero();
+    slope.setZero();
     for (int i = 0; i < 7; ++i) {
-      double weight = 0.0, slope = 0.0, power = 1.0;
+      double power = 1.0;
       for (int k = 0; k < 4; ++k, power *= x) {
-        weight += tableaux::rk5_p[4 * i + k] * power * x;
-        slope += tableaux::rk5_p[4 * i + k] * power * (k + 1);
+        value[i] += tableaux::rk5_p[4 * i + k] * power * x;
+        slope[i] += tableaux::rk5_p[4 * i + k] * power * (k + 1);
       }
-      inside_.head(n_) += done_ * weight * k_.col(i);
-      inside_xp_.head(n_) += slope * k_.col(i);
     }
+    inside_.head(n_).noalias() += k_.leftCols(7) * (done_ * value);
+    inside_xp_.head(n_).noalias() = k_.leftCols(7) * slope;
     return;
   }
   extend();
-  sum_.setZero(n_);
-  slope_.setZero(n_);
-  for (int i = 6; i >= 0; --i) { // nested in x and 1 - x
-    sum_ += dense_.col(i);
+  value[0] = x;
+  slope[0] = 1.0;
+  for (int i = 1; i < 7; ++i) { // products of x and 1 - x in turn
     const double factor = i % 2 == 0 ? x : 1.0 - x;
-    slope_ = factor * slope_ + (i % 2 == 0 ? sum_ : -sum_);
-    sum_ *= factor;
+    value[i] = factor * value[i - 1];
+    slope[i] = factor * slope[i - 1] + (i % 2 == 0 ? value[i - 1] : -value[i - 1]);
   }
-  inside_.head(n_) += sum_;
-  inside_xp_.head(n_) = slope_ / done_;
+  inside_.head(n_).noalias() += dense_ * value;
+  inside_xp_.head(n_).noalias() = dense_ * (slope / done_);
 }
 
 template <class Space> void ExplicitRk<Space>::look_inside(double t, VectorX& y, VectorX& yp) {

@@ -36,20 +36,23 @@ void write_labels(hid_t file, const std::string& name, const std::vector<std::st
   make_scale(dataset, name, what);
 }
 
-void attach_scales(hid_t file, hid_t dataset, const std::vector<std::string>& scales,
-                   const std::string& what) {
-  std::vector<hobj_ref_t> references(scales.size());
-  std::vector<hvl_t> lists(scales.size());
-  for (std::size_t k = 0; k < scales.size(); ++k) {
-    checked(H5Rcreate(&references[k], file, scales[k].c_str(), H5R_OBJECT, -1), what);
-    lists[k] = {1, &references[k]};
-  }
+ScaleList::ScaleList(hid_t file, const std::vector<std::string>& scales, const std::string& what)
+    : references_(scales.size()) {
+  for (std::size_t k = 0; k < scales.size(); ++k)
+    checked(H5Rcreate(&references_[k], file, scales[k].c_str(), H5R_OBJECT, -1), what);
   const hsize_t rank = scales.size();
-  const Handle type = checked(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose, what);
-  const Handle space = checked(H5Screate_simple(1, &rank, nullptr), H5Sclose, what);
-  const Handle attribute = checked(
-      H5Acreate2(dataset, "DIMENSION_LIST", type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
-  checked(H5Awrite(attribute, type, lists.data()), what);
+  type_ = checked(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose, what);
+  space_ = checked(H5Screate_simple(1, &rank, nullptr), H5Sclose, what);
+}
+
+void ScaleList::attach(hid_t dataset, const std::string& what) {
+  std::vector<hvl_t> lists;
+  for (hobj_ref_t& reference : references_)
+    lists.push_back({1, &reference});
+  const Handle attribute =
+      checked(H5Acreate2(dataset, "DIMENSION_LIST", type_, space_, H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, what);
+  checked(H5Awrite(attribute, type_, lists.data()), what);
 }
 
 } // namespace hydrodae::io::hdf5

@@ -16,10 +16,17 @@ void make_scale(hid_t dataset, const std::string& name, const std::string& what)
 void write_labels(hid_t file, const std::string& name, const std::vector<std::string>& labels,
                   const std::string& what);
 
-/// The scales of the dimensions of a dataset, by their names at the root, one for each dimension.
-/// Writes the attribute DIMENSION_LIST; the list of users that a scale may carry is left out, since
-/// readers do not need it and its cost grows with the square of the number of channels.
-void attach_scales(hid_t file, hid_t dataset, const std::vector<std::string>& scales,
-                   const std::string& what);
+/// The scales of the dimensions of many datasets, by their names at the root, one for each
+/// dimension: the attribute DIMENSION_LIST. The list of users that a scale may carry is left out,
+/// since readers do not need it and its cost grows with the square of the number of channels.
+class ScaleList {
+public:
+  ScaleList(hid_t file, const std::vector<std::string>& scales, const std::string& what);
+  void attach(hid_t dataset, const std::string& what);
+
+private:
+  std::vector<hobj_ref_t> references_;
+  Handle type_, space_;
+};
 
 } // namespace hydrodae::io::hdf5

@@ -20,26 +20,32 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t rows_per_chunk = 512;
 constexpr Clock::duration longest_wait = std::chrono::milliseconds(500);
 
-void write_attribute(hid_t object, const std::string& name, const Attribute& value,
-                     const std::string& what) {
-  const bool is_text = std::holds_alternative<std::string>(value);
-  const bool is_real = std::holds_alternative<double>(value);
-  const Handle text = hdf5::text_type();
-  const hid_t type =
-      is_text ? static_cast<hid_t>(text) : (is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64);
-  // Overwritten rather than made anew: that changes one block of the file.
-  const bool exists = checked(H5Aexists(object, name.c_str()), what) > 0;
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, what);
-  const Handle attribute =
-      checked(exists ? H5Aopen(object, name.c_str(), H5P_DEFAULT)
-                     : H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-              H5Aclose, what);
-  const char* characters = is_text ? std::get<std::string>(value).c_str() : nullptr;
-  const void* data = is_text   ? static_cast<const void*>(&characters)
-                     : is_real ? static_cast<const void*>(&std::get<double>(value))
-                               : static_cast<const void*>(&std::get<std::int64_t>(value));
-  checked(H5Awrite(attribute, type, data), what);
-}
+/// Writes attributes of one value each.
+class AttributeWriter {
+public:
+  void write(hid_t object, const std::string& name, const Attribute& value,
+             const std::string& what) const {
+    const bool is_text = std::holds_alternative<std::string>(value);
+    const bool is_real = std::holds_alternative<double>(value);
+    const hid_t type =
+        is_text ? static_cast<hid_t>(text_) : (is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64);
+    // Overwritten rather than made anew: that changes one block of the file.
+    const bool exists = checked(H5Aexists(object, name.c_str()), what) > 0;
+    const Handle attribute =
+        checked(exists ? H5Aopen(object, name.c_str(), H5P_DEFAULT)
+                       : H5Acreate2(object, name.c_str(), type, one_, H5P_DEFAULT, H5P_DEFAULT),
+                H5Aclose, what);
+    const char* characters = is_text ? std::get<std::string>(value).c_str() : nullptr;
+    const void* data = is_text   ? static_cast<const void*>(&characters)
+                       : is_real ? static_cast<const void*>(&std::get<double>(value))
+                                 : static_cast<const void*>(&std::get<std::int64_t>(value));
+    checked(H5Awrite(attribute, type, data), what);
+  }
+
+private:
+  Handle text_ = hdf5::text_type();
+  Handle one_ = checked(H5Screate(H5S_SCALAR), H5Sclose, "HDF5 attribute");
+};
 
 /// Two messages below each other; either may be empty.
 std::string lines(const std::string& first, const std::string& second) {
@@ -65,10 +71,21 @@ struct ResultsFile::Impl {
     std::size_t offset = 0; ///< of its first value in a row of the buffer
     std::size_t width = 1;
   };
+  /// What all columns of one width share.
+  struct Kind {
+    int width;
+    Handle space, layout, cache;
+    hdf5::ScaleList scales;
+  };
 
   OutputPlace place;
   OrderedFile disk;
   Handle file;
+  AttributeWriter attributes;
+  Handle links;            ///< properties of links: the groups above are made with them
+  std::vector<Kind> kinds; ///< behind the time
+  std::string last_group;  ///< of the last column; empty: the root
+  Handle group;
   std::vector<Column> columns; ///< time first
   std::size_t row_size = 0;    ///< values in a row of the buffer
   std::vector<double> buffer;  ///< rows that HDF5 has not got yet, at most those of a chunk
@@ -86,6 +103,10 @@ struct ResultsFile::Impl {
 
   std::string what() const { return place.path() + ": cannot be written"; }
   void create(const Attributes& header);
+  Kind make_kind(int width, const std::vector<std::string>& scales) const;
+  Kind& kind_of(const Channel& channel);
+  Column& make_column(const Channel& channel, const Kind& kind);
+  void add_time();
   void add_column(const Channel& channel);
   void write_column(const Column& column);
   void write_rows();
@@ -100,51 +121,82 @@ void ResultsFile::Impl::create(const Attributes& header) {
   const Handle access = disk.access_properties();
   file = checked(H5Fcreate(place.partial().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
                  what());
-  write_attribute(file, "format", std::string("hydrodae-results"), what());
-  write_attribute(file, "format_version", std::int64_t{1}, what());
+  attributes.write(file, "format", std::string("hydrodae-results"), what());
+  attributes.write(file, "format_version", std::int64_t{1}, what());
   for (const auto& [name, value] : header)
-    write_attribute(file, name, value, what());
-  write_attribute(file, "status", std::string("running"), what());
-  write_attribute(file, "message", std::string(), what());
+    attributes.write(file, name, value, what());
+  attributes.write(file, "status", std::string("running"), what());
+  attributes.write(file, "message", std::string(), what());
+  links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what());
+  checked(H5Pset_create_intermediate_group(links, 1), what());
   hdf5::write_labels(file, "component", {"x", "y", "z"}, what());
   hdf5::write_labels(file, "quaternion", {"w", "x", "y", "z"}, what());
 }
 
-void ResultsFile::Impl::add_column(const Channel& channel) {
-  const bool scalar = channel.width == 1;
-  const int rank = scalar ? 1 : 2;
-  const auto width = static_cast<hsize_t>(channel.width);
-  const hsize_t empty[2] = {0, width}, unlimited[2] = {H5S_UNLIMITED, width},
-                chunk[2] = {rows_per_chunk, width};
-  const Handle space = checked(H5Screate_simple(rank, empty, unlimited), H5Sclose, what());
-  const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what());
-  checked(H5Pset_chunk(layout, rank, chunk), what());
-  const Handle links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what());
-  checked(H5Pset_create_intermediate_group(links, 1), what());
+ResultsFile::Impl::Kind ResultsFile::Impl::make_kind(int width,
+                                                     const std::vector<std::string>& scales) const {
+  const int rank = width == 1 ? 1 : 2;
+  const auto columns = static_cast<hsize_t>(width);
+  const hsize_t empty[2] = {0, columns}, unlimited[2] = {H5S_UNLIMITED, columns},
+                chunk[2] = {rows_per_chunk, columns};
+  Kind kind{width,
+            checked(H5Screate_simple(rank, empty, unlimited), H5Sclose, what()),
+            checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what()),
+            checked(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what()),
+            {file, scales, what()}};
+  checked(H5Pset_chunk(kind.layout, rank, chunk), what());
   // Only the last chunk changes: HDF5's own cache holds a megabyte a dataset.
-  const Handle cache = checked(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what());
-  checked(H5Pset_chunk_cache(cache, 3, rows_per_chunk * width * sizeof(double), 1.0), what());
+  checked(H5Pset_chunk_cache(kind.cache, 3, rows_per_chunk * columns * sizeof(double), 1.0),
+          what());
+  return kind;
+}
 
+ResultsFile::Impl::Kind& ResultsFile::Impl::kind_of(const Channel& channel) {
+  const int width = channel.width;
+  const auto known =
+      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.width == width; });
+  if (known != kinds.end())
+    return *known;
+  std::vector<std::string> scales = {"time"};
+  if (width > 1)
+    scales.push_back(width == 4 ? "quaternion" : "component");
+  return kinds.emplace_back(make_kind(width, scales));
+}
+
+ResultsFile::Impl::Column& ResultsFile::Impl::make_column(const Channel& channel,
+                                                          const Kind& kind) {
+  const std::size_t slash = channel.path.rfind('/');
+  const std::string above = slash == std::string::npos ? "" : channel.path.substr(0, slash);
+  const bool here = !above.empty() && above == last_group;
   Column column;
-  column.dataset = checked(
-      H5Dcreate2(file, channel.path.c_str(), H5T_NATIVE_DOUBLE, space, links, layout, cache),
-      H5Dclose, what() + " (channel " + channel.path + ")");
+  column.dataset =
+      checked(H5Dcreate2(here ? static_cast<hid_t>(group) : static_cast<hid_t>(file),
+                         here ? channel.path.c_str() + slash + 1 : channel.path.c_str(),
+                         H5T_NATIVE_DOUBLE, kind.space, links, kind.layout, kind.cache),
+              H5Dclose, what() + " (channel " + channel.path + ")");
+  if (!here && !above.empty()) { // the next is likely to be there, too
+    group = checked(H5Gopen2(file, above.c_str(), H5P_DEFAULT), H5Gclose, what());
+    last_group = above;
+  }
   column.offset = row_size;
   column.width = static_cast<std::size_t>(channel.width);
-  write_attribute(column.dataset, "unit", channel.unit, what());
-  write_attribute(column.dataset, "frame", channel.frame, what());
-  write_attribute(column.dataset, "description", channel.description, what());
+  attributes.write(column.dataset, "unit", channel.unit, what());
+  attributes.write(column.dataset, "frame", channel.frame, what());
+  attributes.write(column.dataset, "description", channel.description, what());
   for (const auto& [name, value] : channel.vectors)
     write_vector(column.dataset, name, value, what());
-  if (columns.empty()) // the time
-    hdf5::make_scale(column.dataset, channel.path, what());
-  else if (scalar)
-    hdf5::attach_scales(file, column.dataset, {"time"}, what());
-  else
-    hdf5::attach_scales(file, column.dataset,
-                        {"time", channel.width == 4 ? "quaternion" : "component"}, what());
   row_size += column.width;
-  columns.push_back(std::move(column));
+  return columns.emplace_back(std::move(column));
+}
+
+void ResultsFile::Impl::add_time() {
+  const Column& time = make_column({"time", 1, "s", "-", "Time."}, make_kind(1, {}));
+  hdf5::make_scale(time.dataset, "time", what());
+}
+
+void ResultsFile::Impl::add_column(const Channel& channel) {
+  Kind& kind = kind_of(channel);
+  kind.scales.attach(make_column(channel, kind).dataset, what());
 }
 
 void ResultsFile::Impl::write_column(const Column& column) {
@@ -204,10 +256,10 @@ void ResultsFile::Impl::write_end(const std::string& status, const std::string& 
                        : H5Gcreate2(file, "solver", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                 H5Gclose, what());
     for (const auto& [name, value] : statistics)
-      write_attribute(group, name, value, what());
+      attributes.write(group, name, value, what());
   }
-  write_attribute(file, "status", status, what());
-  write_attribute(file, "message", message, what());
+  attributes.write(file, "status", status, what());
+  attributes.write(file, "message", message, what());
   columns.clear();
   checked(file.reset(), what());
   disk.commit();
@@ -234,12 +286,13 @@ ResultsFile::ResultsFile(const std::string& path, const std::vector<Channel>& ch
   const hdf5::Quiet quiet;
   Impl& f = *impl_;
   f.create(header); // in memory, so that what is on disk is never less than a file
-  f.add_column({"time", 1, "s", "-", "Time."});
+  f.add_time();
   std::size_t widest = 1;
   for (const Channel& channel : channels) {
     f.add_column(channel);
     widest = std::max(widest, static_cast<std::size_t>(channel.width));
   }
+  f.group.reset();
   f.buffer.resize(rows_per_chunk * f.row_size);
   f.scratch.resize(rows_per_chunk * widest);
   checked(H5Fflush(f.file, H5F_SCOPE_LOCAL), f.what());
@@ -300,15 +353,13 @@ void ResultsFile::write_table(const std::string& path, int width, std::span<cons
   const auto columns = static_cast<hsize_t>(width);
   const hsize_t size[2] = {values.size() / columns, columns};
   const Handle space = checked(H5Screate_simple(2, size, nullptr), H5Sclose, f.what());
-  const Handle links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, f.what());
-  checked(H5Pset_create_intermediate_group(links, 1), f.what());
   const Handle table = checked(
-      H5Dcreate2(f.file, path.c_str(), H5T_NATIVE_DOUBLE, space, links, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(f.file, path.c_str(), H5T_NATIVE_DOUBLE, space, f.links, H5P_DEFAULT, H5P_DEFAULT),
       H5Dclose, f.what());
   checked(H5Dwrite(table, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           f.what());
   for (const auto& [name, value] : attributes)
-    write_attribute(table, name, value, f.what());
+    f.attributes.write(table, name, value, f.what());
 }
 
 void ResultsFile::close(const std::string& status, const std::string& message,

@@ -152,16 +152,8 @@ template <class Scalar> void NewtonMatrix<Scalar>::subtract_memory_loads(VectorS
   const HydroData& h = s_.hydro;
   if (parts_->memory_weights.size() > 0)
     z.array() *= parts_->memory_weights.template cast<Scalar>().array();
-  if constexpr (std::is_same_v<Scalar, double>) {
-    U_.noalias() = h.output * z;
-  } else { // two real products: C is real
-    part_ = z.real();
-    load_.noalias() = h.output * part_;
-    U_.real() = load_;
-    part_ = z.imag();
-    load_.noalias() = h.output * part_;
-    U_.imag() = load_;
-  }
+  U_.setZero();
+  h.products.output.add_product(z.data(), U_.data());
   for (std::size_t i = 0; i < h.bodies.size(); ++i) {
     const HydroBody& hb = h.bodies[i];
     const BodyData& body = s_.bodies[static_cast<std::size_t>(hb.body)];
@@ -199,7 +191,7 @@ template <class Scalar> void NewtonMatrix<Scalar>::solve(Scalar* b) {
       if (hb.moving[c] >= 0)
         U_[hb.moving[c]] = velocity[c];
   }
-  h.add_input<Scalar>(1.0, U_.data(), z_.data());
+  h.products.input.add_product(U_.data(), z_.data());
   divide(z_);
   r_z = z_;
 }

@@ -67,8 +67,6 @@ private:
   MatrixS z_;          ///< (n_states, 1) scratch
   VectorS w_;          ///< (n_states,) scratch
   VectorS U_;          ///< (n_moving,) scratch
-  VectorX part_;       ///< (n_states,) scratch
-  VectorX load_;       ///< (n_moving,) scratch
   struct Inverse {
     Scalar own, other;
   };

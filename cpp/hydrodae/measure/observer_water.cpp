@@ -15,9 +15,9 @@ using namespace system;
 /// What the radiation takes on all coordinates, locked ones too; needs U and U'.
 void Observer::observe_memory(const HydroData& h, const double* y) {
   const double* z = weighted_states<double>(h, ws_, y + h.z0);
-  memory_.noalias() = h.output_all * Eigen::Map<const VectorX>(z, h.n_states);
-  if (h.damped)
-    memory_.noalias() += h.damping_all * ws_.U;
+  memory_.setZero();
+  h.products.output_all.add_product(z, memory_.data());
+  h.products.damping_all.add_product(ws_.U.data(), memory_.data());
   for (const water::PoseTable& table : h.tables) {
     const HydroBody& hb = h.bodies[static_cast<std::size_t>(table.hydro_body)];
     memory_.segment<6>(6 * table.hydro_body) += water::blend<double>(
@@ -84,8 +84,10 @@ void Observer::observe_tables(const HydroData& h) {
 
 void Observer::observe(const HydroData& h, const double* y) {
   hydro_motion(s_, ws_);
-  momentum_.noalias() = h.added_mass_all * ws_.U;
-  rate_.noalias() = h.added_mass_all * ws_.U_dot;
+  momentum_.setZero();
+  rate_.setZero();
+  h.products.added_mass_all.add_product(ws_.U.data(), momentum_.data());
+  h.products.added_mass_all.add_product(ws_.U_dot.data(), rate_.data());
   observe_tables(h);
   observe_memory(h, y);
   for (int u = 0; u < h.n_moving; ++u) {

@@ -38,13 +38,74 @@ bool feels_heave(const joint::Vector12& gradient, int side) {
   return std::abs(gradient[6 * side + 2]) > 1e-9;
 }
 
+/// Do these laws load a meshed body by the pressure of still water?
+bool is_meshed(const element::Elements& laws) {
+  return laws.shape.in_water() && (laws.type == "hydrostatic" || laws.type == "pressure");
+}
+
+/// Laws on meshes in still water, their bodies in the reference pose.
+std::vector<element::AtRest> in_reference_pose(const system::System& s,
+                                               const system::ElementList& list) {
+  const std::shared_ptr<const element::Elements> calm = list.laws->calm();
+  const auto n = static_cast<Index>(calm->size());
+  VectorX in(n * element::body_numbers), out(6 * n), slope(n * 6 * 18);
+  element::BodyState<double> state{};
+  state.R.setIdentity();
+  state.v = state.w = state.v_dot = state.w_dot = Vector3::Zero();
+  for (Index k = 0; k < n; ++k) {
+    const int body = list.ports[static_cast<std::size_t>(k)].body;
+    state.r = s.bodies[static_cast<std::size_t>(body)].reference;
+    element::write(state, in.data() + k * element::body_numbers);
+  }
+  calm->evaluate(0.0, in.data(), nullptr, out.data());
+  calm->jacobian(0.0, in.data(), nullptr, slope.data());
+  std::vector<element::AtRest> rests;
+  for (Index k = 0; k < n; ++k)
+    rests.push_back(
+        {out.segment<6>(6 * k),
+         -Eigen::Map<const Eigen::Matrix<double, 6, 18>>(slope.data() + k * 6 * 18).leftCols<6>(),
+         Matrix6::Zero()});
+  return rests;
+}
+
+/// All laws about rest, in the order of `for_each_law`: on points where these are, on meshes in the
+/// reference pose.
+using Rests = std::vector<element::AtRest>;
+
+Rests laws_at_rest(const system::System& s, const system::Workspace<double>& ws) {
+  Rests rests;
+  for (const system::ElementList& list : s.elements) {
+    const Index w = list.laws->shape.width;
+    VectorX x, v(w);
+    if (!list.ports.empty() && !list.ports.front().points.empty()) {
+      x.resize(w * std::ssize(list.ports));
+      for (std::size_t k = 0; k < list.ports.size(); ++k)
+        system::see_points<double>(ws, list.ports[k], x.data() + static_cast<Index>(k) * w,
+                                   v.data());
+    }
+    for (element::AtRest& rest :
+         is_meshed(*list.laws) ? in_reference_pose(s, list) : element::at_rest(*list.laws, x))
+      rests.push_back(std::move(rest));
+  }
+  return rests;
+}
+
+/// Visits all laws: visit(list, port, the law about rest).
+template <class Visit>
+void for_each_rest(const system::System& s, const Rests& rests, Visit&& visit) {
+  auto rest = rests.begin();
+  system::for_each_law(s, [&](const system::ElementList& list, std::size_t,
+                              const system::PortData& port) { visit(list, port, *rest++); });
+}
+
 /// Rows and motions that carry a vertical load from body to body, or to the ground.
 struct Link {
   int a = -1, b = -1;        ///< bodies, -1: the ground
   double by_a = 0, by_b = 0; ///< rate of the row by their heave
 };
 
-std::vector<Link> vertical_links(const system::System& s, const system::Workspace<double>& ws) {
+std::vector<Link> vertical_links(const system::System& s, const system::Workspace<double>& ws,
+                                 const Rests& rests) {
   std::vector<Link> links;
   const auto add = [&](const system::JointData& j, const joint::Vector12& gradient) {
     if ((j.A.body >= 0 && feels_heave(gradient, 0)) || (j.B.body >= 0 && feels_heave(gradient, 1)))
@@ -71,20 +132,21 @@ std::vector<Link> vertical_links(const system::System& s, const system::Workspac
       for (const system::CouplerData::Term& term : s.couplers[k].terms)
         add_motion(term.motion);
   }
-  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
-                              const system::PortData& port) {
-    const double stiffness = port.joint < 0 ? 0.0 : element::at_rest(*list.laws, law).stiffness(0);
-    if (port.motion >= 0 && stiffness > 0.0)
-      add_motion(port.motion);
-    const system::JointData* j = port.motion < 0 && port.joint >= 0
-                                     ? &s.joints[static_cast<std::size_t>(port.joint)]
-                                     : nullptr;
-    if (j && element::at_rest(*list.laws, law).stiffness.isZero(0.0) == false) // a bushing
-      for (int i = 0; i < 3; ++i)
-        add(*j,
-            joint::span_row<double>(j->A, j->B, i, system::joint_geometry<double>(*j, ws.bodies))
-                .gradient);
-  });
+  for_each_rest(
+      s, rests,
+      [&](const system::ElementList&, const system::PortData& port, const element::AtRest& rest) {
+        if (port.joint < 0)
+          return;
+        const MatrixX& stiffness = rest.stiffness;
+        const system::JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
+        if (port.motion >= 0 && stiffness(0) > 0.0)
+          add_motion(port.motion);
+        if (port.motion < 0 && !stiffness.isZero(0.0)) // a bushing
+          for (int i = 0; i < 3; ++i)
+            add(j,
+                joint::span_row<double>(j.A, j.B, i, system::joint_geometry<double>(j, ws.bodies))
+                    .gradient);
+      });
   return links;
 }
 
@@ -98,37 +160,6 @@ const hydro::DatabaseBody* wet_body(const model::Scene& scene, int body) {
   const hydro::DatabaseBody* found =
       name && scene.database ? hydro::find_body(*scene.database, *name) : nullptr;
   return found && found->hydrostatics ? found : nullptr;
-}
-
-/// A law on points where these are.
-element::AtRest rest_at_points(const element::Elements& laws, std::size_t law,
-                               const system::PortData& port, const system::Workspace<double>& ws) {
-  const Index w = laws.shape.width;
-  VectorX x(w), v(w);
-  system::see_points<double>(ws, port, x.data(), v.data());
-  return element::at_rest(laws, law, x);
-}
-
-/// A law on a mesh in still water, its body in the reference pose.
-element::AtRest in_reference_pose(const element::Elements& laws, std::size_t law,
-                                  const system::BodyData& body) {
-  const std::shared_ptr<const element::Elements> calm = laws.calm();
-  element::BodyState<double> state{};
-  state.r = body.reference;
-  state.R.setIdentity();
-  state.v = state.w = state.v_dot = state.w_dot = Vector3::Zero();
-  const auto n = static_cast<Index>(calm->size()), at = static_cast<Index>(law);
-  VectorX in(n * element::body_numbers), out(6 * n), slope(n * 6 * 18);
-  for (Index k = 0; k < n; ++k)
-    element::write(state, in.data() + k * element::body_numbers);
-  calm->evaluate(0.0, in.data(), nullptr, out.data());
-  calm->jacobian(0.0, in.data(), nullptr, slope.data());
-  element::AtRest rest;
-  rest.load = out.segment<6>(6 * at);
-  rest.stiffness =
-      -Eigen::Map<const Eigen::Matrix<double, 6, 18>>(slope.data() + at * 6 * 18).leftCols<6>();
-  rest.damping = Matrix6::Zero();
-  return rest;
 }
 
 std::string names(const system::System& s, const FloatingGroup& group) {
@@ -201,7 +232,7 @@ void judge_bodies(const model::Scene& scene, const system::System& s, const Floa
 
 /// A single body that floats freely and that roll or pitch drive away: its centre of gravity is too
 /// high.
-void judge_stability(const system::System& s, const FloatingGroup& group,
+void judge_stability(const system::System& s, const Rests& rests, const FloatingGroup& group,
                      std::vector<Finding>& out) {
   if (group.held || !group.wet || group.bodies.size() != 1 || !(std::abs(group.imbalance()) < 0.5))
     return;
@@ -213,11 +244,12 @@ void judge_stability(const system::System& s, const FloatingGroup& group,
   if (std::any_of(s.joints.begin(), s.joints.end(), at))
     return;
   Matrix6 K = Matrix6::Zero();
-  system::for_each_law(
-      s, [&](const system::ElementList& list, std::size_t law, const system::PortData& port) {
-        if (port.body == body)
-          K += element::at_rest(*list.laws, law).stiffness;
-      });
+  for_each_rest(s, rests,
+                [&](const system::ElementList& list, const system::PortData& port,
+                    const element::AtRest& rest) {
+                  if (port.body == body && !list.laws->shape.in_water())
+                    K += rest.stiffness;
+                });
   for (int k = b.n_translations; k < b.n_active; ++k) {
     const int c = b.active[static_cast<std::size_t>(k)];
     if (c < 5 && K(c, c) < 0.0)
@@ -229,16 +261,9 @@ void judge_stability(const system::System& s, const FloatingGroup& group,
   }
 }
 
-} // namespace
-
-double FloatingGroup::imbalance() const {
-  const double size = std::max(weight, buoyancy);
-  return size > 0.0 ? (buoyancy + load - weight) / size : 0.0;
-}
-
-std::vector<FloatingGroup> floating_groups(const system::System& s) {
-  const system::Workspace<double> ws(s);
-  const std::vector<Link> links = vertical_links(s, ws);
+std::vector<FloatingGroup> find_groups(const system::System& s, const system::Workspace<double>& ws,
+                                       const Rests& rests) {
+  const std::vector<Link> links = vertical_links(s, ws, rests);
   std::vector<int> of(s.bodies.size());
   std::iota(of.begin(), of.end(), 0);
   for (const Link& link : links)
@@ -264,31 +289,24 @@ std::vector<FloatingGroup> floating_groups(const system::System& s) {
     return groups[static_cast<std::size_t>(
         index[static_cast<std::size_t>(of[static_cast<std::size_t>(body)])])];
   };
-  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
-                              const system::PortData& port) {
-    if (!port.points.empty()) {
-      const element::AtRest rest = rest_at_points(*list.laws, law, port, ws);
-      for (std::size_t i = 0; i < port.points.size(); ++i)
-        if (const int body = port.points[i].body; body >= 0) {
-          const auto z = static_cast<Index>(3 * i + 2);
-          FloatingGroup& group = group_of(body);
-          (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
-          group.mooring += rest.stiffness(z, z);
-        }
-    }
-    if (port.body < 0)
-      return;
-    FloatingGroup& group = group_of(port.body);
-    const bool meshed = list.laws->shape.in_water() &&
-                        (list.laws->type == "hydrostatic" || list.laws->type == "pressure");
-    const element::AtRest rest =
-        meshed ? in_reference_pose(*list.laws, law, s.bodies[static_cast<std::size_t>(port.body)])
-               : element::at_rest(*list.laws, law);
-    const bool water = meshed || list.laws->type == "hydrostatic";
-    group.wet = group.wet || water;
-    (water ? group.buoyancy : group.load) += rest.load[2];
-    (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
-  });
+  for_each_rest(s, rests,
+                [&](const system::ElementList& list, const system::PortData& port,
+                    const element::AtRest& rest) {
+                  for (std::size_t i = 0; i < port.points.size(); ++i)
+                    if (const int body = port.points[i].body; body >= 0) {
+                      const auto z = static_cast<Index>(3 * i + 2);
+                      FloatingGroup& group = group_of(body);
+                      (list.laws->type == "buoyancy" ? group.buoyancy : group.load) += rest.load[z];
+                      group.mooring += rest.stiffness(z, z);
+                    }
+                  if (port.body < 0)
+                    return;
+                  FloatingGroup& group = group_of(port.body);
+                  const bool water = is_meshed(*list.laws) || list.laws->type == "hydrostatic";
+                  group.wet = group.wet || water;
+                  (water ? group.buoyancy : group.load) += rest.load[2];
+                  (water ? group.stiffness : group.mooring) += rest.stiffness(2, 2);
+                });
   for (const Link& link : links) { // does the row let the whole group heave?
     const double rate = (link.a >= 0 ? link.by_a : 0.0) + (link.b >= 0 ? link.by_b : 0.0);
     if (std::abs(rate) > 1e-6)
@@ -297,6 +315,18 @@ std::vector<FloatingGroup> floating_groups(const system::System& s) {
   for (FloatingGroup& group : groups) // a taut mooring; a soft one moves with what floats
     group.held = group.held || group.mooring > std::max(group.stiffness, 0.0);
   return groups;
+}
+
+} // namespace
+
+double FloatingGroup::imbalance() const {
+  const double size = std::max(weight, buoyancy);
+  return size > 0.0 ? (buoyancy + load - weight) / size : 0.0;
+}
+
+std::vector<FloatingGroup> floating_groups(const system::System& s) {
+  const system::Workspace<double> ws(s);
+  return find_groups(s, ws, laws_at_rest(s, ws));
 }
 
 std::string describe(const system::System& s, const FloatingGroup& group) {
@@ -309,10 +339,12 @@ std::string describe(const system::System& s, const FloatingGroup& group) {
 
 std::vector<Finding> look_at_bodies(const model::Scene& scene, const system::System& s) {
   std::vector<Finding> out;
-  for (const FloatingGroup& group : floating_groups(s)) {
+  const system::Workspace<double> ws(s);
+  const Rests rests = laws_at_rest(s, ws);
+  for (const FloatingGroup& group : find_groups(s, ws, rests)) {
     judge_balance(s, group, out);
     judge_bodies(scene, s, group, out);
-    judge_stability(s, group, out);
+    judge_stability(s, rests, group, out);
   }
   return out;
 }

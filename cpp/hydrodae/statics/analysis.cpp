@@ -92,20 +92,27 @@ void add_motions(const Regime& s, const system::Workspace<double>& ws, LinearMod
     add_row(out.motion_map,
             joint_row(s, j, system::motion_row<double>(s, ws, static_cast<int>(m)).gradient));
   }
-  system::for_each_law(s, [&](const system::ElementList& list, std::size_t law,
-                              const system::PortData& port) {
-    if (port.motion < 0 || list.laws->lost_at_rest(law))
-      return; // dry friction is no damper; said in the notes
-    const system::JointData& j = s.joints[static_cast<std::size_t>(port.joint)];
-    const auto w = system::motion_row<double>(s, ws, port.motion);
-    const element::AtRest rest = element::at_rest(*list.laws, law, VectorX::Constant(1, w.value));
-    out.dampers.push_back(port.component);
-    out.damper_damping.push_back(rest.damping(0));
-    out.damper_stiffness.push_back(rest.stiffness(0));
-    out.damper_delay.push_back(
-        port.delay < 0 ? 0.0 : s.delays[static_cast<std::size_t>(port.delay)].time);
-    add_row(out.damper_map, joint_row(s, j, w.gradient));
-  });
+  for (const system::ElementList& list : s.elements) {
+    if (list.ports.empty() || list.ports.front().motion < 0)
+      continue;
+    VectorX x(std::ssize(list.ports));
+    for (Index k = 0; k < x.size(); ++k)
+      x[k] =
+          system::motion_row<double>(s, ws, list.ports[static_cast<std::size_t>(k)].motion).value;
+    const std::vector<element::AtRest> rests = element::at_rest(*list.laws, x);
+    for (std::size_t law = 0; law < rests.size(); ++law) {
+      if (list.laws->lost_at_rest(law))
+        continue; // dry friction is no damper; said in the notes
+      const system::PortData& port = list.ports[law];
+      out.dampers.push_back(port.component);
+      out.damper_damping.push_back(rests[law].damping(0));
+      out.damper_stiffness.push_back(rests[law].stiffness(0));
+      out.damper_delay.push_back(
+          port.delay < 0 ? 0.0 : s.delays[static_cast<std::size_t>(port.delay)].time);
+      add_row(out.damper_map, joint_row(s, s.joints[static_cast<std::size_t>(port.joint)],
+                                        system::motion_row<double>(s, ws, port.motion).gradient));
+    }
+  }
 }
 
 /// Names of the forces whose states the linear model has: those that differential equations give.
@@ -238,6 +245,7 @@ LinearModel linearize(const model::Scene& scene) {
   system::System system = build::build(still, false);
   system.hydro.added_mass.setZero();
   system.hydro.added_mass_all.setZero();
+  system.hydro.link();
   const auto [y, modes] = statics::settle(still, system);
   build::note_axes(scene, system);
   const Regime s(system, modes);

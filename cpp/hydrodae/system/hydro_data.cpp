@@ -1,38 +1,47 @@
 #include "hydrodae/system/hydro_data.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace hydrodae::system {
 
 void HydroData::link() {
-  links.assign(bodies.size(), {});
-  const auto numbers = [&](const HydroBody& body) {
-    std::vector<int> out;
-    for (const int u : body.moving)
-      if (u >= 0)
-        out.push_back(u);
-    return out;
+  std::vector<BlockMatrix::Entry> entries;
+  for (const Input& in : inputs)
+    entries.push_back({in.state, in.coordinate, in.value});
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.column, a.row) < std::tie(b.column, b.row);
+  });
+  products = {BlockMatrix(added_mass), BlockMatrix(added_mass_all), BlockMatrix(output),
+              BlockMatrix(output_all), BlockMatrix(damping),        BlockMatrix(damping_all),
+              BlockMatrix(entries)};
+
+  const std::size_t n = bodies.size();
+  links.assign(n, {});
+  const auto body_of = [&](Index u) {
+    return static_cast<std::size_t>(coordinates[static_cast<std::size_t>(u)].hydro_body);
   };
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::vector<int> rows = numbers(bodies[i]);
-    for (std::size_t j = 0; j < bodies.size(); ++j) {
-      bool coupled = i == j || !convolution.empty();
-      for (const int row : rows)
-        for (const int column : numbers(bodies[j]))
-          coupled =
-              coupled || added_mass(row, column) != 0.0 || (damped && damping(row, column) != 0.0);
-      if (bodies[j].moves && coupled)
+  std::vector<bool> coupled(n * n);
+  const auto couple = [&](Index row, Index column, double = 0.0) {
+    coupled[body_of(row) * n + body_of(column)] = true;
+  };
+  products.added_mass.for_each(couple);
+  products.damping.for_each(couple);
+  for (int k = 0; k < convolution.n_moving_pairs; ++k)
+    couple(convolution.pairs[static_cast<std::size_t>(k)].row,
+           convolution.pairs[static_cast<std::size_t>(k)].column);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (bodies[j].moves && (i == j || coupled[i * n + j]))
         links[i].partners.push_back(static_cast<int>(j));
-    }
-    for (int z = 0; z < n_states; ++z)
-      for (const int row : rows)
-        if (output(row, z) != 0.0) {
-          links[i].states.push_back(z);
-          break;
-        }
-  }
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    const Coordinate& u = coordinates[static_cast<std::size_t>(inputs[k].coordinate)];
-    links[static_cast<std::size_t>(u.hydro_body)].inputs.push_back(static_cast<int>(k));
-  }
+  for (Index z = 0; z < output.cols(); ++z)
+    for (Index u = 0; u < output.rows(); ++u)
+      if (output(u, z) != 0.0)
+        if (std::vector<int>& states = links[body_of(u)].states;
+            states.empty() || states.back() != z)
+          states.push_back(static_cast<int>(z));
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    links[body_of(inputs[k].coordinate)].inputs.push_back(static_cast<int>(k));
 }
 
 double HydroData::own_added_mass(int u) const {

@@ -2,11 +2,10 @@
 /// Added mass and radiation of all bodies in the water, on all rungs.
 
 #include <algorithm>
-#include <complex>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+#include "hydrodae/math/block_matrix.h"
 #include "hydrodae/water/hydro_axes.h"
 #include "hydrodae/water/pose_table.h"
 
@@ -65,13 +64,6 @@ struct HydroData {
     double value = 0.0;
   };
   std::vector<Input> inputs;
-  struct Run { ///< successive entries of a column of B_r, a few zeros among them
-    int coordinate = 0, state = 0;
-    Index first = 0, count = 0; ///< in `run_values`
-  };
-  std::vector<Run> runs; ///< all of `inputs`
-  VectorX run_values;
-
   /// What a body shares with others, from the tables: all else is zero.
   struct Links {
     std::vector<int> partners; ///< bodies whose motion loads it by A, B or a convolution; itself
@@ -80,30 +72,19 @@ struct HydroData {
   };
   std::vector<Links> links; ///< of each of `bodies`
 
+  /// The matrices as products take them.
+  struct Products {
+    BlockMatrix added_mass, added_mass_all, output, output_all, damping, damping_all;
+    BlockMatrix input; ///< B_r (n_states, n_moving)
+  } products;
+
   // Of bodies whose added mass and radiation follow their pose; all else of theirs is zero above.
   std::vector<water::PoseTable> tables;
   int n_weights = 0;                ///< of all tables
   std::vector<int> weight_of_state; ///< (n_states,) what its load is multiplied by; -1: 1
 
-  /// Finds `links`, once all the rest is there.
+  /// Finds `links` and `products`, once all the rest is there.
   void link();
-
-  /// z += factor B_r U, from U (n_moving,) to z (n_states,).
-  template <class S> void add_input(double factor, const S* U, S* z) const {
-    for (const Run& run : runs) {
-      const S u = S(factor) * U[run.coordinate];
-      if constexpr (std::is_same_v<S, double>) {
-        Eigen::Map<VectorX>(z + run.state, run.count) +=
-            u * run_values.segment(run.first, run.count);
-      } else if constexpr (std::is_same_v<S, std::complex<double>>) {
-        for (Index k = 0; k < run.count; ++k)
-          z[run.state + k] += run_values[run.first + k] * u;
-      } else {
-        for (Index k = 0; k < run.count; ++k)
-          z[run.state + k] += S(run_values[run.first + k]) * u;
-      }
-    }
-  }
 
   /// Added mass of coordinate u on itself; of a body with a table the largest [kg, kg m2].
   double own_added_mass(int u) const;

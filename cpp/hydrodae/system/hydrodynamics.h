@@ -99,19 +99,16 @@ template <class S> const S* weighted_states(const HydroData& h, Workspace<S>& ws
 /// A_inf U' + C z + B U into `ws.inertia_force`, A_inf U into `ws.momentum`.
 template <class S> void hydro_loads(const Regime& s, Workspace<S>& ws, const S* z) {
   const HydroData& h = s.hydro;
+  const HydroData::Products& products = h.products;
   hydro_motion(s, ws);
-  multiply<S>(h.added_mass, ws.U.data(), ws.momentum);
-  multiply<S>(h.added_mass, ws.U_dot.data(), ws.inertia_force);
+  ws.momentum.setZero();
+  ws.inertia_force.setZero();
+  products.added_mass.add_product(ws.U.data(), ws.momentum.data());
+  products.added_mass.add_product(ws.U_dot.data(), ws.inertia_force.data());
   add_tables<S>(s, ws);
   add_convolution<S>(h, ws);
-  if (h.n_states > 0) {
-    multiply<S>(h.output, weighted_states<S>(h, ws, z), ws.U_dot); // U' is no longer needed
-    ws.inertia_force += ws.U_dot;
-  }
-  if (h.damped) {
-    multiply<S>(h.damping, ws.U.data(), ws.U_dot);
-    ws.inertia_force += ws.U_dot;
-  }
+  products.output.add_product(weighted_states<S>(h, ws, z), ws.inertia_force.data());
+  products.damping.add_product(ws.U.data(), ws.inertia_force.data());
 }
 
 /// Subtracts the fluid's loads from `ws.loads` and writes the memory rows
@@ -140,7 +137,7 @@ void add_loads(const Regime& s, const HydroData& h, Workspace<S>& ws, const S* y
       r[k] = z_dot[k] - S(b.a) * z[k];
     }
   }
-  h.add_input<S>(-1.0, ws.U.data(), r);
+  h.products.input.add_product(ws.U.data(), r, -1.0);
 }
 
 } // namespace hydrodae::system
