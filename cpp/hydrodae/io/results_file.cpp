@@ -20,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t rows_per_chunk = 512;
 constexpr Clock::duration longest_wait = std::chrono::milliseconds(500);
 
+} // namespace
+
 /// Writes attributes of one value each.
 class AttributeWriter {
 public:
@@ -46,6 +48,8 @@ private:
   Handle text_ = hdf5::text_type();
   Handle one_ = checked(H5Screate(H5S_SCALAR), H5Sclose, "HDF5 attribute");
 };
+
+namespace {
 
 /// Two messages below each other; either may be empty.
 std::string lines(const std::string& first, const std::string& second) {
@@ -136,9 +140,9 @@ void ResultsFile::Impl::create(const Attributes& header) {
 ResultsFile::Impl::Kind ResultsFile::Impl::make_kind(int width,
                                                      const std::vector<std::string>& scales) const {
   const int rank = width == 1 ? 1 : 2;
-  const auto columns = static_cast<hsize_t>(width);
-  const hsize_t empty[2] = {0, columns}, unlimited[2] = {H5S_UNLIMITED, columns},
-                chunk[2] = {rows_per_chunk, columns};
+  const auto in_row = static_cast<hsize_t>(width);
+  const hsize_t empty[2] = {0, in_row}, unlimited[2] = {H5S_UNLIMITED, in_row},
+                chunk[2] = {rows_per_chunk, in_row};
   Kind kind{width,
             checked(H5Screate_simple(rank, empty, unlimited), H5Sclose, what()),
             checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what()),
@@ -146,8 +150,7 @@ ResultsFile::Impl::Kind ResultsFile::Impl::make_kind(int width,
             {file, scales, what()}};
   checked(H5Pset_chunk(kind.layout, rank, chunk), what());
   // Only the last chunk changes: HDF5's own cache holds a megabyte a dataset.
-  checked(H5Pset_chunk_cache(kind.cache, 3, rows_per_chunk * columns * sizeof(double), 1.0),
-          what());
+  checked(H5Pset_chunk_cache(kind.cache, 3, rows_per_chunk * in_row * sizeof(double), 1.0), what());
   return kind;
 }
 
@@ -251,12 +254,12 @@ void ResultsFile::Impl::write_end(const std::string& status, const std::string& 
                                   const Attributes& statistics) {
   {
     const bool exists = checked(H5Lexists(file, "solver", H5P_DEFAULT), what()) > 0;
-    const Handle group =
+    const Handle solver =
         checked(exists ? H5Gopen2(file, "solver", H5P_DEFAULT)
                        : H5Gcreate2(file, "solver", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                 H5Gclose, what());
     for (const auto& [name, value] : statistics)
-      attributes.write(group, name, value, what());
+      attributes.write(solver, name, value, what());
   }
   attributes.write(file, "status", status, what());
   attributes.write(file, "message", message, what());

@@ -130,9 +130,9 @@ struct Body {
   static constexpr std::string_view doc = "A rigid body.";
   std::string name;
   std::vector<std::string> motion = {"rigid"};
-  ValueOrWord<double> mass = {0.0, ""};
+  ValueOrWord<double> mass = {0.0, {}};
   Vector3 center_of_gravity = Vector3::Zero();
-  ValueOrWord<Vector3> inertia = {Vector3::Zero(), ""};
+  ValueOrWord<Vector3> inertia = {Vector3::Zero(), {}};
   std::optional<Vector3> radii_of_gyration;
   Vector3 products_of_inertia = Vector3::Zero();
   std::optional<Vector3> principal_axes; ///< rotation vector; then `inertia`: principal moments
