@@ -553,8 +553,8 @@ class WaveTypes(TypedList):
         start : number, s, default 0
             Time since the first sample of the record at which t = 0. Allowed: >= 0.
         taper : number, s, default 30
-            Time over which a record fades at both ends, where the waves before and after it,
-            which also load the body, are not known; 30 s by default. Allowed: >= 0.
+            Time over which a record fades at both ends, because the waves before and after it
+            are unknown; 30 s by default. Allowed: >= 0.
         lost_variance : number, optional
             Largest part of the variance that may lie outside the frequencies of the database
             and is left out; 0.02 by default for a record, 0.1 for a spectrum without
@@ -1081,8 +1081,9 @@ class JointTypes(TypedList):
         point : 3 numbers, m
             Where the joint is in the reference pose, world axes.
         path : list of points, m
-            Points of the curve that body A carries, in the reference pose, world axes, joined
-            by a natural cubic spline that goes on straight beyond its ends; path joint only.
+            Points of the curve that body A carries, in the reference pose, world axes. A
+            natural cubic spline joins them and continues straight beyond its ends; path joint
+            only.
         initial : dict, optional
             Start of the joint in its own coordinate; body B, and what hangs on it, is moved.
             Keys: displacement [m], displacement_rate [m/s].
@@ -1304,7 +1305,7 @@ class ForceTypes(TypedList):
         damping : number, N s/m or N m s/rad, default 0
             Damping c. Allowed: >= 0.
         stiffness : number, N/m or N m/rad, default 0
-            Stiffness k. Allowed: >= 0.
+            Stiffness k; negative: it pushes away from `neutral`, as reactive control does.
         neutral : number, m or rad, default 0
             Joint coordinate s0 at which the spring is slack.
         delay : number, s, default 0
@@ -1498,7 +1499,7 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            Smallest size of the force on a bearing, so that friction stays smooth at zero;
             default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
 
         Returns
@@ -1623,7 +1624,7 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            Smallest size of the force on a bearing, so that friction stays smooth at zero;
             default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
         stribeck_rate : number, m/s or rad/s
             Rate s'_s over which the load falls from F_s to F_c. Allowed: > 0.
@@ -1892,7 +1893,7 @@ class ForceTypes(TypedList):
     ) -> str:
         """Add `[[force]]` with the type "friction_stribeck".
 
-        Smooth friction along a joint (Coulomb, Stribeck and viscous); creeps where it ought to
+        Smooth friction along a joint (Coulomb, Stribeck and viscous); creeps where it should
         stick.
 
         Parameters
@@ -1926,7 +1927,7 @@ class ForceTypes(TypedList):
         radius_axial : number, m, optional
             Of an angle: at which the thrust along the axis rubs; 0: it does not. Allowed: >= 0.
         small_force : number, N, optional
-            Size that a force on a bearing has where it is zero, so that friction stays smooth;
+            Smallest size of the force on a bearing, so that friction stays smooth at zero;
             default: 1e-5 of the weight of the lighter body that moves. Allowed: > 0.
         creep_rate : number, m/s or rad/s
             Rate s'_0 below which it is viscous: some thousandth of the rates at work. Allowed:
@@ -2055,14 +2056,15 @@ class ForceTypes(TypedList):
             Radii of the sheaves, one for each point, which is the centre; 0: a point, as the
             ends. Allowed: >= 0.
         axes : list of points, optional
-            Axes of the sheaves, one for each point (any where there is none), world axes: from
-            the first point to the last the rope runs round them by the rule of the right hand.
+            Axes of the sheaves, one for each point (any value for a point without a sheave),
+            world axes: from first to last point the rope runs round them by the right-hand
+            rule.
         friction : list of numbers, optional
             Coefficients of friction of the points and sheaves, one for each point (0 at the
             ends), or one for all between the ends; a sheave with friction does not turn on its
             body. Allowed: >= 0.
         breaking_load : number, N, optional
-            Tension that it bears; the summary tells where it is exceeded. Allowed: > 0.
+            Tension that it bears; the summary reports where it is exceeded. Allowed: > 0.
         breaks : true or false, default false
             Whether it parts for good where its tension reaches `breaking_load`.
 
@@ -2126,7 +2128,7 @@ class ForceTypes(TypedList):
         friction : number, default 0
             Friction coefficient of the seabed. Allowed: >= 0.
         breaking_load : list of numbers, N, optional
-            Tensions that the parts bear, one number or one each; the summary tells where they
+            Tensions that the parts bear, one number or one each; the summary reports where they
             are exceeded. Allowed: > 0.
         breaks : true or false, default false
             Whether it parts for good where its tension reaches `breaking_load`.
@@ -2300,7 +2302,7 @@ class ForceTypes(TypedList):
         added_mass_axial : list of numbers, optional
             C_at: added mass along the line. Allowed: >= 0.
         breaking_load : list of numbers, N, optional
-            Breaking loads of the parts; the summary tells where they are exceeded. Allowed: >
+            Breaking loads of the parts; the summary reports where they are exceeded. Allowed: >
             0.
         breaks : true or false, default false
             Whether the segment parts for good whose tension reaches `breaking_load`.
@@ -2334,7 +2336,7 @@ class ForceTypes(TypedList):
             Whether that damping acts on the way up too, where the seabed may pull, as in
             MoorDyn.
         seabed_friction : number, default 0
-            Friction coefficient of the seabed in motion, smooth within some 0.01 m/s; none at
+            Friction coefficient of the seabed in motion, smooth within about 0.01 m/s; zero at
             rest. Allowed: >= 0.
         water_density : number, kg/m3, optional
             Density of the water that buoyancy, drag and added mass of the line are by; default:
@@ -2992,14 +2994,14 @@ class Scene(SceneBase):
         database : text
             Path of hydro.h5, relative to the case file.
         axes : text, default "mean"
-            Axes in which added mass, radiation and excitation act: earth axes turned by the yaw
-            that each body has at the start or in the equilibrium (mean), axes that follow its
-            yaw (yaw), or axes carried by each body (body: large rotations in still water).
-            Allowed: mean, yaw, body.
+            Axes in which added mass, radiation and excitation act. mean: earth axes turned by
+            the yaw of each body at the start or in the equilibrium. yaw: axes that follow its
+            yaw. body: axes that it carries, for large rotations in still water. Allowed: mean,
+            yaw, body.
         radiation : text, default "exponential"
-            Radiation: none (added mass at infinite frequency only), constant (added mass and
-            damping at one frequency), the fitted exponential memory, or the convolution with
-            the radiation kernel. Allowed: none, constant, exponential, convolution.
+            Radiation. none: added mass at infinite frequency only. constant: added mass and
+            damping at one frequency. exponential: the fitted memory. convolution: the kernel
+            K(t). Allowed: none, constant, exponential, convolution.
         memory_length : number, s, optional
             Length of the kernel of the convolution; by default that of the database. Allowed: >
             0.
@@ -3079,14 +3081,13 @@ class Scene(SceneBase):
             waves do not feel it.
         phase : text, default "fixed"
             Where a body feels the phase of the waves: at its reference position (fixed), or
-            where it is (moving: for bodies that drift; then every evaluation sums all
-            components). Allowed: fixed, moving.
+            where it is (moving: for bodies that drift; it costs a sum over all components in
+            each evaluation). Allowed: fixed, moving.
         stretching : text, default "vertical"
-            Pressure of the waves above z = 0 on bodies with `froude_krylov = "mesh"`:
-            hydrostatic down from the crest (vertical: consistent to second order), the profile
-            of linear theory moved up to the crest (wheeler), e^(kz) as it is (extrapolated), or
-            nothing: the wetted part ends at z = 0 (none). Allowed: vertical, wheeler,
-            extrapolated, none.
+            Pressure of the waves above z = 0 on bodies with `froude_krylov = "mesh"`. vertical:
+            hydrostatic down from the crest, consistent to second order. wheeler: the linear
+            profile moved up to the crest. extrapolated: e^(kz) as it is. none: the wetted part
+            ends at z = 0. Allowed: vertical, wheeler, extrapolated, none.
         bernoulli : true or false, default false
             Whether the pressure on them has the term -rho u^2 / 2 of the waves' own velocity.
 
@@ -3155,9 +3156,9 @@ class Scene(SceneBase):
             Centre of that volume in the reference pose, world axes; default: the centre of
             gravity.
         mesh : text, optional
-            File of the closed surface of the body in the reference pose, world axes, normals
-            outwards, up to above the highest water: .stl or .obj, in metres; relative to the
-            case file.
+            File (.stl or .obj, in metres, relative to the case file) of the closed surface of
+            the body in the reference pose. World axes, normals outwards; it must reach above
+            the highest water.
         mesh_origin : 3 numbers, m, default [0, 0, 0]
             Place of the origin of that file in the reference pose, world axes; for a mesh about
             the centre of gravity the place of that.
@@ -3365,8 +3366,8 @@ class Scene(SceneBase):
         method : text, default "auto"
             Integrator: BDF (ida), implicit Runge-Kutta (radau, gauss, lobatto_iiic),
             generalised alpha on the Lie group, or projected explicit Runge-Kutta; auto:
-            explicit_rk, radau or ida as suits the scene, and another of them where the one at
-            work cannot go on. Allowed: auto, radau, explicit_rk, ida, generalized_alpha, gauss,
+            explicit_rk, radau or ida as suits the scene, and another of them where one cannot
+            continue. Allowed: auto, radau, explicit_rk, ida, generalized_alpha, gauss,
             lobatto_iiic.
         coordinates : text, default "bodies"
             Unknowns of the motion: those of all bodies, with multipliers for all joints; or
@@ -3403,9 +3404,9 @@ class Scene(SceneBase):
         energy_guard : number, optional
             A run ends as failed when the energy balance is off by more than this part of the
             energy exchanged; 0: no guard. By default 0.01; at a singular pose of a closed loop
-            0.01 sqrt(rtol), 1e-5 at least, or with fixed steps 5e-4: with the energy the motion
-            is lost there. Mechanisms that drives guide altogether may miss ten times as much,
-            since their reactions take and give it. Allowed: >= 0.
+            0.01 sqrt(rtol), at least 1e-5, or 5e-4 with fixed steps. Mechanisms that drives
+            guide altogether may miss ten times as much, since their reactions take and give it.
+            Allowed: >= 0.
         branch_guard : true or false, default true
             A run of a scene with closed loops ends as failed when its velocities jump though
             nothing strikes: at a singular pose the motion left its branch.
@@ -3414,10 +3415,10 @@ class Scene(SceneBase):
             second one at 10 rtol, or at twice the fixed step, which runs in a second thread;
             none: no estimate. Allowed: two_runs, none.
         tolerance_assembly : number, default 1e-06
-            Joints that are out of line with each other by less than this part of the body's
-            lever (its farthest joint or radius of gyration), or of one radian, count as exact:
-            a row that follows from the others but for that gives way. By more, they would lock
-            the mechanism and are refused. Allowed: 1e-12 to 0.1.
+            Allowed misalignment of joints, as part of the body's lever (its farthest joint or
+            radius of gyration), or of one radian. Below it joints count as exact, and rows that
+            follow from others are left out. Above it they would lock the mechanism and are
+            refused. Allowed: 1e-12 to 0.1.
         force : true or false, default false
             Run what is known to fail, for comparisons: a pair of method and formulation,
             radiation that is not passive, joints that are out of line with each other.
