@@ -272,8 +272,8 @@ def first_added_mass(omega: Array, matrices: ComplexArray, band: tuple[float, fl
     )
     for _ in range(8):
         samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
-        poles = relocate(poles, samples, omega, damping)
-        added_mass = solve_residues(poles, samples)[0][-1]
+        poles, _ = relocate(poles, samples, omega, damping)
+        added_mass = solve_residues(poles, samples)[-1]
     full = np.zeros((n, n))
     full[rows, columns] = full[columns, rows] = added_mass
     return full

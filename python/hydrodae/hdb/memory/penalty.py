@@ -31,7 +31,7 @@ from hydrodae.hdb.memory.modes import (
     real_parts,
     resistance,
 )
-from hydrodae.hdb.memory.passivity import eigenpairs, local_minima
+from hydrodae.hdb.memory.passivity import eigenvalues, eigenvectors, local_minima
 from hydrodae.hdb.memory.vector_fitting import Array
 
 FLOOR = -4e-5
@@ -97,8 +97,8 @@ def press(
         lack = _lack(modes, grid, margin, top)
         if factor == 0.0 and lack.values.size:
             factor = 0.3 * now**2 / float(lack.values @ lack.values)
-        found = _step(modes, problem, grid, (margin, top, factor, damping))
-        modes, damping, gain = found
+        weights = (margin, top, factor, damping)
+        modes, damping, gain = _step(modes, problem, grid, lack, weights)
         if lowest < FLOOR and gain < 0.3:
             size = factor * float(lack.values @ lack.values)
             if size < LOOSENED * now**2:
@@ -121,17 +121,28 @@ def _grid(modes: Modes, highest: float) -> Array:
 
 def _lack(modes: Modes, grid: Array, margin: float, top: float) -> _Low:
     """Return the eigenpairs of Re H / top below the margin, and by how much."""
-    values, vectors = eigenpairs(resistance(modes, grid))
+    matrices = resistance(modes, grid)
+    values = eigenvalues(matrices)
     at, branch = np.nonzero(values < margin * top)
-    return _Low(grid[at], vectors[at, :, branch], values[at, branch] / top - margin)
+    vectors = eigenvectors(matrices, at, branch)
+    return _Low(grid[at], vectors, values[at, branch] / top - margin)
+
+
+def _lacking(modes: Modes, grid: Array, margin: float, top: float) -> Array:
+    """Return by how much eigenvalues of Re H / top are below the margin."""
+    values = eigenvalues(resistance(modes, grid)) / top - margin
+    return np.asarray(values[values < 0.0])
 
 
 def _step(
-    modes: Modes, problem: Problem, grid: Array, weights: tuple[float, float, float, float]
+    modes: Modes,
+    problem: Problem,
+    grid: Array,
+    low: _Low,
+    weights: tuple[float, float, float, float],
 ) -> tuple[Modes, float, float]:
     """Take one damped Newton step; return the modes, the damping, and the share that was won."""
     margin, top, factor, damping = weights
-    low = _lack(modes, grid, margin, top)
     matrix, gradient = normal_equations(modes, problem)
     before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
     for rows, values in _rows(modes, problem, low, top):
@@ -148,7 +159,7 @@ def _step(
             damping *= 5.0
             continue
         trial = moved(modes, step, problem)
-        left = _lack(trial, grid, margin, top).values
+        left = _lacking(trial, grid, margin, top)
         after = error(trial, problem) ** 2 + factor * float(left @ left)
         if after < before:
             return trial, max(damping / 5.0, 1e-7), 1.0 - after / before

@@ -10,7 +10,7 @@ from hydrodae.hdb.memory.modes import Problem, from_residues
 from hydrodae.hdb.memory.vector_fitting import (
     ComplexArray,
     order,
-    relocate,
+    relocated,
     solve_residues,
     starting_poles,
 )
@@ -86,17 +86,12 @@ def best_poles(
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
     """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
-    best = (np.inf, poles)
-    for step in range(steps):
-        poles = relocate(poles, problem.samples, problem.damping_grid, problem.damping)
-        if 2 * step >= steps:
-            value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
-            best = min(best, (value, poles), key=lambda item: item[0])
-    return best
+    limits = problem.damping_grid, problem.damping
+    return relocated(poles, problem.samples, *limits, steps, (steps + 1) // 2)
 
 
 def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
     """Return the error of a full-rank fit with these poles over its target."""
-    coefficients, _, _ = solve_residues(poles, problem.samples)
+    coefficients = solve_residues(poles, problem.samples)
     modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
     return goal.miss(quality(modes, problem, goal.band))
