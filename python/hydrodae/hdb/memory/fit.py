@@ -19,7 +19,7 @@ from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
-from hydrodae.hdb.memory.modes import IntArray
+from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
 from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array
@@ -60,6 +60,7 @@ def fit_memory(
     uniform: float | None = None,
     method: str = "auto",
     time_limit: float = TIME_LIMIT,
+    searches: Searches | None = None,
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
@@ -109,6 +110,8 @@ def fit_memory(
     time_limit
         Seconds. The search ends there, and the best passive fit so far is returned. A fit that
         needs less does not depend on the machine.
+    searches
+        Searches of poles that `hydrodae.hdb.memory.reach.reach` made of the same table.
 
     Returns
     -------
@@ -148,6 +151,7 @@ def fit_memory(
         raise DatabaseError(f"memory fit: time_limit {time_limit:g}: expected seconds > 0")
     clock = Clock(time_limit)
     data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
+    data = replace(data, searches=data.searches if searches is None else searches)
     goal = Goal(
         _checked_band(data.omega, band or table_band(database)),
         band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),

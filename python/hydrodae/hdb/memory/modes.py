@@ -37,6 +37,8 @@ CHUNK = 20_000_000
 """Numbers that the assembly of the normal equations holds at a time (160 MB)."""
 PARAMETERS = 14_000
 """Most parameters of a fit: their normal matrix takes 1.6 GB."""
+Searches = dict[tuple[int, bytes], tuple[float, ComplexArray]]
+"""Searches of poles that were made, and their results; see `hydrodae.hdb.memory.poles`."""
 FIRST, SECOND = np.triu_indices(6)
 """Pairs of the six kinds of parameters that an entry of Z depends on, see `_local_derivatives`."""
 AnyArray = TypeVar("AnyArray", Array, ComplexArray)
@@ -61,6 +63,8 @@ class Problem:
         is compared with, and the bases (n_array, n) of the block. Else 0 and none.
     clock
         Time that the fit may take.
+    searches
+        Searches of poles so far: those of a look at the table serve its fit.
     """
 
     samples: Samples
@@ -72,6 +76,7 @@ class Problem:
     largest: float = 0.0
     bases: tuple[Array, ...] = ()
     clock: Clock = field(default_factory=Clock)
+    searches: Searches = field(default_factory=dict)
 
     def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
