@@ -31,7 +31,7 @@ from hydrodae.hdb.memory.modes import (
     real_parts,
     resistance,
 )
-from hydrodae.hdb.memory.passivity import eigenpairs, local_minima
+from hydrodae.hdb.memory.passivity import eigenvalues, eigenvectors, local_minima
 from hydrodae.hdb.memory.vector_fitting import Array
 
 FLOOR = -4e-5
@@ -121,9 +121,11 @@ def _grid(modes: Modes, highest: float) -> Array:
 
 def _lack(modes: Modes, grid: Array, margin: float, top: float) -> _Low:
     """Return the eigenpairs of Re H / top below the margin, and by how much."""
-    values, vectors = eigenpairs(resistance(modes, grid))
+    matrices = resistance(modes, grid)
+    values = eigenvalues(matrices)
     at, branch = np.nonzero(values < margin * top)
-    return _Low(grid[at], vectors[at, :, branch], values[at, branch] / top - margin)
+    vectors = eigenvectors(matrices, at, branch)
+    return _Low(grid[at], vectors, values[at, branch] / top - margin)
 
 
 def _step(
@@ -148,8 +150,8 @@ def _step(
             damping *= 5.0
             continue
         trial = moved(modes, step, problem)
-        left = _lack(trial, grid, margin, top).values
-        after = error(trial, problem) ** 2 + factor * float(left @ left)
+        left = np.minimum(eigenvalues(resistance(trial, grid)) / top - margin, 0.0)
+        after = error(trial, problem) ** 2 + factor * float((left**2).sum())
         if after < before:
             return trial, max(damping / 5.0, 1e-7), 1.0 - after / before
         damping *= 5.0
