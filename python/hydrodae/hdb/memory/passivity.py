@@ -85,29 +85,33 @@ def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -
     at, branch = np.nonzero(lowest)
     between = _between(omega, values[:, 0])
     inner = resistance(modes, between)
-    inner_values = eigenvalues(inner)
-    best = inner_values[:, 0].reshape(-1, BETWEEN).argmin(axis=1)
+    inner_values = eigenvalues(inner)[:, 0]
+    best = inner_values.reshape(-1, BETWEEN).argmin(axis=1)
     best += BETWEEN * np.arange(best.size)
-    best = best[inner_values[best, 0] < below * largest]
+    best = best[inner_values[best] < below * largest]
     return Minima(
         np.concatenate([omega[at], between[best]]),
-        np.concatenate([eigenvectors(matrices, at, branch), eigenvectors(inner, best, 0)]),
-        float(inner_values[:, 0].min(initial=values[:, 0].min())),
+        np.concatenate([eigenvectors(matrices, at, branch), eigenvectors(inner, best, 0 * best)]),
+        float(inner_values.min(initial=values[:, 0].min())),
         largest,
     )
 
 
 def eigenvalues(matrices: Array) -> Array:
-    """Return the eigenvalues (k, n) of symmetric matrices."""
+    """Return the ascending eigenvalues (k, n) of symmetric matrices."""
     if matrices.shape[-1] == 1:
         return matrices[:, :, 0]
+    if matrices.shape[-1] == 2:
+        first, second = matrices[:, 0, 0], matrices[:, 1, 1]
+        mean, radius = 0.5 * (first + second), np.hypot(0.5 * (first - second), matrices[:, 1, 0])
+        return np.stack([mean - radius, mean + radius], axis=1)
     return np.asarray(np.linalg.eigvalsh(matrices))
 
 
-def eigenvectors(matrices: Array, at: IntArray, branch: IntArray | int) -> Array:
-    """Return those (k, n) of some of the matrices and eigenvalues; the others cost no vectors."""
-    chosen, back = np.unique(at, return_inverse=True)
-    return np.asarray(np.linalg.eigh(matrices[chosen])[1][back, :, branch])
+def eigenvectors(matrices: Array, at: IntArray, branch: IntArray) -> Array:
+    """Return the eigenvectors (k, n) of the eigenvalues `branch` (k,) of the matrices `at` (k,)."""
+    rows, back = np.unique(at, return_inverse=True)
+    return np.asarray(np.linalg.eigh(matrices[rows])[1][back, :, branch])
 
 
 def _between(omega: Array, values: Array) -> Array:
