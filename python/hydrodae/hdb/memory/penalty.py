@@ -145,11 +145,12 @@ def _step(
     margin, top, factor, damping = weights
     matrix, gradient = normal_equations(modes, problem)
     before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
-    for rows, values in _rows(modes, problem, low, top):
+    for rows, values in _rows(modes, low, top):
         if problem.clock.over():
             return modes, damping, 0.0
-        matrix += factor * (rows.T @ rows)
-        gradient += factor * (rows.T @ values)
+        inner = rows.shape[1]
+        matrix[:inner, :inner] += factor * (rows.T @ rows)
+        gradient[:inner] += factor * (rows.T @ values)
     for _ in range(6):
         if problem.clock.over():
             break
@@ -167,13 +168,13 @@ def _step(
     return modes, damping, 0.0
 
 
-def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
+def _rows(modes: Modes, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
     """Yield derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
     i, j = _pairs(low.omega)
     values = np.where(i == j, low.values[i], 0.0)
     for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
         left, right = low.vectors[i[pick]], low.vectors[j[pick]]
-        rows = _derivatives(modes, problem, low.omega[i[pick]], left, right) / top
+        rows = _derivatives(modes, low.omega[i[pick]], left, right) / top
         rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
         yield rows, values[pick]
 
@@ -195,8 +196,8 @@ def _upper(size: int) -> tuple[np.ndarray, np.ndarray]:
     return np.triu_indices(size)
 
 
-def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:
-    """Return d(u^T Re H v)/d(parameters), (k, n_parameters), of u, v (k, n) at omega (k,)."""
+def _derivatives(modes: Modes, omega: Array, left: Array, right: Array) -> Array:
+    """Return d(u^T Re H v)/d(parameters but A_inf), of u, v (k, n) at omega (k,)."""
     value, slope = real_parts(modes, omega)
     pair = ~modes.real
     on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
@@ -217,6 +218,5 @@ def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, righ
     columns += [
         modes.poles.real * (product.real * slope[0] + product.imag * slope[1]),
         pair * (-product.imag * slope[0] + product.real * slope[1]),
-        np.zeros((count, problem.rows.size)),
     ]
     return np.concatenate(columns, axis=1)
