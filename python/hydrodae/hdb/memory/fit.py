@@ -24,6 +24,7 @@ from hydrodae.hdb.memory.noise import noise
 from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array
 from hydrodae.hdb.memory.verdict import PASSIVE_LIMIT, missed
+from hydrodae.support.blas import one_blas_thread
 
 COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
@@ -46,6 +47,7 @@ class MemoryFitWarning(UserWarning):
     """The memory fit missed a goal: accuracy or passivity; its report has the figures."""
 
 
+@one_blas_thread()
 def fit_memory(
     database: RadiationData,
     inputs: Sequence[str],

@@ -20,6 +20,7 @@ from hydrodae.hdb.memory.fit import (
 from hydrodae.hdb.memory.goal import Goal, measure
 from hydrodae.hdb.memory.modes import Searches
 from hydrodae.hdb.memory.poles import rich_poles
+from hydrodae.support.blas import one_blas_thread
 
 MOST_POLES = 16
 """Poles that a look takes at most: more of them follow noise."""
@@ -27,6 +28,7 @@ MOST_COORDINATES = 6
 """Groups of more coupled coordinates are not looked at: that would take as long as a fit."""
 
 
+@one_blas_thread()
 def reach(
     database: RadiationData,
     inputs: Sequence[str],
