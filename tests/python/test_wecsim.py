@@ -158,6 +158,40 @@ pto(1).location = [0 0 -9];
     assert hdb.read(tmp_path / "case" / "hydro.h5").memory
 
 
+@pytest.mark.parametrize(
+    ("x", "start", "motion"),
+    [
+        (0.0, "", "yaw"),
+        (2.0, "", "rigid"),
+        (0.0, "body(1).initial.displacement = [0 0 1];", "rigid"),
+    ],
+)
+def test_a_body_that_turns_about_a_vertical_axis_through_its_centre_yaws(
+    cylinders: Path, tmp_path: Path, x: float, start: str, motion: str
+) -> None:
+    source = tmp_path / "source"
+    (source / "hydroData").mkdir(parents=True)
+    (source / "hydroData" / "device.h5").write_bytes(cylinders.read_bytes())
+    blocks = [
+        ("Buoy", "Rigid Body", "body(1)"),
+        ("World", "Global Reference Frame", "simu"),
+        ("Rotational PTO", "Rotational PTO", "pto(1)"),
+    ]
+    write_slx(source / "one.slx", blocks, ["2r-3l", "3r-1r"])
+    (source / "wecSimInputFile.m").write_text(f"""
+simu = simulationClass(); simu.simMechanicsFile = 'one.slx'; simu.rho = 1025; simu.endTime = 20;
+waves = waveClass('regular'); waves.height = 2; waves.period = 9;
+body(1) = bodyClass('hydroData/device.h5'); body(1).mass = 'equilibrium';
+body(1).inertia = [1e6 1e6 1e6]; {start}
+pto(1) = ptoClass('PTO1'); pto(1).damping = 1e4; pto(1).location = [{x} 0 -9];
+pto(1).orientation.y = [0 0 1]; pto(1).orientation.z = [0 1 0];
+""")
+    convert(source, tmp_path / "case")
+    found = tables(tmp_path / "case")
+    assert found["body"][0].get("motion", "rigid") == motion
+    assert [abs(part) for part in found["joint"][0]["axis"]] == [0, 0, 1]
+
+
 def test_a_mooring_matrix_moves_to_the_centre_of_gravity(two_bodies: Path, tmp_path: Path) -> None:
     blocks = [*TWO_BODIES, ("Mooring", "MooringMatrix", "mooring(1)")]
     write_slx(two_bodies / "model.slx", blocks, ["3r-4l", "4r-2r-5r-6l", "5l-1r"])

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from hydrodae.case.case import Case
 from hydrodae.errors import CaseError
 from hydrodae.hdb.database import HydroDatabase
@@ -28,7 +30,7 @@ from hydrodae.wecsim.topology import Topology, find_topology
 
 INPUT = "wecSimInputFile.m"
 #: Coordinates of the database that move with each motion of a body.
-_KEEP = {"rigid": "all", "planar": "planar", "heave": "heave"}
+_KEEP = {"rigid": "all", "planar": "planar", "heave": "heave", "yaw": "yaw"}
 #: What these become by hand.
 _OTHERS = {
     "cable": "a cable; see the force rope",
@@ -94,6 +96,7 @@ def convert(source: str | os.PathLike[str], folder: str | os.PathLike[str]) -> C
                 if frequency is not None and "frequency" in keys:
                     keys["frequency"] = frequency
                 found = find_topology(model, other)
+                _keep_to_yaw(other, found, database)
                 return _write(other, model, found, database, keys, why, target)
 
             write_study(conditions, read, str(text), again, target)
@@ -175,6 +178,7 @@ def _database(
         read.remarks.assumed(
             read.path.name, "simu.b2b is 0: the bodies do not radiate into each other, as there"
         )
+    _keep_to_yaw(read, topology, database)
     kind, frequency, why = radiation_of(read)
     moving = [
         f"{wet[number]}.{_KEEP[group.motion]}"
@@ -240,6 +244,31 @@ def _write(
         add_mooring(text, block, model.place(block), held[0] if held else None, bodies, read)
     add_solver(text, read)
     return text
+
+
+def _keep_to_yaw(read: InputFile, topology: Topology, database: HydroDatabase | None) -> None:
+    """Let groups only yaw that turn about a vertical axis through all their centres of gravity.
+
+    The axis is fixed. The fit of the radiation memory then needs one coordinate in place of six. A
+    body with an initial displacement stays free, because a body that only yaws cannot have one.
+    """
+    bodies = Bodies(read, topology.names, database, 0.0, read.path.parent)
+    for link in topology.links:
+        if link.kind != "Rotational" or abs(link.axis("y")[2]) < 1.0 - 1e-9:
+            continue
+        point = link.item.vector("location", [0.0, 0.0, 0.0])
+        ends = topology.groups[link.base], topology.groups[link.follower]
+        for near, far in (ends, ends[::-1]):
+            if (
+                (near.motion, far.motion) == ("fixed", "rigid")
+                and far.bodies
+                and not any(bodies.start(number)[0].any() for number in far.bodies)
+                and all(
+                    np.hypot(*(bodies.center_of_gravity(number) - point)[:2]) < 1e-9
+                    for number in far.bodies
+                )
+            ):
+                far.motion = "yaw"
 
 
 def _water_depth(read: InputFile, database: HydroDatabase | None) -> float | None:

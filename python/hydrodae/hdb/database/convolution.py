@@ -102,15 +102,27 @@ def moved_kernel(kernel: RadiationKernel, shifts: Mapping[str, Array]) -> Radiat
 
 
 def transform(time: Array, values: Array, omega: Array) -> NDArray[np.complex128]:
-    """Return int values e^{-iwt} dt by the trapezoid on a spline four times as fine."""
+    """Return int values e^{-iwt} dt by the trapezoid on a spline four times as fine.
+
+    The times of the fine grid are t = t_a + t_b: sums over the t_b of each t_a come first, then one
+    over the t_a, so that few exponentials are needed.
+    """
     fine = np.linspace(0.0, time[-1], 4 * (time.size - 1) + 1)
     out = np.zeros((omega.size, *values.shape[1:]), dtype=complex)
     flat = values.reshape(time.size, -1)
     coupled = np.flatnonzero(np.any(flat != 0.0, axis=0))
-    table = CubicSpline(time, flat[:, coupled])(fine) * fine[1]
-    table[[0, -1]] *= 0.5
+    width = int(np.ceil(np.sqrt(fine.size)))
+    rows = -(-fine.size // width)
+    table = np.zeros((rows * width, coupled.size))
+    table[: fine.size] = CubicSpline(time, flat[:, coupled])(fine) * fine[1]
+    table[[0, fine.size - 1]] *= 0.5
+    table = table.reshape(rows, width, -1).transpose(1, 0, 2).reshape(width, -1)
+    inner, outer = fine[:width], fine[1] * width * np.arange(rows)
     result = np.empty((omega.size, coupled.size), dtype=complex)
-    for part in np.array_split(np.arange(omega.size), max(1, omega.size * fine.size // 4_000_000)):
-        result[part] = np.exp(-1j * np.outer(omega[part], fine)) @ table
+    for part in np.array_split(np.arange(omega.size), omega.size * table.shape[1] // 1_000_000 + 1):
+        w = omega[part, None]
+        first = np.exp(-1j * w * inner)
+        sums = (first.real @ table + 1j * (first.imag @ table)).reshape(part.size, rows, -1)
+        result[part] = np.einsum("wa,wam->wm", np.exp(-1j * w * outer), sums)
     out.reshape(omega.size, -1)[:, coupled] = result
     return out

@@ -78,7 +78,7 @@ def fit_group(
             return FittedGroup(fit, alike[group], tuple(blocks), array.lost.all)
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
-    problem = replace(problem, clock=clock)
+    problem = replace(problem, clock=clock, searches=data.searches)
     fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
 

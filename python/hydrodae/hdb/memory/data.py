@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from hydrodae.errors import DatabaseError
-from hydrodae.hdb.memory.modes import Problem
+from hydrodae.hdb.memory.modes import Problem, Searches
 from hydrodae.hdb.memory.vector_fitting import (
     Array,
     ComplexArray,
@@ -72,6 +72,8 @@ class ImpedanceData:
         (n_in,) False for inputs without radiation damping (noise).
     extra
         Labels of the outputs that are no inputs.
+    searches
+        Of poles, made so far.
     """
 
     omega: Array
@@ -81,6 +83,7 @@ class ImpedanceData:
     scale: Array
     active: npt.NDArray[np.bool_]
     extra: tuple[str, ...]
+    searches: Searches = field(default_factory=dict)
 
 
 def gather(
@@ -272,8 +275,8 @@ def first_added_mass(omega: Array, matrices: ComplexArray, band: tuple[float, fl
     )
     for _ in range(8):
         samples = with_zero(omega, value, double * weigh(value, omega, added_mass, band, 10.0))
-        poles = relocate(poles, samples, omega, damping)
-        added_mass = solve_residues(poles, samples)[0][-1]
+        poles, _ = relocate(poles, samples, omega, damping)
+        added_mass = solve_residues(poles, samples)[-1]
     full = np.zeros((n, n))
     full[rows, columns] = full[columns, rows] = added_mass
     return full

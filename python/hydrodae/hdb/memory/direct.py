@@ -19,7 +19,7 @@ from hydrodae.hdb.memory.penalty import press
 from hydrodae.hdb.memory.vector_fitting import (
     ComplexArray,
     order,
-    relocate,
+    relocated,
     solve_residues,
     starting_poles,
 )
@@ -80,7 +80,7 @@ def _rungs(problem: Problem, goal: Goal, cap: int | None, say: Progress) -> list
     """Return fits without constraints, each with fewer modes, the last one near the goal."""
     poles = _poles(problem, goal, say)
     count = order(poles)
-    coefficients, _, _ = solve_residues(poles, problem.samples)
+    coefficients = solve_residues(poles, problem.samples)
     every = count * problem.size
     for share in (1.0, 1.4, 2.0):
         most = min(every, int(share * (1.6 * count + 4 * problem.size)))
@@ -110,7 +110,7 @@ def _poles(problem: Problem, goal: Goal, say: Progress) -> ComplexArray:
     most = min(MOST_POLES, problem.samples.omega.size // 4 * 2)
     for count in range(min(12, most), most + 1, 4):
         poles = _relocated(problem, count)
-        coefficients, _, _ = solve_residues(poles, problem.samples)
+        coefficients = solve_residues(poles, problem.samples)
         modes = from_residues(poles, coefficients, problem, count * problem.size)
         miss = goal.miss(quality(modes, problem, goal.band))
         say(f"vector fit with {count} poles: {miss:.2f} of the target error")
@@ -133,14 +133,8 @@ def _relocated(problem: Problem, count: int) -> ComplexArray:
         starting_poles(count, 2, low, high, ratio=0.05, logarithmic=True),
         starting_poles(count, 4, middle, 0.85 * high, ratio=0.05, logarithmic=False),
     ]
-    best: tuple[float, ComplexArray] = np.inf, starts[0]
-    for poles in starts:
-        for step in range(10):
-            poles = relocate(poles, problem.samples, omega, problem.damping)
-            if step >= 4:
-                value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
-                best = min(best, (value, poles), key=lambda item: item[0])
-    return best[1]
+    trials = (relocated(poles, problem.samples, omega, problem.damping, 10, 4) for poles in starts)
+    return min(trials, key=lambda item: item[0])[1]
 
 
 def _refined(modes: Modes, problem: Problem, goal: Goal) -> Modes:

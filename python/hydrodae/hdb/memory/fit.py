@@ -19,11 +19,12 @@ from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
-from hydrodae.hdb.memory.modes import IntArray
+from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
 from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array
 from hydrodae.hdb.memory.verdict import PASSIVE_LIMIT, missed
+from hydrodae.support.blas import one_blas_thread
 
 COUPLING = 0.02
 """Coordinates with less coupling than this share of their own radiation are fitted apart."""
@@ -46,6 +47,7 @@ class MemoryFitWarning(UserWarning):
     """The memory fit missed a goal: accuracy or passivity; its report has the figures."""
 
 
+@one_blas_thread()
 def fit_memory(
     database: RadiationData,
     inputs: Sequence[str],
@@ -60,6 +62,7 @@ def fit_memory(
     uniform: float | None = None,
     method: str = "auto",
     time_limit: float = TIME_LIMIT,
+    searches: Searches | None = None,
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
@@ -109,6 +112,8 @@ def fit_memory(
     time_limit
         Seconds. The search ends there, and the best passive fit so far is returned. A fit that
         needs less does not depend on the machine.
+    searches
+        Searches of poles that `hydrodae.hdb.memory.reach.reach` made of the same table.
 
     Returns
     -------
@@ -148,6 +153,7 @@ def fit_memory(
         raise DatabaseError(f"memory fit: time_limit {time_limit:g}: expected seconds > 0")
     clock = Clock(time_limit)
     data = prepare.gather(database, inputs, outputs, prepare.UNIFORM_FLOOR * (uniform or 0.0))
+    data = replace(data, searches=data.searches if searches is None else searches)
     goal = Goal(
         _checked_band(data.omega, band or table_band(database)),
         band_weight if uniform is None else min(band_weight, UNIFORM_WEIGHT),

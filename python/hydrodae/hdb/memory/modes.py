@@ -37,6 +37,10 @@ CHUNK = 20_000_000
 """Numbers that the assembly of the normal equations holds at a time (160 MB)."""
 PARAMETERS = 14_000
 """Most parameters of a fit: their normal matrix takes 1.6 GB."""
+Searches = dict[tuple[int, bytes], tuple[float, ComplexArray]]
+"""Searches of poles that were made, and their results; see `hydrodae.hdb.memory.poles`."""
+FIRST, SECOND = np.triu_indices(6)
+"""Pairs of the six kinds of parameters that an entry of Z depends on, see `_local_derivatives`."""
 AnyArray = TypeVar("AnyArray", Array, ComplexArray)
 
 
@@ -59,6 +63,8 @@ class Problem:
         is compared with, and the bases (n_array, n) of the block. Else 0 and none.
     clock
         Time that the fit may take.
+    searches
+        Searches of poles so far: those of a look at the table serve its fit.
     """
 
     samples: Samples
@@ -70,6 +76,7 @@ class Problem:
     largest: float = 0.0
     bases: tuple[Array, ...] = ()
     clock: Clock = field(default_factory=Clock)
+    searches: Searches = field(default_factory=dict)
 
     def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""
@@ -183,14 +190,17 @@ def normal_equations(modes: Modes, problem: Problem) -> tuple[Array, Array]:
         pick = np.arange(start, min(start + step, entries))
         blocks = _entry_blocks(base, weight[pick], off[pick], local[pick])
         _scatter(matrix, gradient, problem, pick, blocks)
-    return matrix, gradient
+    return matrix + matrix.T, gradient
 
 
 _Blocks = tuple[Array, Array, Array, Array, Array]
 
 
 def _entry_blocks(base: Array, weight: Array, off: Array, local: Array) -> _Blocks:
-    """Return the blocks (6, 6, k, m, m) of J^T J of k entries, their borders and gradients."""
+    """Return the blocks of J^T J of k entries, their borders and gradients.
+
+    Of the blocks (21, k, m, m) those above the diagonal, and half of those on it.
+    """
     entries, m = local.shape[0], local.shape[-1]
     gram = np.empty((entries, base.shape[0], base.shape[0]))
     moment = np.empty((entries, base.shape[0]))
@@ -199,17 +209,24 @@ def _entry_blocks(base: Array, weight: Array, off: Array, local: Array) -> _Bloc
         gram[entry] = weighted @ weighted.T
         moment[entry] = weighted @ (weight[entry] * off[entry])
     inner = gram[:, :-1, :-1].reshape(entries, 2, 2, m, 2, 2, m)
-    block = np.empty((6, 6, entries, m, m))
-    for a in range(6):
-        half = (local[:, a, :, :, None, None, None] * inner[:, a // 4]).sum(axis=1)
-        for b in range(a, 6):
-            block[a, b] = (half[:, :, b // 4] * local[:, b, None, :]).sum(axis=2)
-            block[b, a] = block[a, b].transpose(0, 2, 1)
+    block = np.empty((FIRST.size, entries, m, m))
+    for at, (a, b) in enumerate(zip(FIRST, SECOND, strict=True)):
+        rows, columns = local[:, a, :, :, None], local[:, b, :, None]
+        if b == a:
+            halves = [
+                [(rows * inner[:, a // 4, :, :, other, part]).sum(axis=1) for part in (0, 1)]
+                for other in (0, 1)
+            ]
+        first, second = halves[b // 4]
+        np.multiply(first, columns[:, 0], out=block[at])
+        block[at] += second * columns[:, 1]
+        if b == a:
+            block[at] *= 0.5
     mixed = gram[:, :-1, -1].reshape(entries, 2, 2, m)
     drive = moment[:, :-1].reshape(entries, 2, 2, m)
     cross = np.stack([(local[:, a] * mixed[:, a // 4]).sum(axis=1) for a in range(6)])
     force = np.stack([(local[:, a] * drive[:, a // 4]).sum(axis=1) for a in range(6)])
-    return block, cross, force, gram[:, -1, -1], moment[:, -1]
+    return block, cross, force, 0.5 * gram[:, -1, -1], moment[:, -1]
 
 
 def _local_derivatives(modes: Modes, problem: Problem) -> Array:
@@ -237,21 +254,30 @@ def _local_derivatives(modes: Modes, problem: Problem) -> Array:
 def _scatter(
     matrix: Array, gradient: Array, problem: Problem, pick: IntArray, blocks: _Blocks
 ) -> None:
-    """Add the blocks of the entries `pick` into the global matrix and gradient."""
+    """Add the blocks of the entries `pick` into the global gradient and half of the matrix.
+
+    The parameters but A_inf are 2 n + 2 groups of m. Blocks of equal place are added up first.
+    """
     block, cross, force, corner, tail = blocks
-    m, n, total = block.shape[-1], problem.size, gradient.size
-    for at, entry in enumerate(pick):
-        i, j = problem.rows[entry], problem.columns[entry]
-        starts = [i * m, (n + i) * m, j * m, (n + j) * m, 2 * n * m, (2 * n + 1) * m]
-        last = total - problem.rows.size + entry
-        for a, row in enumerate(starts):
-            for b, column in enumerate(starts):
-                matrix[row : row + m, column : column + m] += block[a, b, at]
-            matrix[row : row + m, last] += cross[a, at]
-            matrix[last, row : row + m] += cross[a, at]
-            gradient[row : row + m] += force[a, at]
-        matrix[last, last] = corner[at]
-        gradient[last] = tail[at]
+    m, n, number = block.shape[-1], problem.size, 2 * problem.size + 2
+    i, j = problem.rows[pick], problem.columns[pick]
+    rest = np.full(pick.size, 2 * n)
+    groups = np.stack([i, n + i, j, n + j, rest, rest + 1])
+    inner = number * m
+    last = inner + pick
+    place = (groups[FIRST] * number + groups[SECOND]).ravel()
+    rank = np.argsort(place, kind="stable")
+    found, start = np.unique(place[rank], return_index=True)
+    view = matrix[:inner, :inner].reshape(number, m, number, m)
+    view[found // number, :, found % number] += np.add.reduceat(
+        block.reshape(-1, m, m)[rank], start, axis=0
+    )
+    border = matrix[:inner].reshape(number, m, -1)
+    for group, part in zip(groups, cross, strict=True):
+        border[group, :, last] += part
+    np.add.at(gradient[:inner].reshape(number, m), groups, force)
+    matrix[last, last] = corner
+    gradient[last] = tail
 
 
 def moved(modes: Modes, step: Array, problem: Problem) -> Modes:

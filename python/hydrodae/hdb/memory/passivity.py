@@ -21,6 +21,7 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
 
 from hydrodae.hdb.memory.modes import (
+    IntArray,
     Modes,
     Problem,
     damped,
@@ -76,30 +77,41 @@ def frequency_grid(poles: ComplexArray, highest: float, points: int = 1200) -> A
 def local_minima(modes: Modes, highest: float, below: float = CONSTRAIN_BELOW) -> Minima:
     """Find the local minima of all eigenvalues of Re H under `below` times the largest."""
     omega = frequency_grid(modes.poles, highest)
-    values, vectors = eigenpairs(resistance(modes, omega))
+    matrices = resistance(modes, omega)
+    values = eigenvalues(matrices)
     largest = float(values.max())
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=np.inf)
     lowest = (values <= padded[:-2]) & (values <= padded[2:]) & (values < below * largest)
     at, branch = np.nonzero(lowest)
     between = _between(omega, values[:, 0])
-    inner_values, inner_vectors = eigenpairs(resistance(modes, between))
-    best = inner_values[:, 0].reshape(-1, BETWEEN).argmin(axis=1)
+    inner = resistance(modes, between)
+    inner_values = eigenvalues(inner)[:, 0]
+    best = inner_values.reshape(-1, BETWEEN).argmin(axis=1)
     best += BETWEEN * np.arange(best.size)
-    best = best[inner_values[best, 0] < below * largest]
+    best = best[inner_values[best] < below * largest]
     return Minima(
         np.concatenate([omega[at], between[best]]),
-        np.concatenate([vectors[at, :, branch], inner_vectors[best, :, 0]]),
-        float(inner_values[:, 0].min(initial=values[:, 0].min())),
+        np.concatenate([eigenvectors(matrices, at, branch), eigenvectors(inner, best, 0 * best)]),
+        float(inner_values.min(initial=values[:, 0].min())),
         largest,
     )
 
 
-def eigenpairs(matrices: Array) -> tuple[Array, Array]:
-    """Return eigenvalues (k, n) and vectors (k, n, n) of symmetric matrices."""
+def eigenvalues(matrices: Array) -> Array:
+    """Return the ascending eigenvalues (k, n) of symmetric matrices."""
     if matrices.shape[-1] == 1:
-        return matrices[:, :, 0], np.ones_like(matrices)
-    values, vectors = np.linalg.eigh(matrices)
-    return values, vectors
+        return matrices[:, :, 0]
+    if matrices.shape[-1] == 2:
+        first, second = matrices[:, 0, 0], matrices[:, 1, 1]
+        mean, radius = 0.5 * (first + second), np.hypot(0.5 * (first - second), matrices[:, 1, 0])
+        return np.stack([mean - radius, mean + radius], axis=1)
+    return np.asarray(np.linalg.eigvalsh(matrices))
+
+
+def eigenvectors(matrices: Array, at: IntArray, branch: IntArray) -> Array:
+    """Return the eigenvectors (k, n) of the eigenvalues `branch` (k,) of the matrices `at` (k,)."""
+    rows, back = np.unique(at, return_inverse=True)
+    return np.asarray(np.linalg.eigh(matrices[rows])[1][back, :, branch])
 
 
 def _between(omega: Array, values: Array) -> Array:

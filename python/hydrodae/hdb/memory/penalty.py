@@ -31,7 +31,7 @@ from hydrodae.hdb.memory.modes import (
     real_parts,
     resistance,
 )
-from hydrodae.hdb.memory.passivity import eigenpairs, local_minima
+from hydrodae.hdb.memory.passivity import eigenvalues, eigenvectors, local_minima
 from hydrodae.hdb.memory.vector_fitting import Array
 
 FLOOR = -4e-5
@@ -97,8 +97,8 @@ def press(
         lack = _lack(modes, grid, margin, top)
         if factor == 0.0 and lack.values.size:
             factor = 0.3 * now**2 / float(lack.values @ lack.values)
-        found = _step(modes, problem, grid, (margin, top, factor, damping))
-        modes, damping, gain = found
+        weights = (margin, top, factor, damping)
+        modes, damping, gain = _step(modes, problem, grid, lack, weights)
         if lowest < FLOOR and gain < 0.3:
             size = factor * float(lack.values @ lack.values)
             if size < LOOSENED * now**2:
@@ -121,24 +121,36 @@ def _grid(modes: Modes, highest: float) -> Array:
 
 def _lack(modes: Modes, grid: Array, margin: float, top: float) -> _Low:
     """Return the eigenpairs of Re H / top below the margin, and by how much."""
-    values, vectors = eigenpairs(resistance(modes, grid))
+    matrices = resistance(modes, grid)
+    values = eigenvalues(matrices)
     at, branch = np.nonzero(values < margin * top)
-    return _Low(grid[at], vectors[at, :, branch], values[at, branch] / top - margin)
+    vectors = eigenvectors(matrices, at, branch)
+    return _Low(grid[at], vectors, values[at, branch] / top - margin)
+
+
+def _lacking(modes: Modes, grid: Array, margin: float, top: float) -> Array:
+    """Return by how much eigenvalues of Re H / top are below the margin."""
+    values = eigenvalues(resistance(modes, grid)) / top - margin
+    return np.asarray(values[values < 0.0])
 
 
 def _step(
-    modes: Modes, problem: Problem, grid: Array, weights: tuple[float, float, float, float]
+    modes: Modes,
+    problem: Problem,
+    grid: Array,
+    low: _Low,
+    weights: tuple[float, float, float, float],
 ) -> tuple[Modes, float, float]:
     """Take one damped Newton step; return the modes, the damping, and the share that was won."""
     margin, top, factor, damping = weights
-    low = _lack(modes, grid, margin, top)
     matrix, gradient = normal_equations(modes, problem)
     before = error(modes, problem) ** 2 + factor * float(low.values @ low.values)
-    for rows, values in _rows(modes, problem, low, top):
+    for rows, values in _rows(modes, low, top):
         if problem.clock.over():
             return modes, damping, 0.0
-        matrix += factor * (rows.T @ rows)
-        gradient += factor * (rows.T @ values)
+        inner = rows.shape[1]
+        matrix[:inner, :inner] += factor * (rows.T @ rows)
+        gradient[:inner] += factor * (rows.T @ values)
     for _ in range(6):
         if problem.clock.over():
             break
@@ -148,7 +160,7 @@ def _step(
             damping *= 5.0
             continue
         trial = moved(modes, step, problem)
-        left = _lack(trial, grid, margin, top).values
+        left = _lacking(trial, grid, margin, top)
         after = error(trial, problem) ** 2 + factor * float(left @ left)
         if after < before:
             return trial, max(damping / 5.0, 1e-7), 1.0 - after / before
@@ -156,13 +168,13 @@ def _step(
     return modes, damping, 0.0
 
 
-def _rows(modes: Modes, problem: Problem, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
+def _rows(modes: Modes, low: _Low, top: float) -> Iterator[tuple[Array, Array]]:
     """Yield derivatives of q_i^T Re H q_j / top and residuals, some thousand rows at a time."""
     i, j = _pairs(low.omega)
     values = np.where(i == j, low.values[i], 0.0)
     for pick in np.array_split(np.arange(i.size), i.size // 2000 + 1):
         left, right = low.vectors[i[pick]], low.vectors[j[pick]]
-        rows = _derivatives(modes, problem, low.omega[i[pick]], left, right) / top
+        rows = _derivatives(modes, low.omega[i[pick]], left, right) / top
         rows *= np.where(i[pick] == j[pick], 1.0, np.sqrt(2.0))[:, None]
         yield rows, values[pick]
 
@@ -184,8 +196,8 @@ def _upper(size: int) -> tuple[np.ndarray, np.ndarray]:
     return np.triu_indices(size)
 
 
-def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, right: Array) -> Array:
-    """Return d(u^T Re H v)/d(parameters), (k, n_parameters), of u, v (k, n) at omega (k,)."""
+def _derivatives(modes: Modes, omega: Array, left: Array, right: Array) -> Array:
+    """Return d(u^T Re H v)/d(parameters but A_inf), of u, v (k, n) at omega (k,)."""
     value, slope = real_parts(modes, omega)
     pair = ~modes.real
     on_left, on_right = left @ modes.vectors.T, right @ modes.vectors.T
@@ -206,6 +218,5 @@ def _derivatives(modes: Modes, problem: Problem, omega: Array, left: Array, righ
     columns += [
         modes.poles.real * (product.real * slope[0] + product.imag * slope[1]),
         pair * (-product.imag * slope[0] + product.real * slope[1]),
-        np.zeros((count, problem.rows.size)),
     ]
     return np.concatenate(columns, axis=1)

@@ -10,7 +10,7 @@ from hydrodae.hdb.memory.modes import Problem, from_residues
 from hydrodae.hdb.memory.vector_fitting import (
     ComplexArray,
     order,
-    relocate,
+    relocated,
     solve_residues,
     starting_poles,
 )
@@ -20,9 +20,6 @@ STARTS = (
     (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
 )  # fmt: skip
 """Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
-KEPT = 64
-"""Searches whose poles are kept: a fit takes those of the look before it."""
-_found: dict[tuple[int, bytes], tuple[float, ComplexArray]] = {}
 
 
 def rich_poles(
@@ -62,8 +59,8 @@ def best_poles(
     if known is not None:
         parts.append(known)
     key = count, b"".join(part.tobytes() for part in parts)
-    if key in _found:
-        return _found[key]
+    if key in problem.searches:
+        return problem.searches[key]
     omega = samples.omega[:-1]
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
@@ -77,26 +74,19 @@ def best_poles(
         more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
         starts.append(np.concatenate([known, more]))
     found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
-    if len(_found) >= KEPT:
-        _found.clear()
     trials = (_iterate(poles, problem, 12) for _, poles in found[:3])
-    _found[key] = min(trials, key=lambda item: item[0])
-    return _found[key]
+    problem.searches[key] = min(trials, key=lambda item: item[0])
+    return problem.searches[key]
 
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:
     """Relocate the poles `steps` times; return the best error (of the later half) and its poles."""
-    best = (np.inf, poles)
-    for step in range(steps):
-        poles = relocate(poles, problem.samples, problem.damping_grid, problem.damping)
-        if 2 * step >= steps:
-            value = float(np.linalg.norm(solve_residues(poles, problem.samples)[2]))
-            best = min(best, (value, poles), key=lambda item: item[0])
-    return best
+    limits = problem.damping_grid, problem.damping
+    return relocated(poles, problem.samples, *limits, steps, (steps + 1) // 2)
 
 
 def _vector_miss(poles: ComplexArray, problem: Problem, goal: Goal) -> float:
     """Return the error of a full-rank fit with these poles over its target."""
-    coefficients, _, _ = solve_residues(poles, problem.samples)
+    coefficients = solve_residues(poles, problem.samples)
     modes = from_residues(poles, coefficients, problem, order(poles) * problem.size)
     return goal.miss(quality(modes, problem, goal.band))

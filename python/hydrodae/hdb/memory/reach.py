@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,9 @@ from hydrodae.hdb.memory.fit import (
     table_band,
 )
 from hydrodae.hdb.memory.goal import Goal, measure
+from hydrodae.hdb.memory.modes import Searches
 from hydrodae.hdb.memory.poles import rich_poles
+from hydrodae.support.blas import one_blas_thread
 
 MOST_POLES = 16
 """Poles that a look takes at most: more of them follow noise."""
@@ -25,6 +28,7 @@ MOST_COORDINATES = 6
 """Groups of more coupled coordinates are not looked at: that would take as long as a fit."""
 
 
+@one_blas_thread()
 def reach(
     database: RadiationData,
     inputs: Sequence[str],
@@ -34,6 +38,7 @@ def reach(
     target_outside: float = TARGET_OUTSIDE,
     uniform: float | None = None,
     worst: float = np.inf,
+    searches: Searches,
 ) -> float | None:
     """Return the least error over its target of vector fits, of the group that fits worst.
 
@@ -43,6 +48,8 @@ def reach(
         As in `hydrodae.hdb.memory.fit_memory`.
     worst
         The look ends with the first group that is beyond it.
+    searches
+        Takes the searches of poles, for the fit.
 
     Returns
     -------
@@ -60,6 +67,7 @@ def reach(
     for group in sorted(groups, key=len):
         matrices = prepare.scaled(data.square, data.scale, group)
         problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+        problem = replace(problem, searches=searches)
         turned = prepare.scaled(data.square - data.stored, data.scale, group)
         entries = problem.rows, problem.columns
         mass = prepare.first_added_mass(data.omega, matrices, goal.band)[entries]

@@ -282,7 +282,7 @@ def _first_modes(
         for poles in candidates:
             count = order(poles)
             most = min(count * problem.size, int(share * (1.6 * count + 4 * problem.size)))
-            coefficients, _, _ = solve_residues(poles, problem.samples)
+            coefficients = solve_residues(poles, problem.samples)
             start = from_residues(poles, coefficients, problem, most)
             modes, _ = refine(start, problem, 25, 1e-3)
             found.append((goal.miss(quality(modes, problem, goal.band)), modes))

@@ -56,19 +56,20 @@ def order(poles: ComplexArray) -> int:
 
 def basis(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
     """Return the partial fractions phi_k(s), (ns, order), in the order of `poles`."""
+    single = is_real(poles)
+    pair, at = ~single, _first_columns(poles)
     columns = np.empty((s.size, order(poles)), dtype=complex)
-    at = 0
-    for pole, single in zip(poles, is_real(poles), strict=True):
-        direct = 1.0 / (s - pole)
-        if single:
-            columns[:, at] = direct
-            at += 1
-        else:
-            other = 1.0 / (s - np.conj(pole))
-            columns[:, at] = direct + other
-            columns[:, at + 1] = 1j * (direct - other)
-            at += 2
+    direct = 1.0 / (s[:, None] - poles)
+    other = 1.0 / (s[:, None] - poles[pair].conj())
+    columns[:, at[single]] = direct[:, single]
+    columns[:, at[pair]] = direct[:, pair] + other
+    columns[:, at[pair] + 1] = 1j * (direct[:, pair] - other)
     return columns
+
+
+def _first_columns(poles: ComplexArray) -> npt.NDArray[np.int64]:
+    """Return the place of each pole's first partial fraction."""
+    return np.concatenate([[0], np.cumsum(2 - is_real(poles))[:-1]]).astype(np.int64)
 
 
 def residues(coefficients: npt.NDArray[np.floating], poles: ComplexArray) -> ComplexArray:
@@ -90,7 +91,9 @@ def starting_poles(
     return np.concatenate([single + 0j, -ratio * omega + 1j * omega])
 
 
-def relocate(poles: ComplexArray, data: Samples, grid: Array, damping: Array) -> ComplexArray:
+def relocate(
+    poles: ComplexArray, data: Samples, grid: Array, damping: Array
+) -> tuple[ComplexArray, float]:
     """One step of relaxed vector fitting: move the poles to the zeros of the auxiliary function.
 
     Parameters
@@ -101,17 +104,19 @@ def relocate(poles: ComplexArray, data: Samples, grid: Array, damping: Array) ->
         Samples; all entries share the poles.
     grid, damping
         Limits of the poles, see `limited`.
+
+    Returns
+    -------
+    poles, error
+        The new poles; the weighted error of the best residues of the current ones. The last column
+        of each system is the function itself, so the triangle holds what its poles leave of it.
     """
     s = np.asarray(1j * data.omega, dtype=complex)
     phi = basis(s, poles)
     count = phi.shape[1]
-    left = np.concatenate([phi, s[:, None]], axis=1)
     right = np.concatenate([phi, np.ones((s.size, 1))], axis=1)
-    weight = data.weight.T[:, :, None]
-    system = np.concatenate([weight * left, -weight * data.value.T[:, :, None] * right], axis=2)
-    system = np.concatenate([system.real, system.imag], axis=1)
-    scale = np.linalg.norm(weight[..., 0] * data.value.T)
-    triangle = np.asarray(np.linalg.qr(system, mode="r"))[:, count + 1 :, count + 1 :]
+    triangle = _triangles(data, s, phi, right)[:, count + 1 :, count + 1 :]
+    scale = np.linalg.norm(data.weight * data.value)
     normal = np.concatenate(
         [triangle.reshape(-1, count + 1), scale / s.size * right.real.sum(axis=0)[None]]
     )
@@ -122,7 +127,46 @@ def relocate(poles: ComplexArray, data: Samples, grid: Array, damping: Array) ->
     constant = solution[-1]
     if abs(constant) < 1e-8:
         constant = np.copysign(1e-8, constant if constant else 1.0)
-    return limited(_half(_zeros(poles, solution[:-1], constant)), grid, damping)
+    moved = limited(_half(_zeros(poles, solution[:-1], constant)), grid, damping)
+    return moved, float(np.linalg.norm(triangle[:, :, -1]))
+
+
+def relocated(
+    poles: ComplexArray, data: Samples, grid: Array, damping: Array, steps: int, first: int
+) -> tuple[float, ComplexArray]:
+    """Relocate the poles `steps` times; return the least error from step `first` on, and its poles.
+
+    See `relocate`.
+    """
+    best = (np.inf, poles)
+    for step in range(steps + 1):
+        if step < steps:
+            moved, error = relocate(poles, data, grid, damping)
+        else:
+            moved, error = poles, _misfit(poles, data)
+        if step > first:
+            best = min(best, (error, poles), key=lambda item: item[0])
+        poles = moved
+    return best
+
+
+def _misfit(poles: ComplexArray, data: Samples) -> float:
+    """Return the weighted error of the best residues of these poles."""
+    s = np.asarray(1j * data.omega, dtype=complex)
+    one = np.ones((s.size, 1), dtype=complex)
+    return float(np.linalg.norm(_triangles(data, s, basis(s, poles), one)[:, -1, -1]))
+
+
+def _triangles(data: Samples, s: ComplexArray, phi: ComplexArray, right: ComplexArray) -> Array:
+    """Return R of the QR of [phi, s, -F right], weighted, of the real and imaginary parts."""
+    left = np.concatenate([phi, s[:, None]], axis=1).T
+    function = -data.value.T[:, None] * right.T
+    size = left.shape[0]
+    columns = np.empty((data.value.shape[1], size + right.shape[1], 2 * s.size))
+    columns[:, :size, : s.size], columns[:, :size, s.size :] = left.real, left.imag
+    columns[:, size:, : s.size], columns[:, size:, s.size :] = function.real, function.imag
+    columns *= np.concatenate([data.weight, data.weight]).T[:, None]
+    return np.asarray(np.linalg.qr(columns.transpose(0, 2, 1), mode="r"))
 
 
 def _zeros(poles: ComplexArray, coefficients: Array, constant: float) -> ComplexArray:
@@ -162,18 +206,10 @@ def limited(poles: ComplexArray, grid: Array, damping: Array) -> ComplexArray:
     return np.asarray(-decay + 1j * omega, dtype=complex)
 
 
-def solve_residues(poles: ComplexArray, data: Samples) -> tuple[Array, Array, Array]:
-    """Weighted least squares for given poles.
+def solve_residues(poles: ComplexArray, data: Samples) -> Array:
+    """Return the weighted least squares for given poles, (order + 1, ne).
 
-    Returns
-    -------
-    coefficients
-        (order + 1, ne): partial fractions, then the coefficient of s.
-    factors
-        (ne, order + 1, order + 1) upper triangles R with R^T R the weighted Gram matrix of each
-        entry.
-    error
-        (ne,) weighted residual norm.
+    Coefficients of the partial fractions, then that of s.
     """
     s = np.asarray(1j * data.omega, dtype=complex)
     left = np.concatenate([basis(s, poles), s[:, None]], axis=1)
@@ -184,6 +220,4 @@ def solve_residues(poles: ComplexArray, data: Samples) -> tuple[Array, Array, Ar
     norms = np.linalg.norm(system, axis=1)
     orthogonal, triangle = np.linalg.qr(system / norms[:, None, :])
     projected = np.einsum("eij,ei->ej", orthogonal, target)
-    solution = np.linalg.solve(triangle, projected[..., None])[..., 0] / norms
-    error = np.sqrt(np.maximum((target**2).sum(axis=1) - (projected**2).sum(axis=1), 0.0))
-    return solution.T, triangle * norms[:, None, :], error
+    return np.asarray((np.linalg.solve(triangle, projected[..., None])[..., 0] / norms).T)

@@ -147,7 +147,9 @@ def fit(
     whole = np.zeros(tables.omega.size, bool)
     bad, text = whole, ""
     if states is None and method in (None, "auto"):
-        looked: dict[str, Any] = {k: options[k] for k in ("target", "uniform") if k in options}
+        options["searches"] = {}  # of the look, for the fit
+        keys = "target", "uniform", "searches"
+        looked = {key: options[key] for key in keys if key in options}
         bad, text = _rows(tables, moving, judged, looked)
     left_out = "; ".join(part for part in (garbled, text) if part)
     if text and progress is not None:

@@ -27,6 +27,8 @@ from hydrodae.hdb.relations.tails import fit_tail, no_tail, tail_cosine, tail_kr
 Array = NDArray[np.float64]
 
 BAND_FROM = 0.3  # A_inf: least squares over w > BAND_FROM w_max
+#: Terms of a series for |z| < 1: z^17 / 17! is below rounding.
+SERIES = 17
 LOW_AREA = 0.005  # smallest share of int B dw below w_min that matters [-]
 LOW_GAP = 0.1  # w_min above LOW_GAP w_peak: the gap down to w = 0 is extrapolation
 
@@ -260,22 +262,30 @@ def _chunks(rows: int, columns: int, limit: int = 4_000_000) -> list[slice]:
 
 
 def _moments(theta: Array) -> list[NDArray[np.complex128]]:
-    """Return int_0^1 u^k e^{i theta u} du, k = 0..3: series below |theta| = 1, else recursion."""
-    small = np.abs(theta) < 1.0
-    z = 1j * np.where(small, 1.0, theta)
+    """Return int_0^1 u^k e^{i theta u} du, k = 0..3.
+
+    The recursion k M_{k-1} = e^z - z M_k, z = i theta, runs forward from M_0 where |theta| > 1.
+    Elsewhere it runs backward from M_3 = sum_j z^j / (j! (j + 4)). No error grows in either.
+    """
+    z = 1j * theta
     e = np.exp(z)
-    forward = [(e - 1.0) / z]
-    for k in range(1, 4):
-        forward.append((e - k * forward[-1]) / z)
-    y = 1j * np.where(small, theta, 0.0)
-    moments = []
-    for k in range(4):
-        term = np.ones_like(y)
-        total = term / (k + 1)
-        for j in range(1, 18):
-            term = term * y / j
-            total = total + term / (j + k + 1)
-        moments.append(np.where(small, total, forward[k]))
+    moments = [np.empty_like(z) for _ in range(4)]
+    small = np.abs(theta) < 1.0
+    y, large = z[small], ~small
+    series = np.full_like(y, 1.0 / (SERIES + 4))
+    for j in range(SERIES, 0, -1):
+        series *= y / j
+        series += 1.0 / (j + 3)
+    moments[3][small] = series
+    for k in (3, 2, 1):
+        series = (e[small] - y * series) / k
+        moments[k - 1][small] = series
+    y, power = 1.0 / z[large], e[large]
+    forward = (power - 1.0) * y
+    moments[0][large] = forward
+    for k in (1, 2, 3):
+        forward = (power - k * forward) * y
+        moments[k][large] = forward
     return moments
 
 
