@@ -13,7 +13,7 @@ from hydrodae.hdb.memory import symmetry
 from hydrodae.hdb.memory.clock import SEARCH, Clock
 from hydrodae.hdb.memory.data import ImpedanceData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, quality
-from hydrodae.hdb.memory.modes import AnyArray, IntArray, Modes, Problem, refine
+from hydrodae.hdb.memory.modes import AnyArray, IntArray, Modes, Problem, Searches, refine
 from hydrodae.hdb.memory.search import MANY, GroupFit, fit_problem, made_passive
 from hydrodae.hdb.memory.symmetry import Block
 from hydrodae.hdb.memory.vector_fitting import Array, ComplexArray
@@ -49,6 +49,7 @@ def fit_group(
     goal: Goal,
     cap: int | None,
     clock: Clock,
+    searches: Searches,
     say: Progress,
 ) -> FittedGroup:
     """Fit one group of coupled coordinates.
@@ -65,6 +66,8 @@ def fit_group(
         What must be reached, with how many states at most.
     clock
         Time that it may take.
+    searches
+        Poles that a look at the same tables found.
     say
         Called with one line per stage.
     """
@@ -78,7 +81,7 @@ def fit_group(
             return FittedGroup(fit, alike[group], tuple(blocks), array.lost.all)
     matrices = prepare.scaled(data.square, data.scale, group)
     problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
-    problem = replace(problem, clock=clock)
+    problem = replace(problem, clock=clock, searches=searches)
     fit = fit_problem(problem, _tightened(goal, SAFE), cap, group.size > MANY, say)
     return FittedGroup(fit, data.scale[group], (), 0.0)
 
@@ -189,12 +192,16 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
 def _fit_blocks(
     array: _Array, goal: Goal, cap: int | None, clock: Clock, say: Progress
 ) -> GroupFit:
-    """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
+    """Fit each block; once more with tighter goals where all meet theirs and the whole does not.
+
+    A fit that meets the tighter goal, too, stays.
+    """
     many = array.whole.size > MANY
     share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
+    fits: list[GroupFit] = []
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
-        fits: list[GroupFit] = []
+        before, fits = fits, []
         left, rest = cap, sum(len(block.bases) * block.size for block in array.blocks)
         for at, (block, problem) in enumerate(zip(array.blocks, array.problems, strict=True)):
             copies = len(block.bases)
@@ -202,7 +209,10 @@ def _fit_blocks(
             todo = sum(later.size**2 for later in array.problems[at:])
             problem = replace(problem, clock=clock.part(problem.size**2 / todo))
             prefix = f"block {at + 1} of {len(array.blocks)}: "
-            fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
+            if before and goals[at].met(before[at].quality):
+                fits.append(before[at])
+            else:
+                fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
             rest -= copies * block.size
             left = None if left is None else left - copies * fits[-1].modes.n_states
         modes = array.joined([fit.modes for fit in fits])

@@ -19,7 +19,7 @@ from hydrodae.hdb.memory.clock import SEARCH, TIME_LIMIT, Clock
 from hydrodae.hdb.memory.data import ImpedanceData, RadiationData
 from hydrodae.hdb.memory.goal import Goal, Progress, Quality, measure, stored_quality
 from hydrodae.hdb.memory.model import ExponentialMemory
-from hydrodae.hdb.memory.modes import IntArray
+from hydrodae.hdb.memory.modes import IntArray, Searches
 from hydrodae.hdb.memory.noise import noise
 from hydrodae.hdb.memory.search import GroupFit
 from hydrodae.hdb.memory.vector_fitting import Array
@@ -60,6 +60,7 @@ def fit_memory(
     uniform: float | None = None,
     method: str = "auto",
     time_limit: float = TIME_LIMIT,
+    searches: Searches | None = None,
 ) -> ExponentialMemory:
     """Fit the radiation memory and its added_mass_inf to the stored Z = B + i omega A.
 
@@ -109,6 +110,8 @@ def fit_memory(
     time_limit
         Seconds. The search ends there, and the best passive fit so far is returned. A fit that
         needs less does not depend on the machine.
+    searches
+        Poles that `hydrodae.hdb.memory.reach.reach` found for the same tables; none by default.
 
     Returns
     -------
@@ -159,7 +162,8 @@ def fit_memory(
     )
     groups, neglected = prepare.uncoupled_groups(data, COUPLING)
     say = progress or (lambda message: None)
-    made = _fit_groups(data, groups, inputs, goal, clock, say)
+    found = {} if searches is None else searches
+    made = _fit_groups(data, groups, inputs, goal, clock, found, say)
     limited = clock.over(SEARCH)
     scale = data.scale.copy()
     for group, part in zip(groups, made, strict=True):
@@ -186,6 +190,7 @@ def _fit_groups(
     labels: Sequence[str],
     goal: Goal,
     clock: Clock,
+    searches: Searches,
     say: Progress,
 ) -> list[FittedGroup]:
     """Fit the groups one after the other; states that one leaves go to the next.
@@ -205,7 +210,8 @@ def _fit_groups(
             made.append(found)
         else:
             share = group.size**2 / sum(later.size**2 for later in groups[at:])
-            made.append(fit_group(data, group, labels, goal, cap, clock.part(share), say))
+            part = clock.part(share)
+            made.append(fit_group(data, group, labels, goal, cap, part, searches, say))
         left = None if left is None else left - made[-1].fit.modes.n_states
         rest -= group.size
     return made

@@ -38,6 +38,8 @@ CHUNK = 20_000_000
 PARAMETERS = 14_000
 """Most parameters of a fit: their normal matrix takes 1.6 GB."""
 AnyArray = TypeVar("AnyArray", Array, ComplexArray)
+Searches = dict[tuple[int, bytes], tuple[float, ComplexArray]]
+"""Error and poles that searches found, by the number of poles and a digest of the samples."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,8 @@ class Problem:
         is compared with, and the bases (n_array, n) of the block. Else 0 and none.
     clock
         Time that the fit may take.
+    searches
+        Poles that searches found before: a fit takes those of the look before it.
     """
 
     samples: Samples
@@ -70,6 +74,7 @@ class Problem:
     largest: float = 0.0
     bases: tuple[Array, ...] = ()
     clock: Clock = field(default_factory=Clock)
+    searches: Searches = field(default_factory=dict)
 
     def matrix(self, entries: AnyArray) -> AnyArray:
         """Return the symmetric (..., n, n) of entries (..., ne)."""

@@ -105,7 +105,7 @@ def eigenvalues(matrices: Array) -> Array:
         first, second = matrices[:, 0, 0], matrices[:, 1, 1]
         mean, radius = 0.5 * (first + second), np.hypot(0.5 * (first - second), matrices[:, 1, 0])
         return np.stack([mean - radius, mean + radius], axis=1)
-    return np.linalg.eigvalsh(matrices)
+    return np.asarray(np.linalg.eigvalsh(matrices))
 
 
 def eigenvectors(matrices: Array, at: IntArray, branch: IntArray) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from hashlib import sha256
+
 import numpy as np
 
 from hydrodae.hdb.memory.clock import SEARCH
@@ -20,9 +22,6 @@ STARTS = (
     (2, 2, False), (4, 0, True), (4, 1, False), (4, 2, True),
 )  # fmt: skip
 """Starts of a search of poles: real ones, span (whole, low, high), spread by the logarithm."""
-KEPT = 64
-"""Searches whose poles are kept: a fit takes those of the look before it."""
-_found: dict[tuple[int, bytes], tuple[float, ComplexArray]] = {}
 
 
 def rich_poles(
@@ -61,9 +60,9 @@ def best_poles(
     parts = [samples.omega, samples.value, samples.weight, problem.damping_grid]
     if known is not None:
         parts.append(known)
-    key = count, b"".join(part.tobytes() for part in parts)
-    if key in _found:
-        return _found[key]
+    key = count, sha256(b"".join(part.tobytes() for part in parts)).digest()
+    if key in problem.searches:
+        return problem.searches[key]
     omega = samples.omega[:-1]
     low, high = float(omega[0]), float(omega[-1])
     middle = float(np.sqrt(low * high))
@@ -77,11 +76,9 @@ def best_poles(
         more = starting_poles(count - order(known), 0, middle, high, ratio=0.05, logarithmic=True)
         starts.append(np.concatenate([known, more]))
     found = sorted((_iterate(poles, problem, 5) for poles in starts), key=lambda item: item[0])
-    if len(_found) >= KEPT:
-        _found.clear()
     trials = (_iterate(poles, problem, 12) for _, poles in found[:3])
-    _found[key] = min(trials, key=lambda item: item[0])
-    return _found[key]
+    problem.searches[key] = min(trials, key=lambda item: item[0])
+    return problem.searches[key]
 
 
 def _iterate(poles: ComplexArray, problem: Problem, steps: int) -> tuple[float, ComplexArray]:

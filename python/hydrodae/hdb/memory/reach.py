@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from hydrodae.hdb.memory.fit import (
     table_band,
 )
 from hydrodae.hdb.memory.goal import Goal, measure
+from hydrodae.hdb.memory.modes import Searches
 from hydrodae.hdb.memory.poles import rich_poles
 
 MOST_POLES = 16
@@ -34,6 +36,7 @@ def reach(
     target_outside: float = TARGET_OUTSIDE,
     uniform: float | None = None,
     worst: float = np.inf,
+    searches: Searches | None = None,
 ) -> float | None:
     """Return the least error over its target of vector fits, of the group that fits worst.
 
@@ -43,6 +46,8 @@ def reach(
         As in `hydrodae.hdb.memory.fit_memory`.
     worst
         The look ends with the first group that is beyond it.
+    searches
+        Takes the poles that are found, for a fit of the same tables.
 
     Returns
     -------
@@ -60,6 +65,7 @@ def reach(
     for group in sorted(groups, key=len):
         matrices = prepare.scaled(data.square, data.scale, group)
         problem = prepare.make_problem(data.omega, matrices, goal.band, goal.factor)
+        problem = replace(problem, searches={} if searches is None else searches)
         turned = prepare.scaled(data.square - data.stored, data.scale, group)
         entries = problem.rows, problem.columns
         mass = prepare.first_added_mass(data.omega, matrices, goal.band)[entries]

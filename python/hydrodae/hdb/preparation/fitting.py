@@ -34,6 +34,8 @@ NEGATIVE = -1e-3
 #: Vector fits within this share of the target show that a fit can meet it; another choice of
 #: frequencies must come nearer by this factor.
 REACHED, NEARER = 1.0, 0.85
+#: Options of a fit that a look before it has, too.
+SHARED = ("target", "uniform", "searches")
 #: Weighted error of H in the band of a fit without a target of its own.
 USUAL = 0.01
 #: Then A_inf of the fit must be that of the tables, to this share of the largest A, and |H| nowhere
@@ -140,6 +142,7 @@ def fit(
     }
     options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     moving = _labels(inputs, database)
+    options["searches"] = {}  # poles that the looks find, for the fit
     options["outputs"] = None if loads is None else _labels(loads, database)
 
     judged = band or table_band(database)
@@ -147,7 +150,7 @@ def fit(
     whole = np.zeros(tables.omega.size, bool)
     bad, text = whole, ""
     if states is None and method in (None, "auto"):
-        looked: dict[str, Any] = {k: options[k] for k in ("target", "uniform") if k in options}
+        looked: dict[str, Any] = {k: options[k] for k in SHARED if k in options}
         bad, text = _rows(tables, moving, judged, looked)
     left_out = "; ".join(part for part in (garbled, text) if part)
     if text and progress is not None:
@@ -358,11 +361,12 @@ def _refusal(refused: dict[str, str], cured_by: str) -> str:
         ways.append("a larger --target, a narrower --band or --states N, the best of so many")
     if "passive" in refused:
         ways.append("more states or another --method")
-    names = " ".join(f"--accept {check}" for check in refused)
+    if "limit" in refused:
+        ways.append("--states N, which leaves out no frequency")
+    if names := " ".join(f"--accept {check}" for check in refused if check != "limit"):
+        ways.append(names)
     first = f" {cured_by}." if cured_by else ""
-    return (
-        f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}, or {names}"
-    )
+    return f"{', and '.join(refused.values())}.{first} Not kept: give {', or '.join(ways)}"
 
 
 def kernel(
