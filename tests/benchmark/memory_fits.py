@@ -18,7 +18,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 NAMES = """
     sphere sphere_nemoh f3of_flaps cubes_heave oswec_flap rm3_heave rm3_planar rm3_planar_40
-    4n3la star hexagon
+    4n3la star ring hexagon
 """.split()
 
 
@@ -37,8 +37,8 @@ def problem(name: str) -> tuple[Any, list[str], dict[str, Any]]:
     if name == "f3of_flaps":
         labels = [f"flap{i}.{dof}" for i in (1, 2) for dof in planar]
         return hdb.read(ROOT / "cases" / "f3of" / "hydro.h5"), labels, {}
-    if name in ("star", "hexagon"):
-        layout = {"star": star, "hexagon": hexagon}[name]()
+    if name in ("star", "ring", "hexagon"):
+        layout = {"star": star(), "ring": hexagon()[:6], "hexagon": hexagon()}[name]
         table: Any = array_table(layout, np.arange(0.1, 8.01, 0.1))
         return table, list(table.coordinates), {"band": (1.0, 6.0), "uniform": 0.01}
     if name == "4n3la":

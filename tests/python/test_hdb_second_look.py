@@ -12,6 +12,9 @@ import xarray as xr
 
 from hydrodae.errors import DatabaseError
 from hydrodae.hdb.database.summary import fit_summary
+from hydrodae.hdb.memory import fit_memory
+from hydrodae.hdb.memory.modes import Searches
+from hydrodae.hdb.memory.reach import reach
 from hydrodae.hdb.preparation import fitting as prepare
 from hydrodae.hdb.preparation.importing import import_database
 from hydrodae.hdb.readers.reading import read, read_source
@@ -126,3 +129,17 @@ def test_a_fit_does_not_follow_what_breaks_energy_outside_the_band(sphere_tables
     assert "rad/s, in the band, and what gives energy" in str(refused.value)
     assert "break causality or energy: " in str(refused.value)
     assert "compute again with a lid (finer" in str(refused.value)
+
+
+def test_a_fit_takes_the_poles_of_the_look_before_it(repository) -> None:
+    database = read(repository / "cases" / "sphere" / "hydro.h5")
+    looked: Searches = {}
+    reach(database, ["sphere.heave"], searches=looked)
+    alone: Searches = {}
+    expected = fit_memory(database, ["sphere.heave"], searches=alone)
+    taken = looked.copy()
+    made = fit_memory(database, ["sphere.heave"], searches=taken)
+    assert np.array_equal(made.poles, expected.poles)
+    assert looked
+    assert looked.keys() <= alone.keys()
+    assert taken.keys() == alone.keys()

@@ -189,12 +189,16 @@ def _prefixed(say: Progress, prefix: str) -> Progress:
 def _fit_blocks(
     array: _Array, goal: Goal, cap: int | None, clock: Clock, say: Progress
 ) -> GroupFit:
-    """Fit each block; once more with tighter goals where all meet theirs and the whole does not."""
+    """Fit each block; once more with tighter goals where all meet theirs and the whole does not.
+
+    A fit that meets the tighter goal, too, stays.
+    """
     many = array.whole.size > MANY
     share = SHARED if goal.uniform is not None and len(array.blocks) > 1 else 1.0
+    fits: list[GroupFit] = []
     for _ in range(TIGHTENED):
         goals = array.goals(_tightened(goal, share))
-        fits: list[GroupFit] = []
+        before, fits = fits, []
         left, rest = cap, sum(len(block.bases) * block.size for block in array.blocks)
         for at, (block, problem) in enumerate(zip(array.blocks, array.problems, strict=True)):
             copies = len(block.bases)
@@ -202,7 +206,10 @@ def _fit_blocks(
             todo = sum(later.size**2 for later in array.problems[at:])
             problem = replace(problem, clock=clock.part(problem.size**2 / todo))
             prefix = f"block {at + 1} of {len(array.blocks)}: "
-            fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
+            if before and goals[at].met(before[at].quality):
+                fits.append(before[at])
+            else:
+                fits.append(_fit_block(problem, goals[at], own, many, _prefixed(say, prefix)))
             rest -= copies * block.size
             left = None if left is None else left - copies * fits[-1].modes.n_states
         modes = array.joined([fit.modes for fit in fits])
