@@ -15,6 +15,7 @@ from hydrodae.commands.hdb.options import (
     with_fits,
     with_kernel,
 )
+from hydrodae.errors import CaseError
 from hydrodae.hdb.checks.band import Band
 from hydrodae.hdb.database import HydroDatabase
 from hydrodae.hdb.memory.verdict import CHECKS
@@ -109,6 +110,21 @@ def add_arguments(actions: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "may be repeated",
     )
     add.add_argument(
+        "--stiffness",
+        metavar="[NAME=]FILE",
+        action="append",
+        default=[],
+        help="hydrostatics of a body from its stiffness about the centre of gravity (--cog): 6 "
+        "rows of 6 numbers, or a Hydrostatic.in of HAMS. May be repeated",
+    )
+    add.add_argument(
+        "--volume",
+        metavar="[NAME=]V",
+        action="append",
+        default=[],
+        help="displaced volume [m3] that goes with --stiffness. May be repeated",
+    )
+    add.add_argument(
         "--accept",
         metavar="CHECK",
         action="append",
@@ -127,6 +143,17 @@ def _band(args: argparse.Namespace) -> Band | Callable[[HydroDatabase], Band] | 
     return None
 
 
+def _volume(text: str) -> tuple[str, float]:
+    name, value = parse_file("--volume", text, alone=True)
+    try:
+        volume = float(value)
+    except ValueError:
+        volume = 0.0
+    if not 0.0 < volume < float("inf"):
+        raise CaseError(f"--volume {text!r}: expected a volume [m3] above 0")
+    return name, volume
+
+
 def run(args: argparse.Namespace) -> int:
     """Import a source; returns 2 if a check found an error and nothing was written, else 0."""
     names = None if args.bodies is None else [n.strip() for n in args.bodies.split(",")]
@@ -136,6 +163,8 @@ def run(args: argparse.Namespace) -> int:
         reference_points=dict(parse_point("--cog", text, alone=True) for text in args.cog),
         source_points=dict(parse_point("--origin", text, alone=True) for text in args.origin),
         meshes=dict(parse_file("--mesh", text, alone=True) for text in args.mesh),
+        stiffness=dict(parse_file("--stiffness", text, alone=True) for text in args.stiffness),
+        volumes=dict(_volume(text) for text in args.volume),
         **water_of(args),
         time_convention=args.time_convention,
         keep=args.keep,

@@ -26,6 +26,7 @@ from hydrodae.hdb.readers.kinds import kind
 from hydrodae.hdb.readers.reading import read, read_source
 from hydrodae.hdb.readers.reference import without_moments
 from hydrodae.hdb.readers.source import SourceData
+from hydrodae.hdb.readers.stiffness_file import read_stiffness
 
 T = TypeVar("T")
 
@@ -38,6 +39,8 @@ def import_database(
     source_points: Mapping[str, ArrayLike] | None = None,
     hydrostatics: Mapping[str, Hydrostatics] | None = None,
     meshes: Mapping[str, str | Path] | None = None,
+    stiffness: Mapping[str, str | Path] | None = None,
+    volumes: Mapping[str, float] | None = None,
     rho: float | None = None,
     depth: float | None = None,
     gravity: float | None = None,
@@ -65,6 +68,11 @@ def import_database(
     meshes : dict of path, optional
         Mesh files of the wetted hulls (STL, OBJ, GDF, PNL, Nemoh, GMSH), from which the
         hydrostatics of a body follow, where the source has none or wrong ones.
+    stiffness : dict of path, optional
+        Files with the hydrostatic stiffness of a body about its centre of gravity: six rows of six
+        numbers [N/m, N, N m], or a `Hydrostatic.in` of HAMS.
+    volumes : dict of float, optional
+        Displaced volumes [m3] that go with `stiffness`; by default by the masses in the files.
     rho, depth, gravity : float, optional
         Of the water [kg/m3, m, m/s2], where the source does not say (WAMIT's tables).
     time_convention : str, optional
@@ -100,6 +108,8 @@ def import_database(
         renamed = database.renamed(_renaming(list(database.bodies), names))
         reference_points = _of_only_body(reference_points, list(renamed.bodies))
         meshes = _of_only_body(meshes, list(renamed.bodies))
+        stiffness = _of_only_body(stiffness, list(renamed.bodies))
+        volumes = _of_only_body(volumes, list(renamed.bodies))
     else:
         data = read_source(
             source, rho=rho, depth=depth, gravity=gravity, time_convention=time_convention
@@ -112,6 +122,8 @@ def import_database(
         reference_points = _of_only_body(reference_points, bodies)
         source_points = _of_only_body(source_points, bodies)
         meshes = _of_only_body(meshes, bodies)
+        stiffness = _of_only_body(stiffness, bodies)
+        volumes = _of_only_body(volumes, bodies)
         free = {new[name] for name in without_moments(data) if name in data.assumed_points}
         anywhere = {k: v for k, v in (reference_points or {}).items() if k in free}
         stated = {**anywhere, **(source_points or {})}
@@ -134,6 +146,9 @@ def import_database(
             raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
         database = database.with_hydrostatics({name: statics}).with_meshes({name: panels})
         noticed = [f for f in noticed if f.check != "hydrostatics"]
+    if stiffness or volumes:
+        database = _with_stiffness(database, stiffness or {}, volumes or {})
+        noticed = [f for f in noticed if f.check != "hydrostatics"]
     if keep is not None:
         database = database.select(expand(keep, database.coordinates))
     if symmetric is not None:
@@ -141,6 +156,26 @@ def import_database(
         noticed = [*noticed, *mirrors]
     judged = band(database) if callable(band) else band
     return database, CheckReport([*noticed, *check(database, judged).findings])
+
+
+def _with_stiffness(
+    database: HydroDatabase, files: Mapping[str, str | Path], volumes: Mapping[str, float]
+) -> HydroDatabase:
+    """Take hydrostatics from matrices about the centres of gravity, the reference points."""
+    for name in (*files, *volumes):
+        check_body(name, database.bodies)
+    if alone := [name for name in volumes if name not in files]:
+        raise DatabaseError(f"a volume of {alone[0]!r} goes with its stiffness (--stiffness FILE)")
+    made = {}
+    for name, file in files.items():
+        point = database.reference_point(name)
+        try:
+            made[name] = read_stiffness(file).hydrostatics(
+                point, volumes.get(name), database.rho, database.gravity
+            )
+        except DatabaseError as error:
+            raise DatabaseError(f"{file}: {error}".replace(f"{file}: {file}", f"{file}")) from None
+    return database.with_hydrostatics(made)
 
 
 def _of_only_body(given: Mapping[str, T] | None, bodies: Sequence[str]) -> Mapping[str, T] | None:

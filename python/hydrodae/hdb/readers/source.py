@@ -97,7 +97,8 @@ def without_hydrostatics(text: str, names: Iterable[str]) -> Finding:
     return Finding(
         "warning",
         "hydrostatics",
-        f"{text}; bodies that move need them: {options} takes those of the mesh of the wetted hull",
+        f"{text}; bodies that move need them: {options} takes those of the mesh of the wetted "
+        "hull, --stiffness and --volume a 6 x 6 matrix",
     )
 
 
