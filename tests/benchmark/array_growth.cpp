@@ -102,7 +102,7 @@ model::Scene array_of(int n) {
     body.motion = {"planar"};
     body.mass = scene.database->rho * wet.hydrostatics->displaced_volume;
     body.center_of_gravity = wet.reference_point;
-    body.inertia = Vector3::Constant(0.3 * body.mass * radius * radius);
+    body.inertia = Vector3::Constant(0.3 * body.mass.value * radius * radius);
     body.initial.displacement = Vector3(0.0, 0.0, i % 2 == 0 ? 1.0 : -0.5);
     scene.bodies.push_back(body);
   }

@@ -140,7 +140,7 @@ TEST_CASE("two springs in series are one in the linear model and at rest") {
   CHECK((a.stiffness - b.stiffness).norm() < 1e-9 * a.stiffness.norm());
   CHECK((a.damping - b.damping).norm() < 1e-9);
   CHECK(b.state_by_state.rows() == 1); // the slip
-  const element::AtRest law = element::at_rest(*two.elements.back().laws, 0);
+  const element::AtRest law = element::at_rest(*two.elements.back().laws)[0];
   CHECK(law.stiffness(0) == doctest::Approx(springs.stiffness()));
 }
 

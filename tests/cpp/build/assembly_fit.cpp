@@ -25,7 +25,7 @@ model::Scene door(double offset, double tilt, double size = 1.0) {
   for (model::Joint& j : scene.joints)
     j.point *= size;
   scene.bodies[0].center_of_gravity *= size;
-  scene.bodies[0].inertia *= size * size;
+  scene.bodies[0].inertia.value *= size * size;
   return scene;
 }
 

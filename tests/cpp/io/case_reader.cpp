@@ -37,8 +37,8 @@ TEST_CASE("a case becomes a scene") {
   CHECK(scene.text == flap_case);
   CHECK(scene.bodies.size() == 2);
   CHECK(scene.bodies[0].motion == std::vector<std::string>{"fixed"});
-  CHECK(scene.bodies[1].mass == 10.0);
-  CHECK(scene.bodies[1].inertia == Vector3(1, 2, 3));
+  CHECK(scene.bodies[1].mass.value == 10.0);
+  CHECK(scene.bodies[1].inertia.value == Vector3(1, 2, 3));
   CHECK(*scene.joints[0].axis == Vector3(0, 1, 0));
   CHECK(*scene.joints[0].initial.angle == doctest::Approx(pi / 2).epsilon(1e-15));
   CHECK_FALSE(scene.joints[0].initial.displacement.has_value());
